@@ -24,8 +24,6 @@ static int check(const CliList *paths, bool json, bool trusted) {
     size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
         return cli_failed(&cli_check, &error, false);
-    if (!json)
-        printf(errors ? "%zu error%s\n" : "nothing wrong\n", errors, errors == 1 ? "" : "s");
     return errors ? JO_INPUT : JO_OK;
 }
 

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/overlay.h"
+#include "base/text.h"
 #include "jostle_tools.h"
 
 /* In the order of `jostle --help`. */
@@ -113,6 +114,13 @@ int cli_interrupted(int status);
    exit status. */
 int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
 
+/* Files and folders of a run that its last lines name; NULL: none such. */
+typedef struct CliRunFiles {
+    const char *report, *data, *record, *log, *checkpoints, *summary;
+} CliRunFiles;
+/* The last lines of a run: what it comes to, and where its files are. */
+void cli_closing(const JoScene *scene, const CliRunFiles *files);
+
 /* The page of a run that ended, in the folder of its report. */
 typedef struct CliReportPage {
     const char *folder;
@@ -181,6 +189,9 @@ bool cli_confine(CliReach *reach);
 /* As cli_confine, of a whole command; nothing where the user trusts the files. */
 void cli_confine_work(CliReach *reach, bool trusted);
 
+/* Appends `length` bytes as lines of 80 columns; the first begins at column `at`, the others with
+   `indent` blanks. */
+void cli_wrap(JoxText *out, const char *text, size_t length, int at, int indent);
 /* The help of a command, and the manual page of all. Freed by jo_free. */
 char *cli_help(const CliCommand *command);
 char *cli_manual(void);

@@ -12,9 +12,7 @@ const CliCommand *const cli_commands[] = {CLI_COMMANDS(X)};
 #undef X
 const size_t cli_command_count = sizeof cli_commands / sizeof *cli_commands;
 
-/* Appends `length` bytes as lines of WIDTH columns; the first begins at column `at`, the others
-   with `indent` blanks. */
-static void wrap(JoxText *out, const char *text, size_t length, int at, int indent) {
+void cli_wrap(JoxText *out, const char *text, size_t length, int at, int indent) {
     const char *end = text + length;
     bool first = true;
     while (text < end) {
@@ -43,7 +41,7 @@ static void add_paragraphs(JoxText *out, const char *text) {
             jox_text_append(out, text, n);
             jox_text_append(out, "\n", 1);
         } else {
-            wrap(out, text, n, 0, 0);
+            cli_wrap(out, text, n, 0, 0);
         }
         text += n + (text[n] == '\n');
     }
@@ -75,7 +73,7 @@ static void add_option(JoxText *out, const CliOption *o) {
     jox_text_printf(out, "  %-*s", HELP_COLUMN - 2, name.data);
     if (name.length + 2 >= HELP_COLUMN)
         jox_text_printf(out, "\n%*s", HELP_COLUMN, "");
-    wrap(out, meaning.data, meaning.length, HELP_COLUMN, HELP_COLUMN);
+    cli_wrap(out, meaning.data, meaning.length, HELP_COLUMN, HELP_COLUMN);
     jox_text_free(&name);
     jox_text_free(&meaning);
 }

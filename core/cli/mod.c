@@ -45,8 +45,6 @@ static int check(const char *const *folders, size_t count) {
     size_t errors = jo_check(folders, count, false, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
         return cli_failed(&cli_mod, &error, false);
-    if (!errors)
-        puts("nothing wrong");
     return errors ? JO_INPUT : JO_OK;
 }
 

@@ -29,7 +29,8 @@ static const CliOption OPTIONS[] = {
     CLI_ISA_OPTION(read_isa),
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
      CLI_TO(Resume, summary)},
-    {"quiet", NULL, "no progress", CLI_TO(Resume, quiet)},
+    {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
+     CLI_TO(Resume, quiet)},
     {"trusted", NULL,
      "the checkpoint is one's own: whatever it names is read and written. Else the command reaches "
      "what lies beside the checkpoint, its folder and the one above, and what lies below the "
@@ -105,6 +106,13 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
               stderr);
     if (cli_troubled(&cli_resume, scene) && status == JO_OK)
         status = JO_FAILED;
+    if (begun && !resume->quiet)
+        cli_closing(scene, &(CliRunFiles){.report = report,
+                                          .data = data,
+                                          .record = record,
+                                          .log = log,
+                                          .checkpoints = folder,
+                                          .summary = resume->summary});
     char *const taken[] = {record, log, steps, every, folder, report, data, no_half};
     for (size_t t = 0; t < sizeof taken / sizeof *taken; t++)
         jox_free(taken[t]);

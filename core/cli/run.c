@@ -50,9 +50,10 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Run, every), CLI_RANGE(0.001, 1e7)},
     {"checkpoint-dir", "DIR", "folder for checkpoints", CLI_TO(Run, folder)},
     {"report", "DIR",
-     "write a page, pictures and figures into DIR (index.html): where people are squeezed, against "
-     "published limits; exits; density; what probes measure; of small scenes, all paths; inputs "
-     "and their hashes. Runs once more at half the step to show the difference beside each figure",
+     "write a page to hand on or print, pictures and tables into DIR (index.html): a summary in "
+     "sentences, a plan, who left when, who was over which published limit, maps and moments, "
+     "levels of service, what probes measure, inputs and their hashes. Runs once more at half the "
+     "step to show the difference beside each figure",
      CLI_TO(Run, report)},
     {"no-half-step", NULL, "do not run once more", CLI_TO(Run, no_half)},
     {"data", "DIR",
@@ -79,7 +80,8 @@ static const CliOption OPTIONS[] = {
     {"no-watch", NULL, "do not", CLI_TO(Run, no_watch)},
     {"trace", "AGENT", "print each transition of the agent with this id, and why",
      CLI_TO(Run, trace), CLI_GIVEN(Run, has_trace), CLI_RANGE(0, UINT32_MAX)},
-    {"quiet", NULL, "no progress", CLI_TO(Run, quiet)},
+    {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
+     CLI_TO(Run, quiet)},
     {"view", "PORT",
      "show the run on a live page, in real time, and print the page's address: port 8730, or the "
      "next that is free. People can act on the run, pause, restart and inspect it. Files are "
@@ -182,6 +184,13 @@ static int simulate(Run *run, char **summary) {
     if (run->summary)
         *summary = jo_scene_summary(scene);
     run->troubled |= cli_troubled(&cli_run, scene);
+    if (!run->quiet && !run->seeds)
+        cli_closing(scene, &(CliRunFiles){.report = run->report,
+                                          .data = run->data,
+                                          .record = run->record,
+                                          .log = run->log,
+                                          .checkpoints = run->folder,
+                                          .summary = run->summary});
     if (run->profile) {
         char *profile = jo_scene_lua_profile(scene);
         fputs(profile ? profile : "", stderr);

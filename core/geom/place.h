@@ -2,6 +2,7 @@
 #ifndef JOX_GEOM_PLACE_H
 #define JOX_GEOM_PLACE_H
 
+#include "base/text.h"
 #include "geom/polygon.h"
 
 typedef enum JoxPlaceKind {
@@ -75,6 +76,10 @@ JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t place, JoxV2 point);
 /* Point of a queue's polyline `distance` metres behind its head (extended straight at its end). */
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance);
 int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
+
+/* Appends ", in NAME" of the smallest polygon in which the point lies; with `near`, where there is
+   none, ", 3.2 m from NAME" of the nearest place within 10 m. */
+void jox_place_where(const JoxPlace *places, uint32_t count, JoxV2 at, bool near, JoxText *out);
 
 /* Whether two are of one kind and have the same points, members and measures. */
 bool jox_place_same(const JoxPlace *a, const JoxPlace *b);

@@ -14,6 +14,10 @@ extern "C" {
    is the reason alone. */
 JO_API bool jo_write(const char *path, const char *text, JoError *error);
 
+/* What a run comes to so far, as a paragraph: who left and who is in which state, hits and the
+   like, who stood still, warnings. Free with jo_free. */
+JO_API char *jo_scene_closing(const JoScene *scene);
+
 /* ---- files of a run ---------------------------------------------------------------------- */
 
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
@@ -221,8 +225,8 @@ JO_API char *jo_compare(const JoCompareDef *def, char **json, JoError *error);
 /* ---- checks, tests, claims, references --------------------------------------------------- */
 
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to
-   `message`, as text or as one JSON array. Returns the number of errors, or SIZE_MAX with `error`
-   if it could not be done. */
+   `message`, as text that ends with how much it is, or as one JSON array. Returns the number of
+   errors, or SIZE_MAX with `error` if it could not be done. */
 JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                        void *context, JoError *error);
 /* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
@@ -216,10 +217,11 @@ const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const
     for (uint32_t s = 0; s < old->state_count; s++) {
         if (r->state[s] >= 0 || people[s] == 0)
             continue;
+        char agents[JOX_NOUN];
         snprintf(why, size,
-                 "%u agent%s in '%s', which this version lacks. Name the state that they go on in: "
+                 "%s in '%s', which this version lacks. Name the state that they go on in: "
                  "renamed = { %s = \"...\" }",
-                 people[s], people[s] == 1 ? " is" : "s are", old->states[s].name,
+                 jox_noun(agents, people[s], "agent is|agents are"), old->states[s].name,
                  old->states[s].name);
         return why;
     }

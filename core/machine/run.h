@@ -248,6 +248,10 @@ uint32_t jox_machines_name(JoxMachineRun *run, const char *name);
 void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Everybody hears the name (by number) in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
+/* The place that somebody goes to by a field in the state they are in and to which no way leads,
+   not through walls that open either; -1: none. That a way leads through these is known half a
+   second after it was asked for. */
+int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i);
 /* Marks in `wanted` the ways that agents want in the states that they are in. */
 void jox_machines_ask_routes(JoxMachineRun *run);
 /* Appends who went where by which transition, with the values of its condition at present. */

@@ -169,6 +169,27 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
     }
 }
 
+int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    if (!run->fields || a->machine[i] == JOX_NO_MACHINE)
+        return -1;
+    const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
+    const JoxV2 p = {a->x[i], a->y[i]};
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        if (state->steer[t].kind != JOX_STEER_FIELD)
+            continue;
+        const int32_t place = jox_target_place(run, i, state->steer[t].target);
+        if (place < 0 || jox_place_contains(run->places, (uint32_t)place, p))
+            continue;
+        JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
+        const JoxField *now = ways[JOX_ROUTE_NOW], *open = ways[JOX_ROUTE_OPEN];
+        if (now && !(jox_field_distance(now, p) < INFINITY) &&
+            !(open && jox_field_distance(open, p) < INFINITY))
+            return place;
+    }
+    return -1;
+}
+
 static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;

@@ -370,10 +370,12 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
     jox_run_tell_diagnosed(diagnosed, context, NULL, &diagnostics);
+    const size_t warnings = diagnostics.warnings;
     jox_run_report(def->message, def->message_context, &diagnostics, error);
     jox_run_tell_diagnosed(diagnosed, context, NULL, NULL);
     if (!scene)
         return NULL;
+    scene->warnings += warnings + scene->mod_problems.warnings;
     scene->diagnosed = diagnosed;
     scene->diagnosed_context = context;
     jox_run_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
@@ -386,6 +388,7 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
     JoxDiagnostics placed = {0};
     jox_run_settle(scene, &placed);
     const bool fit = placed.errors == 0;
+    scene->warnings += placed.warnings;
     jox_run_report(scene->message, scene->message_context, &placed, fit ? NULL : error);
     if (!fit)
         discard(scene);

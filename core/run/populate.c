@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -145,27 +146,32 @@ typedef struct Moved {
 } Moved;
 
 static void tell_moved(const JoxGroup *group, const Moved *moved, JoxDiagnostics *diagnostics) {
+    char people[JOX_NOUN];
     static const char HINT[] = "Widen the place, lower the count, or give other points";
     jox_diag_add(diagnostics, moved->farthest > FAR ? JOX_SEVERITY_WARNING : JOX_SEVERITY_NOTE,
                  group->position, "placed-in-others", moved->farthest > FAR ? HINT : NULL, NULL,
                  NULL,
-                 "%u of the %u people of group '%.60s' were placed in a wall or deep in others; "
+                 "%u of the %s of group '%.60s' %s placed in a wall or deep in others; "
                  "they begin up to %.2f m away",
-                 moved->people, group->count, group->name, moved->farthest);
+                 moved->people, jox_noun(people, group->count, "person|people"), group->name,
+                 moved->people == 1 ? "was" : "were", moved->farthest);
 }
 
 /* A few may begin in others; a crowd that nowhere fits costs what pairs of its people cost. */
 static void tell_stuck(const JoScene *scene, const JoxPlacement *settled,
                        JoxDiagnostics *diagnostics) {
     const JoxAgents *a = &scene->world->state.agents;
+    char people[JOX_NOUN];
     const uint32_t first = settled->first_stuck;
     const bool many = settled->stuck > MOST_STUCK && settled->stuck > a->count / 10;
     jox_diag_add(diagnostics, many ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
                  scene->spec->groups[a->group[first]].position, "placed-in-others",
                  "Widen the place, lower the count, or give people a smaller radius", NULL, NULL,
-                 "%u of %u people stand in a wall or deep in others, as no free spot was found for "
-                 "them: the first is agent %u at (%.2f, %.2f)",
-                 settled->stuck, a->count, a->id[first], (double)a->x[first], (double)a->y[first]);
+                 "%u of %s %s in a wall or deep in others, as no free spot was found: the first is "
+                 "agent %u at (%.2f, %.2f)",
+                 settled->stuck, jox_noun(people, a->count, "person|people"),
+                 settled->stuck == 1 ? "stands" : "stand", a->id[first], (double)a->x[first],
+                 (double)a->y[first]);
 }
 
 void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics) {

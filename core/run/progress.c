@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -23,15 +24,17 @@ static bool show(void *self, JoScene *scene, JoError *error) {
     double time = jo_world_time(scene->world), now = jox_clock_wall(), wall = now - p->begun;
     double share = time / p->until, left = wall / share - wall;
     bool terminal = isatty(STDERR_FILENO), last = share >= 1.0 - 1e-9;
+    char agents[JOX_NOUN];
     int tenth = (int)(share * 10.0 + 1e-9);
     (void)error;
     if (terminal ? now - p->shown < 0.2 && !last : tenth == p->tenth)
         return true;
     p->shown = now;
     p->tenth = tenth;
-    fprintf(stderr, "%s%6.1f of %.1f s simulated, %.2f x real time, %.0f s left, %u agents%s",
+    fprintf(stderr, "%s%6.1f of %.1f s simulated, %.2f x real time, %.0f s left, %s%s",
             terminal ? "\r" : "", time, p->until, time / wall, last ? 0.0 : left,
-            scene->world->state.agents.count, !terminal || last ? "\n" : "   ");
+            jox_noun(agents, scene->world->state.agents.count, "agent"),
+            !terminal || last ? "\n" : "   ");
     return true;
 }
 
@@ -40,6 +43,7 @@ static bool say_costs(void *self, JoScene *scene, JoError *error) {
     const JoWorld *world = scene->world;
     double seconds = 0.0, wall = world->state.statistics.wall_s;
     uint64_t calls = 0;
+    char told[JOX_NOUN];
     (void)self, (void)error;
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint64_t machine_calls;
@@ -47,8 +51,8 @@ static bool say_costs(void *self, JoScene *scene, JoError *error) {
         calls += machine_calls;
     }
     if (calls > 0)
-        jox_run_say(scene, "plain Lua functions: %llu calls, %.2f %% of the steps' time\n",
-                    (unsigned long long)calls, wall > 0.0 ? 100.0 * seconds / wall : 0.0);
+        jox_run_say(scene, "plain Lua functions: %s, %.2f %% of the steps' time\n",
+                    jox_noun(told, calls, "call"), wall > 0.0 ? 100.0 * seconds / wall : 0.0);
     return true;
 }
 

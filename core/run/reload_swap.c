@@ -3,28 +3,17 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/reload_parts.h"
 
-/* "35,000" */
-static const char *grouped(uint32_t number, char out[16]) {
-    char plain[16];
-    int n = snprintf(plain, sizeof plain, "%u", number), at = 0;
-    for (int i = 0; i < n; i++) {
-        out[at++] = plain[i];
-        if ((n - 1 - i) % 3 == 0 && i + 1 < n)
-            out[at++] = ',';
-    }
-    out[at] = 0;
-    return out;
-}
-
 /* "  Circle 31204  Exit 310": agents per state. */
 static void print_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
-    char number[16];
+    char number[JOX_NOUN];
     for (uint32_t s = 0; s < machine->state_count; s++)
         if (people[s])
-            jox_text_printf(out, "  %s %s", machine->states[s].name, grouped(people[s], number));
+            jox_text_printf(out, "  %s %s", machine->states[s].name,
+                            jox_number_text(number, people[s]));
 }
 
 static double real_time(void) {
@@ -36,7 +25,7 @@ static double real_time(void) {
 /* Says why a batch is not taken, and which versions go on. */
 static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char *why) {
     const JoxMachineRun *machines = &scene->world->machines;
-    char number[16];
+    char number[JOX_NOUN];
     if (why)
         jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
                        "%s", why);
@@ -48,10 +37,9 @@ static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char
         if (batch->changes[c].added)
             continue;
         const JoxMachine *machine = machines->set->items[batch->changes[c].index];
-        jox_run_say(scene, " Version %u%s%s keeps running; %s agents unaffected.\n",
-                    machine->version, batch->count > 1 ? " of " : "",
-                    batch->count > 1 ? machine->name : "",
-                    grouped(machines->agents->count, number));
+        jox_run_say(scene, " Version %u%s%s keeps running; %s unaffected.\n", machine->version,
+                    batch->count > 1 ? " of " : "", batch->count > 1 ? machine->name : "",
+                    jox_noun(number, machines->agents->count, "agent"));
     }
     if (batch->count == 0)
         jox_run_say(scene, " The scene goes on as it was.\n");

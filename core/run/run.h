@@ -54,6 +54,7 @@ struct JoScene {
     uint64_t resumed_tick;
     uint64_t log_length; /* bytes of it that a resumed run goes on behind */
     bool log_failed;
+    size_t warnings;       /* that were given, of files and of the run */
     bool acted_on;         /* by people, other than a log */
     JoxInputLog input;     /* as it was read, until there is a world */
     JoxFiles logged_files; /* whose texts stand in it */
@@ -200,8 +201,18 @@ typedef struct JoxStood {
     JoxV2 at;              /* m */
     uint32_t id;           /* JOX_NO_INDEX while there was nobody */
 } JoxStood;
+/* standing.c; says, while the run goes on, where a crowd has stood still for 30 s, and to which
+   place no way leads. */
 void jox_run_collect_standing(JoScene *scene);
 const JoxStood *jox_run_stood_longest(const JoScene *scene);
+/* The longest time that a crowd stood still: 10 people and more who wanted to get on, or half of
+   all, and came no farther than 0.25 m for 30 s or more. NULL: none did. */
+typedef struct JoxStill {
+    double since, until; /* s */
+    JoxV2 at;            /* m: where most of them were */
+    uint32_t people;     /* the most at a time */
+} JoxStill;
+const JoxStill *jox_run_stood_still(const JoScene *scene);
 /* probes.c: the same for probes. The n-th, or NULL behind the last. */
 void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);

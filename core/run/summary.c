@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
@@ -160,13 +161,14 @@ char *jo_scene_lua_profile(const JoScene *scene) {
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
         const JoxMachine *machine = world->model.machines.items[m];
         uint64_t calls;
+        char functions[JOX_NOUN], told[JOX_NOUN];
         double seconds = jox_lua_seconds(scene->lua, machine, &calls);
-        jox_text_printf(
-            &out, "%s (%s): %u plain functions, %llu calls, %.2f ms, %.2f %% of the steps\n",
-            machine->name, machine->path, machine->hook_count, (unsigned long long)calls,
-            seconds * 1e3,
-            world->state.statistics.wall_s > 0 ? 100.0 * seconds / world->state.statistics.wall_s
-                                               : 0.0);
+        jox_text_printf(&out, "%s (%s): %s, %s, %.2f ms, %.2f %% of the steps\n", machine->name,
+                        machine->path, jox_noun(functions, machine->hook_count, "plain function"),
+                        jox_noun(told, calls, "call"), seconds * 1e3,
+                        world->state.statistics.wall_s > 0
+                            ? 100.0 * seconds / world->state.statistics.wall_s
+                            : 0.0);
         jox_lua_profile(scene->lua, machine, world->state.statistics.wall_s, &out);
     }
     return jox_disown(out.data);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "geom/fill.h"
@@ -32,11 +33,12 @@ void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
 
 /* Whether all of a group stand along a way of so many metres; else an error. */
 static bool fit_along(const JoxReader *r, const JoxYaml *map, const JoxGroup *group, float way) {
+    char agents[JOX_NOUN];
     const bool fit = (float)(group->count - 1) * CLOSEST <= way;
     if (!fit)
         jox_scene_error(r, map, "too-many", "Lower count, or widen the place",
-                        "%u agents on %.3g m stand less than %g m apart", group->count, (double)way,
-                        (double)CLOSEST);
+                        "%s on %.3g m would stand less than %g m apart",
+                        jox_noun(agents, group->count, "agent"), (double)way, (double)CLOSEST);
     return fit;
 }
 
@@ -101,10 +103,11 @@ static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode
         jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
     jox_free(taken);
     a->taken = NULL;
+    char agents[JOX_NOUN];
     if (fit < group->count)
         jox_scene_error(r, map, "too-many",
                         "Lower count or spacing, or widen the area; `fill: hex` packs closest",
-                        "%u of %u agents fit", fit, group->count);
+                        "%u of %s fit", fit, jox_noun(agents, group->count, "agent"));
     group->count = fit < group->count ? fit : group->count;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     if (positions)

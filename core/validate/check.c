@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/noun.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -183,6 +184,20 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     jox_diag_move(all, &own);
 }
 
+/* What was found, and how much that is. */
+static void print(const JoxDiagnostics *all, JoxText *out) {
+    jox_diag_print(all, out);
+    if (all->errors || all->warnings)
+        jox_text_noun(out, all->errors, "error");
+    else
+        jox_text_add(out, "nothing wrong");
+    if (all->warnings) {
+        jox_text_add(out, ", ");
+        jox_text_noun(out, all->warnings, "warning");
+    }
+    jox_text_add(out, "\n");
+}
+
 static size_t check_all(const char *const *paths, size_t count, bool json, JoMessage *message,
                         void *context) {
     JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
@@ -192,7 +207,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
     if (json)
         jox_diag_json(&all, &text);
     else
-        jox_diag_print(&all, &text);
+        print(&all, &text);
     if (text.length)
         jox_run_message(message, context, text.data);
     size_t errors = all.errors;

@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/noun.h"
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/hash.h"
@@ -245,7 +246,7 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
         const JoxVerdict *v = &outcome->verdicts[f];
-        char bound[JOX_BOUND_SIZE];
+        char bound[JOX_BOUND_SIZE], seeds[JOX_NOUN];
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
         say_number(&out, v->mean);
@@ -254,7 +255,7 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
         say_number(&out, v->least);
         jox_text_add(&out, " to ");
         say_number(&out, v->most);
-        jox_text_printf(&out, ", %u seed%s) %s", v->seeds, v->seeds == 1 ? "" : "s", figure->unit);
+        jox_text_printf(&out, ", %s) %s", jox_noun(seeds, v->seeds, "seed"), figure->unit);
         if (figure->reported)
             jox_text_add(&out, ", reported\n");
         else

@@ -121,3 +121,18 @@ if command -v script >/dev/null; then
 fi
 grep -q 'version 2 is live' "$work/watch"; verdict "a valid change goes live" $?
 grep -q 'Version 2 keeps running' "$work/watch"; verdict "an invalid one leaves the old running" $?
+
+# The last lines of a run say what it came to; what goes wrong on the way is said when it does.
+printf 'jostle: 1\ntitle: One\nduration: 12\nplaces: {yard: {polygon: [[0, 0], [4, 0], [4, 4], [0, 4]]}, out: {point: [9, 2], radius: 1}}\ngroups: {g: {behaviour: walker.lua, at: [[1, 1]], set: {goal: out}}}\nsinks: [{at: out}]\n' >"$work/one.yaml"
+expect "a run ends with a paragraph" 0 "One, 12.0 s: 1 person in all; 1 left (out 1), the last at" "$JOSTLE" run "$work/one.yaml" --data "$work/one"
+grep -qF "and nobody is inside. Files: tables" <(tr '\n' ' ' <"$work/out") && grep -q "1 agent$" "$work/out" && ! grep -q "1 agents" "$work/out"; verdict "which names the files, and one agent is no agents" $?
+printf 'jostle: 1\ntitle: Shut\nduration: 45\nplaces: {lane: {polygon: [[0.5, 0.2], [9, 0.2], [9, 0.8], [0.5, 0.8]]}, street: {polygon: [[12, 0], [14, 0], [14, 1], [12, 1]]}}\nwalls:\n  - {line: [[11, 0], [0, 0], [0, 1], [11, 1]]}\n  - {line: [[10.5, 0], [10.5, 1]]GATE}\ngroups: {g: {behaviour: walker.lua, count: 14, fill: random, in: lane, set: {goal: street}}}\n' >"$work/lane.yaml"
+sed 's/GATE/, name: gate/' "$work/lane.yaml" >"$work/gate.yaml"; sed 's/GATE//; s/\[11, 0\], \[0, 0\]/[11, 1], [11, 0], [0, 0]/' "$work/lane.yaml" >"$work/shut.yaml"
+expect "a crowd that stands still is told, with where" 0 "people who want to get on have stood still for 30 s, most of them about (9." "$JOSTLE" run "$work/gate.yaml"
+grep -q "A crowd of .* people stood still from" <(tr '\n' ' ' <"$work/out") && grep -q "14 people are inside: Walk 14" <(tr '\n' ' ' <"$work/out") && ! grep -q "cannot reach" "$work/out"; verdict "and again at the end; a gate is a way" $?
+expect "a goal to which no way leads is told" 0 "warning: 14 people cannot reach street: no way leads there from" "$JOSTLE" run "$work/shut.yaml" --for 6
+grep -q "1 warning was given" <(tr '\n' ' ' <"$work/out"); verdict "as a warning" $?
+sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/three.yaml"
+expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed in a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
+printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
+"$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning$'; verdict "a check that warns does not say that nothing is wrong" $?

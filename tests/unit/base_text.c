@@ -10,6 +10,7 @@
 
 #include "base/format/diag.h"
 #include "base/format/name.h"
+#include "base/format/noun.h"
 #include "base/text.h"
 
 static void json_escapes_whatever_comes(void **state) {
@@ -119,8 +120,29 @@ static void names_are_letters_digits_and_little_else(void **state) {
     assert_true(jox_name_is_plain(longest));
 }
 
+static void numbers_have_their_nouns(void **state) {
+    (void)state;
+    char out[JOX_NOUN];
+    assert_string_equal(jox_noun(out, 1, "agent"), "1 agent");
+    assert_string_equal(jox_noun(out, 0, "agent"), "0 agents");
+    assert_string_equal(jox_noun(out, 35000, "person|people"), "35,000 people");
+    assert_string_equal(jox_noun(out, 1, "person|people"), "1 person");
+    assert_string_equal(jox_noun(out, 2, "body"), "2 bodies");
+    assert_string_equal(jox_noun(out, 2, "way"), "2 ways");
+    assert_string_equal(jox_noun_alone(out, 1, "is|are"), "is");
+    assert_string_equal(jox_number_text(out, 18446744073709551615u), "18,446,744,073,709,551,615");
+    assert_string_equal(jox_number_text(out, 999), "999");
+    assert_string_equal(jox_article("event"), "an");
+    assert_string_equal(jox_article("probe"), "a");
+    char longest[300];
+    memset(longest, 'x', sizeof longest - 1);
+    longest[sizeof longest - 1] = 0;
+    assert_int_equal(strlen(jox_noun(out, 12, longest)), JOX_NOUN - 1); /* cut, not beyond */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_have_their_nouns),
         cmocka_unit_test(text_is_made_fit_for_a_terminal),
         cmocka_unit_test(json_escapes_whatever_comes),
         cmocka_unit_test(suggestions_are_near_or_absent),

@@ -1,4 +1,5 @@
 #include "base/format/diag.h"
+#include "base/format/noun.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -87,6 +88,7 @@ static void print_source(const JoxDiagnostic *item, JoxText *out) {
 }
 
 void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
+    char more[JOX_NOUN];
     for (size_t i = 0; i < d->count; i++) {
         const JoxDiagnostic *item = &d->items[i];
         if (item->file)
@@ -106,7 +108,8 @@ void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
             jox_text_printf(out, " %s\n", item->context);
     }
     if (d->errors > d->kept_errors)
-        jox_text_printf(out, "... and %zu more errors\n", d->errors - d->kept_errors);
+        jox_text_printf(out, "... and %s\n",
+                        jox_noun(more, d->errors - d->kept_errors, "more error"));
 }
 
 void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {

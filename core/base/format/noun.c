@@ -18,8 +18,12 @@ const char *jox_number_text(char out[JOX_NOUN], uint64_t number) {
 
 const char *jox_noun_alone(char out[JOX_NOUN], uint64_t number, const char *noun) {
     const char *bar = strchr(noun, '|');
+    const size_t length = strlen(noun);
+    const bool y = length > 1 && noun[length - 1] == 'y' && !strchr("aeiou", noun[length - 2]);
     if (number == 1)
         snprintf(out, JOX_NOUN, "%.*s", bar ? (int)(bar - noun) : (int)strlen(noun), noun);
+    else if (!bar && y) /* bodies */
+        snprintf(out, JOX_NOUN, "%.*sies", (int)length - 1, noun);
     else
         snprintf(out, JOX_NOUN, "%s%s", bar ? bar + 1 : noun, bar ? "" : "s");
     return out;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -160,8 +161,9 @@ static bool in_range(lua_State *L, const JoxWord *word, uint32_t n, double value
 static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
     if (given <= most)
         return false;
-    jox_word_error(L, word->name, "bad-argument", word->meaning, "%s takes %d argument%s, not %d",
-                   word->name, most, most == 1 ? "" : "s", given);
+    char arguments[JOX_NOUN];
+    jox_word_error(L, word->name, "bad-argument", word->meaning, "%s takes %s, not %d", word->name,
+                   jox_noun(arguments, (uint64_t)most, "argument"), given);
     return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/format/name.h"
+#include "base/format/noun.h"
 #include "base/text.h"
 
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
@@ -23,7 +24,7 @@ bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, c
     if (jox_name_is_plain(name))
         return true;
     jox_diag_error(reader->diagnostics, at, "bad-name", JOX_NAME_RULE,
-                   "'%.60s' is no name for a %s", name, what);
+                   "'%.60s' is no name for %s %s", name, jox_article(what), what);
     return false;
 }
 

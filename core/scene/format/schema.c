@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 
 enum { MOST_KEYS = 64 }; /* of an owner */
 
@@ -316,17 +317,19 @@ static uint32_t least_items(const JoxKey *key) {
  */
 static bool holds_items(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
                         const JoxOwner *owner, bool map) {
+    char items[JOX_NOUN];
     if (!node)
         return false;
     if (node->kind != (map ? JOX_YAML_MAP : JOX_YAML_LIST)) {
         jox_scene_error(reader, node, "bad-type", key->example,
-                        map ? "%s maps names to %ss" : "%s is a list", key->name, owner->name);
+                        map ? "%s maps names to %s" : "%s is a list", key->name,
+                        jox_noun_alone(items, 2, owner->name));
         return false;
     }
     if (node->count >= least_items(key))
         return true;
-    jox_scene_error(reader, node, "bad-type", key->example, "%s is a list of at least %u %s%s",
-                    key->name, least_items(key), owner->name, least_items(key) == 1 ? "" : "s");
+    jox_scene_error(reader, node, "bad-type", key->example, "%s is a list of at least %s",
+                    key->name, jox_noun(items, least_items(key), owner->name));
     return false;
 }
 

@@ -1,0 +1,123 @@
+/* What a run comes to, in a paragraph: for who reads the last lines alone. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/format/noun.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "jostle_tools.h"
+#include "run/run.h"
+
+static const double WORTH = 10.0; /* s: shorter stands of one person are not mentioned */
+
+/* Who left, by where, and who is inside. */
+static void say_people(const JoScene *scene, JoxText *out) {
+    const JoxExits *exits = &scene->world->state.exits;
+    const uint32_t inside = scene->world->state.agents.count;
+    jox_text_noun(out, scene->world->state.agents.next_id, "person|people");
+    jox_text_add(out, " in all; ");
+    if (exits->left == 0) {
+        jox_text_add(out, "nobody left");
+    } else {
+        char number[JOX_NOUN];
+        jox_text_printf(out, "%s left", jox_number_text(number, exits->left));
+        for (uint32_t e = 0; e < exits->count; e++)
+            jox_text_printf(out, "%s%.60s %s", e ? ", " : " (", exits->items[e].name,
+                            jox_number_text(number, exits->items[e].people));
+        jox_text_printf(out, "%s, the last at %.1f s", exits->count ? ")" : "", exits->last);
+    }
+    jox_text_add(out, inside ? ", and " : ", and nobody is inside.");
+    if (inside)
+        jox_text_noun(out, inside, "person is inside|people are inside");
+}
+
+/* Who is inside, by machine and state. */
+static void say_states(const JoScene *scene, JoxText *out) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    const JoxAgents *a = &scene->world->state.agents;
+    char number[JOX_NOUN];
+    const char *before = ": ";
+    if (a->count == 0)
+        return;
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
+            uint32_t people = 0;
+            for (uint32_t i = 0; i < a->count; i++)
+                people += a->machine[i] == m && a->state[i] == s;
+            if (people == 0)
+                continue;
+            jox_text_add(out, before);
+            if (machines->set->count > 1)
+                jox_text_printf(out, "%.60s ", machines->set->items[m]->name);
+            jox_text_printf(out, "%.60s %s", machines->set->items[m]->states[s].name,
+                            jox_number_text(number, people));
+            before = ", ";
+        }
+    jox_text_add(out, ".");
+}
+
+static void say_events(const JoScene *scene, JoxText *out) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    const struct {
+        uint64_t count;
+        const char *noun;
+    } events[] = {{s->hits, "hit by a body|hits by bodies"},
+                  {s->kicks, "kick"},
+                  {s->throws, "throw"},
+                  {s->people_lost, "person was lost|people were lost"},
+                  {s->bodies_lost, "body was lost|bodies were lost"}};
+    const char *before = " There were ";
+    for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
+        if (events[e].count == 0)
+            continue;
+        jox_text_add(out, before);
+        jox_text_noun(out, events[e].count, events[e].noun);
+        before = ", ";
+    }
+    if (*before == ',')
+        jox_text_add(out, ".");
+}
+
+static void say_standing(const JoScene *scene, JoxText *out) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoxStood *stood = jox_run_stood_longest(scene);
+    const JoxStill *still = jox_run_stood_still(scene);
+    if (still) {
+        jox_text_printf(out, " A crowd of ");
+        jox_text_noun(out, still->people, "person|people");
+        jox_text_printf(out, " stood still from %.0f to %.0f s, about (%.1f, %.1f) m", still->since,
+                        still->until, (double)still->at.x, (double)still->at.y);
+        jox_place_where(spec->places, spec->place_count, still->at, true, out);
+        jox_text_add(out, ".");
+    }
+    if (stood && stood->id != JOX_NO_INDEX && stood->seconds >= WORTH) {
+        jox_text_printf(out,
+                        " Agent %u stood longest though it wanted to get on: for %.0f s until "
+                        "%.0f s, at (%.1f, %.1f) m",
+                        stood->id, stood->seconds, stood->until, (double)stood->at.x,
+                        (double)stood->at.y);
+        jox_place_where(spec->places, spec->place_count, stood->at, true, out);
+        jox_text_add(out, ".");
+    }
+}
+
+char *jo_scene_closing(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
+    JoxText text = {0};
+    jox_text_printf(&text,
+                    "%.200s, %.1f s: ", scene->spec->title ? scene->spec->title : scene->spec->path,
+                    jo_world_time(scene->world));
+    say_people(scene, &text);
+    say_states(scene, &text);
+    say_events(scene, &text);
+    say_standing(scene, &text);
+    if (scene->warnings) {
+        jox_text_add(&text, " ");
+        jox_text_noun(&text, scene->warnings, "warning was given|warnings were given");
+        jox_text_add(&text, ".");
+    }
+    jox_text_clean(text.data);
+    return jox_disown(text.data);
+}
