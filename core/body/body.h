@@ -184,6 +184,7 @@ typedef struct JoxBodiesReport {
     double hit_impulse, hit_residual; /* sizes of the hits' impulses; of what bodies and discs, in
                                          the plane, were not given alike: N s */
     uint32_t substeps;
+    double bullet_s; /* wall time of Bullet's own steps; 0 unless it was asked for */
 } JoxBodiesReport;
 
 /* Advances by dt seconds in equal substeps of at most 1/60 s, shorter (to 1/480 s) while a ball
@@ -191,6 +192,8 @@ typedef struct JoxBodiesReport {
    than 0.1 m in the step are swept against the discs, as spheres; those carry JoxObject.swept, and
    forces must leave them out. `discs` may be NULL. */
 JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uint32_t disc_count);
+/* Whether steps tell how long Bullet took. At first they do not: reading clocks takes time. */
+void jox_bodies_set_timed(JoxBodies *bodies, bool timed);
 /* True if the next step would sweep any body: only then are discs needed. */
 bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
 

@@ -62,6 +62,11 @@ void jox_bodies_ensure(JoxBodies *b) {
     /* What touches overlaps by this much, m: where faces just meet, Bullet takes now their edges
        and now the faces for what touches, and boxes that are pressed together rock. */
     b->world->getSolverInfo().m_linearSlop = 0.002f;
+    /* Bodies that touch are solved until a pass changes no velocity by more than 1 um/s: by
+       themselves, so that those who are through do not wait for all others. */
+    b->world->getSolverInfo().m_leastSquaresResidualThreshold = 1e-12f;
+    b->world->getSolverInfo().m_minimumSolverBatchSize = 1;
+    b->world->setForceUpdateAllAabbs(false); /* what sleeps stays where it is */
     b->world->setGravity(btVector3(0, 0, float(-b->def.gravity)));
     if (!b->def.ground)
         return;
@@ -222,6 +227,8 @@ void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
     info.m_angularSleepingThreshold = 0.2f;
     r->body = new btRigidBody(info);
     r->body->setUserIndex(int(row));
+    if (shape.inertia.x() == shape.inertia.y() && shape.inertia.y() == shape.inertia.z())
+        r->body->setFlags(r->body->getFlags() & ~BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY);
     if (shape.mass > 0) {
         r->body->setCcdMotionThreshold(shape.inner);
         r->body->setCcdSweptSphereRadius(0.8f * shape.inner);

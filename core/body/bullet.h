@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "body/body.h"
@@ -104,11 +105,17 @@ void jox_bullet_free_heap(const JoxHeap *heap);
    `error` may be NULL. */
 bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 
-/* Bullet's world. Contacts that it foresees of fast bodies are not those of its pairs: they stay
-   until the next step, and have to be taken out with what they are of. */
+/* Bullet's world, without what it does in vain of bodies that sleep or are slow. Contacts that it
+   foresees of fast bodies are not those of its pairs: they stay until the next step, and have to be
+   taken out with what they are of. */
 struct JoxBulletWorld : btDiscreteDynamicsWorld {
     using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
     void remove(btRigidBody *body);
+
+  protected:
+    void predictUnconstraintMotion(btScalar dt) override;
+    void createPredictiveContacts(btScalar dt) override;
+    void integrateTransforms(btScalar dt) override;
 };
 
 struct JoxBodies {
@@ -132,6 +139,7 @@ struct JoxBodies {
     uint32_t live, order_capacity;
     uint32_t next_id;
     float last_dt;
+    bool timed;
     JoxObject *objects;
     uint32_t object_capacity;
     JoxObjectContact *object_contacts;

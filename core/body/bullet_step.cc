@@ -128,6 +128,10 @@ static void push_on(JoxBodies *b, uint32_t n, bool last) {
     }
 }
 
+void jox_bodies_set_timed(JoxBodies *b, bool timed) {
+    b->timed = timed;
+}
+
 JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
     JoxBodiesReport report = {};
     b->hit_count = b->gone_count = b->break_count = 0;
@@ -149,7 +153,9 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, n, s + 1 == n);
+        const double begun = b->timed ? jox_clock_wall() : 0;
         b->world->stepSimulation(h, 0);
+        report.bullet_s += b->timed ? jox_clock_wall() - begun : 0;
         if (b->bonded)
             jox_bodies_gather_contacts(b);
         jox_bodies_guard(b);

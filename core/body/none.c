@@ -121,6 +121,9 @@ void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
     const uint64_t sum = jox_hash_end(&sections.hash);
     jox_hash_add(hash, &sum, sizeof sum);
 }
+void jox_bodies_set_timed(JoxBodies *bodies, bool timed) {
+    (void)bodies, (void)timed;
+}
 bool jox_bodies_available(void) {
     return false;
 }

@@ -97,6 +97,13 @@ static const CliOption OPTIONS[] = {
 
 /* ---- measuring ---- */
 
+/* What a figure per agent-step came to between two moments of a run, per agent-step. */
+static double between(const JoStats *from, const JoStats *to, double before, double after) {
+    const double steps = (double)(to->agent_steps - from->agent_steps);
+    const double sum = after * (double)to->agent_steps - before * (double)from->agent_steps;
+    return steps > 0 ? sum / steps : 0.0;
+}
+
 static void note(BenchCase *c, const JoStats *from, const JoStats *to) {
     const double steps = (double)(to->steps - from->steps);
     const double agent_steps = (double)(to->agent_steps - from->agent_steps);
@@ -108,9 +115,12 @@ static void note(BenchCase *c, const JoStats *from, const JoStats *to) {
     c->times_real_time[round] = steps * to->dt / wall;
     c->ns[round] = cpu * 1e9 * each;
     for (int s = 0; s < JO_STAGE_COUNT; s++)
-        c->stages[s][round] = (to->stage_ns[s] * (double)to->agent_steps -
-                               from->stage_ns[s] * (double)from->agent_steps) *
-                              each;
+        c->stages[s][round] = between(from, to, from->stage_ns[s], to->stage_ns[s]);
+    c->bullet[round] = between(from, to, from->bullet_ns, to->bullet_ns);
+    c->bodies[round] = between(from, to, from->objects_ns, to->objects_ns);
+    for (int s = 0; s < JO_STAGE_COUNT; s++)
+        if (strcmp(jo_stage_name(s), "bodies") == 0)
+            c->bodies[round] += c->stages[s][round];
 }
 
 static int measure(const Bench *bench, const Named *named, BenchCase *c) {

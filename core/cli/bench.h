@@ -26,6 +26,8 @@ typedef struct BenchCase {
     double steps_per_s[BENCH_ROUNDS], times_real_time[BENCH_ROUNDS];
     double ns[BENCH_ROUNDS];                     /* of processor time, per agent-step */
     double stages[JO_STAGE_COUNT][BENCH_ROUNDS]; /* likewise, of time */
+    double bullet[BENCH_ROUNDS];                 /* likewise, of Bullet's own steps */
+    double bodies[BENCH_ROUNDS]; /* likewise, of all that moves bodies and tells agents of them */
 } BenchCase;
 
 /* The table: its first lines, and the line of a case. */

@@ -44,6 +44,14 @@ static double least(const double *values, uint64_t count) {
     return result;
 }
 
+/* All that moves bodies and tells agents of them, in Bullet's own steps; 0 without bodies. */
+static double in_bullets(const BenchCase *c) {
+    double ratios[BENCH_ROUNDS];
+    for (uint64_t i = 0; i < c->measured; i++)
+        ratios[i] = c->bullet[i] > 0.0 ? c->bodies[i] / c->bullet[i] : 0.0;
+    return median(ratios, c->measured);
+}
+
 static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c) {
     char cpu[CPU_LENGTH];
     find_cpu(cpu);
@@ -64,6 +72,9 @@ static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c)
     jox_json_digits(json, "times_real_time", median(c->times_real_time, c->measured), 6);
     jox_json_digits(json, "cpu_ns_per_agent_step", median(c->ns, c->measured), 6);
     jox_json_digits(json, "least_cpu_ns_per_agent_step", least(c->ns, c->measured), 6);
+    jox_json_digits(json, "bullet_ns", median(c->bullet, c->measured), 4);
+    jox_json_digits(json, "bodies_ns", median(c->bodies, c->measured), 4);
+    jox_json_digits(json, "bodies_in_bullets", in_bullets(c), 4);
     jox_json_object(json, "stage_ns");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         jox_json_digits(json, jo_stage_name(s), median(c->stages[s], c->measured), 4);
@@ -72,10 +83,10 @@ static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c)
 }
 
 void bench_line(const BenchCase *c) {
-    printf("%-30s %-6s %7u %6u %10.1f %8.1f %8.0f %8.0f ", c->name, jo_isa_name(c->isa),
+    printf("%-30s %-6s %7u %6u %10.1f %8.1f %8.0f %8.0f %9.1f %8.2f ", c->name, jo_isa_name(c->isa),
            c->last.agents, c->last.bodies, median(c->steps_per_s, c->measured),
            median(c->times_real_time, c->measured), median(c->ns, c->measured),
-           least(c->ns, c->measured));
+           least(c->ns, c->measured), median(c->bullet, c->measured), in_bullets(c));
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         printf(" %8.1f", median(c->stages[s], c->measured));
     puts("");
@@ -84,9 +95,12 @@ void bench_line(const BenchCase *c) {
 
 void bench_header(void) {
     puts("Medians of the rounds. Nanoseconds are per agent and step: cpu of processor time, stages "
-         "of time.");
-    printf("%-30s %-6s %7s %6s %10s %8s %8s %8s ", "scene", "isa", "agents", "bodies", "steps/s",
-           "x real", "cpu ns", "least");
+         "of time.\n"
+         "'bullet': of the stage 'bodies', Bullet's own steps; 'x bullet': all that moves bodies "
+         "and "
+         "tells agents of them, in Bullet's own.");
+    printf("%-30s %-6s %7s %6s %10s %8s %8s %8s %9s %8s ", "scene", "isa", "agents", "bodies",
+           "steps/s", "x real", "cpu ns", "least", "bullet", "x bullet");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         printf(" %8s", jo_stage_name(s));
     puts("");

@@ -308,6 +308,8 @@ typedef struct JoStats {
     uint32_t agents, bodies;               /* now */
     double dt, simulated_s, wall_s, cpu_s; /* stepping alone; CPU of all threads of the process */
     double stage_ns[JO_STAGE_COUNT];       /* wall time per agent-step, ns */
+    double bullet_ns;                      /* of the stage "bodies", likewise: Bullet's own steps */
+    double objects_ns; /* of the stage "perceive", likewise: what agents see of bodies */
 } JoStats;
 JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */

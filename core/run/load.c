@@ -122,7 +122,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.lost_people = (JoLost)spec->lost_people;
     world.lost_bodies = (JoLost)spec->lost_bodies;
     scene->world = jox_world_create(&world);
-    scene->world->scratch.timed = true;
+    jox_world_set_timed(scene->world, true);
     scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)

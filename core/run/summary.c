@@ -28,6 +28,10 @@ JoStats jo_scene_stats(const JoScene *scene) {
                      .cpu_s = s->cpu_s};
     for (int k = 0; k < JO_STAGE_COUNT && s->agent_steps; k++)
         stats.stage_ns[k] = s->stage_s[k] * 1e9 / (double)s->agent_steps;
+    if (s->agent_steps) {
+        stats.bullet_ns = s->bullet_s * 1e9 / (double)s->agent_steps;
+        stats.objects_ns = s->objects_s * 1e9 / (double)s->agent_steps;
+    }
     return stats;
 }
 

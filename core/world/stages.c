@@ -20,8 +20,10 @@ void jox_stage_perceive(const JoxPerceiveStage *s) {
             memset(s->agents->failed, 0, s->agents->count);
     }
     jox_nav_perceive(s->nav, s->agents, s->neighbours, s->pool);
+    const double begun = s->timed ? jox_clock_wall() : 0.0;
     jox_bodies_objects(s->bodies, s->objects);
     jox_objects_lay(s->objects);
+    s->statistics->objects_s += s->timed ? jox_clock_wall() - begun : 0.0;
     JOX_ASSERT(s->objects->count == jox_bodies_rows(s->bodies));
     JOX_ASSERT(s->neighbours->agents >= s->agents->count);
 }
@@ -113,6 +115,7 @@ void jox_stage_bodies(const JoxBodyStage *s) {
     JoxBodiesReport report = jox_bodies_advance(s);
     jox_bonds_note_breaks(s, &report);
     s->statistics->bodies_lost += report.gone_count;
+    s->statistics->bullet_s += report.bullet_s;
     if (report.gone_count)
         *s->lost = report.gone[0];
 }

@@ -31,12 +31,14 @@ typedef struct JoxSubstep {
 typedef struct JoxPerceiveStage {
     const JoxSubstep *substep;
     uint64_t tick;
+    bool timed;
     JoxPool *pool;
     JoxBodies *bodies; /* their objects are told, nothing is changed */
     JoxNav *nav;
     JoxAgents *agents; /* their order; search, density, failed */
     JoxNeighbours *neighbours;
     JoxObjects *objects;
+    JoxStatistics *statistics;
 } JoxPerceiveStage;
 void jox_stage_perceive(const JoxPerceiveStage *stage);
 

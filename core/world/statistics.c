@@ -1,23 +1,8 @@
 #include "world/statistics.h"
 
 #include <math.h>
-#include <time.h>
 
 #include "base/assert.h"
-
-static double read_clock(clockid_t clock) {
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
-double jox_clock_wall(void) {
-    return read_clock(CLOCK_MONOTONIC);
-}
-
-double jox_clock_cpu(void) {
-    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
-}
 
 /* Bins every agent by how deep it overlaps the neighbour it overlaps most. */
 static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {

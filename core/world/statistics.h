@@ -6,6 +6,7 @@
 
 #include "agents/agents.h"
 #include "agents/neighbours.h"
+#include "base/clock.h"
 #include "jostle.h"
 
 enum { JOX_OVERLAP_BINS = 1000 };
@@ -47,6 +48,8 @@ typedef struct JoxBondStatistics {
 typedef struct JoxStatistics {
     uint64_t steps, agent_steps;
     double stage_s[JO_STAGE_COUNT]; /* wall time */
+    double bullet_s;                /* of that, Bullet's own steps */
+    double objects_s;               /* likewise, to tell agents of the bodies near them */
     double wall_s, cpu_s;           /* of stepping; CPU time of the process */
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */
@@ -65,9 +68,6 @@ typedef struct JoxStatistics {
     JoxExchange exchange;
 } JoxStatistics;
 
-/* Wall clock and CPU clock of the process, s. */
-double jox_clock_wall(void);
-double jox_clock_cpu(void);
 /* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */
 void jox_statistics_observe(JoxStatistics *statistics, const JoxAgents *agents,
                             const JoxNeighbours *neighbours, uint64_t tick, double dt);

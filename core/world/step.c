@@ -18,12 +18,14 @@ static const double RESPONSE_TIME = 0.05; /* s: in which 63 % of the way to the 
 static void perceive(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_perceive(&(JoxPerceiveStage){.substep = substep,
                                            .tick = w->state.tick,
+                                           .timed = w->scratch.timed,
                                            .pool = w->scratch.pool,
                                            .bodies = w->state.bodies,
                                            .nav = w->scratch.nav,
                                            .agents = &w->state.agents,
                                            .neighbours = &w->scratch.neighbours,
-                                           .objects = &w->scratch.objects});
+                                           .objects = &w->scratch.objects,
+                                           .statistics = &w->state.statistics});
 }
 
 JoxRouteStage jox_world_route_stage(JoWorld *w) {

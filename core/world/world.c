@@ -46,6 +46,11 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
     world->model.walking = *law;
 }
 
+void jox_world_set_timed(JoWorld *world, bool timed) {
+    world->scratch.timed = timed;
+    jox_bodies_set_timed(world->state.bodies, timed);
+}
+
 static void free_places(JoWorld *world) {
     for (uint32_t i = 0; i < world->model.place_count; i++)
         jox_place_free(&world->model.places[i]);

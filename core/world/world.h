@@ -80,7 +80,7 @@ typedef struct JoxWorldState {
    Between steps some of it says what the last step did. */
 typedef struct JoxWorldScratch {
     JoxPool *pool;
-    bool timed; /* somebody may ask for times: reading clocks costs small worlds much of a step */
+    bool timed; /* somebody may ask for times */
     JoxNeighbours neighbours;
     JoxNav *nav;
     JoxForces *forces;
@@ -112,6 +112,9 @@ struct JoWorld {
 
 /* As jo_world_create, without checking the def. */
 JoWorld *jox_world_create(const JoWorldDef *def);
+/* Whether steps are timed. At first they are not: reading clocks costs small worlds much of a step.
+ */
+void jox_world_set_timed(JoWorld *world, bool timed);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
 int jox_world_tag(JoWorld *world, const char *name);
 /* The constants of the walking law, before the first step; until then they are its defaults. */

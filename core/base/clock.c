@@ -1,0 +1,17 @@
+#include "base/clock.h"
+
+#include <time.h>
+
+static double read_clock(clockid_t clock) {
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+double jox_clock_wall(void) {
+    return read_clock(CLOCK_MONOTONIC);
+}
+
+double jox_clock_cpu(void) {
+    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+}

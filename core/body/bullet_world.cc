@@ -1,0 +1,41 @@
+/* What Bullet's world does differently: the same to the bit of bodies that move. */
+#include "body/bullet.h"
+
+/* Bullet damps and predicts bodies that sleep, too: velocities of 0, and where they lie. */
+void JoxBulletWorld::predictUnconstraintMotion(btScalar dt) {
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
+        btRigidBody *body = m_nonStaticRigidBodies[i];
+        if (!body->isActive())
+            continue;
+        body->applyDamping(dt);
+        body->predictIntegratedTransform(dt, body->getInterpolationWorldTransform());
+    }
+}
+
+/* Whether Bullet may find that a body moves by more than its threshold of continuous collision. */
+static bool is_fast(const btRigidBody *body, btScalar dt) {
+    const btScalar way2 = body->getLinearVelocity().length2() * dt * dt;
+    return body->isActive() && !(way2 < 0.99f * body->getCcdSquareMotionThreshold());
+}
+
+void JoxBulletWorld::createPredictiveContacts(btScalar dt) {
+    releasePredictiveContacts();
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); i++)
+        if (is_fast(m_nonStaticRigidBodies[i], dt))
+            createPredictiveContactsInternal(&m_nonStaticRigidBodies[i], 1, dt);
+}
+
+void JoxBulletWorld::integrateTransforms(btScalar dt) {
+    btTransform to;
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
+        btRigidBody *body = m_nonStaticRigidBodies[i];
+        if (!body->isActive())
+            continue;
+        if (is_fast(body, dt)) {
+            integrateTransformsInternal(&m_nonStaticRigidBodies[i], 1, dt);
+            continue;
+        }
+        body->predictIntegratedTransform(dt, to);
+        body->proceedToTransform(to);
+    }
+}
