@@ -4,7 +4,8 @@
 #include "body/bullet.h"
 
 bool jox_row_fast(const JoxRow *r, float dt) {
-    return !r->held && r->shape.mass > 0 && r->shape.bound <= 0.75f &&
+    const float way2 = r->body->getLinearVelocity().length2() * dt * dt;
+    return way2 > 0.0099f && !r->held && r->shape.mass > 0 && r->shape.bound <= 0.75f &&
            r->body->getLinearVelocity().length() * dt > 0.1f;
 }
 

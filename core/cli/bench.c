@@ -39,12 +39,20 @@ enum { MOST_SETS = 5, MOST_ISAS = 4 };
     X(" ", "scale-100k", ONE_WAY, FIELD("100000", "980"))                                          \
     X(" ", "scale-1m", ONE_WAY, FIELD("1000000", "9800"))
 
+/* Likewise of many worlds, with how many there are and the people of each. */
+#define WORLDS(X)                                                                                  \
+    X(" ", "worlds-of-2", 500, 2)                                                                  \
+    X(" ", "worlds-of-20", 200, 20)
+
 typedef struct Named {
     const char *mark, *name, *path, *sets[MOST_SETS];
+    BenchWorlds worlds; /* without a path */
 } Named;
-#define X(mark, name, path, ...) {mark, name, path, {__VA_ARGS__}},
-static const Named NAMED[] = {NAMES(X)};
+#define X(mark, name, path, ...) {mark, name, path, {__VA_ARGS__}, {0, 0}},
+#define Y(mark, name, count, people) {mark, name, NULL, {NULL}, {count, people}},
+static const Named NAMED[] = {NAMES(X) WORLDS(Y)};
 #undef X
+#undef Y
 enum { NAMED_COUNT = sizeof NAMED / sizeof *NAMED };
 
 typedef struct Bench {
@@ -104,7 +112,7 @@ static double between(const JoStats *from, const JoStats *to, double before, dou
     return steps > 0 ? sum / steps : 0.0;
 }
 
-static void note(BenchCase *c, const JoStats *from, const JoStats *to) {
+void bench_note(BenchCase *c, const JoStats *from, const JoStats *to) {
     const double steps = (double)(to->steps - from->steps);
     const double agent_steps = (double)(to->agent_steps - from->agent_steps);
     const double cpu = to->cpu_s - from->cpu_s, wall = to->wall_s - from->wall_s;
@@ -125,6 +133,10 @@ static void note(BenchCase *c, const JoStats *from, const JoStats *to) {
 
 static int measure(const Bench *bench, const Named *named, BenchCase *c) {
     JoError error = {0};
+    if (named && !named->path) {
+        const int status = bench_worlds(&named->worlds, &bench->given, c, &error);
+        return status == JO_OK ? JO_OK : cli_failed(&cli_bench, &error, false);
+    }
     JoSceneDef def = jo_default_scene_def();
     def.path = named ? named->path : c->name;
     def.threads = bench->given.threads;
@@ -147,7 +159,7 @@ static int measure(const Bench *bench, const Named *named, BenchCase *c) {
     jo_scene_free(scene);
     if (!ok)
         return cli_failed(&cli_bench, &error, false);
-    note(c, &from, &to);
+    bench_note(c, &from, &to);
     return JO_OK;
 }
 
@@ -200,7 +212,8 @@ static void confine(const Bench *bench, const char *const *names, size_t count) 
     CliReach reach = {.programs = bench->plot != NULL}; /* gnuplot draws */
     for (size_t n = 0; n < count; n++) {
         const Named *named = find(names[n]);
-        cli_reach_scene(&reach, named ? named->path : names[n]);
+        if (!named || named->path)
+            cli_reach_scene(&reach, named ? named->path : names[n]);
     }
     cli_reach_output(&reach, bench->csv);
     cli_reach_output(&reach, bench->plot);
@@ -229,15 +242,19 @@ static int run(int argc, char **argv) {
 }
 
 #define X(mark, name, path, ...) "  " mark " " name " (" path ")\n"
+#define Y(mark, name, count, people)                                                               \
+    "  " mark " " name " (" #count " worlds of " #people " people and a ball)\n"
 const CliCommand cli_bench = {
     .name = "bench",
     .what = "time scenes and stages",
     .usage = "[NAME|SCENE...] [--rounds N] [--steps N] [--isa NAMES] [--json]",
-    .about = "Times scenes without drawing or recording, by stage: files, or these by name, of\n"
-             "which some set values:\n" NAMES(X) "Without a name: those marked by a star.",
+    .about =
+        "Times scenes without drawing or recording, by stage: files, or these by name, of\n"
+        "which some set values:\n" NAMES(X) WORLDS(Y) "Without a name: those marked by a star.",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",
     .run = run,
 };
 #undef X
+#undef Y

@@ -30,6 +30,18 @@ typedef struct BenchCase {
     double bodies[BENCH_ROUNDS]; /* likewise, of all that moves bodies and tells agents of them */
 } BenchCase;
 
+/* Takes a round of a case in: what was done between two moments of it. */
+void bench_note(BenchCase *c, const JoStats *from, const JoStats *to);
+
+enum { BENCH_MOST_PEOPLE = 64 };
+/* Worlds of so many people and a ball each. */
+typedef struct BenchWorlds {
+    uint32_t worlds, people;
+} BenchWorlds;
+/* Measures a round of a case: without clocks in the steps what they take, and with them, over as
+   many steps, by stage. Returns an exit status, with `error`. */
+int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, JoError *error);
+
 /* The table: its first lines, and the line of a case. */
 void bench_header(void);
 void bench_line(const BenchCase *c);

@@ -8,6 +8,7 @@
 #include "agents/neighbours.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
+#include "simd/four.h"
 
 enum {
     JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
@@ -93,10 +94,10 @@ typedef struct JoxKeptImpulses {
 /* One direction of a contact of two bodies: what each does along it, and what 1 N s along it, on
    the first, does to each. All 0 of what is not solved for, but for the way in which it turns. */
 typedef struct JoxSupportAxis {
-    JoxV3 along;                /* unit */
-    JoxV3 lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
-    float lightness[2];         /* 1/kg */
-    float mass, impulse;        /* kg; on the first, N s */
+    JoxFour along;                /* unit */
+    JoxFour lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
+    float lightness[2];           /* 1/kg */
+    float mass, impulse;          /* kg; on the first, N s */
 } JoxSupportAxis;
 
 /* A contact of a body with what holds it: solved along the normal and, for friction, across it. */
@@ -108,7 +109,7 @@ typedef struct JoxSupport {
 
 /* Velocity and spin of a body while contacts are solved. */
 typedef struct JoxBodyMotion {
-    JoxV3 velocity, spin;
+    JoxFour velocity, spin;
     JoxV3 given, given_turn; /* by those who touch it, N s and N m s */
     float held;              /* share of that which its supports took */
     bool solved, touched;    /* else it goes on as it moves */

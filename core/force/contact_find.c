@@ -23,16 +23,16 @@ static bool any_is_cut(const JoxNeighbours *near, uint32_t count) {
 
 void jox_contacts_find(JoxForces *f) {
     uint32_t n = f->step.agents->count;
-    jox_chunks_begin(&f->found, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_NEIGHBOURS,
+    jox_chunks_begin(&f->found, f->chunks, jox_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
                      sizeof(JoxFoundPair));
-    jox_chunks_begin(&f->found_walls, f->chunks, JOX_FORCE_GRAIN * JOX_CONTACT_MOST_WALLS,
+    jox_chunks_begin(&f->found_walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
                      sizeof(JoxFoundWall));
     JOX_RESERVE(f->found_first, f->found_first_capacity, n);
     JOX_RESERVE(f->found_number, f->found_number_capacity, n);
     JOX_RESERVE(f->wall_first, f->wall_first_capacity, n);
     JOX_RESERVE(f->wall_number, f->wall_number_capacity, n);
     if (f->bodies) {
-        jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_BODIES_TOUCHED,
+        jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
                          sizeof(JoxTouch));
         JOX_RESERVE(f->touch_first, f->touch_first_capacity, n);
         JOX_RESERVE(f->touch_number, f->touch_number_capacity, n);

@@ -197,6 +197,11 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
 /* Least normal velocity after a contact, m/s: the gap (m) may close within the step, no more, and
    what meets within it bounces. `speed`: normal velocity before. */
 float jox_contact_target(float gap, float speed, float restitution, float dt);
+/* Agents of the chunk that has most of them. */
+static inline uint32_t jox_chunk_agents(const JoxForces *f) {
+    const uint32_t count = f->step.agents->count;
+    return count < JOX_FORCE_GRAIN ? count : JOX_FORCE_GRAIN;
+}
 /* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre,
    which in a short step would be a part of the force that presses people on them. */
 #define JOX_BODY_SLACK 1e-3f

@@ -173,9 +173,9 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
 void jox_force_push(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     float dt = (float)f->step.dt;
-    uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
+    uint32_t room = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
     jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
-    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_BODIES_TOUCHED,
+    jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
                      sizeof(JoxTouch));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
     int64_t ground_x = 0, ground_y = 0;

@@ -19,6 +19,14 @@ static JoxV3 plus(JoxV3 a, JoxV3 b, float times) {
     return (JoxV3){a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
 }
 
+static JoxFour four(JoxV3 v) {
+    return (JoxFour){v.x, v.y, v.z, 0.0f};
+}
+
+static JoxV3 three(JoxFour v) {
+    return (JoxV3){v[0], v[1], v[2]};
+}
+
 static JoxV3 arm_of(const JoxObject *body, JoxV3 point) {
     return plus(point, body->position, -1.0f);
 }
@@ -27,7 +35,8 @@ JoxV3 jox_body_velocity(const JoxForces *f, uint32_t row, JoxV3 point) {
     if (row == JOX_NO_OBJECT)
         return (JoxV3){0.0f, 0.0f, 0.0f};
     const JoxBodyMotion *m = &f->motions[row];
-    return plus(m->velocity, jox_cross3(m->spin, arm_of(&f->step.objects->rows[row], point)), 1.0f);
+    JoxV3 turning = jox_cross3(three(m->spin), arm_of(&f->step.objects->rows[row], point));
+    return plus(three(m->velocity), turning, 1.0f);
 }
 
 void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
@@ -36,8 +45,8 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     const JoxObject *body = &f->step.objects->rows[row];
     JoxBodyMotion *m = &f->motions[row];
     JoxV3 turn = jox_cross3(arm_of(body, point), impulse);
-    m->velocity = plus(m->velocity, impulse, body->inverse_mass);
-    m->spin = plus(m->spin, jox_turn3(body->inverse_inertia, turn), 1.0f);
+    m->velocity += four(impulse) * body->inverse_mass;
+    m->spin += four(jox_turn3(body->inverse_inertia, turn));
 }
 
 /* All bodies as they are, and behind them what is static, at rest; those that are touched, and what
@@ -47,8 +56,8 @@ static void reset_motions(JoxForces *f) {
     JOX_RESERVE(f->motions, f->motion_capacity, objects->count + 1);
     f->motions[objects->count] = (JoxBodyMotion){0};
     for (uint32_t row = 0; row < objects->count; row++)
-        f->motions[row] = (JoxBodyMotion){.velocity = objects->rows[row].velocity,
-                                          .spin = objects->rows[row].spin};
+        f->motions[row] = (JoxBodyMotion){.velocity = four(objects->rows[row].velocity),
+                                          .spin = four(objects->rows[row].spin)};
     for (uint32_t k = 0; k < f->touch_count; k++)
         f->motions[f->touch[k].object].solved = f->motions[f->touch[k].object].touched = true;
 }
@@ -88,18 +97,20 @@ static void square_to(JoxV3 n, JoxV3 across[2]) {
 /* An axis of the contact of the bodies of two rows. */
 static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 point,
                               JoxV3 along) {
-    JoxSupportAxis axis = {.along = along};
+    JoxSupportAxis axis = {.along = four(along)};
     float gain = 0.0f; /* of velocity by 1 N s */
     for (int side = 0; side < 2; side++) {
         if (rows[side] == f->step.objects->count)
             continue;
         const JoxObject *body = &f->step.objects->rows[rows[side]];
-        axis.lever[side] = jox_cross3(arm_of(body, point), along);
+        JoxV3 lever = jox_cross3(arm_of(body, point), along);
+        axis.lever[side] = four(lever);
         if (!f->motions[rows[side]].solved)
             continue;
-        axis.turning[side] = jox_turn3(body->inverse_inertia, axis.lever[side]);
+        JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
+        axis.turning[side] = four(turning);
         axis.lightness[side] = body->inverse_mass;
-        gain += body->inverse_mass + jox_dot3(axis.lever[side], axis.turning[side]);
+        gain += body->inverse_mass + jox_dot3(lever, turning);
     }
     axis.mass = 1.0f / gain;
     return axis;
@@ -109,17 +120,17 @@ static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 
 static inline float speed_along(const JoxForces *f, const JoxSupport *s,
                                 const JoxSupportAxis *axis) {
     const JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
-    return jox_dot3(axis->along, plus(first->velocity, second->velocity, -1.0f)) +
-           jox_dot3(axis->lever[0], first->spin) - jox_dot3(axis->lever[1], second->spin);
+    return jox_dot_four(axis->along, first->velocity - second->velocity) +
+           jox_dot_four(axis->lever[0], first->spin) - jox_dot_four(axis->lever[1], second->spin);
 }
 
 static inline void give(JoxForces *f, const JoxSupport *s, const JoxSupportAxis *axis,
                         float impulse) {
     JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
-    first->velocity = plus(first->velocity, axis->along, axis->lightness[0] * impulse);
-    first->spin = plus(first->spin, axis->turning[0], impulse);
-    second->velocity = plus(second->velocity, axis->along, -(axis->lightness[1] * impulse));
-    second->spin = plus(second->spin, axis->turning[1], -impulse);
+    first->velocity += axis->along * (axis->lightness[0] * impulse);
+    first->spin += axis->turning[0] * impulse;
+    second->velocity -= axis->along * (axis->lightness[1] * impulse);
+    second->spin -= axis->turning[1] * impulse;
 }
 
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
@@ -144,7 +155,7 @@ void jox_supports_begin(JoxForces *f) {
     reach_bodies(f);
     for (uint32_t row = 0; row < objects->count; row++)
         if (f->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
-            f->motions[row].velocity.z -= objects->gravity * (float)f->step.dt;
+            f->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
     f->support_count = 0;
     JOX_RESERVE(f->support, f->support_capacity, objects->contact_count);
     for (uint32_t k = 0; k < objects->contact_count; k++) {
@@ -200,8 +211,8 @@ static float held_share(const JoxForces *f, uint32_t row) {
     JoxV3 turned = jox_turn3(body->inverse_inertia, m->given_turn);
     float free =
         jox_dot3(m->given, m->given) * body->inverse_mass + jox_dot3(m->given_turn, turned);
-    float done = jox_dot3(m->given, plus(m->velocity, body->velocity, -1.0f)) +
-                 jox_dot3(m->given_turn, plus(m->spin, body->spin, -1.0f));
+    float done = jox_dot3(m->given, plus(three(m->velocity), body->velocity, -1.0f)) +
+                 jox_dot3(m->given_turn, plus(three(m->spin), body->spin, -1.0f));
     return free > 0.0f ? 1.0f - jox_clampf(done / free, 0.0f, 1.0f) : 0.0f;
 }
 

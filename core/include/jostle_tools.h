@@ -133,6 +133,10 @@ JO_API bool jo_render(const JoRenderDef *def, JoError *error);
 /* Whether this build makes images and videos; else SVG alone. */
 JO_API bool jo_render_has_images(void);
 
+/* Whether steps of the world are timed; at first they are not. What they were up to now. */
+JO_API void jo_world_set_timed(JoWorld *world, bool timed);
+JO_API JoStats jo_world_stats(const JoWorld *world);
+
 /* What a step of a scene costs: what jo_plot_times draws. */
 typedef struct JoTiming {
     const char *scene, *isa; /* names */

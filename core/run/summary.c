@@ -8,6 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "run/run.h"
 #include "simd/isa.h"
@@ -16,23 +17,7 @@ static const double PI = 3.14159265358979323846;
 
 JoStats jo_scene_stats(const JoScene *scene) {
     JOX_REQUIRE(scene, (JoStats){0});
-    const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->state.statistics;
-    JoStats stats = {.steps = s->steps,
-                     .agent_steps = s->agent_steps,
-                     .agents = world->state.agents.count,
-                     .bodies = jox_bodies_count(world->state.bodies),
-                     .dt = world->model.def.dt,
-                     .simulated_s = (double)s->steps * world->model.def.dt,
-                     .wall_s = s->wall_s,
-                     .cpu_s = s->cpu_s};
-    for (int k = 0; k < JO_STAGE_COUNT && s->agent_steps; k++)
-        stats.stage_ns[k] = s->stage_s[k] * 1e9 / (double)s->agent_steps;
-    if (s->agent_steps) {
-        stats.bullet_ns = s->bullet_s * 1e9 / (double)s->agent_steps;
-        stats.objects_ns = s->objects_s * 1e9 / (double)s->agent_steps;
-    }
-    return stats;
+    return jo_world_stats(scene->world);
 }
 
 static void add_states(JoxJson *json, const JoWorld *world) {

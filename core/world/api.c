@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "geom/polygon.h"
+#include "jostle_tools.h"
 #include "simd/isa.h"
 #include "world/world.h"
 
@@ -336,6 +337,30 @@ const char *jo_stage_name(int stage) {
     static const char *const NAMES[JO_STAGE_COUNT] = {
         "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe"};
     return stage >= 0 && stage < JO_STAGE_COUNT ? NAMES[stage] : "";
+}
+
+void jo_world_set_timed(JoWorld *world, bool timed) {
+    JOX_REQUIRE(world, );
+    jox_world_set_timed(world, timed);
+}
+
+JoStats jo_world_stats(const JoWorld *world) {
+    JOX_REQUIRE(world, (JoStats){0});
+    const JoxStatistics *s = &world->state.statistics;
+    const double each = s->agent_steps ? 1e9 / (double)s->agent_steps : 0.0;
+    JoStats stats = {.steps = s->steps,
+                     .agent_steps = s->agent_steps,
+                     .agents = world->state.agents.count,
+                     .bodies = jox_bodies_count(world->state.bodies),
+                     .dt = world->model.def.dt,
+                     .simulated_s = (double)s->steps * world->model.def.dt,
+                     .wall_s = s->wall_s,
+                     .cpu_s = s->cpu_s,
+                     .bullet_ns = s->bullet_s * each,
+                     .objects_ns = s->objects_s * each};
+    for (int k = 0; k < JO_STAGE_COUNT; k++)
+        stats.stage_ns[k] = s->stage_s[k] * each;
+    return stats;
 }
 
 void jo_world_step(JoWorld *world, uint32_t steps) {

@@ -64,6 +64,8 @@ expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml -
 [ "$(grep -c '^cpu,commit,' "$work/bench.csv")" = 1 ] && [ "$(wc -l <"$work/bench.csv")" = 4 ] &&
     [ "$(grep -c ',"a ""b"", c",.*,scenes/circle.yaml,1000,' "$work/bench.csv")" = 1 ]; verdict "bench: lines are appended to a table" $?
 grep -q '</svg>' "$work/plot/bench.svg" && grep -q 'scenes/circle.yaml' "$work/plot/bench.svg"; verdict "bench: a picture" $?
+"$JOSTLE" bench worlds-of-2 scenes/catch.yaml --steps 3 --warm-up 0 --json >"$work/bench.json" 2>/dev/null
+[ "$(grep -c '"bullet_ns": [1-9]' "$work/bench.json")" = 2 ] && [ "$(grep -c '"bodies_in_bullets": [1-9]' "$work/bench.json")" = 2 ]; verdict "bench: small worlds, and Bullet's own share" $?
 expect "bench: a table that cannot be written" 1 "cannot write" "$JOSTLE" bench scale-1k --steps 1 --warm-up 0 --csv "$work"
 expect "bench: no such set" 2 "scalar" "$JOSTLE" bench circle --isa scalar,none
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
