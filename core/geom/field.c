@@ -120,14 +120,6 @@ static void corners(const JoxField *f, const GridPoint *s, const JoxFieldCell **
     JOX_ASSERT(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f);
 }
 
-void jox_field_prefetch(const JoxField *f, JoxV2 p) {
-    const GridPoint s = find(f, p);
-    const int above = s.y - (float)s.row >= 0.5f; /* the other row of the four centres */
-    const int row = above ? s.row + (s.row + 1 < f->rows) : s.row - (s.row > 0);
-    __builtin_prefetch(s.cell);
-    __builtin_prefetch(&f->cells[row * f->columns + s.column]);
-}
-
 static int nearest_sample(const JoxField *f, const GridPoint *s, JoxV2 *sample) {
     int x = (int)((s->x - (float)s->column) * (float)JOX_FIELD_SIDE);
     int y = (int)((s->y - (float)s->row) * (float)JOX_FIELD_SIDE);

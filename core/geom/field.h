@@ -6,6 +6,7 @@
 #include "base/sections.h"
 #include "geom/place.h"
 #include "geom/walls.h"
+#include "simd/isa.h"
 
 typedef struct JoxField JoxField;
 typedef struct JoxFieldMarks JoxFieldMarks;
@@ -38,8 +39,19 @@ float jox_field_distance(const JoxField *field, JoxV2 point);
    wall than the clearance it also leads off the wall; inside a solid it leads out. (0, 0) at the
    goal and where no way leads. */
 JoxV2 jox_field_direction(const JoxField *field, JoxV2 point);
-/* Has the memory fetched that a look-up at a point will read. Changes nothing. */
-void jox_field_prefetch(const JoxField *field, JoxV2 point);
+/* Points to be looked up at once, at most JOX_FIELD_POINTS; behind `count`, up to a whole packet of
+   lanes, any numbers stand. */
+enum { JOX_FIELD_POINTS = 256 };
+typedef struct JoxFieldPoints {
+    uint32_t count;
+    float x[JOX_FIELD_POINTS], y[JOX_FIELD_POINTS]; /* m */
+    float way_x[JOX_FIELD_POINTS], way_y[JOX_FIELD_POINTS], length[JOX_FIELD_POINTS];
+} JoxFieldPoints;
+/* The kernel: jox_field_direction and jox_field_distance, to the bit, of all points. */
+typedef void JoxFieldKernel(const JoxField *field, JoxFieldPoints *points);
+#define X(name, isa) JoxFieldKernel jox_field_look_##name;
+JOX_ISAS(X)
+#undef X
 /* Lists a field as it was made; restoring, makes one in place of *field. */
 void jox_field_sections(JoxField **field, JoxSections *sections);
 uint32_t jox_field_cells(const JoxField *field);

@@ -81,13 +81,12 @@ float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t inde
 float jox_headway(const JoxMachineRun *run, uint32_t agent);
 
 /* What one term of a state asks of an agent, as a share of the wanted speed: of length 1 at most,
-   drift and player aside. Not of those that have a kernel, and not evade. */
+   drift and player aside. Not of those that are done for a batch at once, and not evade. */
 JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t agent, const JoxSteerTerm *term);
 /* Past those who come towards where the other terms lead. */
 JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t agent, JoxV2 ahead);
-/* Asks memory for the ways that the agent will read, as far as one can tell from where it was bound
-   for last: fields are large and are looked up here and there. */
-void jox_steer_fetch_ways(const JoxMachineRun *run, uint32_t agent);
+/* Towards a target, straight; slower where it is about to arrive at a point. */
+JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t agent, int32_t target);
 
 /* Runs an expression over `count` agents of one machine; results in registers[0]. */
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,

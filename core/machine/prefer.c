@@ -6,8 +6,6 @@
 #include "base/assert.h"
 #include "machine/kernels.h"
 
-enum { FETCH_AHEAD = 8 }; /* agents: memory answers while so many are done */
-
 #define X(name, isa)                                                                               \
     [isa] = {jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,                \
              jox_steer_face_##name},
@@ -72,11 +70,13 @@ static void ask(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
         orbit(p, term, s);
         return;
     }
+    if (term->kind == JOX_STEER_FIELD) {
+        jox_steer_field(p->run, term, s);
+        return;
+    }
     for (uint32_t n = 0; n < s->count; n++) {
         const uint32_t i = s->index[n];
         JoxV2 way = {0.0f, 0.0f};
-        if (term->kind == JOX_STEER_FIELD && n + FETCH_AHEAD < s->count)
-            jox_steer_fetch_ways(p->run, s->index[n + FETCH_AHEAD]);
         if (jox_weight_counts(s->by[n]))
             way = term->kind == JOX_STEER_EVADE
                       ? jox_steer_evade(p->run, i, jox_unit(jox_v2(s->ahead_x[n], s->ahead_y[n])))

@@ -27,7 +27,7 @@ static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     return jox_add(place->points[0], jox_scale(jox_sub(place->points[1], place->points[0]), t));
 }
 
-static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
+JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxAgents *a = run->agents;
     JoxV2 from = {a->x[i], a->y[i]};
     const int32_t index = jox_target_place(run, i, target);
@@ -53,7 +53,7 @@ static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     int32_t index = jox_target_place(run, i, term->target);
     uint32_t rank = run->scratch->rank[i];
     if (index < 0 || rank == UINT32_MAX || run->places[index].kind != JOX_PLACE_QUEUE)
-        return seek(run, i, term->target);
+        return jox_steer_seek(run, i, term->target);
     const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
     return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
@@ -110,86 +110,6 @@ JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
 }
 
-/* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
-   asked for again and again, as only ways that are wanted are renewed. */
-static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, JoxV2 p, bool *none) {
-    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
-    uint8_t bit = (uint8_t)(1 << kind);
-    /* Whichever thread comes first: the result is the same. */
-    if (!(__atomic_load_n(&run->wanted[place], __ATOMIC_RELAXED) & bit))
-        __atomic_fetch_or(&run->wanted[place], bit, __ATOMIC_RELAXED);
-    JoxV2 direction = field ? jox_field_direction(field, p) : (JoxV2){0.0f, 0.0f};
-    *none = field && jox_length2(direction) == 0.0f && !(jox_field_distance(field, p) < INFINITY);
-    return direction;
-}
-
-/* Who walks by the law goes before those who have more way left to the same place. */
-static void bind(const JoxMachineRun *run, uint32_t i, uint32_t place, JoxRouteKind kind, JoxV2 p) {
-    JoxAgents *a = run->agents;
-    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
-    if (!jox_walks(a, i) || !field)
-        return;
-    a->bound[i] = (int32_t)place;
-    a->way[i] = jox_field_distance(field, p);
-}
-
-/* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
-static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    int32_t place = jox_target_place(run, i, term->target);
-    bool none;
-    if (place < 0)
-        return (JoxV2){0.0f, 0.0f};
-    JoxV2 p = {a->x[i], a->y[i]};
-    if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
-        return seek(run, i, term->target);
-    JoxRouteKind kind = JOX_ROUTE_NOW;
-    JoxV2 direction = way(run, (uint32_t)place, kind, p, &none);
-    if (none)
-        direction = way(run, (uint32_t)place, kind = JOX_ROUTE_OPEN, p, &none);
-    else if (jox_walks(a, i)) {
-        bool ignored;
-        JoxV2 round = way(run, (uint32_t)place, JOX_ROUTE_CROWD, p, &ignored);
-        if (jox_length2(round) > 0.0f)
-            direction = round;
-    }
-    bind(run, i, (uint32_t)place, kind, p);
-    return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
-}
-
-void jox_machines_ask_routes(JoxMachineRun *run) {
-    const JoxAgents *a = run->agents;
-    for (uint32_t i = 0; i < a->count; i++) {
-        if (a->machine[i] == JOX_NO_MACHINE)
-            continue;
-        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
-        for (uint32_t t = 0; t < state->steer_count; t++)
-            if (state->steer[t].kind == JOX_STEER_FIELD)
-                field(run, i, &state->steer[t]);
-    }
-}
-
-int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
-    const JoxAgents *a = run->agents;
-    if (!run->fields || a->machine[i] == JOX_NO_MACHINE)
-        return -1;
-    const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
-    const JoxV2 p = {a->x[i], a->y[i]};
-    for (uint32_t t = 0; t < state->steer_count; t++) {
-        if (state->steer[t].kind != JOX_STEER_FIELD)
-            continue;
-        const int32_t place = jox_target_place(run, i, state->steer[t].target);
-        if (place < 0 || jox_place_contains(run->places, (uint32_t)place, p))
-            continue;
-        JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
-        const JoxField *now = ways[JOX_ROUTE_NOW], *open = ways[JOX_ROUTE_OPEN];
-        if (now && !(jox_field_distance(now, p) < INFINITY) &&
-            !(open && jox_field_distance(open, p) < INFINITY))
-            return place;
-    }
-    return -1;
-}
-
 static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
@@ -231,7 +151,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
     const JoxAgents *a = run->agents;
     switch (term->kind) {
     case JOX_STEER_SEEK:
-        return seek(run, i, term->target);
+        return jox_steer_seek(run, i, term->target);
     case JOX_STEER_AWAY_FROM: {
         JoxSpot spot = jox_target_find(run, i, term->target);
         return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
@@ -247,29 +167,16 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return spread(run, i);
     case JOX_STEER_ALONG:
         return along(run, i, term);
-    case JOX_STEER_FIELD:
-        return field(run, i, term);
     case JOX_STEER_TOGETHER:
         return together(run, i, term);
     case JOX_STEER_PLAYER:
         return player(run, i);
     case JOX_STEER_HOLD:
     case JOX_STEER_ORBIT: /* a kernel's */
+    case JOX_STEER_FIELD: /* of a batch: steer_field.c */
     case JOX_STEER_EVADE: /* by the sum of the others */
     case JOX_STEER_FUNCTION:
         break;
     }
     return (JoxV2){0.0f, 0.0f};
-}
-
-void jox_steer_fetch_ways(const JoxMachineRun *run, uint32_t i) {
-    const JoxAgents *a = run->agents;
-    const JoxV2 p = {a->x[i], a->y[i]};
-    if (!run->fields || a->bound[i] < 0 || (uint32_t)a->bound[i] >= run->place_count)
-        return;
-    for (int kind = 0; kind < JOX_ROUTE_KINDS; kind++) {
-        const JoxField *field = run->fields[a->bound[i] * JOX_ROUTE_KINDS + kind];
-        if (field && kind != JOX_ROUTE_OPEN)
-            jox_field_prefetch(field, p);
-    }
 }

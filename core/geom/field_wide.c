@@ -1,0 +1,211 @@
+/* The kernel of fields: looks up the ways from many points. A lane is a point. Points outside the
+   box, and those in a ninth of a cell that an edge of a wall passes, are left to field.c. */
+#include <math.h>
+
+#include "geom/field_parts.h"
+#include "simd/vectors.h"
+
+enum {
+    PATCH_Y = offsetof(JoxFieldPatch, y) / sizeof(float),
+    PATCH_LENGTH = offsetof(JoxFieldPatch, length) / sizeof(float),
+    PATCH_CUT = offsetof(JoxFieldPatch, cut) / sizeof(float)
+};
+_Static_assert(sizeof(JoxFieldCell) == 4 * sizeof(float) &&
+                   offsetof(JoxFieldCell, patch) == 3 * sizeof(float),
+               "a cell is a record of lanes");
+_Static_assert(sizeof(JoxFieldPatch) == 30 * sizeof(float), "as first_of counts");
+_Static_assert(offsetof(JoxFieldPatch, cut) % sizeof(float) == 0 &&
+                   offsetof(JoxFieldPatch, on_edge) == offsetof(JoxFieldPatch, cut) + 2,
+               "`cut` is the lower half of a word");
+
+/* Where points lie in the grid, in cells. */
+typedef struct Spot {
+    JoxVector at, in_cells;
+    JoxInts column, row, cell;
+} Spot;
+
+/* A way: its direction, and its length, m. */
+typedef struct Way {
+    JoxVector direction;
+    JoxFloats length;
+} Way;
+
+static inline JoxFloats cell_at(const JoxField *f, JoxInts row, JoxFloats column) {
+    /* There are less cells than whole numbers that a float holds. */
+    return jf_add(jf_mul(ji_to_floats(row), jf_set((float)f->columns)), column);
+}
+
+static inline JoxInts whole_most(JoxFloats x, int most) {
+    JoxInts whole = jf_to_ints(x);
+    return ji_select(ji_less(whole, ji_set(most)), whole, ji_set(most));
+}
+
+/* `find` of field.c; the lanes outside the box are in no cell. */
+static inline JoxMask find(const JoxField *f, JoxVector p, Spot *s) {
+    const JoxFloats zero = jf_set(0.0f), size = jf_set(f->size);
+    s->at = p;
+    s->in_cells = (JoxVector){jf_div(jf_sub(p.x, jf_set(f->low.x)), size),
+                              jf_div(jf_sub(p.y, jf_set(f->low.y)), size)};
+    JoxMask within = jm_and(jf_le(zero, s->in_cells.x), jf_le(zero, s->in_cells.y));
+    within = jm_and(within, jm_and(jf_le(s->in_cells.x, jf_set((float)f->columns)),
+                                   jf_le(s->in_cells.y, jf_set((float)f->rows))));
+    s->in_cells = jv_select(within, s->in_cells, (JoxVector){zero, zero});
+    s->column = whole_most(s->in_cells.x, f->columns - 1);
+    s->row = whole_most(s->in_cells.y, f->rows - 1);
+    s->cell = jf_to_ints(cell_at(f, s->row, ji_to_floats(s->column)));
+    return within;
+}
+
+static inline JoxVector unit(JoxVector a) {
+    const JoxFloats zero = jf_set(0.0f), length = jf_sqrt(jv_dot(a, a));
+    return jv_select(jf_lt(zero, length), jv_scale(a, jf_div(jf_set(1.0f), length)),
+                     (JoxVector){zero, zero});
+}
+
+/* ---- between four centres ---- */
+
+typedef struct Corners {
+    JoxInts cell[4], column[2], row[2]; /* of the western and eastern, southern and northern */
+    JoxFloats weight[4];
+} Corners;
+
+static inline Corners corners_of(const JoxField *f, const Spot *s) {
+    const JoxFloats zero = jf_set(0.0f), half = jf_set(0.5f), one = jf_set(1.0f);
+    const JoxFloats x =
+        jf_min(jf_max(jf_sub(s->in_cells.x, half), zero), jf_set((float)(f->columns - 1)));
+    const JoxFloats y =
+        jf_min(jf_max(jf_sub(s->in_cells.y, half), zero), jf_set((float)(f->rows - 1)));
+    Corners c = {.column = {jf_to_ints(x)}, .row = {jf_to_ints(y)}};
+    const JoxInts last_column = ji_set(f->columns - 1), last_row = ji_set(f->rows - 1);
+    c.column[1] =
+        ji_select(ji_less(c.column[0], last_column), ji_add(c.column[0], ji_set(1)), c.column[0]);
+    c.row[1] = ji_select(ji_less(c.row[0], last_row), ji_add(c.row[0], ji_set(1)), c.row[0]);
+    for (int k = 0; k < 4; k++)
+        c.cell[k] = jf_to_ints(cell_at(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
+    const JoxFloats u = jf_sub(x, ji_to_floats(c.column[0]));
+    const JoxFloats v = jf_sub(y, ji_to_floats(c.row[0]));
+    const JoxFloats rest_u = jf_sub(one, u), rest_v = jf_sub(one, v);
+    c.weight[0] = jf_mul(rest_u, rest_v);
+    c.weight[1] = jf_mul(u, rest_v);
+    c.weight[2] = jf_mul(rest_u, v);
+    c.weight[3] = jf_mul(u, v);
+    return c;
+}
+
+/* The middle of cells along one axis, m. */
+static inline JoxFloats middle(JoxInts number, float low, float size) {
+    const JoxFloats cells = jf_add(ji_to_floats(number), jf_set(0.5f));
+    return jf_add(jf_set(low), jf_mul(cells, jf_set(size)));
+}
+
+/* As jox_field_direction and jox_field_distance blend. `here`: the cell of each point. */
+static inline Way blend(const JoxField *f, const Spot *s, const Way *here) {
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), size = jf_set(f->size);
+    const JoxFloats infinite = jf_set(INFINITY), close = jf_set(JOX_FIELD_CLOSE * f->size);
+    const Corners c = corners_of(f, s);
+    JoxVector sum = {zero, zero};
+    JoxFloats length = zero;
+    JoxMask at_goal = jm_of_bits(~0u), reached = at_goal;
+    for (int k = 0; k < 4; k++) {
+        JoxFloats cell[4];
+        jf_records(&f->cells[0].length, c.cell[k], cell);
+        const JoxVector way = {cell[1], cell[2]};
+        const JoxVector off = {jf_sub(s->at.x, middle(c.column[k & 1], f->low.x, f->size)),
+                               jf_sub(s->at.y, middle(c.row[k >> 1], f->low.y, f->size))};
+        const JoxFloats slope = jf_mul(jf_set(0.5f), jv_dot(unit(way), off));
+        length = jf_add(length, jf_mul(c.weight[k], jf_sub(cell[0], slope)));
+        sum = jv_add(sum, (JoxVector){jf_mul(c.weight[k], way.x), jf_mul(c.weight[k], way.y)});
+        reached = jm_and(reached, jf_lt(cell[0], infinite));
+        at_goal = jm_and(at_goal, jf_lt(cell[0], close));
+    }
+    const JoxFloats length2 = jv_dot(sum, sum), along = jf_sqrt(length2);
+    const JoxMask leads = jf_lt(jf_set(JOX_FIELD_ARRIVED * JOX_FIELD_ARRIVED), length2);
+    JoxVector way = jv_scale(sum, jf_div(one, along));
+    const JoxVector else_way =
+        jv_select(jf_lt(here->length, size), (JoxVector){zero, zero}, here->direction);
+    way = jv_select(leads, way, else_way);
+    length = jf_max(zero, jf_select(at_goal, jf_mul(along, close), length));
+    return (Way){way, jf_select(reached, length, infinite)};
+}
+
+/* ---- at walls ---- */
+
+/* Where a patch begins, in floats: 30 each. */
+static inline JoxInts first_of(JoxInts patch) {
+    return ji_sub(ji_shift_left(patch, 5), ji_shift_left(patch, 1));
+}
+
+/* The samples of the ninths in which the points lie; in `passed` the lanes whose ninth an edge
+   passes, or that are no cell's at a wall. `near`: the lanes at walls; `patch`: of each. */
+static inline Way at_walls(const JoxField *f, const Spot *s, JoxMask near, JoxInts patch,
+                           JoxMask *passed) {
+    const JoxFloats side = jf_set((float)JOX_FIELD_SIDE), half = jf_set(0.5f);
+    const JoxFloats column = ji_to_floats(s->column), row = ji_to_floats(s->row);
+    const JoxInts x = whole_most(jf_mul(jf_sub(s->in_cells.x, column), side), JOX_FIELD_SIDE - 1);
+    const JoxInts y = whole_most(jf_mul(jf_sub(s->in_cells.y, row), side), JOX_FIELD_SIDE - 1);
+    const JoxInts sample = ji_add(x, ji_add(y, ji_add(y, y)));
+    const JoxInts first = first_of(ji_select(near, patch, ji_set(0)));
+    const JoxInts at = ji_add(first, sample);
+    const float *table = f->patches[0].x;
+    uint32_t words[JOX_WIDTH], samples[JOX_WIDTH], cut = 0;
+    ji_store(words, ji_pick((const uint32_t *)(const void *)(table + PATCH_CUT), first));
+    ji_store(samples, sample);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        cut |= (words[lane] >> samples[lane] & 1) << lane;
+    *passed = jm_and(near, jm_of_bits(cut));
+    const JoxVector way = {jf_pick(table, at), jf_pick(table + PATCH_Y, at)};
+    const JoxFloats length = jf_pick(table + PATCH_LENGTH, at);
+    const JoxVector in_cells = {jf_add(column, jf_div(jf_add(ji_to_floats(x), half), side)),
+                                jf_add(row, jf_div(jf_add(ji_to_floats(y), half), side))};
+    const JoxVector from = {jf_add(jf_set(f->low.x), jf_mul(in_cells.x, jf_set(f->size))),
+                            jf_add(jf_set(f->low.y), jf_mul(in_cells.y, jf_set(f->size)))};
+    const JoxFloats on = jf_sub(length, jv_dot(way, jv_sub(s->at, from)));
+    const JoxFloats infinite = jf_set(INFINITY);
+    return (Way){way, jf_select(jf_lt(length, infinite), jf_max(jf_set(0.0f), on), infinite)};
+}
+
+/* ---- all ---- */
+
+static inline JoxMask look(const JoxField *f, JoxVector p, Way *way) {
+    Spot s;
+    JoxFloats cell[4];
+    JoxMask done = find(f, p, &s);
+    jf_records(&f->cells[0].length, s.cell, cell);
+    const Way here = {{cell[1], cell[2]}, cell[0]};
+    const JoxInts patch = jf_bits(cell[3]);
+    *way = here;
+    const JoxMask clear = ji_equal(patch, ji_set(JOX_FIELD_CLEAR));
+    if (jm_bits(clear)) {
+        const Way between = blend(f, &s, &here);
+        way->direction = jv_select(clear, between.direction, way->direction);
+        way->length = jf_select(clear, between.length, way->length);
+    }
+    const JoxMask near = ji_less(ji_set(-1), patch);
+    if (jm_bits(near)) {
+        JoxMask passed;
+        const Way sampled = at_walls(f, &s, near, patch, &passed);
+        way->direction = jv_select(near, sampled.direction, way->direction);
+        way->length = jf_select(near, sampled.length, way->length);
+        done = jm_without(done, passed);
+    }
+    return done;
+}
+
+void JOX_WIDE(jox_field_look)(const JoxField *f, JoxFieldPoints *points) {
+    for (uint32_t n = 0; n < points->count; n += JOX_WIDTH) {
+        Way way;
+        const uint32_t left = points->count - n;
+        const uint32_t asked =
+            left < JOX_WIDTH ? (1u << left) - 1 : (1u << (JOX_WIDTH - 1) << 1) - 1;
+        const uint32_t done = jm_bits(look(f, jv_load(points->x, points->y, n), &way));
+        jv_store(points->way_x, points->way_y, n, way.direction);
+        jf_store(points->length + n, way.length);
+        for (uint32_t lanes = asked & ~done; lanes; lanes &= lanes - 1) {
+            const uint32_t k = n + (uint32_t)__builtin_ctz(lanes);
+            const JoxV2 p = {points->x[k], points->y[k]}, direction = jox_field_direction(f, p);
+            points->way_x[k] = direction.x;
+            points->way_y[k] = direction.y;
+            points->length[k] = jox_field_distance(f, p);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+/* The word of steering `field`: ways round walls and large bodies, of a batch at once. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "machine/kernels.h"
+
+#define X(name, isa) [isa] = jox_field_look_##name,
+static JoxFieldKernel *const LOOK[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+/* Those of a batch who ask their way to one place. */
+typedef struct Asking {
+    const JoxMachineRun *run;
+    const JoxSteerTerm *term;
+    JoxSteer *s;
+    uint32_t place;
+    uint8_t number[JOX_BATCH]; /* in the batch */
+    JoxFieldPoints now, other; /* by routes of the kind NOW; by others */
+} Asking;
+_Static_assert(JOX_BATCH - 1 <= UINT8_MAX && JOX_BATCH <= (int)JOX_FIELD_POINTS,
+               "room for a batch");
+
+/* What is asked for is kept, and renewed. Whichever thread comes first: the result is the same. */
+static const JoxField *field_of(const Asking *q, JoxRouteKind kind) {
+    const JoxMachineRun *run = q->run;
+    const uint8_t bit = (uint8_t)(1 << kind);
+    if (!(__atomic_load_n(&run->wanted[q->place], __ATOMIC_RELAXED) & bit))
+        __atomic_fetch_or(&run->wanted[q->place], bit, __ATOMIC_RELAXED);
+    return run->fields[q->place * JOX_ROUTE_KINDS + kind];
+}
+
+/* Who walks by the law goes before those who have more way left to the same place. */
+static void bind(const Asking *q, uint32_t k, const JoxField *field, float way) {
+    JoxAgents *a = q->run->agents;
+    const uint32_t i = q->s->index[q->number[k]];
+    if (!jox_walks(a, i) || !field)
+        return;
+    a->bound[i] = (int32_t)q->place;
+    a->way[i] = way;
+}
+
+/* Straight on where no way is known yet, or none leads there. */
+static void set(const Asking *q, uint32_t k, JoxV2 direction) {
+    JoxSteer *s = q->s;
+    const uint32_t n = q->number[k];
+    if (!(jox_length2(direction) > 0.0f))
+        direction = jox_steer_seek(q->run, s->index[n], q->term->target);
+    s->way_x[n] = direction.x;
+    s->way_y[n] = direction.y;
+}
+
+static void look(const Asking *q, const JoxField *field, JoxFieldPoints *points) {
+    if (points->count)
+        LOOK[jox_isa_resolve(q->run->isa)](field, points);
+}
+
+/* Of those who ask, the ones of whom `asks` is true look at a field of some kind: `at`, of each its
+   place in q->other, or UINT32_MAX. */
+static const JoxField *look_too(Asking *q, JoxRouteKind kind, const bool *asks, uint32_t *at) {
+    JoxFieldPoints *other = &q->other;
+    other->count = 0;
+    for (uint32_t k = 0; k < q->now.count; k++) {
+        at[k] = UINT32_MAX;
+        if (!asks[k])
+            continue;
+        at[k] = other->count;
+        other->x[other->count] = q->now.x[k];
+        other->y[other->count++] = q->now.y[k];
+    }
+    const JoxField *field = other->count ? field_of(q, kind) : NULL;
+    if (field)
+        look(q, field, other);
+    return field;
+}
+
+/* Nobody is told by the field as all stands now that no way leads there. */
+static void lead(Asking *q) {
+    const JoxAgents *a = q->run->agents;
+    const JoxField *now = field_of(q, JOX_ROUTE_NOW);
+    JoxFieldPoints *p = &q->now;
+    bool asks[JOX_BATCH], shut[JOX_BATCH];
+    uint32_t at[JOX_BATCH];
+    if (now)
+        look(q, now, p);
+    for (uint32_t k = 0; k < p->count; k++) {
+        const JoxV2 way = {p->way_x[k], p->way_y[k]};
+        shut[k] = now && jox_length2(way) == 0.0f && !(p->length[k] < INFINITY);
+        asks[k] = !shut[k] && jox_walks(a, q->s->index[q->number[k]]);
+    }
+    const JoxField *crowd = look_too(q, JOX_ROUTE_CROWD, asks, at);
+    for (uint32_t k = 0; k < p->count; k++) {
+        JoxV2 way = now ? (JoxV2){p->way_x[k], p->way_y[k]} : (JoxV2){0.0f, 0.0f};
+        if (shut[k])
+            continue;
+        if (crowd && at[k] != UINT32_MAX) {
+            const JoxV2 round = {q->other.way_x[at[k]], q->other.way_y[at[k]]};
+            way = jox_length2(round) > 0.0f ? round : way;
+        }
+        bind(q, k, now, now ? p->length[k] : 0.0f);
+        set(q, k, way);
+    }
+    const JoxField *open = look_too(q, JOX_ROUTE_OPEN, shut, at);
+    for (uint32_t k = 0; k < p->count; k++) {
+        if (!shut[k])
+            continue;
+        JoxV2 way = {0.0f, 0.0f};
+        if (open)
+            way = (JoxV2){q->other.way_x[at[k]], q->other.way_y[at[k]]};
+        bind(q, k, open, open ? q->other.length[at[k]] : 0.0f);
+        set(q, k, way);
+    }
+}
+
+/* Those from `first` on who are bound for the same place as that one, and are not there. */
+static void lead_to(Asking *q, int32_t *places, uint32_t first) {
+    const JoxMachineRun *run = q->run;
+    const JoxAgents *a = run->agents;
+    const int32_t place = places[first];
+    q->place = (uint32_t)place;
+    q->now.count = 0;
+    for (uint32_t n = first; n < q->s->count; n++) {
+        if (places[n] != place)
+            continue;
+        places[n] = -1;
+        const JoxV2 p = {a->x[q->s->index[n]], a->y[q->s->index[n]]};
+        const uint32_t k = q->now.count;
+        q->number[k] = (uint8_t)n;
+        if (!run->fields || jox_place_contains(run->places, q->place, p)) {
+            set(q, k, (JoxV2){0.0f, 0.0f});
+            continue;
+        }
+        q->now.x[k] = p.x;
+        q->now.y[k] = p.y;
+        q->now.count++;
+    }
+    if (q->now.count)
+        lead(q);
+}
+
+void jox_steer_field(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *s) {
+    int32_t places[JOX_BATCH];
+    Asking q; /* its arrays are filled as far as they are read */
+    q.run = run;
+    q.term = term;
+    q.s = s;
+    JOX_ASSERT(s->count <= JOX_BATCH);
+    for (uint32_t n = 0; n < s->count; n++) {
+        s->way_x[n] = s->way_y[n] = 0.0f;
+        places[n] = -1;
+        if (jox_weight_counts(s->by[n]))
+            places[n] = jox_target_place(run, s->index[n], term->target);
+    }
+    for (uint32_t n = 0; n < s->count; n++)
+        if (places[n] >= 0)
+            lead_to(&q, places, n);
+}
+
+void jox_machines_ask_routes(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    JoxSteer s = {.agents = run->agents, .count = 1, .by = {1.0f}};
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
+        s.index[0] = i;
+        for (uint32_t t = 0; t < state->steer_count; t++)
+            if (state->steer[t].kind == JOX_STEER_FIELD)
+                jox_steer_field(run, &state->steer[t], &s);
+    }
+}
+
+int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    if (!run->fields || a->machine[i] == JOX_NO_MACHINE)
+        return -1;
+    const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
+    const JoxV2 p = {a->x[i], a->y[i]};
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        if (state->steer[t].kind != JOX_STEER_FIELD)
+            continue;
+        const int32_t place = jox_target_place(run, i, state->steer[t].target);
+        if (place < 0 || jox_place_contains(run->places, (uint32_t)place, p))
+            continue;
+        JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
+        const JoxField *now = ways[JOX_ROUTE_NOW], *open = ways[JOX_ROUTE_OPEN];
+        if (now && !(jox_field_distance(now, p) < INFINITY) &&
+            !(open && jox_field_distance(open, p) < INFINITY))
+            return place;
+    }
+    return -1;
+}
