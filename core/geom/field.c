@@ -59,6 +59,8 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
                          .time = jox_alloc(count, sizeof(float)),
                          .slowness = jox_alloc(count, sizeof(float)),
                          .node = jox_alloc(count, 1),
+                         .x = jox_alloc(count, sizeof(float)),
+                         .y = jox_alloc(count, sizeof(float)),
                          .links = jox_alloc(count, 1),
                          .corners = jox_alloc(count, 1)};
     jox_field_mark(&work, walls, marks);
@@ -70,6 +72,8 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_free(work.time);
     jox_free(work.slowness);
     jox_free(work.node);
+    jox_free(work.x);
+    jox_free(work.y);
     jox_free(work.links);
     jox_free(work.corners);
     return f;

@@ -13,24 +13,12 @@ typedef struct Span {
     int c0, c1, r0, r1;
 } Span;
 
-/* Where the nodes are, m, and the cells that can be walked (1, else 0). */
-typedef struct Floor {
-    float *x, *y, *open;
-} Floor;
-
-static Floor floor_of(const JoxFieldWork *w) {
-    const size_t count = (size_t)w->count;
-    Floor all = {jox_alloc(count, sizeof(float)), jox_alloc(count, sizeof(float)),
-                 jox_alloc(count, sizeof(float))};
-    for (int i = 0; i < w->count; i++) {
-        if (w->node[i] == JOX_FIELD_BLOCKED)
-            continue;
-        const JoxV2 node = jox_field_node(w, i);
-        all.x[i] = node.x;
-        all.y[i] = node.y;
-        all.open[i] = 1.0f;
-    }
-    return all;
+/* 1 where a cell can be walked, else 0. */
+static float *open_floor(const JoxFieldWork *w) {
+    float *open = jox_alloc((size_t)w->count, sizeof *open);
+    for (int i = 0; i < w->count; i++)
+        open[i] = w->node[i] == JOX_FIELD_BLOCKED ? 0.0f : 1.0f;
+    return open;
 }
 
 /* What `count` cells in a row have of a person: 1 where it stands, 0 from REACH on. */
@@ -45,14 +33,14 @@ static void share_row(const float *restrict x, const float *restrict y, const fl
 
 /* A person is spread as a cone over the floor that can be walked, and nothing into walls: else the
    floor along walls would seem free. `shares`: room for the span's cells. */
-static void spread(JoxFieldWork *w, const Floor *all, const Span *s, JoxV2 at, float slowing,
+static void spread(JoxFieldWork *w, const float *open, const Span *s, JoxV2 at, float slowing,
                    float *shares) {
     const JoxField *f = w->f;
     const int columns = s->c1 - s->c0 + 1, cells = columns * (s->r1 - s->r0 + 1);
     float sum = 0.0f, area = f->size * f->size, *share = shares;
     for (int r = s->r0; r <= s->r1; r++, share += columns) {
         const int first = r * f->columns + s->c0;
-        share_row(all->x + first, all->y + first, all->open + first, at, columns, share);
+        share_row(w->x + first, w->y + first, open + first, at, columns, share);
     }
     for (int k = 0; k < cells; k++)
         sum += shares[k];
@@ -73,7 +61,7 @@ void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     size_t capacity = 0;
     if (!crowd || crowd->count == 0)
         return;
-    const Floor all = floor_of(w);
+    float *open = open_floor(w);
     for (uint32_t n = 0; n < crowd->count; n++) {
         JoxV2 at = crowd->at[n];
         Span s;
@@ -83,10 +71,8 @@ void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
         if (s.c0 > s.c1 || s.r0 > s.r1)
             continue;
         JOX_RESERVE(shares, capacity, (size_t)(s.c1 - s.c0 + 1) * (size_t)(s.r1 - s.r0 + 1));
-        spread(w, &all, &s, at, crowd->slowing * crowd->held[n], shares);
+        spread(w, open, &s, at, crowd->slowing * crowd->held[n], shares);
     }
     jox_free(shares);
-    jox_free(all.x);
-    jox_free(all.y);
-    jox_free(all.open);
+    jox_free(open);
 }

@@ -1,6 +1,7 @@
 /* The marching: times from the goal outwards, each node from the triangles of its finished
    neighbours (Sethian 1999, as for unstructured meshes). */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -13,62 +14,76 @@ static const float SEED_MOST = 5.0f;  /* m: a goal in a wall is reached from so 
 /* ---- a heap of cells by time; of equal times the lesser cell first, so that there is one order
    ---- */
 
+enum { CHILDREN = 4, NOT_YET = -1, FINISHED = -2 };
+
 typedef struct Heap {
-    const float *time;
-    int *items;
-    int *place; /* of a cell in items; -1: not yet, -2: finished */
+    uint64_t *items; /* time and cell: see key_of */
+    int *place;      /* of a cell in items, or what of the above */
     int count;
 } Heap;
 
-static bool sooner(const Heap *h, int a, int b) {
-    return h->time[a] != h->time[b] ? h->time[a] < h->time[b] : a < b;
+/* Numbers of at least 0 are in the order of their bits. */
+static uint64_t key_of(float time, int cell) {
+    uint32_t bits;
+    memcpy(&bits, &time, sizeof bits);
+    return (uint64_t)bits << 32 | (uint32_t)cell;
 }
 
-static void put(Heap *h, int at, int cell) {
-    h->items[at] = cell;
-    h->place[cell] = at;
+static int cell_of(uint64_t key) {
+    return (int)(uint32_t)key;
 }
 
-static void rise(Heap *h, int cell) {
-    JOX_ASSERT(h->place[cell] != -2);
-    if (h->place[cell] < 0)
-        put(h, h->count++, cell);
-    int at = h->place[cell];
-    for (; at > 0 && sooner(h, cell, h->items[(at - 1) / 2]); at = (at - 1) / 2)
-        put(h, at, h->items[(at - 1) / 2]);
-    put(h, at, cell);
+static void put(Heap *h, int at, uint64_t key) {
+    h->items[at] = key;
+    h->place[cell_of(key)] = at;
+}
+
+static void rise(Heap *h, int cell, float time) {
+    const uint64_t key = key_of(time, cell);
+    int at = h->place[cell] == NOT_YET ? h->count++ : h->place[cell];
+    JOX_ASSERT(at >= 0);
+    for (; at > 0 && key < h->items[(at - 1) / CHILDREN]; at = (at - 1) / CHILDREN)
+        put(h, at, h->items[(at - 1) / CHILDREN]);
+    put(h, at, key);
 }
 
 static int pop(Heap *h) {
-    int top = h->items[0], last = h->items[--h->count], at = 0;
-    while (h->count > 0) {
-        int child = 2 * at + 1;
-        if (child >= h->count)
+    const uint64_t top = h->items[0], last = h->items[--h->count];
+    int at = 0;
+    for (;;) {
+        const int first = CHILDREN * at + 1, end = first + CHILDREN;
+        uint64_t least = last;
+        int child = at;
+        for (int k = first; k < end && k < h->count; k++) {
+            child = h->items[k] < least ? k : child;
+            least = h->items[k] < least ? h->items[k] : least;
+        }
+        if (child == at)
             break;
-        child += child + 1 < h->count && sooner(h, h->items[child + 1], h->items[child]);
-        if (!sooner(h, h->items[child], last))
-            break;
-        put(h, at, h->items[child]);
+        put(h, at, least);
         at = child;
     }
     if (h->count > 0)
         put(h, at, last);
-    h->place[top] = -2;
-    JOX_ASSERT(h->count == 0 || !sooner(h, h->items[0], top));
-    return top;
+    h->place[cell_of(top)] = FINISHED;
+    JOX_ASSERT(h->count == 0 || top < h->items[0]);
+    return cell_of(top);
 }
 
 /* ---- seeds ---- */
 
-static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, JoxV2 way) {
+/* A way to a cell's node, along `way`, which is `far` long. */
+static inline void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, JoxV2 way,
+                         float far) {
     if (!(time < w->time[cell]))
         return;
     JOX_ASSERT(w->node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f && length >= 0.0f);
+    const JoxV2 unit = jox_scale(way, 1.0f / far);
     w->time[cell] = time;
     w->f->cells[cell].length = length;
-    w->f->cells[cell].x = way.x;
-    w->f->cells[cell].y = way.y;
-    rise(h, cell);
+    w->f->cells[cell].x = unit.x;
+    w->f->cells[cell].y = unit.y;
+    rise(h, cell, time);
 }
 
 /* Whether a goal's nearest point is seen from p. A polygon may lie along a wall: then the point is
@@ -100,9 +115,8 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
             if (distance > reach || (!blindly && !sees_goal(w, place, goal, p)))
                 continue;
             seeds++;
-            float scale = 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size);
-            offer(w, h, cell, distance * w->slowness[cell], distance,
-                  jox_scale(jox_sub(goal, p), scale));
+            offer(w, h, cell, distance * w->slowness[cell], distance, jox_sub(goal, p),
+                  jox_maxf(distance, JOX_FIELD_CLOSE * f->size));
         }
     return seeds;
 }
@@ -123,7 +137,7 @@ static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t inde
 /* ---- marching ---- */
 
 /* The soonest way from node p by a point between two finished nodes a and b. */
-static void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
+static inline void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
     JoxV2 from = jox_field_node(w, a), to = jox_field_node(w, b);
     JoxV2 side = jox_sub(to, from), out = jox_sub(p, from);
     float long2 = jox_length2(side), slowness = w->slowness[cell];
@@ -133,14 +147,17 @@ static void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
     float rest2 = slowness * slowness * long2 - rise_ab * rise_ab;
     if (!(rest2 > 0.0f))
         return;
-    float t = (jox_dot(out, side) - fabsf(jox_det(out, side)) * rise_ab / sqrtf(rest2)) / long2;
-    if (!(t > 0.0f && t < 1.0f))
+    float along = jox_dot(out, side) - fabsf(jox_det(out, side)) * rise_ab / sqrtf(rest2);
+    if (!(along > 0.0f && along < long2))
         return; /* the ends are tried on their own */
+    float t = along / long2;
+    if (!(t > 0.0f && t < 1.0f))
+        return;
     JoxV2 way = jox_sub(jox_add(from, jox_scale(side, t)), p);
     float far = jox_length(way);
     float la = w->f->cells[a].length, lb = w->f->cells[b].length;
-    offer(w, h, cell, w->time[a] + t * rise_ab + slowness * far, la + t * (lb - la) + far,
-          jox_scale(way, 1.0f / far));
+    offer(w, h, cell, w->time[a] + t * rise_ab + slowness * far, la + t * (lb - la) + far, way,
+          far);
 }
 
 static void march(JoxFieldWork *w, Heap *h) {
@@ -153,17 +170,16 @@ static void march(JoxFieldWork *w, Heap *h) {
         JoxV2 from = jox_field_node(w, i);
         for (int k = 0; k < 8; k++) {
             int j = i + steps[k];
-            if (!(w->links[i] >> k & 1) || h->place[j] == -2)
+            if (!(w->links[i] >> k & 1) || h->place[j] == FINISHED)
                 continue;
             JOX_ASSERT(j >= 0 && j < w->count && w->links[j] >> ((k + 4) & 7) & 1);
             JoxV2 p = jox_field_node(w, j), way = jox_sub(from, p);
             float far = jox_length(way);
-            offer(w, h, j, w->time[i] + w->slowness[j] * far, f->cells[i].length + far,
-                  jox_scale(way, 1.0f / far));
+            offer(w, h, j, w->time[i] + w->slowness[j] * far, f->cells[i].length + far, way, far);
             int back = (k + 4) & 7, left = (back + 1) & 7, right = (back + 7) & 7;
-            if (w->corners[j] >> back & 1 && h->place[j + steps[left]] == -2)
+            if (w->corners[j] >> back & 1 && h->place[j + steps[left]] == FINISHED)
                 by_side(w, h, j, p, i, j + steps[left]);
-            if (w->corners[j] >> right & 1 && h->place[j + steps[right]] == -2)
+            if (w->corners[j] >> right & 1 && h->place[j + steps[right]] == FINISHED)
                 by_side(w, h, j, p, i, j + steps[right]);
         }
     }
@@ -195,11 +211,10 @@ static void straighten(JoxFieldWork *w) {
 }
 
 void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
-    Heap heap = {.time = w->time,
-                 .items = jox_alloc((size_t)w->count, sizeof(int)),
+    Heap heap = {.items = jox_alloc((size_t)w->count + 1, sizeof(uint64_t)),
                  .place = jox_alloc((size_t)w->count, sizeof(int))};
     for (int i = 0; i < w->count; i++) {
-        heap.place[i] = -1;
+        heap.place[i] = NOT_YET;
         w->time[i] = INFINITY;
         w->f->cells[i].length = INFINITY;
     }

@@ -215,6 +215,21 @@ static void place_node(JoxFieldWork *w, int cell) {
     w->slowness[cell] = 1.0f + SLOWING * lack * lack;
 }
 
+/* Where the nodes are: jox_field_sample of each. */
+static void lay_nodes(JoxFieldWork *w) {
+    const JoxField *f = w->f;
+    float within[JOX_FIELD_SIDE];
+    for (int k = 0; k < JOX_FIELD_SIDE; k++)
+        within[k] = ((float)k + 0.5f) / (float)JOX_FIELD_SIDE;
+    for (int r = 0; r < f->rows; r++)
+        for (int c = 0; c < f->columns; c++) {
+            const int cell = r * f->columns + c;
+            const int node = w->node[cell] == JOX_FIELD_BLOCKED ? JOX_FIELD_MIDDLE : w->node[cell];
+            w->x[cell] = f->low.x + ((float)c + within[node % JOX_FIELD_SIDE]) * f->size;
+            w->y[cell] = f->low.y + ((float)r + within[node / JOX_FIELD_SIDE]) * f->size;
+        }
+}
+
 static void link_cell(JoxFieldWork *w, int cell) {
     if (w->node[cell] == JOX_FIELD_BLOCKED)
         return;
@@ -258,12 +273,15 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
     JoxField *f = w->f;
     float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
     collect(f, walls);
-    if (marks && jox_field_recall(w, *marks))
+    if (marks && jox_field_recall(w, *marks)) {
+        lay_nodes(w);
         return;
+    }
     sort_edges(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
         place_node(w, i);
+    lay_nodes(w);
     for (int i = 0; i < w->count; i++)
         link_cell(w, i);
     for (int i = 0; i < w->count; i++)

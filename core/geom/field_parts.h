@@ -52,6 +52,7 @@ typedef struct JoxFieldWork {
     float *time;      /* of the way from the node at 1 m/s in the open, s */
     float *slowness;  /* s/m at the node */
     uint8_t *node;    /* sample, or JOX_FIELD_BLOCKED */
+    float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
     uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
     uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
 } JoxFieldWork;
@@ -71,7 +72,7 @@ static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
     return (JoxV2){f->low.x + x * f->size, f->low.y + y * f->size};
 }
 static inline JoxV2 jox_field_node(const JoxFieldWork *w, int cell) {
-    return jox_field_sample(w->f, cell, w->node[cell]);
+    return (JoxV2){w->x[cell], w->y[cell]};
 }
 /* The neighbour on the ring, or -1 beyond the border. */
 static inline int jox_field_next(const JoxField *f, int cell, int ring) {
