@@ -20,6 +20,13 @@ typedef struct JoxRecord {
 
 enum { JOX_MOST_STRAYS = 64 };
 
+/* How an agent heads, by the walking law: its aim, and what of its way is left to where it is
+   bound. */
+typedef struct JoxHeading {
+    float aim_x, aim_y, way; /* m */
+    int32_t bound;
+} JoxHeading;
+
 struct JoxNav {
     /* Grid of agents: square cells, row by row, each with its agents one after the other. */
     JoxV2 low;       /* m, corner of the first cell */
@@ -38,7 +45,9 @@ struct JoxNav {
     float *chunk_drift; /* per chunk of move */
     JoxV2 *position[2]; /* for projection */
     uint32_t *chunk_relaxed;
-    JoxRecord *records; /* of solve */
+    JoxRecord *records;   /* of walk, and of solve */
+    JoxHeading *headings; /* of walk, and of solve where somebody walks */
+    float *chunk_reach;   /* m: of walk; below 0 where nobody walks */
     JoxWallGrid grid;
     bool literal;
     JoIsa isa;              /* of the kernels */

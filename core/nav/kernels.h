@@ -140,17 +140,20 @@ typedef struct JoxWalkTable {
     float allowed[JOX_WALK_DIRECTIONS][JOX_LANES], worth[JOX_WALK_DIRECTIONS][JOX_LANES];
 } JoxWalkTable;
 
+/* Agents [begin, end): aim_x, aim_y. Returns how far walls matter to those who walk by the law, m,
+   at least 0; -1 where nobody does. */
+typedef float JoxAimKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
 /* Agents [begin, end) that walk by the law: walk_x, walk_y, course_x, course_y, eager. `begin` is a
    multiple of JOX_LANES. */
 typedef void JoxWalkKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
-#define X(name, isa) JoxWalkKernel jox_walk_packets_##name;
+#define X(name, isa)                                                                               \
+    JoxAimKernel jox_walk_aim_##name;                                                              \
+    JoxWalkKernel jox_walk_packets_##name;
 JOX_ISAS(X)
 #undef X
 
-/* In plain C, for one agent. Its time gap at present, s, which differs between people, wanders in
-   time, and falls with eagerness; sets `eager`. */
-float jox_walk_temper(const JoxWalk *walk, uint32_t agent);
-/* Lowers what walls allow in its lane of the table. Straight on the way itself leads round walls.
+/* In plain C, for one agent. Lowers what walls allow in its lane of the table. Straight on the way
+ * itself leads round walls.
  */
 void jox_walk_mind_walls(const JoxWalk *walk, uint32_t agent, uint32_t lane, JoxWalkTable *table);
 

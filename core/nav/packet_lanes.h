@@ -139,7 +139,7 @@ static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxPair *
     const JoxWalkLaw *law = p->s->nav->walk;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxVector offset = {q->x, q->y};
-    const JoxMindsLanes minds = jox_minds_lanes(a, p->first, others, offset);
+    const JoxMindsLanes minds = jox_minds_lanes(p->s->nav, a, p->first, others, offset);
     const JoxFloats room =
         jf_sub(one, jf_mul(jf_set((float)law->room_eager), jf_load(a->eager + p->first)));
     const JoxFloats follows = jf_mul(jf_mul(q->radii, jf_set((float)law->width)), room);

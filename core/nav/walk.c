@@ -13,29 +13,44 @@
 static const float SIGHT = 1.5f; /* m: so near, walls hide people */
 static const double KNOTS = 2.0; /* s between the knots of what a time gap wanders by */
 
-#define X(name, isa) [isa] = jox_walk_packets_##name,
-static JoxWalkKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name},
+static const struct Kernels {
+    JoxAimKernel *aim;
+    JoxWalkKernel *walk;
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
+
+static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxWalk *w = context;
+    w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
+}
+
+/* One record an agent, for those who look at many others. */
+static void record_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxWalk *w = context;
+    const JoxAgents *a = w->agents;
+    for (uint32_t i = begin; i < end; i++) {
+        w->nav->records[i] = (JoxRecord){a->x[i], a->y[i], a->vx[i], a->vy[i]};
+        w->nav->headings[i] = (JoxHeading){a->aim_x[i], a->aim_y[i], a->way[i], a->bound[i]};
+    }
+}
 
 static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
-    KERNELS[w->nav->isa](w, begin, end);
+    KERNELS[w->nav->isa].walk(w, begin, end);
 }
 
 /* Where everybody heads, and whether anybody walks by the law; *reach: how far walls matter, m. */
-static bool aim_all(JoxAgents *a, const JoxWalkLaw *law, float *reach) {
+static bool aim_all(JoxWalk *w, float *reach, JoxPool *pool) {
     bool any = false;
     *reach = SIGHT;
-    for (uint32_t i = 0; i < a->count; i++) {
-        JoxV2 preferred = {a->pref_x[i], a->pref_y[i]}, aim = jox_unit(preferred);
-        a->aim_x[i] = aim.x;
-        a->aim_y[i] = aim.y;
-        if (!jox_walks(a, i))
-            continue;
-        any = true;
-        float keep = (float)law->wall_radius * a->param[JOX_PARAM_radius][i];
-        *reach = jox_maxf(*reach, keep + jox_length(preferred) * (float)law->wall_time);
+    jox_parallel_for(pool, w->agents->count, JOX_NAV_GRAIN, aim_range, w);
+    for (uint32_t i = 0; i < w->agents->count; i += JOX_NAV_GRAIN) {
+        any |= w->nav->chunk_reach[i / JOX_NAV_GRAIN] >= 0.0f;
+        *reach = jox_maxf(*reach, w->nav->chunk_reach[i / JOX_NAV_GRAIN]);
     }
     return any;
 }
@@ -48,25 +63,24 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double time, double interval, bool plans, JoxPool *pool) {
     const JoxWalkLaw *law = nav->walk;
     float reach;
-    if (!aim_all(agents, law, &reach) || !plans)
+    const double knot = floor(time / KNOTS);
+    JoxWalk walk = {.nav = nav, .agents = agents, .neighbours = neighbours, .law = law};
+    JOX_ASSERT(nav->capacity >= agents->count);
+    if (!aim_all(&walk, &reach, pool) || !plans)
         return;
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, reach);
-    const double knot = floor(time / KNOTS);
-    JoxWalk walk = {.nav = nav,
-                    .agents = agents,
-                    .neighbours = neighbours,
-                    .law = law,
-                    .interval = interval,
-                    .stream = jox_random_stream(seed),
-                    .knots = {jox_random_moment((uint64_t)knot, JOX_DRAW_GAP),
-                              jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP)},
-                    .own = jox_random_moment(0, JOX_DRAW_GAP),
-                    .between = time / KNOTS - knot,
-                    .rise = share_of(interval, law->eager_rise),
-                    .fall = share_of(interval, law->eager_fall),
-                    .course = share_of(interval, law->course_time),
-                    .start = jox_minf(1.0f, (float)(interval / law->start_time)),
-                    .stop = jox_minf(1.0f, (float)(interval / law->stop_time))};
+    walk.interval = interval;
+    walk.stream = jox_random_stream(seed);
+    walk.knots[0] = jox_random_moment((uint64_t)knot, JOX_DRAW_GAP);
+    walk.knots[1] = jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP);
+    walk.own = jox_random_moment(0, JOX_DRAW_GAP);
+    walk.between = time / KNOTS - knot;
+    walk.rise = share_of(interval, law->eager_rise);
+    walk.fall = share_of(interval, law->eager_fall);
+    walk.course = share_of(interval, law->course_time);
+    walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
+    walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, record_range, &walk);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

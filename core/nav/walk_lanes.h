@@ -1,8 +1,12 @@
-/* The precedence of the walking law (walk.h) for all lanes of a packet, to the bit. For kernels:
-   part of those that include it. */
+/* The precedence of the walking law (walk.h) for all lanes of a packet, to the bit, and people's
+   tempers: how eager they are, and the time gap that they keep at present. For kernels: part of
+   those that include it. */
 #ifndef JOX_NAV_WALK_LANES_H
 #define JOX_NAV_WALK_LANES_H
 
+#include "base/number/exponential.h"
+#include "base/number/random.h"
+#include "nav/kernels.h"
 #include "nav/program_lanes.h"
 #include "nav/walk.h"
 
@@ -12,26 +16,96 @@ typedef struct JoxMindsLanes {
 } JoxMindsLanes;
 
 /* How agents from `first` on mind one other each, at an offset (m) from them: jox_minds. */
-static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, JoxInts others,
-                                            JoxVector offset) {
+static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *a, uint32_t first,
+                                            JoxInts others, JoxVector offset) {
     const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way + first);
     const JoxVector own = {jf_load(a->aim_x + first), jf_load(a->aim_y + first)};
-    const JoxVector aim = {jf_pick(a->aim_x, others), jf_pick(a->aim_y, others)};
+    JoxFloats heading[4];
+    jf_records(&nav->headings[0].aim_x, others, heading);
+    const JoxVector aim = {heading[0], heading[1]};
     const JoxMask stands = jf_le(jf_add(jf_abs(aim.x), jf_abs(aim.y)), zero);
-    const JoxInts sign = ji_set(INT32_MIN), bound = ji_load((const uint32_t *)a->bound + first);
-    JoxMask alike = ji_equal(bound, ji_pick((const uint32_t *)a->bound, others));
-    alike = jm_and(alike, ji_less(ji_set(-1), bound));
-    const JoxFloats other_way = jf_pick(a->way, others);
-    const JoxMask older =
-        ji_less(ji_add(ji_pick(a->id, others), sign), ji_add(ji_load(a->id + first), sign));
-    const JoxMask goes_first =
-        jm_or(jf_lt(other_way, way), jm_without(older, jf_lt(way, other_way)));
+    const JoxInts bound = ji_load((const uint32_t *)a->bound + first);
+    const JoxMask alike = jm_and(ji_equal(bound, jf_bits(heading[3])), ji_less(ji_set(-1), bound));
+    JoxMask goes_first = jf_lt(heading[2], way);
+    const JoxMask tie = jm_without(jm_without(alike, goes_first), jf_lt(way, heading[2]));
+    if (jm_bits(tie)) { /* few are as far */
+        const JoxInts sign = ji_set(INT32_MIN);
+        const JoxMask older =
+            ji_less(ji_add(ji_pick(a->id, others), sign), ji_add(ji_load(a->id + first), sign));
+        goes_first = jm_or(goes_first, jm_and(tie, older));
+    }
     const JoxMask along = jf_lt(jf_set(JOX_SAME_WAY), jv_dot(own, aim));
     const JoxMask before = jm_and(along, jf_lt(zero, jv_dot(offset, own)));
     const JoxMask ahead = jm_or(jm_and(alike, goes_first), jm_without(before, alike));
     const JoxMask other_bound = jm_without(jm_of_bits(~0u), alike);
     return (JoxMindsLanes){jm_without(ahead, stands),
                            jm_or(stands, jm_without(other_bound, along))};
+}
+
+/* ---- tempers ---- */
+
+enum { JOX_CROWD_RANK = 3 }; /* the neighbour whose distance tells how crowded it is */
+
+static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */
+    return jf_min(jf_max(x, jf_set(0.0f)), jf_set(1.0f));
+}
+
+/* The crowd makes people eager, between the bounds of their haste. */
+static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
+    const JoxNeighbours *n = w->neighbours;
+    const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
+    const JoxFloats haste = jf_load(w->agents->param[JOX_PARAM_haste] + first);
+    const JoxFloats twice = jf_mul(jf_set(2.0f), haste);
+    const JoxFloats most = jf_set((float)w->law->eager_most);
+    uint32_t crowded = 0;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        crowded |= (uint32_t)(n->count[first + lane] > JOX_CROWD_RANK) << lane;
+    const JoxFloats d2 = jf_load(n->distance2 + jox_neighbour_at(n, first, JOX_CROWD_RANK));
+    const JoxFloats area = jf_mul(jf_set(JOX_PI), jf_max(d2, jf_set(1e-4f)));
+    const JoxFloats density = jf_select(
+        jm_of_bits(crowded), jf_div(jf_set((float)(JOX_CROWD_RANK + 1)), area), jf_set(0.0f));
+    const JoxFloats keen = jox_share_lanes(jf_sub(twice, one)); /* beyond normal */
+    const JoxFloats least =
+        jf_add(jf_mul(normal, jox_share_lanes(twice)), jf_mul(jf_sub(one, normal), keen));
+    const JoxFloats bound = jf_add(most, jf_mul(jf_sub(one, most), keen));
+    const JoxFloats crowd = jox_share_lanes(jf_sub(density, jf_set((float)w->law->crowded)));
+    return jf_max(least, jf_min(bound, crowd));
+}
+
+static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
+    const JoxFloats now = jf_load(w->agents->eager + first);
+    const JoxFloats wanted = jox_eagerness_wanted(w, first);
+    const JoxFloats rate = jf_select(jf_lt(now, wanted), jf_set(w->rise), jf_set(w->fall));
+    return jf_add(now, jf_mul(jf_sub(wanted, now), rate));
+}
+
+/* From -1 to 1. */
+static inline double jox_drawn(uint64_t bits) {
+    return 2.0 * jox_random_share(bits) - 1.0;
+}
+
+/* Differs between people, wanders in time, and falls with eagerness, s. */
+static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, JoxFloats eagerness) {
+    const JoxAgents *a = w->agents;
+    const JoxWalkLaw *law = w->law;
+    const float *base = a->param[JOX_PARAM_time_gap] + first;
+    double wander[JOX_WIDTH], own[JOX_WIDTH];
+    float eager[JOX_WIDTH], gap[JOX_WIDTH];
+    jf_store(eager, eagerness);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const uint64_t id = (uint64_t)a->id[first + lane] << 32; /* as jox_random_of draws */
+        const uint64_t bits = jox_random_mix(w->stream ^ id);
+        const double from = jox_drawn(jox_random_mix(bits ^ w->knots[0]));
+        const double to = jox_drawn(jox_random_mix(bits ^ w->knots[1]));
+        wander[lane] = from * (1.0 - w->between) + to * w->between;
+        own[lane] = jox_drawn(jox_random_mix(jox_random_mix(w->stream ^ (id | 1)) ^ w->own));
+    }
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const double calm = (double)base[lane] * (1.0 - law->gap_eager * (double)eager[lane]);
+        gap[lane] = (float)(calm * (1.0 + law->gap_spread * own[lane]) *
+                            jox_exp_within(law->gap_noise * wander[lane]));
+    }
+    return jf_load(gap);
 }
 
 #endif

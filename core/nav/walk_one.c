@@ -1,15 +1,11 @@
-/* The walking law in plain C, for one agent: people's tempers, and what walls allow. The kernel
-   (walk_wide.c) does all else. */
+/* The walking law in plain C, for one agent: what walls allow. The kernel (walk_wide.c) does all
+   else. */
 #include <math.h>
 
-#include "base/number/elementary.h"
-#include "base/number/random.h"
 #include "geom/polygon.h"
 #include "nav/kernels.h"
 
 enum { EDGE_LANES = 12 }; /* directions, for whole vectors; the last repeats the one before */
-static const float PI = 3.14159265f;
-static const uint32_t CROWD_RANK = 3; /* the neighbour whose distance tells how crowded it is */
 
 /* Of 0 and +-15 to +-75 degrees. */
 const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
@@ -18,51 +14,6 @@ const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
 const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
     0.0f,         0.25881905f, -0.25881905f, 0.5f,        -0.5f,       0.70710678f,
     -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
-
-static float clamp01(float x) {
-    return jox_clampf(x, 0.0f, 1.0f);
-}
-
-/* ---- a person's temper ---- */
-
-/* The crowd makes people eager, between the bounds of their haste. */
-static float eagerness_wanted(const JoxWalk *w, uint32_t i) {
-    const JoxAgents *a = w->agents;
-    const JoxWalkLaw *law = w->law;
-    float density = 0.0f, haste = a->param[JOX_PARAM_haste][i];
-    if (w->neighbours->count[i] > CROWD_RANK) {
-        float d2 = w->neighbours->distance2[jox_neighbour_at(w->neighbours, i, CROWD_RANK)];
-        density = (float)(CROWD_RANK + 1) / (PI * jox_maxf(d2, 1e-4f));
-    }
-    float normal = (float)law->eager_normal, most = (float)law->eager_most;
-    float keen = clamp01(2.0f * haste - 1.0f); /* beyond normal */
-    float least = normal * clamp01(2.0f * haste) + (1.0f - normal) * keen;
-    most += (1.0f - most) * keen;
-    return jox_maxf(least, jox_minf(most, clamp01(density - (float)law->crowded)));
-}
-
-/* From -1 to 1. */
-static double drawn(const JoxWalk *w, uint32_t id, uint32_t sub, uint64_t moment) {
-    return 2.0 * jox_random_share(jox_random_of(w->stream, id, sub, moment)) - 1.0;
-}
-
-static float time_gap(const JoxWalk *w, uint32_t i) {
-    const JoxAgents *a = w->agents;
-    const JoxWalkLaw *law = w->law;
-    const uint32_t id = a->id[i];
-    double wander = drawn(w, id, 0, w->knots[0]) * (1.0 - w->between) +
-                    drawn(w, id, 0, w->knots[1]) * w->between;
-    double own = drawn(w, id, 1, w->own);
-    double gap =
-        (double)a->param[JOX_PARAM_time_gap][i] * (1.0 - law->gap_eager * (double)a->eager[i]);
-    return (float)(gap * (1.0 + law->gap_spread * own) * jox_exp(law->gap_noise * wander));
-}
-
-float jox_walk_temper(const JoxWalk *w, uint32_t i) {
-    float *eager = w->agents->eager, wanted = eagerness_wanted(w, i);
-    eager[i] += (wanted - eager[i]) * (wanted > eager[i] ? w->rise : w->fall);
-    return time_gap(w, i);
-}
 
 /* ---- what walls allow ---- */
 

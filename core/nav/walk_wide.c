@@ -4,6 +4,7 @@
    stand behind a wall, and walls (walk_one.c). */
 #include <math.h>
 
+#include "geom/wall_grid_lanes.h"
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
@@ -88,20 +89,21 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
         const JoxInts others =
             ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), ji_set(0));
         Row *row = &p->row[p->rows];
-        row->offset =
-            (JoxVector){jf_sub(jf_pick(a->x, others), x), jf_sub(jf_pick(a->y, others), y)};
+        JoxFloats record[4];
+        jf_records(&p->w->nav->records[0].x, others, record);
+        row->offset = (JoxVector){jf_sub(record[0], x), jf_sub(record[1], y)};
         if (periodic) {
             row->offset.x = jf_wrap(row->offset.x, a->period.x);
             row->offset.y = jf_wrap(row->offset.y, a->period.y);
         }
-        const JoxMindsLanes minded = jox_minds_lanes(a, i, others, row->offset);
+        const JoxMindsLanes minded = jox_minds_lanes(p->w->nav, a, i, others, row->offset);
         uint32_t minds = jm_bits(there) & jm_bits(jm_or(minded.ahead, minded.crossing));
         if (picky & minds)
             minds &= ~passed_over(p, picky & minds, others, row);
         if (!minds)
             continue;
         const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
-        row->velocity = (JoxVector){jf_pick(a->vx, others), jf_pick(a->vy, others)};
+        row->velocity = (JoxVector){record[2], record[3]};
         row->per_width = jf_div(one, jf_mul(width, radii));
         row->length = jf_mul(length, radii);
         row->width2 = squared(jf_mul(jf_set((float)law->width_cross), radii));
@@ -146,11 +148,12 @@ static inline JoxFloats follow(const Follow *f, const Row *row, JoxVector e) {
     const JoxFloats along = jv_dot(row->offset, e);
     const JoxFloats aside = jf_abs(jf_sub(jf_mul(e.x, row->offset.y), jf_mul(e.y, row->offset.x)));
     const JoxFloats q = jf_mul(aside, row->per_width), q2 = squared(q);
-    const JoxFloats round = root(jf_sub(one, jf_mul(squared(q2), q2)));
-    const JoxFloats beside = jf_sqrt(jf_add(squared(along), squared(jf_mul(f->flank, aside))));
     const JoxMask in_way = jf_lt(q, one);
+    const JoxFloats beside = jf_add(squared(along), squared(jf_mul(f->flank, aside)));
+    const JoxFloats round = jf_max(jf_sub(one, jf_mul(squared(q2), q2)), zero);
+    const JoxFloats length = jf_sqrt(jf_select(in_way, round, beside));
     const JoxFloats gap =
-        jf_select(in_way, jf_sub(along, jf_mul(row->length, round)), jf_sub(beside, row->length));
+        jf_select(in_way, jf_sub(along, jf_mul(row->length, length)), jf_sub(length, row->length));
     const JoxFloats speed = jf_max(jv_dot(row->velocity, e), zero);
     const JoxFloats allowed = jf_mul(jf_add(gap, jf_mul(f->foreseen, speed)), f->per_time);
     JoxMask minded = jm_or(in_way, jf_lt(aside, jf_mul(slope, along)));
@@ -306,7 +309,6 @@ static void walk_packet(Packet *p) {
     JoxAgents *a = p->w->agents;
     const uint32_t i = p->first;
     p->aim = (JoxVector){jf_load(a->aim_x + i), jf_load(a->aim_y + i)};
-    p->eager = jf_load(a->eager + i);
     p->radius = jf_load(a->param[JOX_PARAM_radius] + i);
     (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose(p);
@@ -326,31 +328,39 @@ static void walk_packet(Packet *p) {
     }
 }
 
+/* Agents of a packet, the lanes before `end`. */
+static inline uint32_t lanes_before(uint32_t first, uint32_t end) {
+    return end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : ~0u >> (32 - JOX_WIDTH);
+}
+
 /* Who of the packet walks and wants to get on, with what temper; who only stands wants nothing. */
 static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     JoxAgents *a = p->w->agents;
-    float speed[JOX_WIDTH], gap[JOX_WIDTH];
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
+    const JoxMask walk = jf_lt(zero, jf_load(a->param[JOX_PARAM_time_gap] + first));
+    const uint32_t walkers = jm_bits(walk) & lanes_before(first, end);
     p->first = first;
     p->lanes = p->near_walls = 0;
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        const uint32_t i = first + lane;
-        uint32_t edges = 0;
-        speed[lane] = gap[lane] = 1.0f;
-        if (i >= end || !jox_walks(a, i))
-            continue;
-        a->walk_x[i] = a->walk_y[i] = 0.0f;
-        gap[lane] = jox_walk_temper(p->w, i);
-        speed[lane] = jox_length((JoxV2){a->pref_x[i], a->pref_y[i]});
-        if (speed[lane] == 0.0f)
-            continue;
-        p->lanes |= 1u << lane;
-        if (p->w->nav->grid.first)
-            jox_wall_grid_at(&p->w->nav->grid, (JoxV2){a->x[i], a->y[i]}, &edges);
-        if (edges)
-            p->near_walls |= 1u << lane;
-    }
-    p->speed = jf_load(speed);
-    p->gap = jf_load(gap);
+    if (!walkers)
+        return;
+    const JoxVector preferred = jv_load(a->pref_x, a->pref_y, first);
+    const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
+    float eager[JOX_WIDTH];
+    p->eager = jox_eagerness(p->w, first);
+    jf_store(eager, p->eager);
+    p->lanes = walkers & ~jm_bits(jf_le(speed, zero));
+    for (uint32_t lane = 0; walkers >> lane; lane++)
+        if (walkers >> lane & 1) {
+            a->eager[first + lane] = eager[lane];
+            a->walk_x[first + lane] = a->walk_y[first + lane] = 0.0f;
+        }
+    if (!p->lanes)
+        return;
+    const JoxMask wants = jm_of_bits(p->lanes);
+    p->gap = jf_select(wants, jox_time_gaps(p->w, first, p->eager), one);
+    p->speed = jf_select(wants, speed, one);
+    p->near_walls = p->lanes & jm_bits(jox_wall_grid_near_lanes(
+                                   &p->w->nav->grid, jf_load(a->x + first), jf_load(a->y + first)));
     p->per_cross = jf_set(1.0f / (float)p->w->law->cross_time);
     p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)p->w->law->contact_time));
 }
@@ -362,4 +372,36 @@ void JOX_WIDE(jox_walk_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) 
         if (packet.lanes)
             walk_packet(&packet);
     }
+}
+
+/* ---- where everybody heads ---- */
+
+float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
+    JoxAgents *a = w->agents;
+    const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
+    JoxFloats reach = none;
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const uint32_t lanes = lanes_before(i, end);
+        const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
+        const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
+        const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));
+        const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
+        const JoxMask walks =
+            jm_and(jf_lt(zero, jf_load(a->param[JOX_PARAM_time_gap] + i)), jm_of_bits(lanes));
+        const JoxFloats keep =
+            jf_mul(jf_set((float)w->law->wall_radius), jf_load(a->param[JOX_PARAM_radius] + i));
+        const JoxFloats far = jf_add(keep, jf_mul(speed, jf_set((float)w->law->wall_time)));
+        reach = jf_max(reach, jf_select(walks, far, none));
+        float x[JOX_WIDTH], y[JOX_WIDTH];
+        jv_store(x, y, 0, aim);
+        for (uint32_t lane = 0; lanes >> lane & 1 && lane < JOX_WIDTH; lane++) {
+            a->aim_x[i + lane] = x[lane];
+            a->aim_y[i + lane] = y[lane];
+        }
+    }
+    float reaches[JOX_WIDTH], most = -1.0f;
+    jf_store(reaches, reach);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        most = reaches[lane] > most ? reaches[lane] : most;
+    return most;
 }

@@ -4,6 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/number/exponential.h"
+
 static const double PI = 3.14159265358979323846;
 
 /* Taylor series on [-pi/4, pi/4]; `odd` 1 gives the sine, 0 the cosine. */
@@ -63,31 +65,7 @@ double jox_exp(double x) {
         return INFINITY;
     if (x < -708.0)
         return 0.0;
-    double n = floor(x * 1.4426950408889634 + 0.5);
-    double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
-    /* 1 / k! for k from 14 down: |r| is at most ln(2) / 2, so that the next term is below 1e-19. */
-    static const double TERMS[] = {1.1470745597729725e-11,
-                                   1.6059043836821613e-10,
-                                   2.0876756987868099e-9,
-                                   2.5052108385441719e-8,
-                                   2.7557319223985891e-7,
-                                   2.7557319223985891e-6,
-                                   2.4801587301587302e-5,
-                                   1.9841269841269841e-4,
-                                   1.3888888888888889e-3,
-                                   8.3333333333333332e-3,
-                                   4.1666666666666664e-2,
-                                   1.6666666666666666e-1,
-                                   0.5,
-                                   1.0,
-                                   1.0};
-    double sum = TERMS[0];
-    for (size_t k = 1; k < sizeof TERMS / sizeof *TERMS; k++)
-        sum = sum * r + TERMS[k];
-    uint64_t bits = (uint64_t)((int64_t)n + 1023) << 52;
-    double scale;
-    memcpy(&scale, &bits, sizeof scale);
-    return sum * scale;
+    return jox_exp_within(x);
 }
 
 double jox_log(double x) {
