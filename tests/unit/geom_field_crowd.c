@@ -76,7 +76,7 @@ static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
     enum { COUNT = 3600 };
     static uint32_t first[COUNT + 1];
     static uint16_t solid[COUNT];
-    static float slowness[COUNT], before[COUNT];
+    static float slowness[COUNT], before[COUNT], x[COUNT], y[COUNT];
     static uint8_t node[COUNT], links[COUNT], corners[COUNT];
     memset(first, 0, sizeof first);
     memset(solid, 0, sizeof solid);
@@ -88,6 +88,8 @@ static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
                       .solid = solid,
                       .slowness = slowness,
                       .node = node,
+                      .x = x,
+                      .y = y,
                       .links = links,
                       .corners = corners};
     jox_field_mark(&w, walls, NULL);
