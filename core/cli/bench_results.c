@@ -38,7 +38,7 @@ static double median(const double *values, uint64_t count) {
 }
 
 static double least(const double *values, uint64_t count) {
-    double result = values[0];
+    double result = values[0]; // cppcheck-suppress uninitvar
     for (uint64_t i = 1; i < count; i++)
         result = values[i] < result ? values[i] : result;
     return result;

@@ -89,28 +89,6 @@ void jox_page_release(JoxPageFigures *f) {
     jox_free(f->items);
 }
 
-/* ---- parts of the page ---- */
-
-static void put_probe(FILE *out, const char *folder, const JoxProbe *probe) {
-    char caption[128], stem[JOX_PROBE_STEM];
-    snprintf(caption, sizeof caption, "Probe %.60s: %.40s", jox_probe_def(probe)->name,
-             jox_probe_kind_name(probe));
-    jox_probe_stem(probe, stem);
-    jox_html_figure(out, folder, stem, caption, false);
-}
-
-void jox_page_crowd(FILE *out, const JoxSubject *s) {
-    jox_html_heading(out, "Plan");
-    jox_maps_plan(out, s);
-    jox_page_leaving(out, s);
-    jox_page_danger(out, s);
-    jox_page_levels(out, s);
-    if (s->probe_count)
-        jox_html_heading(out, "What probes measured");
-    for (uint32_t p = 0; p < s->probe_count; p++)
-        put_probe(out, s->folder, s->probes[p]);
-}
-
 void jox_page_validation(FILE *out) {
     jox_html_heading(out, "What this is worth");
     jox_html_paragraph(

@@ -149,3 +149,24 @@ const JoxWalls *jox_report_walls(const JoxReport *r) {
 const char *jox_report_title(const JoxReport *r) {
     return r->spec && r->spec->title ? r->spec->title : jox_path_name(r->def->recording);
 }
+
+JoxSubject jox_report_subject(const JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    JoxFrame first = {0};
+    jox_trajectories_frame(t, 0, &first);
+    return (JoxSubject){.title = jox_report_title(r),
+                        .folder = r->def->directory,
+                        .danger = r->danger,
+                        .grid = jox_danger_local(r->danger)->grid,
+                        .mean_from = first.time,
+                        .exits = &r->exits,
+                        .story = &r->story,
+                        .walls = jox_report_walls(r),
+                        .places = r->spec ? r->spec->places : NULL,
+                        .place_count = r->spec ? r->spec->place_count : 0,
+                        .probes = (const JoxProbe *const *)r->probes,
+                        .probe_count = r->count,
+                        .inside = (uint32_t)(t->people - r->exits.left),
+                        .from = first.time,
+                        .until = (double)t->last / t->fps};
+}

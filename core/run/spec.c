@@ -1,5 +1,7 @@
-/* A scene's file, read with what the caller sets besides; and all that a scene was read from. */
+/* The specification of a scene, with what the caller sets besides; and its mods, found with what
+   their files change. */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/mem.h"
 #include "run/run.h"
@@ -48,5 +50,59 @@ void jox_run_texts(const JoScene *scene, JoxOverlay *out) {
             const char *text = jox_lua_text(scene->lua, machines->items[m], f, &length);
             jox_overlay_put(out, files[f].path, text, length);
         }
+    }
+}
+
+/* ---- mods ---- */
+
+enum { LARGEST_PATCH = 256 << 10 };
+
+/* What a mod's Lua files change: known to lua/, which alone reads that language. False with an
+   error where that is nothing. */
+static bool name_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
+    size_t length;
+    char *text = jox_read_file(patch->path, LARGEST_PATCH, &length);
+    char target[128];
+    int line = 0, column = 0;
+    if (text && jox_lua_patch_target(text, length, target, &patch->replaces, &line, &column)) {
+        patch->target = jox_strdup(target);
+        patch->position =
+            (JoxPosition){patch->path, line, column, column + (int)strlen(target) + 2};
+    } else {
+        jox_diag_error(diagnostics, ((JoxPosition){patch->path, 0, 0, 0}), "no-patch",
+                       "End the file with: return patch \"NAME\" { ... }",
+                       text ? "this file names no behaviour that it changes"
+                            : "this file cannot be read, or is over 256 KB");
+    }
+    jox_free(text);
+    return patch->target != NULL;
+}
+
+JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics) {
+    JoxModsDef find = {.named = def->mods,
+                       .named_count = (uint32_t)def->mod_count,
+                       .scene = def->path,
+                       .sets = def->overrides,
+                       .set_count = (uint32_t)def->override_count,
+                       .named_only = def->named_mods_only,
+                       .needed_too = def->needed_mods_too,
+                       .without = without};
+    for (JoxDiagnostics targets = {0};;) {
+        JoxDiagnostics found = {0};
+        JoxMods *mods = jox_mods_find(&find, &found);
+        uint64_t broken = 0;
+        for (uint32_t m = 0; m < mods->count; m++)
+            for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
+                if (mods->items[m].patches[p].lua &&
+                    !name_target(&mods->items[m].patches[p], &targets))
+                    broken |= (uint64_t)1 << mods->number[m];
+        if (!broken) {
+            jox_diag_move(diagnostics, &found);
+            jox_diag_move(diagnostics, &targets);
+            return mods;
+        }
+        jox_diag_free(&found);
+        jox_mods_free(mods);
+        find.without |= broken; /* and those that need it */
     }
 }

@@ -111,7 +111,7 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
         if (a->count == people && n % 8)
             continue;
         left += a->count < people;
-        const uint32_t i = (uint32_t)n * 7 % a->count, slot = a->slot[i];
+        const uint32_t i = a->by_rank[(uint32_t)n * 7 % a->count], slot = a->slot[i];
         for (uint32_t k = scene->world->scratch.inspection.count; k-- > 0;)
             scene->world->scratch.inspection.agents[k].asked = UINT32_MAX; /* long ago */
         jox_inspect_expire(scene->world);
