@@ -38,7 +38,7 @@ static double median(const double *values, uint64_t count) {
 }
 
 static double least(const double *values, uint64_t count) {
-    double result = values[0]; // cppcheck-suppress uninitvar
+    double result = values[0];
     for (uint64_t i = 1; i < count; i++)
         result = values[i] < result ? values[i] : result;
     return result;
@@ -46,7 +46,7 @@ static double least(const double *values, uint64_t count) {
 
 /* All that moves bodies and tells agents of them, in Bullet's own steps; 0 without bodies. */
 static double in_bullets(const BenchCase *c) {
-    double ratios[BENCH_ROUNDS];
+    double ratios[BENCH_ROUNDS] = {0.0};
     for (uint64_t i = 0; i < c->measured; i++)
         ratios[i] = c->bullet[i] > 0.0 ? c->bodies[i] / c->bullet[i] : 0.0;
     return median(ratios, c->measured);
