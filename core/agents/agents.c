@@ -6,8 +6,6 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-enum { PADDING = 16 }; /* whole packets may be read past the last agent */
-
 /* Every column with the size of its entries, so that growth and sorting are one loop. */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 enum { COLUMN_STATE, COLUMN_INDEX, COLUMN_HINT, COLUMN_SCRATCH }; /* the marks of columns */
@@ -21,8 +19,9 @@ static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, v
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         visit(context, (void **)&a->param[p], sizeof(float));
-    if (a->own_stride)
-        visit(context, (void **)&a->own, a->own_stride * sizeof(double));
+    for (uint32_t s = 0; s < a->own_count; s++)
+        if (a->own[s].each)
+            visit(context, (void **)&a->own[s].each, sizeof *a->own[s].each);
     if (a->memory_stride)
         visit(context, (void **)&a->memory, a->memory_stride * sizeof(double));
 }
@@ -33,7 +32,7 @@ typedef struct Growth {
 
 static void grow_column(void *context, void **column, size_t size) {
     const Growth *growth = context;
-    void *wider = jox_alloc_aligned(growth->new + PADDING, size);
+    void *wider = jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
     if (*column)
         memcpy(wider, *column, growth->old * size);
     jox_free(*column);
@@ -46,10 +45,9 @@ static void grow_scratch(JoxAgents *a) {
     jox_free(a->scratch);
     jox_free(a->spare);
     jox_free(a->row);
-    const size_t row = a->own_stride > a->memory_stride ? a->own_stride : a->memory_stride;
-    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint64_t));
-    a->spare = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint32_t));
-    a->row = jox_alloc(row + 1, sizeof(double));
+    a->scratch = jox_alloc_aligned((size_t)a->capacity + JOX_AGENTS_PADDING, sizeof(uint64_t));
+    a->spare = jox_alloc_aligned((size_t)a->capacity + JOX_AGENTS_PADDING, sizeof(uint32_t));
+    a->row = jox_alloc((size_t)a->memory_stride + 1, sizeof(double));
 }
 
 void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
@@ -67,29 +65,46 @@ void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
 
 /* Rows of `old` doubles become rows of `wider`. */
 static double *widen_rows(double *rows, const JoxAgents *a, uint32_t old, uint32_t wider) {
-    double *result = jox_alloc_aligned(((size_t)a->capacity + PADDING) * wider, sizeof *result);
+    double *result =
+        jox_alloc_aligned(((size_t)a->capacity + JOX_AGENTS_PADDING) * wider, sizeof *result);
     for (size_t i = 0; i < a->count && old; i++)
         memcpy(result + i * wider, rows + i * old, old * sizeof *rows);
     jox_free(rows);
     return result;
 }
 
-void jox_agents_widen(JoxAgents *a, uint32_t own_stride, uint32_t memory_stride) {
-    if (own_stride <= a->own_stride && memory_stride <= a->memory_stride)
+void jox_agents_widen(JoxAgents *a, uint32_t own_count, uint32_t memory_stride) {
+    if (own_count > a->own_count) {
+        a->own = jox_realloc(a->own, own_count, sizeof *a->own);
+        for (uint32_t s = a->own_count; s < own_count; s++)
+            a->own[s] = (JoxOwnColumn){0};
+        a->own_count = own_count;
+    }
+    if (memory_stride <= a->memory_stride)
         return;
-    if (own_stride > a->own_stride) {
-        a->own = widen_rows(a->own, a, a->own_stride, own_stride);
-        a->own_stride = own_stride;
-    }
-    if (memory_stride > a->memory_stride) {
-        a->memory = widen_rows(a->memory, a, a->memory_stride, memory_stride);
-        a->memory_stride = memory_stride;
-    }
+    a->memory = widen_rows(a->memory, a, a->memory_stride, memory_stride);
+    a->memory_stride = memory_stride;
     grow_scratch(a);
 }
 
+/* Whether all bytes are zero. */
+static inline bool is_clear(const char *row, size_t size) {
+    uint32_t word = 0, any = 0;
+    size_t k = 0;
+    for (; k + sizeof word <= size; k += sizeof word) {
+        memcpy(&word, row + k, sizeof word);
+        any |= word;
+    }
+    for (; k < size; k++)
+        any |= (unsigned char)row[k];
+    return any == 0;
+}
+
+/* What was never written is zero, and takes no memory as long as it is only read. */
 static void clear_row(void *context, void **column, size_t size) {
-    memset((char *)*column + *(uint32_t *)context * size, 0, size);
+    char *row = (char *)*column + *(uint32_t *)context * size;
+    if (!is_clear(row, size))
+        memset(row, 0, size);
 }
 
 void jox_agents_reserve_slots(JoxAgents *a, uint32_t capacity) {
@@ -190,8 +205,8 @@ static void permute_rows(const Gather *gather, char *rows, size_t size, uint8_t 
 static void gather_column(void *context, void **column, size_t size) {
     const Gather *gather = context;
     char *rows = *column;
-    if (memcmp(rows, rows + size, (gather->before - 1) * size) == 0)
-        return;                   /* the same of all agents, as most parameters are */
+    if (jox_is_same_of_all(rows, size, gather->before))
+        return;                   /* as most parameters are */
     if (size == sizeof(uint32_t)) /* nearly all columns */
         gather_words(gather, column);
     else if (size == sizeof(uint64_t))
@@ -309,6 +324,7 @@ static void free_column(void *context, void **column, size_t size) {
 
 void jox_agents_free(JoxAgents *a) {
     visit_columns(a, COLUMN_SCRATCH, free_column, NULL);
+    jox_free(a->own);
     jox_free(a->slot_index);
     jox_free(a->slot_generation);
     jox_free(a->free_slots);

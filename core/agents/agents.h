@@ -5,12 +5,15 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "agents/parameters.h"
 #include "base/sections.h"
 #include "base/vec.h"
 
 #define JOX_NO_INDEX UINT32_MAX
+
+enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last agent */
 
 /* The terms of the net force, equation 10, N: each row gives two columns, NAME_x and NAME_y, and a
    part of what is shown of an agent that is inspected. ROW(X, keep, name, label): STATE carries
@@ -100,6 +103,12 @@
 
 #define JOX_NO_MACHINE UINT16_MAX
 
+/* Values drawn once for each agent. What is the same of all, as most are, is held once. */
+typedef struct JoxOwnColumn {
+    double *each; /* a cell an agent; NULL: `all` is everybody's */
+    double all;
+} JoxOwnColumn;
+
 typedef struct JoxAgents {
     uint32_t count, capacity;
 #define X(keep, type, name) type *name;
@@ -107,9 +116,10 @@ typedef struct JoxAgents {
 #undef X
     /* One column a parameter, e.g. agents->param[JOX_PARAM_speed][i]; angles hold the cosine. */
     float *param[JOX_PARAM_COUNT];
-    /* Values drawn once per agent and memory: rows of `*_stride` doubles. */
-    double *own, *memory;
-    uint32_t own_stride, memory_stride;
+    JoxOwnColumn *own; /* own_count of them; read through jox_own, written through jox_own_set */
+    uint32_t own_count;
+    double *memory; /* rows of memory_stride doubles */
+    uint32_t memory_stride;
     uint32_t next_id;
     /* Handles: slot -> index (JOX_NO_INDEX when free) and generation. */
     uint32_t *slot_index, *slot_generation, *free_slots;
@@ -134,6 +144,11 @@ static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
         d.y -= d.y > 0.0f ? period.y : -period.y;
     return d;
 }
+/* An own value of an agent that runs a machine; of one that runs none they mean nothing. */
+static inline double jox_own(const JoxAgents *agents, uint32_t i, uint32_t slot) {
+    const JoxOwnColumn *column = &agents->own[slot];
+    return column->each ? column->each[i] : column->all;
+}
 /* Whether an agent walks by the walking law (core/walking.md): it keeps a time gap. */
 static inline bool jox_walks(const JoxAgents *agents, uint32_t i) {
     return agents->param[JOX_PARAM_time_gap][i] > 0.0f;
@@ -149,19 +164,30 @@ static inline bool jox_stands_pressed(const JoxAgents *agents, uint32_t i) {
     return jox_stands(agents, i) &&
            (agents->half_plane_x[i] != 0.0f || agents->half_plane_y[i] != 0.0f);
 }
+/* Whether all `count` cells of a column, 1 at least, are the same to the bit. */
+static inline bool jox_is_same_of_all(const void *cells, size_t size, uint32_t count) {
+    return memcmp(cells, (const char *)cells + size, (count - 1) * size) == 0;
+}
 /* From agent i to agent j, m. */
 static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {
     return jox_wrap(agents, (JoxV2){agents->x[j] - agents->x[i], agents->y[j] - agents->y[i]});
 }
 
-/* Zero-initialised agents are empty. Strides may only grow (rows are widened, new cells zero). */
+/* Zero-initialised agents are empty. Own values and memory may only grow in number: new cells are
+   zero. */
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
 void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
-void jox_agents_widen(JoxAgents *agents, uint32_t own_stride, uint32_t memory_stride);
+void jox_agents_widen(JoxAgents *agents, uint32_t own_count, uint32_t memory_stride);
 /* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
    kicked, struck and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
-   sort). */
+   sort). Who gives it a machine sets all its own values. */
 uint32_t jox_agents_add(JoxAgents *agents);
+/* The first agent that differs gives a column a cell for each. Not while others read the column. */
+void jox_own_set(JoxAgents *agents, uint32_t i, uint32_t slot, double value);
+/* Gives a column a cell for each agent, or none: then the first agent's value is everybody's. */
+void jox_own_differ(JoxAgents *agents, uint32_t slot, bool each);
+/* Holds once again what has become the same of all. */
+void jox_own_settle(JoxAgents *agents);
 /* Takes out all agents with `removed` set, keeping the order of the rest. Returns how many. */
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Puts the agents in the order given: new index i is what was at order[i]; a permutation. Columns

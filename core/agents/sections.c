@@ -11,13 +11,49 @@
 #define KEEP_HINT(s, a, name)
 #define KEEP_INDEX(s, a, name)
 
+/* Own values are hashed as rows, agent by agent: what else of a world is the same with them. */
+static void hash_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
+    double *row = jox_alloc((size_t)a->own_count + 1, sizeof *row);
+    for (uint32_t k = 0; k < a->count; k++) {
+        const uint32_t i = order ? order[k] : k;
+        const uint32_t count = a->machine[i] == JOX_NO_MACHINE ? 0 : a->own_count;
+        for (uint32_t slot = 0; slot < count; slot++)
+            row[slot] = jox_own(a, i, slot);
+        jox_section_rows(s, "own", row, count, 1, NULL);
+    }
+    jox_free(row);
+}
+
+/* Otherwise each is a section: of one cell, or of one for each agent. */
+static void list_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
+    if (s->mode == JOX_SECTIONS_HASH) {
+        hash_own(a, s, order);
+        return;
+    }
+    if (s->mode != JOX_SECTIONS_RESTORE)
+        jox_own_settle(a); /* what is the same is saved alike, however it came about */
+    for (uint32_t slot = 0; slot < a->own_count; slot++) {
+        JoxOwnColumn *column = &a->own[slot];
+        uint8_t each = column->each != NULL;
+        jox_sections_unhashed(s, true);
+        JOX_SECTION(s, "own_differ", each);
+        jox_sections_unhashed(s, false);
+        if (s->mode == JOX_SECTIONS_RESTORE && !s->failed)
+            jox_own_differ(a, slot, each != 0);
+        if (column->each)
+            jox_section_ordered(s, "own", column->each, sizeof(double), a->count, order);
+        else
+            jox_section(s, "own", &column->all, sizeof column->all, a->count ? 1 : 0);
+    }
+}
+
 static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
 #define X(keep, type, name) KEEP_##keep(s, a, name)
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_section_ordered(s, jox_parameters[p].name, a->param[p], sizeof(float), a->count, order);
-    jox_section_rows(s, "own", a->own, a->own_stride, a->count, order);
+    list_own(a, s, order);
     jox_section_rows(s, "memory", a->memory, a->memory_stride, a->count, order);
 }
 
@@ -31,9 +67,9 @@ static void list_slots(JoxAgents *a, JoxSections *s) {
 /* Reads the numbers that say how large everything is, and makes room for it. False if they are no
    state: nothing is changed then. */
 static bool restore_sizes(JoxAgents *a, JoxSections *s) {
-    size_t id_size = sizeof *a->id, row = sizeof *a->own;
+    size_t id_size = sizeof *a->id, row = sizeof *a->memory;
     size_t count = jox_section_count(s, "count", 0, id_size);
-    size_t own = jox_section_count(s, "own_stride", 0, row);
+    size_t own = jox_section_count(s, "own_count", 0, sizeof(uint8_t));
     size_t memory = jox_section_count(s, "memory_stride", 0, row);
     size_t slots = jox_section_count(s, "slot_count", 0, sizeof *a->slot_generation);
     size_t spare = jox_section_count(s, "free_count", 0, sizeof *a->free_slots);
@@ -45,10 +81,13 @@ static bool restore_sizes(JoxAgents *a, JoxSections *s) {
         return false;
     a->count = 0; /* rows are about to be read: nothing is worth moving */
     jox_agents_reserve(a, (uint32_t)count);
+    for (uint32_t slot = 0; slot < a->own_count; slot++)
+        jox_own_differ(a, slot, false);
     jox_free(a->own);
     jox_free(a->memory);
-    a->own = a->memory = NULL;
-    a->own_stride = a->memory_stride = 0;
+    a->own = NULL;
+    a->memory = NULL;
+    a->own_count = a->memory_stride = 0;
     jox_agents_widen(a, (uint32_t)own, (uint32_t)memory);
     jox_agents_reserve_slots(a, (uint32_t)slots);
     a->count = (uint32_t)count;
@@ -81,7 +120,7 @@ static void restore_indices(JoxAgents *a, JoxSections *s) {
 void jox_agents_sections(JoxAgents *a, JoxSections *s) {
     jox_sections_module(s, "agents");
     if (s->mode == JOX_SECTIONS_RESTORE) {
-        uint32_t own = a->own_stride, memory = a->memory_stride;
+        uint32_t own = a->own_count, memory = a->memory_stride;
         if (!restore_sizes(a, s))
             return;
         list_columns(a, s, NULL);
@@ -92,7 +131,7 @@ void jox_agents_sections(JoxAgents *a, JoxSections *s) {
     }
     jox_section_count(s, "count", a->count, sizeof *a->id);
     jox_sections_unhashed(s, true); /* rows may be wider than need be, from an older machine */
-    jox_section_count(s, "own_stride", a->own_stride, sizeof *a->own);
+    jox_section_count(s, "own_count", a->own_count, sizeof(uint8_t));
     jox_section_count(s, "memory_stride", a->memory_stride, sizeof *a->memory);
     jox_sections_unhashed(s, false);
     jox_section_count(s, "slot_count", a->slot_count, sizeof *a->slot_generation);

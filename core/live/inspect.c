@@ -63,9 +63,10 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     const JoxState *state = &machine->states[a->state[i]];
     bool own = state->param[p].kind == JOX_VALUE_UNSET;
     const JoxValue *value = own ? &machine->defaults[p] : &state->param[p];
-    const double *row = a->own + (size_t)i * a->own_stride;
-    bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_stride;
-    double meant = value->kind == JOX_VALUE_CONST ? value->number : slot ? row[value->index] : NAN;
+    bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_count;
+    double meant = value->kind == JOX_VALUE_CONST ? value->number
+                   : slot                         ? jox_own(a, i, (uint32_t)value->index)
+                                                  : NAN;
     bool given = own && slot && value->index < 64 && (a->given[i] >> value->index & 1);
     const JoxGroupValue *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
     JoxText text = {0};
@@ -129,7 +130,7 @@ static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     jox_json_object(json, "own");
     for (uint32_t s = 0; machine && s < machine->own_count; s++) {
         const JoxOwnSlot *slot = &machine->own[s];
-        double value = a->own[(size_t)i * a->own_stride + s];
+        double value = jox_own(a, i, s);
         if (!*slot->name || jox_parameter_find(slot->name) >= 0)
             continue;
         bool place = slot->is_place && value >= 0.0 && value < world->model.place_count;

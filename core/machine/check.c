@@ -176,10 +176,10 @@ void jox_heard_check(const JoxMachineRun *run) {
 
 /* Rows end with the slots of the machine: what lies beyond is hashed, and must not differ. */
 static void check_rows(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
-    JOX_ASSERT(machine->own_count <= a->own_stride && machine->memory_count <= a->memory_stride);
+    JOX_ASSERT(machine->own_count <= a->own_count && machine->memory_count <= a->memory_stride);
     JOX_ASSERT(machine->own_count >= 64 || a->given[i] >> machine->own_count == 0);
-    for (uint32_t s = machine->own_count; s < a->own_stride; s++)
-        JOX_ASSERT(a->own[(size_t)i * a->own_stride + s] == 0.0);
+    for (uint32_t s = machine->own_count; s < a->own_count; s++)
+        JOX_ASSERT(jox_own(a, i, s) == 0.0);
     for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
         JOX_ASSERT(a->memory[(size_t)i * a->memory_stride + s] == 0.0);
 }

@@ -115,7 +115,7 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t numb
             continue;
         bool follows = slot >= 0 && !(slot < 64 && (a->given[i] >> slot & 1));
         if (follows)
-            a->own[(size_t)i * a->own_stride + (uint32_t)slot] = value;
+            jox_own_set(a, i, (uint32_t)slot, value);
         for (int p = 0; p < JOX_PARAM_COUNT; p++) {
             const JoxState *state = &machine->states[a->state[i]];
             const JoxValue *held = jox_state_parameter(machine, state, p);
@@ -123,4 +123,5 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t numb
                 write_parameter(run, i, p);
         }
     }
+    jox_own_settle(a);
 }

@@ -154,7 +154,7 @@ double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxV
     case JOX_VALUE_CONST:
         return value->number;
     case JOX_VALUE_OWN:
-        return run->agents->own[(size_t)agent * run->agents->own_stride + (uint32_t)value->index];
+        return jox_own(run->agents, agent, (uint32_t)value->index);
     case JOX_VALUE_EXPRESSION: {
         static _Thread_local JoxRegisters registers;
         jox_eval(run, machine, &machine->expressions[value->index], &agent, 1, registers);

@@ -63,7 +63,7 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
         measure(run, agents, count, (JoxNow)in->arg, to);
         break;
     case JOX_OP_OWN:
-        EACH_AGENT(g->own[(size_t)i * g->own_stride + (uint32_t)in->arg]);
+        EACH_AGENT(jox_own(g, i, (uint32_t)in->arg));
     case JOX_OP_MEMORY:
         EACH_AGENT(g->memory[(size_t)i * g->memory_stride + (uint32_t)in->arg]);
     case JOX_OP_ADD:

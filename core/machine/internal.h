@@ -152,7 +152,7 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
                                     int parameter);
 /* Clears the agent's own values and memory beyond those of the machine, so that what an older
    machine left there is no part of the state. */
-void jox_rows_end(const JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
+void jox_rows_end(JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
 /* Puts a machine into a place of the set: numbers its names and transitions, widens the agents'
    rows, begins its counts. From here on it does not change. */
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);

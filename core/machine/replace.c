@@ -240,26 +240,26 @@ static uint64_t given_now(const JoxReplacement *r, uint64_t given) {
 /* The own values of an agent in their new slots. */
 static void carry_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
-    double *own = a->own + (size_t)i * a->own_stride, *before = r->before;
-    memcpy(before, own, r->old->own_count * sizeof *own);
     for (uint32_t k = 0; k < r->moved_count; k++)
-        own[r->moved[k]] = before[r->own[r->moved[k]]];
+        r->before[k] = jox_own(a, i, (uint32_t)r->own[r->moved[k]]);
+    for (uint32_t k = 0; k < r->moved_count; k++)
+        jox_own_set(a, i, r->moved[k], r->before[k]);
 }
 
 /* Values drawn afresh, but for those that the agent was given. */
 static void draw_again(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
-    const JoxAgents *a = run->agents;
+    JoxAgents *a = run->agents;
     uint32_t id = a->id[i];
     uint64_t given = a->given[i];
-    double *own = a->own + (size_t)i * a->own_stride;
     const double *drawn = r->drawn + (size_t)id * r->redrawn_count;
     for (uint32_t d = 0; d < r->redrawn_count; d++) {
         uint32_t s = r->redrawn[d];
         if (s < 64 && (given >> s & 1))
             continue;
-        own[s] = id < r->drawn_count
-                     ? drawn[d]
-                     : jox_dist_draw(&r->next->own[s].dist, run->seed, id, 0, JOX_DRAW_OWN, s);
+        jox_own_set(a, i, s,
+                    id < r->drawn_count
+                        ? drawn[d]
+                        : jox_dist_draw(&r->next->own[s].dist, run->seed, id, 0, JOX_DRAW_OWN, s));
     }
 }
 
@@ -287,13 +287,12 @@ static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i)
     if (r->memory_moves)
         carry_memory(run, r, i);
     const JoxState *state = &r->next->states[is];
-    const double *own = a->own + (size_t)i * a->own_stride;
     for (uint32_t k = 0; k < r->assign_count[was]; k++) {
         const Assignment *assign = &r->assign[was][k];
         a->param[assign->parameter][i] =
-            assign->own < 0
-                ? assign->value
-                : jox_parameter_store((JoxParameter)assign->parameter, own[assign->own]);
+            assign->own < 0 ? assign->value
+                            : jox_parameter_store((JoxParameter)assign->parameter,
+                                                  jox_own(a, i, (uint32_t)assign->own));
     }
     if (r->tags_change[was]) {
         a->ignore[i] = state->ignore;
@@ -301,12 +300,9 @@ static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i)
     }
 }
 
-/* Rows are far from being in the cache after a step. */
+/* What was drawn lies by id: far from the cache. */
 static void fetch_ahead(const JoxAgents *a, const JoxReplacement *r, uint32_t i) {
-    const double *own = a->own + (size_t)i * a->own_stride;
-    for (uint32_t s = 0; s < r->next->own_count; s += 8)
-        __builtin_prefetch(own + s, 1);
-    if (r->redrawn_count && a->id[i] < r->drawn_count)
+    if (a->id[i] < r->drawn_count)
         __builtin_prefetch(r->drawn + (size_t)a->id[i] * r->redrawn_count);
 }
 
@@ -353,11 +349,10 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
     for (uint32_t s = 0; s < old->state_count; s++)
         any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];
     bool shorter = next->own_count < old->own_count || next->memory_count < old->memory_count;
-    bool all = any || shorter || r->own_moves || r->redrawn_count,
-         rows = r->moved_count || r->redrawn_count;
+    bool all = any || shorter || r->own_moves || r->redrawn_count;
     uint64_t given = 0, now = 0; /* of the agent before: mostly the same */
     for (uint32_t i = 0; all && i < a->count; i++) {
-        if (rows && i + AHEAD < a->count)
+        if (r->redrawn_count && i + AHEAD < a->count)
             fetch_ahead(a, r, i + AHEAD);
         if (a->machine[i] != index)
             continue;
@@ -374,6 +369,7 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
         if (shorter)
             jox_rows_end(a, i, next);
     }
+    jox_own_settle(a);
     jox_edits_end(run, index); /* frees the copy that `old` may be */
     JOX_CHECK(jox_states_check(run));
     return built;

@@ -39,7 +39,7 @@ typedef struct JoxTaken {
     uint16_t machine, from, to, transition;
 } JoxTaken;
 
-enum { JOX_MOST_MACHINES = 64 };
+enum { JOX_MOST_MACHINES = 64, JOX_MOST_GIVEN = 256 };
 
 /* What an agent called out, for others to hear in the next step. */
 typedef struct JoxSignal {
@@ -197,8 +197,8 @@ typedef struct JoxMachineRun {
 /* Takes the machine over and returns its index. Widens the agents' rows as needed. */
 uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine);
 /* Makes the agent at index `agent` a fresh instance of `machine`: draws its own values (overrides:
-   per own slot, NULL or an array of own_count pointers, NULL where the machine's own distribution
-   stands), memory (likewise), enters the start state (its parameters are written; on_enter is
+   per own slot, NULL or an array of pointers, of which the first JOX_MOST_GIVEN count, NULL where
+   the machine's own distribution stands), memory (likewise), enters the start state (its parameters are written; on_enter is
    queued and runs in the next think). */
 void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory);

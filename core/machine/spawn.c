@@ -37,19 +37,24 @@ uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine) {
 }
 
 static void draw_own(const JoxMachineRun *run, uint32_t i, uint32_t slot, const JoxDist *dist) {
-    const JoxAgents *a = run->agents;
-    a->own[(size_t)i * a->own_stride + slot] =
-        jox_dist_draw(dist, run->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
+    JoxAgents *a = run->agents;
+    jox_own_set(a, i, slot, jox_dist_draw(dist, run->seed, a->id[i], 0, JOX_DRAW_OWN, slot));
+}
+
+static bool is_given(const JoxDist *const *given, uint32_t slot) {
+    return given && slot < JOX_MOST_GIVEN && given[slot];
 }
 
 static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *kind,
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
     for (uint32_t s = 0; s < kind->own_count; s++)
-        draw_own(run, agent, s, own && own[s] ? own[s] : &kind->own[s].dist);
+        draw_own(run, agent, s, is_given(own, s) ? own[s] : &kind->own[s].dist);
+    for (uint32_t s = kind->own_count; s < a->own_count; s++)
+        jox_own_set(a, agent, s, 0.0);
     for (uint32_t s = 0; s < kind->memory_count; s++) {
         double value = kind->memory[s].initial;
-        if (memory && memory[s])
+        if (is_given(memory, s))
             value = jox_dist_draw(memory[s], run->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
@@ -88,36 +93,34 @@ static bool goes_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot, u
 void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double value) {
     JoxAgents *a = run->agents;
     JOX_ASSERT(slot < jox_machine_of(run, i)->own_count);
-    a->own[(size_t)i * a->own_stride + slot] = value;
+    jox_own_set(a, i, slot, value);
     a->given[i] |= slot < 64 ? (uint64_t)1 << slot : 0;
     jox_machines_write_parameters(run, i);
 }
 
-void jox_rows_end(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
-    double *own = a->own + (size_t)i * a->own_stride;
+void jox_rows_end(JoxAgents *a, uint32_t i, const JoxMachine *machine) {
     double *memory = a->memory + (size_t)i * a->memory_stride;
-    for (uint32_t s = machine->own_count; s < a->own_stride; s++)
-        own[s] = 0.0;
+    for (uint32_t s = machine->own_count; s < a->own_count; s++)
+        jox_own_set(a, i, s, 0.0);
     for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
         memory[s] = 0.0;
 }
 
 void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
-    enum { MOST = 256 };
     JoxAgents *a = run->agents;
     const JoxMachine *old = run->set->items[a->machine[i]], *next = run->set->items[machine];
-    JoxDist kept[MOST], remembered[MOST];
-    const JoxDist *own[MOST] = {0}, *memory[MOST] = {0};
+    JoxDist kept[JOX_MOST_GIVEN], remembered[JOX_MOST_GIVEN];
+    const JoxDist *own[JOX_MOST_GIVEN] = {0}, *memory[JOX_MOST_GIVEN] = {0};
     uint64_t given = 0;
-    for (uint32_t n = 0; n < next->own_count && n < MOST; n++)
+    for (uint32_t n = 0; n < next->own_count && n < JOX_MOST_GIVEN; n++)
         for (uint32_t o = 0; o < old->own_count; o++)
             if (strcmp(old->own[o].name, next->own[n].name) == 0 &&
                 goes_along(a, i, &old->own[o], o)) {
-                kept[n] = jox_dist_constant(a->own[(size_t)i * a->own_stride + o]);
+                kept[n] = jox_dist_constant(jox_own(a, i, o));
                 own[n] = &kept[n];
                 given |= n < 64 ? (uint64_t)1 << n : 0;
             }
-    for (uint32_t n = 0; n < next->memory_count && n < MOST; n++)
+    for (uint32_t n = 0; n < next->memory_count && n < JOX_MOST_GIVEN; n++)
         for (uint32_t o = 0; o < old->memory_count; o++)
             if (*next->memory[n].name && !strcmp(old->memory[o].name, next->memory[n].name) &&
                 old->memory[o].kind == next->memory[n].kind) {

@@ -14,9 +14,7 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
     if (target->kind == JOX_TARGET_PLACE)
         place = target->arg;
     else if (target->kind == JOX_TARGET_OWN_PLACE)
-        place =
-            (int32_t)
-                run->agents->own[(size_t)agent * run->agents->own_stride + (uint32_t)target->arg];
+        place = (int32_t)jox_own(run->agents, agent, (uint32_t)target->arg);
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];

@@ -83,7 +83,7 @@ static double extreme(const JoScene *scene, uint32_t number, const JoxState *sta
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] != number)
             continue;
-        const double own = a->own[(size_t)i * a->own_stride + (uint32_t)(*value)->index];
+        const double own = jox_own(a, i, (uint32_t)(*value)->index);
         most = isnan(most) || (greatest ? own > most : own < most) ? own : most;
     }
     return most;

@@ -13,10 +13,7 @@
 #include "run/reload_parts.h"
 #include "task/thread.h"
 
-enum {
-    OWN_ROOM = 12,
-    MEMORY_ROOM = 8
-}; /* slots that a new version may add without a copy of all */
+enum { MEMORY_ROOM = 8 }; /* slots that a new version may add without a copy of all */
 
 static void changed(void *context, const char *path, double written) {
     JoxReload *r = context;
@@ -103,7 +100,7 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     jox_hold(r, release_reload);
     const JoxMachineRun *machines = &scene->world->machines;
     JoxAgents *a = &scene->world->state.agents;
-    jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
+    jox_agents_widen(a, a->own_count, a->memory_stride + MEMORY_ROOM);
     atomic_store(&r->next_id, a->next_id);
     atomic_store(&r->machine_count, machines->set->count);
     for (uint32_t m = 0; m < machines->set->count; m++) {

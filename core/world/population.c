@@ -53,17 +53,21 @@ static int32_t add_antipode(JoWorld *world, const JoxGroup *group, JoxV2 from) {
     return add_point(world, (JoxV2){2 * group->centre.x - from.x, 2 * group->centre.y - from.y});
 }
 
-/* Values that a group sets, in the order of a machine's slots. */
+/* Values that a group sets, in the order of a machine's slots: as many as that has are valid. */
+enum { MOST_PLACES = 16 };
 typedef struct Overrides {
-    const JoxDist *own[256], *memory[256];
-    JoxDist place; /* of an antipode */
-    JoxDist places[16];
+    const JoxDist *own[JOX_MOST_GIVEN], *memory[JOX_MOST_GIVEN];
+    JoxDist places[MOST_PLACES];
 } Overrides;
+
+static uint32_t least(uint32_t slots) {
+    return slots < JOX_MOST_GIVEN ? slots : JOX_MOST_GIVEN;
+}
 
 static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachine *machine,
                      Overrides *o) {
     for (uint32_t s = 0; s < count; s++)
-        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
+        for (uint32_t k = 0; k < least(machine->memory_count); k++)
             if (strcmp(machine->memory[k].name, memory[s].name) == 0)
                 o->memory[k] = &memory[s].dist;
 }
@@ -71,15 +75,16 @@ static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachi
 static void override(JoWorld *world, const JoxGroup *group, const JoxGroupValue *memory,
                      uint32_t memory_count, const JoxMachine *machine, JoxV2 at, Overrides *o) {
     uint32_t places = 0;
-    memset(o->own, 0, sizeof o->own);
-    memset(o->memory, 0, sizeof o->memory);
+    const uint32_t own = least(machine->own_count), remembered = least(machine->memory_count);
+    memset(o->own, 0, own * sizeof *o->own);
+    memset(o->memory, 0, remembered * sizeof *o->memory);
     for (uint32_t s = 0; s < group->set_count; s++)
-        for (uint32_t k = 0; k < machine->own_count && k < 256; k++) {
+        for (uint32_t k = 0; k < own; k++) {
             const JoxGroupValue *set = &group->set[s];
             if (strcmp(machine->own[k].name, set->name) != 0)
                 continue;
             o->own[k] = &set->dist;
-            if (set->kind != JOX_SET_NUMBER && places < 16) {
+            if (set->kind != JOX_SET_NUMBER && places < MOST_PLACES) {
                 int32_t place =
                     set->kind == JOX_SET_PLACE ? set->place : add_antipode(world, group, at);
                 o->places[places] = jox_dist_constant(place);
@@ -134,12 +139,12 @@ static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupV
     }
     uint32_t index = pick_machine(world, group, a->id[i]);
     JOX_ASSERT(index < world->model.machines.count);
-    Overrides *o = &(Overrides){0};
-    override(world, group, memory, memory_count, world->model.machines.items[index], at, o);
+    Overrides set;
+    override(world, group, memory, memory_count, world->model.machines.items[index], at, &set);
     world->machines.tick = (uint32_t)world->state.tick;
     world->machines.places = world->model.places;
     world->machines.place_count = world->model.place_count;
-    jox_machines_spawn(&world->machines, i, index, o->own, o->memory);
+    jox_machines_spawn(&world->machines, i, index, set.own, set.memory);
     return i;
 }
 

@@ -12,6 +12,12 @@
 #include "base/mem.h"
 #include "task/pool.h"
 
+static uint64_t hash_of(JoxAgents *a) {
+    JoxSections s = jox_sections_hash();
+    jox_agents_sections(a, &s);
+    return jox_hash_end(&s.hash);
+}
+
 static void columns_follow_their_agent(void **state) {
     (void)state;
     JoxAgents a = {0};
@@ -20,7 +26,7 @@ static void columns_follow_their_agent(void **state) {
         uint32_t at = jox_agents_add(&a);
         a.x[at] = (float)i;
         a.tags[at] = (uint64_t)i << 40;
-        a.own[at * a.own_stride + 1] = i;
+        jox_own_set(&a, at, 1, i);
         a.memory[at * a.memory_stride + 2] = 2.0 * i;
     }
     uint32_t order[300];
@@ -34,9 +40,36 @@ static void columns_follow_their_agent(void **state) {
         assert_int_equal(jox_agents_find(&a, id), i);
         assert_int_equal(a.slot_index[a.slot[i]], i);
         assert_true(a.x[i] == (float)id && a.tags[i] == (uint64_t)id << 40);
-        assert_true(a.own[i * 5 + 1] == id && a.own[i * 5 + 4] == 0);
+        assert_true(jox_own(&a, i, 1) == id && jox_own(&a, i, 4) == 0);
         assert_true(a.memory[i * 4 + 2] == 2.0 * id);
     }
+    jox_agents_free(&a);
+}
+
+/* A column of own values takes memory only while somebody's differs from the others'. */
+static void own_values_of_all_are_held_once(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 2, 0);
+    for (uint32_t i = 0; i < 100; i++) {
+        const uint32_t at = jox_agents_add(&a);
+        a.machine[at] = 0;
+        jox_own_set(&a, at, 0, -0.0);
+        jox_own_set(&a, at, 1, i < 99 ? 3.0 : 4.0);
+    }
+    assert_true(!a.own[0].each && signbit(jox_own(&a, 50, 0)));
+    assert_non_null(a.own[1].each);
+    jox_own_settle(&a);
+    assert_true(jox_own(&a, 0, 1) == 3.0 && jox_own(&a, 98, 1) == 3.0 && jox_own(&a, 99, 1) == 4.0);
+    const uint64_t differing = hash_of(&a);
+    jox_own_set(&a, 99, 1, 3.0);
+    jox_own_set(&a, 7, 0, 0.0); /* another bit: another value */
+    jox_own_set(&a, 7, 0, -0.0);
+    const uint64_t before = hash_of(&a);
+    assert_true(a.own[0].each && a.own[1].each && before != differing);
+    jox_own_settle(&a);
+    assert_true(!a.own[0].each && !a.own[1].each && hash_of(&a) == before);
+    assert_true(jox_own(&a, 99, 1) == 3.0 && signbit(jox_own(&a, 7, 0)));
     jox_agents_free(&a);
 }
 
@@ -160,19 +193,15 @@ static void every_index_runs_once_in_the_same_chunks(void **state) {
     }
 }
 
-static uint64_t hash_of(JoxAgents *a) {
-    JoxSections s = jox_sections_hash();
-    jox_agents_sections(a, &s);
-    return jox_hash_end(&s.hash);
-}
-
 static JoxAgents crowd(void) {
     JoxAgents a = {0};
     jox_agents_widen(&a, 2, 1);
     for (uint32_t i = 0; i < 120; i++) {
         uint32_t at = jox_agents_add(&a);
         a.x[at] = (float)(i * 37 % 120);
-        a.own[at * a.own_stride + 1] = i;
+        a.machine[at] = 0;
+        jox_own_set(&a, at, 0, 5.0);
+        jox_own_set(&a, at, 1, i);
         a.removed[at] = i % 5 == 2;
     }
     jox_agents_compact(&a);
@@ -202,7 +231,8 @@ static void state_is_restored_whatever_the_order(void **state) {
     s = jox_sections_restore(saved.data, saved.length);
     jox_agents_sections(&b, &s);
     assert_true(jox_sections_end(&s));
-    assert_int_equal(b.own_stride, 4);
+    assert_int_equal(b.own_count, 4);
+    assert_true(!b.own[0].each && b.own[1].each && jox_own(&b, 3, 0) == 5.0);
     jox_agents_forget(&b);
     assert_true(isnan(b.forced_x[0]) && b.x[3] == 4 * 37 % 120);
     assert_true(hash_of(&b) == hash);
@@ -243,6 +273,7 @@ static void what_is_no_state_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
+        cmocka_unit_test(own_values_of_all_are_held_once),
         cmocka_unit_test(rows_may_be_wide),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
         cmocka_unit_test(turnover_takes_no_memory),
