@@ -87,24 +87,8 @@ void jox_agents_widen(JoxAgents *a, uint32_t own_count, uint32_t memory_stride) 
     grow_scratch(a);
 }
 
-/* Whether all bytes are zero. */
-static inline bool is_clear(const char *row, size_t size) {
-    uint32_t word = 0, any = 0;
-    size_t k = 0;
-    for (; k + sizeof word <= size; k += sizeof word) {
-        memcpy(&word, row + k, sizeof word);
-        any |= word;
-    }
-    for (; k < size; k++)
-        any |= (unsigned char)row[k];
-    return any == 0;
-}
-
-/* What was never written is zero, and takes no memory as long as it is only read. */
 static void clear_row(void *context, void **column, size_t size) {
-    char *row = (char *)*column + *(uint32_t *)context * size;
-    if (!is_clear(row, size))
-        memset(row, 0, size);
+    memset((char *)*column + *(uint32_t *)context * size, 0, size);
 }
 
 void jox_agents_reserve_slots(JoxAgents *a, uint32_t capacity) {

@@ -202,6 +202,8 @@ static int bench_all(Bench *bench, const char *const *names, size_t count) {
             if (status == JO_OK && !bench->json && round + 1 == bench->given.rounds)
                 bench_line(&cases[k]);
         }
+    if (status == JO_OK && !bench->json)
+        bench_ratios(cases, total, bench->isa_count);
     if (status == JO_OK)
         status = finish(bench, cases, total);
     jox_free(cases);

@@ -45,6 +45,9 @@ int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, 
 /* The table: its first lines, and the line of a case. */
 void bench_header(void);
 void bench_line(const BenchCase *c);
+/* How many times as fast as with the first of `isas` sets of instructions each scene is with the
+   others; cases of one scene stand together. */
+void bench_ratios(const BenchCase *cases, size_t count, size_t isas);
 /* One array of objects, to standard output. */
 void bench_json(const BenchGiven *given, const BenchCase *cases, size_t count);
 /* Appends a line for each case to a file, whose first line names the columns; false with errno. */

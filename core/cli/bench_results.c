@@ -106,6 +106,18 @@ void bench_header(void) {
     puts("");
 }
 
+void bench_ratios(const BenchCase *cases, size_t count, size_t isas) {
+    if (isas < 2)
+        return;
+    printf("\nTimes as fast as %s, by least cpu ns:\n", jo_isa_name(cases->isa));
+    for (size_t k = 0; k < count; k++) {
+        const BenchCase *c = &cases[k], *first = c - k % isas;
+        if (c != first)
+            printf("%-30s %-6s %7.2f\n", c->name, jo_isa_name(c->isa),
+                   least(first->ns, first->measured) / least(c->ns, c->measured));
+    }
+}
+
 void bench_json(const BenchGiven *given, const BenchCase *cases, size_t count) {
     JoxText text = {0};
     JoxJson array = jox_json_begin(&text, 1);

@@ -198,8 +198,8 @@ typedef struct JoxMachineRun {
 uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine);
 /* Makes the agent at index `agent` a fresh instance of `machine`: draws its own values (overrides:
    per own slot, NULL or an array of pointers, of which the first JOX_MOST_GIVEN count, NULL where
-   the machine's own distribution stands), memory (likewise), enters the start state (its parameters are written; on_enter is
-   queued and runs in the next think). */
+   the machine's own distribution stands), memory (likewise), enters the start state (its parameters
+   are written; on_enter is queued and runs in the next think). */
 void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory);
 /* Evaluates counters, transitions, parameters, kicks. Agents with `removes` states get `removed`.

@@ -16,6 +16,9 @@ typedef struct JoxFrame {
     JoxV2 period;  /* m: of periodic edges along x and y; 0 without. Who passes one comes round. */
     uint32_t keys; /* every key so far is below this */
     const uint32_t *key;  /* of each person: the same in every frame, never another's */
+    uint32_t slots;       /* every slot is below this */
+    const uint32_t *slot; /* of each person: the same while they are there, then another's; NULL: as
+                             the key */
     const float *x, *y;   /* m */
     const float *vx, *vy; /* m/s: displacement over a step, or over a stretch about the moment */
     /* NULL where they are not known, as in a recording made by others. */

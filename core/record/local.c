@@ -54,7 +54,8 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     l->stretch = stretch_of(frame->time);
     l->time = frame->time;
     l->samples++;
-    jox_track_reserve(&l->track, frame->keys);
+    if (l->pressure)
+        jox_track_reserve(&l->track, frame);
     jox_density_walls(l->grid, frame->walls);
     jox_density_begin(l->grid, l->pressure ? 3 : 1);
     for (uint32_t i = 0; i < frame->count; i++) {

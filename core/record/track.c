@@ -5,8 +5,8 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 
-void jox_track_reserve(JoxTrack *track, uint32_t keys) {
-    JOX_RESERVE_ZEROED(track->items, track->capacity, keys);
+void jox_track_reserve(JoxTrack *track, const JoxFrame *frame) {
+    JOX_RESERVE_ZEROED(track->items, track->capacity, frame->slot ? frame->slots : frame->keys);
 }
 
 void jox_track_sections(JoxTrack *track, JoxSections *s) {
@@ -20,9 +20,10 @@ static float shortest(float d, float period) {
 }
 
 bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch) {
-    struct JoxTracked *last = &track->items[frame->key[i]];
-    struct JoxTracked now = {frame->x[i], frame->y[i], frame->time, true};
-    bool known = last->known;
+    const uint32_t key = frame->key[i];
+    struct JoxTracked *last = &track->items[frame->slot ? frame->slot[i] : key];
+    struct JoxTracked now = {frame->x[i], frame->y[i], frame->time, key + 1, 0};
+    bool known = last->person == now.person;
     if (known)
         *stretch = (JoxStretch){.from = {last->x, last->y},
                                 .by = {shortest(now.x - last->x, frame->period.x),

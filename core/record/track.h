@@ -10,8 +10,9 @@ typedef struct JoxTrack {
     struct JoxTracked {
         float x, y;
         double time;
-        bool known;
-    } * items; /* by key */
+        uint32_t person; /* key, plus 1; 0: nobody was there */
+        uint32_t unused; /* 0: cells of sections have no padding */
+    } * items;           /* by slot: as many as there were people at a time */
     uint32_t capacity;
 } JoxTrack;
 
@@ -24,7 +25,7 @@ typedef struct JoxStretch {
 
 /* Notes person i's place in the frame; false where it is the first. Call jox_track_reserve before
    the first of a frame. */
-void jox_track_reserve(JoxTrack *track, uint32_t keys);
+void jox_track_reserve(JoxTrack *track, const JoxFrame *frame);
 void jox_track_sections(JoxTrack *track, JoxSections *sections);
 bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch);
 /* +1 or -1, and the time, if the stretch crosses a-b; else 0. */

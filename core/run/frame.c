@@ -70,6 +70,8 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .period = a->period,
                           .keys = a->next_id,
                           .key = a->id,
+                          .slots = a->slot_count,
+                          .slot = a->slot,
                           .x = a->x,
                           .y = a->y,
                           .vx = f->vx,

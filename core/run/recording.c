@@ -17,10 +17,10 @@ typedef struct Recording {
     uint32_t next;                    /* the first number that no machine has */
     uint32_t *shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
     size_t shape_capacity;
-    /* By agent's id: sums over the steps since the recorded frame before. */
+    /* By agent's slot: sums over the steps since the recorded frame before, of who is in it. */
     struct Borne {
         float compression, load;
-        uint32_t steps;
+        uint32_t steps, id;
     } * borne;
     size_t borne_capacity;
 } Recording;
@@ -126,19 +126,21 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
 /* What people bear changes from step to step: frames have the mean since the one before, so that no
    part of it is lost between them. */
 static void add_borne(Recording *r, const JoxAgents *a) {
-    JOX_RESERVE_ZEROED(r->borne, r->borne_capacity, a->next_id);
+    JOX_RESERVE_ZEROED(r->borne, r->borne_capacity, a->slot_count);
     for (uint32_t i = 0; i < a->count; i++) {
-        struct Borne *b = &r->borne[a->id[i]];
+        struct Borne *b = &r->borne[a->slot[i]];
+        if (b->id != a->id[i])
+            *b = (struct Borne){.id = a->id[i]};
         b->compression += a->compression[i];
         b->load += a->load[i];
         b->steps++;
     }
 }
 
-static struct Borne take_borne(Recording *r, uint32_t id) {
-    const struct Borne b = r->borne[id];
-    r->borne[id] = (struct Borne){0};
-    return (struct Borne){b.compression / (float)b.steps, b.load / (float)b.steps, b.steps};
+static struct Borne take_borne(Recording *r, uint32_t slot) {
+    const struct Borne b = r->borne[slot];
+    r->borne[slot] = (struct Borne){.id = b.id};
+    return (struct Borne){b.compression / (float)b.steps, b.load / (float)b.steps, b.steps, b.id};
 }
 
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
@@ -155,7 +157,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
-        const struct Borne borne = take_borne(r, id);
+        const struct Borne borne = take_borne(r, a->slot[i]);
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){
             id,    a->x[i],           a->y[i],    a->face_x[i], a->face_y[i], state_number(r, a, i),

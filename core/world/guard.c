@@ -1,6 +1,7 @@
 /* The guard: people and bodies whose numbers go wrong, before the next step reads them. It names
    the first, and does with people what the world's definition says. */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -70,7 +71,7 @@ static uint32_t bits_of(float number) {
    its parts are, unless they are huge; an exponent of all ones carries into the sign; and, without
    its sign, what is farther is a greater whole number. In blocks, of which compilers make vector
    instructions. */
-static bool may_be_wrong(const JoxAgents *a) {
+static bool may_be_wrong(const JoxAgents *a, uint32_t begin, uint32_t end) {
     enum { BLOCK = 64 };
     const uint32_t exponent = 0x7f800000u, one = 0x00800000u, magnitude = 0x7fffffffu;
     const uint32_t most = bits_of(FARTHEST);
@@ -79,15 +80,33 @@ static bool may_be_wrong(const JoxAgents *a) {
 #define LOOK(i)                                                                                    \
     signs |= (bits_of(COLUMNS(PLUS)) & exponent) + one;                                            \
     signs |= (most - (bits_of(a->x[i]) & magnitude)) | (most - (bits_of(a->y[i]) & magnitude));
-    uint32_t begin = 0;
-    for (; begin + BLOCK <= a->count; begin += BLOCK)
+    for (; begin + BLOCK <= end; begin += BLOCK)
         for (uint32_t i = begin; i < begin + BLOCK; i++) {
             LOOK(i)
         }
-    for (uint32_t i = begin; i < a->count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         LOOK(i)
     }
     return signs >> 31;
+}
+
+typedef struct Look {
+    const JoxAgents *agents;
+    atomic_bool found;
+} Look;
+
+static void look_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    Look *look = context;
+    (void)worker;
+    if (may_be_wrong(look->agents, begin, end))
+        atomic_store(&look->found, true);
+}
+
+static bool anybody_may_be_wrong(const JoWorld *w) {
+    enum { GRAIN = 2048 };
+    Look look = {.agents = &w->state.agents};
+    jox_parallel_for(w->scratch.pool, look.agents->count, GRAIN, look_chunk, &look);
+    return atomic_load(&look.found);
 }
 
 /* ---- who it is ---- */
@@ -228,7 +247,7 @@ void jox_world_lose_body(JoWorld *w, const JoxBodyGone *gone) {
 bool jox_world_guard(JoWorld *w) {
     if (w->failure[0]) /* by a body */
         return false;
-    if (!may_be_wrong(&w->state.agents))
+    if (!anybody_may_be_wrong(w))
         return true;
     Column columns[COLUMN_COUNT];
     list_columns(&w->state.agents, columns);

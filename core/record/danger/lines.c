@@ -52,7 +52,7 @@ static void add_crossing(JoxDangerLine *line, double time, uint32_t key, int dir
 void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame) {
     if (lines->count == 0)
         return;
-    jox_track_reserve(&lines->track, frame->keys);
+    jox_track_reserve(&lines->track, frame);
     for (uint32_t i = 0; i < frame->count; i++) {
         JoxStretch stretch;
         double time;

@@ -52,7 +52,7 @@ static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
 
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Displacement *d = state;
-    jox_track_reserve(&d->track, frame->keys);
+    jox_track_reserve(&d->track, frame);
     JOX_RESERVE_ZEROED(d->people, d->capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])

@@ -43,7 +43,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     Transit *t = state;
     JoxStretch stretch;
     double time;
-    jox_track_reserve(&t->track, frame->keys);
+    jox_track_reserve(&t->track, frame);
     reserve(t, frame);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i] || !jox_track_step(&t->track, frame, i, &stretch))
