@@ -94,13 +94,22 @@ static bool write_bounds(JoxRecorder *r) {
            set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
 }
 
+/* In whole parts; what is no number is NULL, which the table does not take. */
+static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
+    if (isfinite(value))
+        sqlite3_bind_int64(to, at, llround((double)value * parts));
+    else
+        sqlite3_bind_null(to, at);
+}
+
 static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
     const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
                              row->force, row->compression, row->load};
+    static const double PARTS[] = {1e4, 1e4, 1e3, 1e3, 10.0, 10.0, 10.0};
     sqlite3_bind_int64(to, first, frame);
     sqlite3_bind_int64(to, first + 1, row->id);
     for (int k = 0; k < 7; k++)
-        sqlite3_bind_double(to, first + 2 + k, numbers[k]);
+        bind_parts(to, first + 2 + k, numbers[k], PARTS[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
 }
@@ -183,14 +192,17 @@ static void *writer(void *argument) {
     return NULL;
 }
 
-/* Columns of ours stand beside those of the format, whose readers name the ones that they take. The
-   key is the format's index: rows are found by it, and lie in its order. A whole number takes one
-   to four bytes, any other eight. */
+/* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths
+   of millimetres, directions in thousandths and loads in tenths, and the format's table is a view
+   of them, which its readers cannot tell from a table. Columns of ours stand beside those of the
+   format. The key is the format's index: rows are found by it, and lie in its order. */
 static const char SCHEMA[] =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
-    "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT NULL,"
-    " pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL, force REAL, compression REAL,"
-    " load REAL, state INTEGER, member INTEGER, PRIMARY KEY(frame, id)) WITHOUT ROWID;"
+    "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"
+    " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"
+    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, PRIMARY KEY(frame, id))"
+    " WITHOUT ROWID;"
+    "CREATE VIEW trajectory_data AS " JOX_RECORDED_ROWS ";"
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
@@ -220,8 +232,7 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
 
 /* Takes out what was written behind a frame. */
 static bool go_on(JoxRecorder *r, uint32_t last) {
-    static const char *const TABLES[] = {"trajectory_data", "jostle_body", "jostle_part",
-                                         "frame_data"};
+    static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "frame_data"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
     char sql[160];
@@ -243,7 +254,7 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
 }
 
 static bool prepare_rows(JoxRecorder *r) {
-    static const char INSERT[] = "INSERT INTO trajectory_data VALUES";
+    static const char INSERT[] = "INSERT INTO jostle_row VALUES";
     static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
     char *end = stpcpy(batch, INSERT); /* on the stack: nobody holds the database as yet */

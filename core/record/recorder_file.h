@@ -14,4 +14,10 @@ bool jox_is_recording(const char *path);
    for it. */
 FILE *jox_claim_recording(const char *path, JoxText *error);
 
+/* The rows of a recording of ours, as the format has them: jostle_row holds whole numbers. */
+#define JOX_RECORDED_ROWS                                                                          \
+    "SELECT frame, id, x / 1e4 AS pos_x, y / 1e4 AS pos_y, facing_x / 1e3 AS ori_x, facing_y / "   \
+    "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \
+    "load, state, member FROM jostle_row"
+
 #endif

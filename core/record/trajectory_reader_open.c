@@ -6,6 +6,7 @@
 #include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "record/recorder_file.h"
 #include "record/trajectory_reader_parts.h"
 
 enum { MOST_FRAMES = 10000000, MOST_POINTS = 100000 };
@@ -234,6 +235,11 @@ static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajecto
                      JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     double found;
+    /* Views of the file are not used: they may be anything. This one is ours. */
+    if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
+            &found))
+        sqlite3_exec(r->db, "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS, NULL, NULL,
+                     NULL);
     sqlite3_stmt *probe = prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
                                          "LIMIT 1");
     const int status = probe ? sqlite3_step(probe) : SQLITE_ERROR;
@@ -244,8 +250,9 @@ static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajecto
     sqlite3_finalize(probe);
     if (status != SQLITE_ROW)
         return false;
-    bool indexed = ask(r->db,
-                       "SELECT 1 FROM pragma_index_list('trajectory_data') l, "
+    bool indexed = ask(r->db, /* ours is a view of rows that are */
+                       "SELECT 1 FROM pragma_index_list((SELECT name FROM sqlite_schema WHERE name"
+                       " IN ('jostle_row', 'trajectory_data') ORDER BY name LIMIT 1)) l, "
                        "pragma_index_info(l.name) i WHERE i.seqno = 0 AND i.name = 'frame'",
                        &found);
     r->way = indexed ? JOX_READ_BY_INDEX : JOX_READ_BY_ROW;

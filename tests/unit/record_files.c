@@ -44,7 +44,7 @@ static bool put_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     JoxRecordRow *rows = jox_recorder_take(r, 3, 1, &bodies);
     for (uint32_t i = 0; i < 3; i++)
         rows[i] = (JoxRecordRow){
-            i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.25f, 3.5f, 0};
+            i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.5f, 3.5f, 0};
     bodies[0] = (JoxRecordBody){7, (float)f, 2, 3, 0, 0, 0, 1};
     return jox_recorder_put(r, f, error);
 }
@@ -80,7 +80,7 @@ static void a_recording_reads_back(void **state) {
                         "pos_y = -frame AND ori_x = 0 AND ori_y = 1") == 300);
     assert_true(ask(db,
                     "SELECT count(*) FROM trajectory_data WHERE state = id AND force = 10.5 AND "
-                    "compression = 2.25 AND load = 3.5") == 300);
+                    "compression = 2.5 AND load = 3.5") == 300);
     assert_true(ask(db, "SELECT count(*) FROM jostle_body WHERE id = 7 AND x = frame AND y = 2 AND "
                         "z = 3 AND qw = 1") == 100);
     assert_true(ask(db, "SELECT count(*) FROM jostle_state WHERE machine = 'machine' AND "

@@ -362,7 +362,8 @@ static void our_recordings_keep_more(void **state) {
                      "CREATE TABLE jostle_agent AS SELECT frame, id, state, force, compression, "
                      "member FROM trajectory_data ORDER BY frame, id;"
                      "CREATE TABLE placed AS SELECT frame, id, pos_x, pos_y, ori_x, ori_y FROM "
-                     "trajectory_data ORDER BY frame, id; DROP TABLE trajectory_data;"
+                     "trajectory_data ORDER BY frame, id; DROP VIEW trajectory_data; DROP TABLE "
+                     "jostle_row;"
                      "ALTER TABLE placed RENAME TO trajectory_data;"
                      "CREATE INDEX frame_id_idx ON trajectory_data(frame, id)",
                      NULL, NULL, NULL),
