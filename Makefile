@@ -29,7 +29,7 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest sweep sweep/compare)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine world/input world/happened world world/verbs world/embed scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest sweep sweep/compare)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 # Kernels: one source, compiled for each instruction set that core/simd has lanes for.
 SRC_WIDE := $(filter %_wide.c,$(SRC_C))
@@ -275,6 +275,7 @@ unit: $(B)/units
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
+HEADERS   := $(sort $(wildcard core/include/*.h))
 install:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) SHARED=$(SHARED) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all
 	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
@@ -283,7 +284,7 @@ install:
 	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(D)/lib/
 	ln -sf libjostle.so.$(VERSION) $(D)/lib/libjostle.so.0
 	ln -sf libjostle.so.0 $(D)/lib/libjostle.so
-	install -m 644 core/include/jostle.h core/include/jostle_tools.h $(D)/include/
+	install -m 644 $(HEADERS) $(D)/include/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
 	printf 'prefix=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -ljostle\nRequires.private: %s\nLibs.private: -lstdc++ -lm -pthread\n' '$(PREFIX)' '$(VERSION)' '$(PKGS)' > $(D)/lib/pkgconfig/jostle.pc
 	install -d $(D)/share/jostle/page
@@ -291,7 +292,7 @@ install:
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
 uninstall:
 	rm -rf $(D)/share/jostle
-	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(D)/include/jostle.h $(D)/include/jostle_tools.h
+	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(HEADERS:core/%=$(D)/%)
 	rm -f $(D)/lib/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
 clean:
 	rm -rf build

@@ -56,6 +56,10 @@ bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBo
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin) {
     return (void)bodies, (void)row, (void)velocity, (void)spin, false;
 }
+bool jox_bodies_place(JoxBodies *bodies, uint32_t row, const double position[3],
+                      const double turn[4]) {
+    return (void)bodies, (void)row, (void)position, (void)turn, false;
+}
 bool jox_bodies_hold(JoxBodies *bodies, uint32_t row, uint32_t agent_id) {
     return (void)bodies, (void)row, (void)agent_id, false;
 }

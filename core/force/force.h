@@ -98,6 +98,11 @@ void jox_force_contact(JoxForces *forces);
 void jox_force_sum(JoxForces *forces);
 /* The half-planes of what agents touch, from sum to the next begin; none in the mode literal. */
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);
+/* Impulses of the contacts that the last step solved, in ascending ids: between agents, of agents
+   with walls (edges) and with bodies (rows). */
+typedef enum { JOX_KEPT_PAIRS, JOX_KEPT_WALLS, JOX_KEPT_TOUCHES } JoxKeptKind;
+const struct JoxKeptImpulse *jox_force_kept(const JoxForces *forces, JoxKeptKind kind,
+                                            size_t *count);
 /* What each piece of the walls bears, from contact to the next begin. */
 const JoxWallLoad *jox_force_wall_loads(const JoxForces *forces, uint32_t *count);
 /* Equations 8 and 9, once vx, vy hold the new velocities: inferred_x, inferred_y. */

@@ -171,3 +171,11 @@ void jox_forces_sections(JoxForces *f, JoxSections *s) {
 JoxForceTotals jox_force_totals(const JoxForces *f) {
     return f->totals;
 }
+
+const JoxKeptImpulse *jox_force_kept(const JoxForces *f, JoxKeptKind kind, size_t *count) {
+    const JoxKeptImpulses *kept = kind == JOX_KEPT_PAIRS   ? &f->kept_pairs
+                                  : kind == JOX_KEPT_WALLS ? &f->kept_walls
+                                                           : &f->kept_touches;
+    *count = kept->count;
+    return kept->items;
+}

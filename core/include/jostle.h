@@ -132,6 +132,8 @@ JO_API JoAgentDef jo_default_agent_def(void);
 /* A null handle, with `error` filled, if a field is out of range. An agent born in a wall or in
    another agent is moved to the nearest free spot before its first step. */
 JO_API JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error);
+/* Takes an agent out, at once; what it carries falls. Recorded in the world of a scene, as all that
+   jostle_act.h has. Nothing for a stale handle. */
 JO_API void jo_world_remove_agent(JoWorld *world, JoAgent agent);
 JO_API bool jo_agent_is_live(const JoWorld *world, JoAgent agent);
 
@@ -151,10 +153,9 @@ JO_API JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent);
 /* Wanted velocity, m/s, for agents without a machine; holds until set again. At most 1e6 along each
    axis. */
 JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy);
-/* An external force in newtons that acts during the next step. */
+/* An external force in newtons that acts during the next step; forces add up. Up to 1e6 along each
+   axis in a world made by hand; in that of a scene, where it is recorded, up to 10,000. */
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
-/* Sets a parameter of behaviours ("push", "perception", ...) by name; false if there is none. */
-JO_API bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value);
 
 typedef enum JoShape { JO_SPHERE, JO_BOX, JO_CYLINDER } JoShape;
 typedef struct JoBodyDef {
@@ -237,7 +238,9 @@ JO_API void jo_scene_free(JoScene *scene);
 /* The scene of `def` once more, with the seed of one that was loaded from it, half its step, and
    no messages; it collects what a report does, and draws nothing. NULL with `error`. */
 JO_API JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error);
-/* The world, owned by the scene; agents and bodies may be read and pushed. */
+/* The world, owned by the scene. It is stepped by jo_scene_step alone. What jostle_act.h does to it
+   between two steps, and forces on and removals of agents, go into the input log; agents and bodies
+   that are added by hand and preferred velocities do not. */
 JO_API JoWorld *jo_scene_world(JoScene *scene);
 JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says */
 /* One step: sources, the world's step, sinks, and whatever is recorded. False if recording or
@@ -319,6 +322,11 @@ JO_API const char *jo_stage_name(int stage);
    and time, people per m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s
    (JoSceneDef.no_density: null). */
 JO_API char *jo_scene_summary(const JoScene *scene);
+/* The name of the n-th probe of the scene, from 0; NULL behind the last. */
+JO_API const char *jo_scene_probe_name(const JoScene *scene, uint32_t n);
+/* What it has measured so far, as the table that a report writes: CSV, whose first line has names
+   with units in brackets; free with jo_free. NULL where there is no such probe. */
+JO_API char *jo_scene_probe_table(const JoScene *scene, uint32_t n);
 /* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
    "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,
    coordinates and texts are not. Free with jo_free. */
@@ -346,4 +354,8 @@ JO_API char *jo_scene_lua_profile(const JoScene *scene);
 #ifdef __cplusplus
 }
 #endif
+
+#include "jostle_act.h"
+#include "jostle_read.h"
+
 #endif

@@ -65,6 +65,8 @@ static int find_tool(const char *line) {
     for (uint32_t v = 0; v < jox_input_verb_count; v++)
         if (strlen(jox_input_verbs[v].name) == n && !strncmp(line, jox_input_verbs[v].name, n))
             name = jox_input_verbs[v].tool;
+    if (name && !strcmp(name, JOX_VERB_PROGRAM))
+        return -1; /* no page has it */
     for (int tool = 0; name && tool < JOX_TOOL_COUNT; tool++)
         if (!strcmp(jox_scene_tools[tool], name))
             return tool;
@@ -76,7 +78,7 @@ static void refuse_verb(const JoxLiveRequest *request) {
     JoxText why = {0};
     jox_text_add(&why, "a line begins with one of:");
     for (uint32_t v = 0; v < jox_input_verb_count; v++)
-        if (jox_input_verbs[v].tool)
+        if (jox_input_verbs[v].tool && strcmp(jox_input_verbs[v].tool, JOX_VERB_PROGRAM) != 0)
             jox_text_printf(&why, " %s", jox_input_verbs[v].name);
     jox_live_refuse(request, why.data);
     jox_text_free(&why);

@@ -235,6 +235,9 @@ void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit 
 /* Makes the agent go on with another machine, from its start state: it keeps its body, what the
    scene gave it and its memory, by name; the rest is drawn anew. */
 void jox_machines_become(JoxMachineRun *run, uint32_t agent, uint32_t machine);
+/* Puts the agent into a state, between two steps: as jox_machines_spawn does, it has no neighbours
+   to look at yet. */
+void jox_machines_set_state(JoxMachineRun *run, uint32_t agent, uint16_t state);
 /* Gives the agent an own value, as the scene's group might have done. */
 void jox_machines_set_own(JoxMachineRun *run, uint32_t agent, uint32_t slot, double value);
 /* Sets a parameter of one state (-1: of the defaults) to a number within its range, for all who are

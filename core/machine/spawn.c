@@ -60,6 +60,20 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
     }
 }
 
+/* Leaves what the next think has to do: it has no neighbours yet. */
+static void enter_between_steps(JoxMachineRun *run, uint32_t agent, uint16_t to) {
+    JoxMachineState *pending = run->state;
+    const JoxState *state = &jox_machine_of(run, agent)->states[to];
+    const JoxActions *does = &state->enters;
+    run->spawning = true;
+    jox_machines_enter(run, agent, to);
+    run->spawning = false;
+    if (state->on_enter < 0 && state->lasts_expression < 0 && !does->set_count && does->signal < 0)
+        return;
+    JOX_RESERVE(pending->pending, pending->pending_capacity, pending->pending_count + 1);
+    pending->pending[pending->pending_count++] = run->agents->id[agent];
+}
+
 void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
@@ -69,16 +83,7 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
         a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
-    run->spawning = true; /* it has no neighbours yet */
-    jox_machines_enter(run, agent, kind->start);
-    run->spawning = false;
-    const JoxState *start = &kind->states[kind->start];
-    const JoxActions *does = &start->enters;
-    if (start->on_enter < 0 && start->lasts_expression < 0 && !does->set_count && does->signal < 0)
-        return;
-    JoxMachineState *state = run->state;
-    JOX_RESERVE(state->pending, state->pending_capacity, state->pending_count + 1);
-    state->pending[state->pending_count++] = a->id[agent];
+    enter_between_steps(run, agent, kind->start);
 }
 
 /* Whether an own value goes along when an agent becomes another machine: its body and what is no
@@ -132,6 +137,26 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
     jox_rows_end(a, i, next);
     a->given[i] = given;
     jox_machines_enter(run, i, next->start);
+}
+
+void jox_machines_set_state(JoxMachineRun *run, uint32_t agent, uint16_t to) {
+    JoxMachineState *pending = run->state;
+    const JoxMachine *machine = jox_machine_of(run, agent);
+    const int32_t next = machine->states[to].become_machine;
+    uint32_t kept = 0; /* what it had to do in the state that it leaves is void */
+    JOX_ASSERT(to < machine->state_count);
+    for (uint32_t n = 0; n < pending->pending_count; n++)
+        if (pending->pending[n] != run->agents->id[agent])
+            pending->pending[kept++] = pending->pending[n];
+    pending->pending_count = kept;
+    if (next >= 0) {
+        JOX_ASSERT((uint32_t)next < run->set->count);
+        run->spawning = true;
+        jox_machines_become(run, agent, (uint32_t)next);
+        run->spawning = false;
+        to = run->set->items[next]->start;
+    }
+    enter_between_steps(run, agent, to);
 }
 
 void jox_machines_free(JoxMachineRun *run) {

@@ -142,9 +142,8 @@ static void start_at(JoxAgents *a, uint32_t i) {
     a->prev_y[i] = a->still_y[i] = a->y[i];
 }
 
-JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first_id,
-                                       bool walls_came) {
-    JoxPlacement result = {0};
+/* Spots for people as wide as these are, of whom nobody has one yet. */
+static Occupied begin_spots(JoxNav *nav, const JoxAgents *a) {
     float widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++)
         widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
@@ -158,8 +157,36 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
     t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
     t.next = jox_alloc((size_t)a->count + 1, sizeof *t.next);
     t.searched = jox_alloc(SEARCHES, sizeof *t.searched);
-    bool *moves = jox_alloc((size_t)a->count + 1, sizeof *moves);
     memset(t.head, 0xff, ((size_t)t.mask + 1) * sizeof *t.head);
+    return t;
+}
+
+static void end_spots(Occupied *t) {
+    jox_free(t->head);
+    jox_free(t->next);
+    jox_free(t->searched);
+}
+
+bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *a, uint32_t agent, JoxV2 *at) {
+    Occupied t = begin_spots(nav, a);
+    const float radius = a->param[JOX_PARAM_radius][agent];
+    const JoxV2 p = *at;
+    JOX_ASSERT(agent < a->count);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (i != agent)
+            occupy(&t, i);
+    const bool good = is_free(&t, &nav->grid, p, radius) ||
+                      find_spot(&t, &nav->grid, p, radius, 0.0f, at) ||
+                      find_spot(&t, &nav->grid, p, radius, INFINITY, at);
+    end_spots(&t);
+    return good;
+}
+
+JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first_id,
+                                       bool walls_came) {
+    JoxPlacement result = {0};
+    Occupied t = begin_spots(nav, a);
+    bool *moves = jox_alloc((size_t)a->count + 1, sizeof *moves);
     for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
         JoxV2 p = {a->x[i], a->y[i]};
         moves[i] = a->id[i] >= first_id;
@@ -180,9 +207,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
     }
     JOX_ASSERT(result.moved + result.stuck <= a->count);
     JOX_ASSERT(result.farthest <= FARTHEST * 1.001f);
-    jox_free(t.head);
-    jox_free(t.next);
-    jox_free(t.searched);
+    end_spots(&t);
     jox_free(moves);
     return result;
 }

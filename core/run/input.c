@@ -44,6 +44,12 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
 
 /* ---- what comes in ---- */
 
+void jox_run_record_act(void *context, JoxInputEntry *entry) {
+    JoScene *scene = context;
+    scene->acted_on = true;
+    jox_run_log(scene, entry);
+}
+
 static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
@@ -83,13 +89,11 @@ void jox_run_inputs(JoScene *scene) {
 
 /* A name that a line can hold. */
 static bool writable(const char *what, const char *name, JoError *error) {
-    size_t n = strlen(name);
-    bool good = n > 0 && n <= JOX_INPUT_NAME;
-    for (size_t i = 0; i < n; i++)
-        good = good && (unsigned char)name[i] >= 0x20 && name[i] != 0x7f;
+    JoxText why = {0};
+    const bool good = jox_input_writable(what, name, &why);
     if (!good)
-        jox_error(error, JO_INPUT, "%s has from 1 to %d bytes, without control characters", what,
-                  JOX_INPUT_NAME);
+        jox_error(error, JO_INPUT, "%s", why.data);
+    jox_text_free(&why);
     return good;
 }
 

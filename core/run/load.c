@@ -123,6 +123,8 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.lost_bodies = (JoLost)spec->lost_bodies;
     scene->world = jox_world_create(&world);
     jox_world_set_timed(scene->world, true);
+    scene->world->record = jox_run_record_act;
+    scene->world->record_context = scene;
     scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)

@@ -113,6 +113,8 @@ void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */
 void jox_run_inputs(JoScene *scene);
+/* Notes what the program did to the world (JoWorld.record); `context` is the scene. */
+void jox_run_record_act(void *context, JoxInputEntry *entry);
 /* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.
    False with `error` where there is none such, or the value is out of range. */
 typedef struct JoxChoice {

@@ -183,7 +183,7 @@ static bool agent_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUN
            within("y", "m", def->y, -FARTHEST, FARTHEST, error);
 }
 
-static JoAgent handle_of(const JoWorld *world, uint32_t index) {
+JoAgent jox_world_handle(const JoWorld *world, uint32_t index) {
     uint32_t slot = world->state.agents.slot[index];
     JOX_ASSERT(world->state.agents.slot_index[slot] == index);
     JOX_ASSERT(world->state.agents.slot_generation[slot] > 0); /* 0 is no agent */
@@ -200,7 +200,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         world->state.agents.param[p][i] = jox_parameter_store((JoxParameter)p, values[p]);
-    return handle_of(world, i);
+    return jox_world_handle(world, i);
 }
 
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent) {
@@ -209,15 +209,6 @@ uint32_t jox_world_find(const JoWorld *world, JoAgent agent) {
         a->slot_generation[agent.slot] != agent.generation)
         return JOX_NO_INDEX;
     return a->slot_index[agent.slot];
-}
-
-void jo_world_remove_agent(JoWorld *world, JoAgent agent) {
-    JOX_REQUIRE(world, );
-    uint32_t i = jox_world_find(world, agent);
-    if (i == JOX_NO_INDEX)
-        return;
-    world->state.agents.removed[i] = 1;
-    jox_agents_compact(&world->state.agents);
 }
 
 bool jo_agent_is_live(const JoWorld *world, JoAgent agent) {
@@ -254,26 +245,6 @@ void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy)
         return;
     world->state.agents.pref_x[i] = (float)vx;
     world->state.agents.pref_y[i] = (float)vy;
-}
-
-void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
-    JOX_REQUIRE(world && fabs(fx) <= 1e6 && fabs(fy) <= 1e6, );
-    uint32_t i = jox_world_find(world, agent);
-    if (i == JOX_NO_INDEX)
-        return;
-    world->state.agents.ext_x[i] += (float)fx;
-    world->state.agents.ext_y[i] += (float)fy;
-}
-
-bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value) {
-    JOX_REQUIRE(world && name, false);
-    uint32_t i = jox_world_find(world, agent);
-    int p = jox_parameter_find(name);
-    if (i == JOX_NO_INDEX || p < 0 ||
-        !(value >= jox_parameters[p].least && value <= jox_parameters[p].greatest))
-        return false;
-    world->state.agents.param[p][i] = jox_parameter_store((JoxParameter)p, value);
-    return true;
 }
 
 JoBodyDef jo_default_body_def(void) {
@@ -316,11 +287,17 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     return (JoBody){row, world->scratch.objects.rows[row].id + 1};
 }
 
+uint32_t jox_world_find_body(const JoWorld *world, JoBody body) {
+    if (jox_heap_has_failed(world->heap) || body.generation == 0 ||
+        jox_bodies_id(world->state.bodies, body.slot) != body.generation - 1)
+        return JOX_NO_BODY;
+    return body.slot;
+}
+
 JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
     JOX_REQUIRE(world, (JoBodyState){0});
     JoxPose pose;
-    if (jox_heap_has_failed(world->heap) || body.generation == 0 ||
-        jox_bodies_find(world->state.bodies, body.generation - 1) != body.slot ||
+    if (jox_world_find_body(world, body) == JOX_NO_BODY ||
         !jox_bodies_pose(world->state.bodies, body.slot, &pose))
         return (JoBodyState){0};
     return (JoBodyState){pose.centre.x,   pose.centre.y,  pose.centre.z, pose.turn[0],
@@ -400,7 +377,7 @@ uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) 
     if (jox_heap_has_failed(world->heap))
         return 0;
     for (; n < a->count && n < capacity; n++)
-        out[n] = handle_of(world, a->by_rank[n]);
+        out[n] = jox_world_handle(world, a->by_rank[n]);
     return n;
 }
 

@@ -1,7 +1,10 @@
 /* Walls that come and go: opened, closed, or edited while the crowd runs. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
 #include "world/world.h"
 
 static void change(JoWorld *world) {
@@ -23,8 +26,89 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
         }
     }
     jox_walls_free(&old);
+    world->model.made_ring = world->model.all_walls.ring_count;
+    world->model.made_vertex = world->model.all_walls.count;
+    jox_world_lay_made(world);
     world->state.walls_came = true;
     change(world);
+}
+
+/* ---- walls that are added ---- */
+
+void jox_world_mark_made(JoWorld *world) {
+    if (world->state.made_count > 0)
+        return;
+    world->model.made_ring = world->model.all_walls.ring_count;
+    world->model.made_vertex = world->model.all_walls.count;
+}
+
+/* One ring each, so that number m of them is ring made_ring + m. */
+static void lay(JoWorld *world, const JoxMadeWall *made) {
+    JoxWalls *walls = &world->model.all_walls;
+    const uint32_t ring = walls->ring_count;
+    if (made->count == 2)
+        jox_walls_add_polyline(walls, made->points, 2, false, INFINITY);
+    else
+        jox_walls_add_solid(walls, made->points, made->count, INFINITY);
+    JOX_ASSERT(walls->ring_count == ring + 1);
+    jox_walls_name(walls, ring, made->name, made->open);
+    walls->rings[ring].set = true;
+}
+
+void jox_world_lay_made(JoWorld *world) {
+    JoxWalls *walls = &world->model.all_walls;
+    JOX_ASSERT(world->model.made_ring <= walls->ring_count);
+    while (walls->ring_count > world->model.made_ring)
+        jox_free(walls->rings[--walls->ring_count].name);
+    walls->count = world->model.made_vertex;
+    for (uint32_t m = 0; m < world->state.made_count; m++)
+        lay(world, &world->state.made[m]);
+}
+
+bool jox_world_make_wall(JoWorld *world, const char *name, const JoxV2 *points, uint32_t count,
+                         JoxText *why) {
+    JoxWorldState *state = &world->state;
+    const JoxWalls *walls = &world->model.all_walls;
+    JoxMadeWall made = {.count = count};
+    uint32_t a, b;
+    JOX_ASSERT((count == 2 || count == 4) && strlen(name) < sizeof made.name);
+    memcpy(made.points, points, count * sizeof *points);
+    memcpy(made.name, name, strlen(name));
+    if (state->made_count == JOX_MOST_MADE_WALLS)
+        jox_text_printf(why, "%d walls were added already; take some out first",
+                        JOX_MOST_MADE_WALLS);
+    else if (count == 2 && jox_length(jox_sub(points[1], points[0])) < 1e-3f)
+        jox_text_add(why, "the ends of a wall must lie apart");
+    else if (count == 4 && (jox_polygon_self_crosses(points, count, &a, &b) ||
+                            jox_polygon_area(points, count) == 0.0f))
+        jox_text_add(why, "a solid must enclose an area and not cross itself");
+    if (why->length)
+        return false;
+    for (uint32_t r = 0; r < walls->ring_count; r++) /* it is as others of its name are */
+        if (walls->rings[r].name && strcmp(walls->rings[r].name, name) == 0)
+            made.open = walls->rings[r].open;
+    jox_world_mark_made(world);
+    JOX_RESERVE(state->made, state->made_capacity, state->made_count + 1);
+    state->made[state->made_count++] = made;
+    lay(world, &made);
+    state->walls_came |= !made.open;
+    change(world);
+    return true;
+}
+
+bool jox_world_unmake_walls(JoWorld *world, const char *name) {
+    JoxWorldState *state = &world->state;
+    uint32_t kept = 0;
+    const uint32_t before = state->made_count;
+    for (uint32_t m = 0; m < before; m++)
+        if (strcmp(state->made[m].name, name) != 0)
+            state->made[kept++] = state->made[m];
+    if (kept == before)
+        return false;
+    state->made_count = kept;
+    jox_world_lay_made(world);
+    change(world);
+    return true;
 }
 
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
@@ -38,6 +122,8 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
         if (ring->open == open)
             continue;
         ring->open = open;
+        if (world->state.made_count > 0 && r >= world->model.made_ring)
+            world->state.made[r - world->model.made_ring].open = open;
         world->state.walls_came |= !open;
         change(world);
     }

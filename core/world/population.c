@@ -148,6 +148,12 @@ static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupV
     return i;
 }
 
+uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at) {
+    const JoxGroup *of = &world->model.groups[group];
+    JOX_ASSERT(group < world->model.group_count);
+    return spawn(world, group, at, of->memory, of->memory_count);
+}
+
 /* ---- sources ---- */
 
 /* A point of a place, drawn for a source. */

@@ -87,6 +87,8 @@ void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t g
                               const JoxAgentSource *sources, uint32_t source_count, bool anew);
 /* Makes the agents of all groups that stand there at the start. */
 void jox_world_populate(JoWorld *world);
+/* Makes one more of a group, at a point, m. Returns its index. */
+uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at);
 /* Before a step: makes the agents that sources are due. Where a place is full, they wait until
    there is room. */
 void jox_world_sources(JoWorld *world);

@@ -1,16 +1,38 @@
 /* The state of a world as sections: what is hashed, saved, restored and compared. */
+#include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "world/world.h"
 
+/* Lays the walls that were added; what a damaged state says of them makes none. */
+static void restore_made(JoWorld *w, JoxSections *s) {
+    bool good = w->state.made_count <= JOX_MOST_MADE_WALLS;
+    for (uint32_t m = 0; good && m < w->state.made_count; m++) {
+        const JoxMadeWall *made = &w->state.made[m];
+        good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->name[0] &&
+               memchr(made->name, 0, sizeof made->name);
+        for (uint32_t p = 0; good && p < 4; p++)
+            good = fabsf(made->points[p].x) <= 1e4f && fabsf(made->points[p].y) <= 1e4f;
+    }
+    if (!good) {
+        w->state.made_count = 0;
+        jox_sections_fail(s, "made", "a wall that was added makes no sense");
+    }
+    jox_world_lay_made(w);
+}
+
 /* Which walls that open are open: state of the model's walls. */
 static void list_walls(JoWorld *w, JoxSections *s) {
     JoxWalls *walls = &w->model.all_walls;
     JoxHash shape = jox_hash_begin();
-    for (uint32_t v = 0; v < walls->count; v++)
+    jox_world_mark_made(w);
+    for (uint32_t v = 0; v < w->model.made_vertex; v++)
         jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
     jox_section_model(s, "walls", jox_hash_end(&shape));
+    JOX_SECTION_ARRAY(s, "made", w->state.made, w->state.made_count, w->state.made_capacity);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed)
+        restore_made(w, s);
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)

@@ -114,6 +114,7 @@ void jox_stage_bodies(const JoxBodyStage *s) {
         jox_bonds_note_touch(s);
     JoxBodiesReport report = jox_bodies_advance(s);
     jox_bonds_note_breaks(s, &report);
+    jox_happened_bodies(s->happened, &report, s->discs->discs);
     s->statistics->bodies_lost += report.gone_count;
     s->statistics->bullet_s += report.bullet_s;
     if (report.gone_count)

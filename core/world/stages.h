@@ -10,6 +10,7 @@
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "world/drag.h"
+#include "world/happened/happened.h"
 #include "world/inspected.h"
 #include "world/routes.h"
 #include "world/statistics.h"
@@ -125,7 +126,8 @@ typedef struct JoxBodyStage {
     JoxBodies *bodies;
     JoxDrags *drags;
     JoxStatistics *statistics;
-    JoxBodyGone *lost; /* becomes the first that is lost in this substep, if any is */
+    JoxBodyGone *lost;     /* becomes the first that is lost in this substep, if any is */
+    JoxHappened *happened; /* hits and breaks, for those who ask */
 } JoxBodyStage;
 void jox_stage_bodies(const JoxBodyStage *stage);
 /* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who

@@ -127,7 +127,8 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
                                      .bodies = w->state.bodies,
                                      .drags = &w->state.drags,
                                      .statistics = &w->state.statistics,
-                                     .lost = &lost});
+                                     .lost = &lost,
+                                     .happened = &w->scratch.happened});
     if (lost.row != JOX_NO_BODY)
         jox_world_lose_body(w, &lost);
 }
@@ -231,6 +232,7 @@ bool jox_world_step(JoWorld *w) {
         jox_bodies_reinsert(w->state.bodies);
     jox_inspect_expire(w);
     w->scratch.gone.count = 0;
+    jox_happened_begin(&w->scratch.happened);
     bool good = true;
     const uint32_t substeps = divide(w);
     for (uint32_t number = 0; number < substeps && good; number++) {

@@ -66,12 +66,14 @@ static void free_world(JoWorld *world) {
     jox_agents_free(&world->state.agents);
     jox_walls_free(&world->model.all_walls);
     jox_walls_free(&world->scratch.walls);
+    jox_free(world->state.made);
     jox_input_free(&world->state.input);
     jox_inspection_free(&world->scratch.inspection);
     jox_neighbours_free(&world->scratch.neighbours);
     jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
     jox_free(world->scratch.gone.items);
+    jox_happened_free(&world->scratch.happened);
     jox_free(world->scratch.discs.discs);
     jox_free(world->scratch.discs.agents);
     free_places(world);

@@ -19,6 +19,7 @@
 #include "world/drag.h"
 #include "world/events.h"
 #include "world/exits.h"
+#include "world/happened/happened.h"
 #include "world/input/input.h"
 #include "world/inspected.h"
 #include "world/population.h"
@@ -35,7 +36,9 @@ enum { JOX_MOST_TAGS = 64 };
 typedef struct JoxWorldModel {
     JoWorldDef def;
     JoxWalkLaw walking;
-    JoxWalls all_walls; /* with their names; whether one that opens is open now is state */
+    JoxWalls all_walls; /* with their names; whether one that opens is open now is state. Behind the
+                           model's own stand those that were added, which are state */
+    uint32_t made_ring, made_vertex; /* where those begin, once there are some */
     /* Owned; their indices never change. Behind the places of the scene stand those of single
        agents, which are state. */
     JoxPlace *places;
@@ -56,6 +59,15 @@ typedef struct JoxWorldModel {
                              be saved; off, as the order in which Bullet solves contacts changes */
 } JoxWorldModel;
 
+/* A wall that was added while the world runs. */
+typedef struct JoxMadeWall {
+    char name[128];
+    JoxV2 points[4]; /* m */
+    uint32_t count;  /* 2: thin; 4: a solid */
+    uint32_t open;   /* 0 or 1 */
+} JoxMadeWall;
+enum { JOX_MOST_MADE_WALLS = 4096 };
+
 /* All that the future of a world depends on, besides the model: jox_world_sections lists it. */
 typedef struct JoxWorldState {
     uint64_t tick; /* steps done */
@@ -67,6 +79,9 @@ typedef struct JoxWorldState {
     JoxDrags drags;
     JoxPopulation population;
     uint32_t walls_version; /* counts the changes of the walls */
+    JoxMadeWall *made;      /* walls that were added to those of the model, in order */
+    uint32_t made_count;
+    size_t made_capacity;
     uint32_t
         first_unsettled; /* unless settled: id of the first agent added since the last settling */
     bool settled;
@@ -92,6 +107,7 @@ typedef struct JoxWorldScratch {
     JoxSubstep substep; /* what all substeps have in common, of one of this length */
     JoxGone gone;       /* who left in the last step */
     JoxDiscList discs;
+    JoxHappened happened; /* for programs that ask */
     struct {
         uint32_t *ids;
         uint32_t count, capacity;
@@ -107,7 +123,10 @@ struct JoWorld {
     JoxWorldState state;
     JoxWorldScratch scratch;
     JoxMachineRun machines; /* joins the machines' parts of all three */
-    char failure[1024];     /* why no further step can be done; "" while none failed */
+    /* Is told of what programs do to it (world/verbs/act.c); NULL: nobody records it. */
+    void (*record)(void *context, JoxInputEntry *entry);
+    void *record_context;
+    char failure[1024]; /* why no further step can be done; "" while none failed */
 };
 
 /* As jo_world_create, without checking the def. */
@@ -133,6 +152,16 @@ void jox_world_raise_walls(JoWorld *world);
 /* Takes walls over, in place of all there are. Those whose names were opened or closed before stay
    so. Who stands in a new wall is moved out before the next step. */
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
+/* Adds a wall to those of the model: a thin one between two points, else a solid. Who stands there
+   is moved out before the next step. False with a sentence in `why`. */
+bool jox_world_make_wall(JoWorld *world, const char *name, const JoxV2 *points, uint32_t count,
+                         JoxText *why);
+/* Takes out those of a name that were added; false where there is none. */
+bool jox_world_unmake_walls(JoWorld *world, const char *name);
+/* Where they begin, before the first of them. */
+void jox_world_mark_made(JoWorld *world);
+/* Puts the walls that were added behind those of the model, in place of those that were there. */
+void jox_world_lay_made(JoWorld *world);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
@@ -173,8 +202,11 @@ void jox_world_take_lost(JoWorld *world);
 void jox_world_agents_check(const JoWorld *world);
 void jox_world_model_check(const JoWorld *world);
 void jox_world_lists_check(const JoWorld *world);
-/* Index of a live agent, or JOX_NO_INDEX. */
+/* Index of a live agent, or JOX_NO_INDEX; and the handle of the one at an index. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+JoAgent jox_world_handle(const JoWorld *world, uint32_t index);
+/* Row of a live body, or JOX_NO_BODY. */
+uint32_t jox_world_find_body(const JoWorld *world, JoBody body);
 /* s: the length of a step, or of the parts in which it is done. */
 double jox_world_substep(const JoWorld *world);
 /* What routes are made of, in this world. */

@@ -175,10 +175,10 @@ static void parameters_are_checked(void **state) {
     JoWorld *world = *state;
     JoAgentDef def = jo_default_agent_def();
     JoAgent agent = jo_world_add_agent(world, &def, NULL);
-    assert_true(jo_agent_set_parameter(world, agent, "push", 100));
-    assert_false(jo_agent_set_parameter(world, agent, "pushh", 100));
-    assert_false(jo_agent_set_parameter(world, agent, "push", -5));
-    assert_false(jo_agent_set_parameter(world, agent, "mass", NAN));
+    assert_true(jo_agent_set_parameter(world, agent, "push", 100, NULL));
+    assert_false(jo_agent_set_parameter(world, agent, "pushh", 100, NULL));
+    assert_false(jo_agent_set_parameter(world, agent, "push", -5, NULL));
+    assert_false(jo_agent_set_parameter(world, agent, "mass", NAN, NULL));
     jo_agent_set_preferred(world, agent, NAN, 0);
     jo_agent_apply_force(world, agent, INFINITY, 0);
     assert_int_equal(reports, 2);

@@ -26,8 +26,8 @@ static double apart(double time_gap, double haste, bool by_name) {
         people[k] = jo_world_add_agent(world, &person, NULL);
         jo_agent_set_preferred(world, people[k], k ? 0.6 : 1.4, 0.0);
         if (by_name)
-            assert_true(jo_agent_set_parameter(world, people[k], "time_gap", time_gap) &&
-                        jo_agent_set_parameter(world, people[k], "haste", haste));
+            assert_true(jo_agent_set_parameter(world, people[k], "time_gap", time_gap, NULL) &&
+                        jo_agent_set_parameter(world, people[k], "haste", haste, NULL));
     }
     jo_world_step(world, 600);
     double gaps = 0.0, faster = 0.0;

@@ -176,10 +176,10 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     e->world->state.agents.vx[i] = (float)vx;
     e->world->state.agents.vy[i] = (float)vy;
     if (e->coasting) {
-        jo_agent_set_parameter(e->world, one, "damping", 0.0);
-        jo_agent_set_parameter(e->world, one, "absorb", 0.0);
+        jo_agent_set_parameter(e->world, one, "damping", 0.0, NULL);
+        jo_agent_set_parameter(e->world, one, "absorb", 0.0, NULL);
         /* They have a wish, to go on: with turned shoulders they would part by elbows. */
-        jo_agent_set_parameter(e->world, one, "turn", 0.0);
+        jo_agent_set_parameter(e->world, one, "turn", 0.0, NULL);
     }
     e->people[e->count++] = one;
     return one;

@@ -277,7 +277,7 @@ static inline JoWorld *open_setup(const Setup *s, double dt, Sight sight, JoAgen
         if (!people[i].generation)
             fail_msg("%s", error.text);
         if (sight.neighbours >= 0.0)
-            jo_agent_set_parameter(world, people[i], "neighbours", sight.neighbours);
+            jo_agent_set_parameter(world, people[i], "neighbours", sight.neighbours, NULL);
     }
     return world;
 }

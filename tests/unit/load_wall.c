@@ -108,7 +108,7 @@ static void pushes_and_runs_end_at_the_wall(void **state) {
                 uint32_t left = jox_world_find(s.world, s.left);
                 a->vx[left] = 2.0f;
             } else {
-                jo_agent_set_parameter(s.world, s.left, "push", 300.0);
+                jo_agent_set_parameter(s.world, s.left, "push", 300.0, NULL);
                 jo_agent_set_preferred(s.world, s.left, 1.3, 0.0);
             }
             for (int step = 0; step < (int)(2.0 / STEPS[k]); step++) {
@@ -136,7 +136,7 @@ static void beyond_its_end_they_touch(void **state) {
             bears(&s, s.right, 600.0, "without a wall between");
             jo_world_free(s.world);
             s = open_sides(STEPS[k], end ? -3.0 : 0.0, end ? -1.0 : 0.0, 0.02, 3.0);
-            jo_agent_set_parameter(s.world, s.left, "push", 300.0);
+            jo_agent_set_parameter(s.world, s.left, "push", 300.0, NULL);
             jo_agent_set_preferred(s.world, s.left, 1.3, 0.0);
             jo_world_step(s.world, 1);
             assert_true(s.world->state.agents.push_x[jox_world_find(s.world, s.right)] > 299.0f);

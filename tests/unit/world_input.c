@@ -41,8 +41,24 @@ static const char ALL[] = "# a comment\n"
                           "# 2\n"
                           "\"b c.lua\" 0\n"
                           "\n"
-                          "9 signal \"#1\"\n";
-enum { IN_ALL = 17 };
+                          "9 signal \"#1\"\n"
+                          "10 spawn visitors 3 4.5\n"
+                          "10 remove 7\n"
+                          "10 teleport 7 3 4.5\n"
+                          "10 goal 7 \"the exit\"\n"
+                          "10 state 7 Flee\n"
+                          "10 memory 7 hits 2\n"
+                          "10 parameter 7 speed 1.6\n"
+                          "11 impulse 0 20 0 0\n"
+                          "11 impulse 0 20 0 0 1 2 0.5\n"
+                          "11 place 0 1 2 0.5\n"
+                          "11 place 0 1 2 0.5 0 0 0.6 0.8\n"
+                          "11 velocity 0 1 0 0\n"
+                          "11 delete 0\n"
+                          "12 wall barrier 0 0 4 0\n"
+                          "12 wall barrier 0 0 4 0 4 1 0 1\n"
+                          "12 unwall barrier\n";
+enum { IN_ALL = 33 };
 
 static JoxDiagnostics wrong;
 

@@ -73,8 +73,8 @@ static void who_pushes_straight_on_gets_past(void **state) {
     for (int k = 0; k < STEP_COUNT; k++) {
         JoWorld *w = make(STEPS[k], true);
         JoAgent stands = add(w, 0, 0, 0), pushes = add(w, -2, 0, 250);
-        jo_agent_set_parameter(w, pushes, "horizon", 0.2);
-        jo_agent_set_parameter(w, stands, "horizon", 0.2);
+        jo_agent_set_parameter(w, pushes, "horizon", 0.2, NULL);
+        jo_agent_set_parameter(w, stands, "horizon", 0.2, NULL);
         jo_agent_set_preferred(w, pushes, 1.6, 0);
         run(w, 8.0);
         JoAgentState ahead = jo_agent_state(w, stands), past = jo_agent_state(w, pushes);
@@ -94,7 +94,7 @@ static void who_walks_at_a_wall_stays_there(void **state) {
         assert_true(jo_world_add_line(w, ends, 2, NULL));
         JoAgent one = add(w, 0, 0, 0);
         if (k % 2)
-            jo_agent_set_parameter(w, one, "time_gap", 0.5);
+            jo_agent_set_parameter(w, one, "time_gap", 0.5, NULL);
         jo_agent_set_preferred(w, one, k / 2 % 2 ? 1.3 : 0.3, 0);
         for (int second = 0; second < 12; second++) {
             run(w, 1.0);

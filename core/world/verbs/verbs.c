@@ -3,103 +3,7 @@
 #include <assert.h>
 
 #include "base/assert.h"
-#include "world/world.h"
-
-/* ---- what the verbs do ---- */
-
-/* Index of the living agent with an id, or JOX_NO_INDEX with a sentence in `why`. */
-static uint32_t find_agent(const JoWorld *world, uint32_t id, JoxText *why) {
-    const JoxAgents *a = &world->state.agents;
-    uint32_t i = jox_agents_find(a, id);
-    if (i != JOX_NO_INDEX)
-        return i;
-    if (id < a->next_id)
-        jox_text_printf(why, "agent %u has left", id);
-    else
-        jox_text_printf(why, "there is no agent %u; ids go up to %u", id,
-                        a->next_id ? a->next_id - 1 : 0);
-    return JOX_NO_INDEX;
-}
-
-static bool push(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    JoxAgents *a = &world->state.agents;
-    uint32_t i = find_agent(world, entry->number, why);
-    if (i == JOX_NO_INDEX)
-        return false;
-    a->ext_x[i] += (float)entry->numbers[0];
-    a->ext_y[i] += (float)entry->numbers[1];
-    return true;
-}
-
-/* A log may speak of players who are yet to come. */
-static bool drive(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    if (entry->line == 0 && find_agent(world, entry->number, why) == JOX_NO_INDEX)
-        return false;
-    jox_input_player(&world->state.input, entry->number, (float)entry->numbers[0],
-                     (float)entry->numbers[1]);
-    return true;
-}
-
-static bool throw(JoWorld * world, const JoxInputEntry *entry, JoxText *why) {
-    const double *v = entry->numbers;
-    return jox_event_throw(world, entry->names[0], entry->here ? NULL : v, v + 3, v + 6, why);
-}
-
-static bool add_box(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    const double *v = entry->numbers;
-    bool good = jox_world_add_box(world, v, v + 3, v[6], v[7], why) != JOX_NO_BODY;
-    if (!good && !why->length)
-        jox_text_add(why, "the box was refused");
-    return good;
-}
-
-static bool pull(JoWorld *world, const JoxInputEntry *entry, bool anew, JoxText *why) {
-    const unsigned row = entry->number;
-    switch (jox_world_grab(world, row, entry->numbers, anew)) {
-    case JOX_GRAB_DONE:
-        return true;
-    case JOX_GRAB_NONE:
-        jox_text_printf(why, "there is no body %u", row);
-        break;
-    case JOX_GRAB_STATIC:
-        jox_text_printf(why, "body %u is static: it cannot be moved", row);
-        break;
-    case JOX_GRAB_FREE:
-        jox_text_printf(why, "body %u is not held; grab it first", row);
-        break;
-    case JOX_GRAB_FULL:
-        jox_text_printf(why, "%d bodies are held already; release one first", JOX_MOST_GRABS);
-        break;
-    }
-    return false;
-}
-
-static bool grab(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return pull(world, entry, true, why);
-}
-
-static bool drag(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return pull(world, entry, false, why);
-}
-
-static bool release(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    bool good = jox_world_release(world, entry->number);
-    if (!good)
-        jox_text_printf(why, "body %u is not held", entry->number);
-    return good;
-}
-
-static bool open(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return jox_event_open(world, entry->names[0], true, why);
-}
-
-static bool close(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return jox_event_open(world, entry->names[0], false, why);
-}
-
-static bool call_out(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return jox_event_signal(world, entry->names[0], why);
-}
+#include "world/verbs/perform.h"
 
 /* ---- the table ---- */
 
@@ -108,6 +12,8 @@ static bool call_out(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
 #define SPEED(axis, most) {axis, JOX_WORD_NUMBER, -(most), most, "m/s"}
 #define SPIN(axis)        {axis, JOX_WORD_NUMBER, -100, 100, "rad/s"}
 #define FORCE(axis)       {axis, JOX_WORD_NUMBER, -1e4, 1e4, "N"}
+#define IMPULSE(axis)     {axis, JOX_WORD_NUMBER, -1e6, 1e6, "N s"}
+#define TURN(axis)        {axis, JOX_WORD_NUMBER, -1, 1, ""}
 #define ID(what)          {what, JOX_WORD_WHOLE, 0, UINT32_MAX - 1.0, ""}
 #define CALLED(what)      {what, JOX_WORD_NAME, 0, 0, ""}
 #define FILES             {"N", JOX_WORD_FILES, 1, JOX_INPUT_FILE_COUNT, "files"}
@@ -115,33 +21,35 @@ static bool call_out(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
 const JoxVerb jox_input_verbs[] = {
     [JOX_INPUT_PLAYER] = {"player", {ID("AGENT"), SPEED("VX", 20), SPEED("VY", 20)}, 3, 3,
      "player 0 1.5 0",
-     "from here on the player of the agent with this id wants that velocity", "player", drive},
+     "from here on the player of the agent with this id wants that velocity", "player", jox_perform_player},
     [JOX_INPUT_THROW] = {"throw",
      {CALLED("BODY"), METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100),
       SPEED("VZ", 100), SPIN("WX"), SPIN("WY"), SPIN("WZ")}, 7, 10,
      "throw ball here 5 0 3",
      "throws a body of the scene by its name, from a point, or, with `here` in place of the point, "
-     "from where it is; who carries it loses it", "throw", throw},
+     "from where it is; who carries it loses it", "throw", jox_perform_throw},
     [JOX_INPUT_BOX] = {"box",
      {METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100), SPEED("VZ", 100),
       {"SIZE", JOX_WORD_NUMBER, 0.05, 5, "m"}, {"MASS", JOX_WORD_NUMBER, 0.1, 1e4, "kg"}}, 8, 8,
      "box 1 2 1.5 5 0 3 0.4 10",
-     "a new cube; of more than 200 the oldest is taken out", "throw", add_box},
+     "a new cube; of more than 200 the oldest is taken out", "throw", jox_perform_box},
     [JOX_INPUT_GRAB] = {"grab", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4,
      "grab 0 1 2 0.5",
      "from here on the centre of the body in this row is pulled to a point, with up to 4,000 N "
-     "besides its weight and at up to 6 m/s", "drag", grab},
+     "besides its weight and at up to 6 m/s", "drag", jox_perform_grab},
     [JOX_INPUT_DRAG] = {"drag", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4,
-     "drag 0 1 3 0.5", "moves the point to which it is pulled", "drag", drag},
-    [JOX_INPUT_RELEASE] = {"release", {ID("BODY")}, 1, 1, "release 0", "lets the body go", "drag", release},
+     "drag 0 1 3 0.5", "moves the point to which it is pulled", "drag", jox_perform_drag},
+    [JOX_INPUT_RELEASE] = {"release", {ID("BODY")}, 1, 1, "release 0", "lets the body go", "drag",
+     jox_perform_release},
     [JOX_INPUT_PUSH] = {"push", {ID("AGENT"), FORCE("FX"), FORCE("FY")}, 3, 3, "push 7 300 0",
-     "a force on the agent with this id, during the step", "push", push},
+     "a force on the agent with this id, during the step", "push",
+     jox_perform_push},
     [JOX_INPUT_OPEN] = {"open", {CALLED("WALL")}, 1, 1, "open gate",
-     "opens the walls of a name", "gates", open},
+     "opens the walls of a name", "gates", jox_perform_open},
     [JOX_INPUT_CLOSE] = {"close", {CALLED("WALL")}, 1, 1, "close gate",
-     "closes them; who stands in one is moved out", "gates", close},
+     "closes them; who stands in one is moved out", "gates", jox_perform_close},
     [JOX_INPUT_SIGNAL] = {"signal", {CALLED("NAME")}, 1, 1, "signal run",
-     "everybody hears the name, wherever they are", "signals", call_out},
+     "everybody hears the name, wherever they are", "signals", jox_perform_signal},
     [JOX_INPUT_SET] = {"set",
      {CALLED("MACHINE"), CALLED("STATE"), CALLED("PARAMETER"),
       {"VALUE", JOX_WORD_NUMBER, -1e9, 1e9, ""}}, 4, 4,
@@ -159,7 +67,54 @@ const JoxVerb jox_input_verbs[] = {
      "them", NULL, NULL},
     [JOX_INPUT_FILES] = {"files", {FILES}, 1, 1, "files 1",
      "files that were saved and went live, together; a replay takes them from here, not from the "
-     "disk", NULL, NULL}};
+     "disk", NULL, NULL},
+    [JOX_INPUT_SPAWN] = {"spawn", {CALLED("GROUP"), METRES("X"), METRES("Y")}, 3, 3,
+     "spawn visitors 3 4.5",
+     "a new agent of a group; moved to the nearest free spot where it would stand in a wall or in "
+     "somebody", JOX_VERB_PROGRAM, jox_perform_spawn},
+    [JOX_INPUT_REMOVE] = {"remove", {ID("AGENT")}, 1, 1, "remove 7", "takes an agent out",
+     JOX_VERB_PROGRAM, jox_perform_remove},
+    [JOX_INPUT_TELEPORT] = {"teleport", {ID("AGENT"), METRES("X"), METRES("Y")}, 3, 3,
+     "teleport 7 3 4.5", "moves an agent there, or to the nearest free spot, at rest",
+     JOX_VERB_PROGRAM, jox_perform_teleport},
+    [JOX_INPUT_GOAL] = {"goal", {ID("AGENT"), CALLED("PLACE")}, 2, 2, "goal 7 exit",
+     "from here on the agent's goal is this place", JOX_VERB_PROGRAM, jox_perform_goal},
+    [JOX_INPUT_STATE] = {"state", {ID("AGENT"), CALLED("STATE")}, 2, 2, "state 7 Flee",
+     "the agent enters a state of its behaviour", JOX_VERB_PROGRAM, jox_perform_state},
+    [JOX_INPUT_MEMORY] = {"memory",
+     {ID("AGENT"), CALLED("NAME"), {"VALUE", JOX_WORD_NUMBER, -1e15, 1e15, ""}}, 3, 3,
+     "memory 7 hits 2", "sets a value that the agent remembers; truth is 0 or 1", JOX_VERB_PROGRAM,
+     jox_perform_memory},
+    [JOX_INPUT_PARAMETER] = {"parameter",
+     {ID("AGENT"), CALLED("NAME"), {"VALUE", JOX_WORD_NUMBER, -1e9, 1e9, ""}}, 3, 3,
+     "parameter 7 speed 1.6", "an agent's own value of a parameter, in all states that set none",
+     JOX_VERB_PROGRAM, jox_perform_parameter},
+    [JOX_INPUT_IMPULSE] = {"impulse",
+     {ID("BODY"), IMPULSE("IX"), IMPULSE("IY"), IMPULSE("IZ"), METRES("X"), METRES("Y"),
+      METRES("Z")}, 4, 7,
+     "impulse 0 20 0 0", "gives the body in this row an impulse, at a point or at its centre",
+     JOX_VERB_PROGRAM, jox_perform_impulse},
+    [JOX_INPUT_PLACE] = {"place",
+     {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z"), TURN("QX"), TURN("QY"), TURN("QZ"),
+      TURN("QW")}, 4, 8,
+     "place 0 1 2 0.5",
+     "moves the body in this row, at rest; turned by a quaternion, or as it is", JOX_VERB_PROGRAM,
+     jox_perform_place},
+    [JOX_INPUT_VELOCITY] = {"velocity",
+     {ID("BODY"), SPEED("VX", 100), SPEED("VY", 100), SPEED("VZ", 100), SPIN("WX"), SPIN("WY"),
+      SPIN("WZ")}, 4, 7,
+     "velocity 0 1 0 0", "sets how the body in this row moves and turns", JOX_VERB_PROGRAM,
+     jox_perform_velocity},
+    [JOX_INPUT_DELETE] = {"delete", {ID("BODY")}, 1, 1, "delete 0", "takes the body in this row out",
+     JOX_VERB_PROGRAM, jox_perform_delete},
+    [JOX_INPUT_WALL] = {"wall",
+     {CALLED("NAME"), METRES("X0"), METRES("Y0"), METRES("X1"), METRES("Y1"), METRES("X2"),
+      METRES("Y2"), METRES("X3"), METRES("Y3")}, 5, 9,
+     "wall barrier 0 0 4 0",
+     "a new wall, thin between two points or a solid with four corners; who stands there is moved "
+     "out", JOX_VERB_PROGRAM, jox_perform_wall},
+    [JOX_INPUT_UNWALL] = {"unwall", {CALLED("NAME")}, 1, 1, "unwall barrier",
+     "takes out the walls of a name that came by `wall`", JOX_VERB_PROGRAM, jox_perform_unwall}};
 /* clang-format on */
 const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input_verbs;
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,

@@ -4,6 +4,7 @@
 #define JOX_WORLD_VERBS_H
 
 #include "base/text.h"
+#include "jostle.h"
 #include "world/input/input.h"
 
 typedef struct JoWorld JoWorld;
@@ -24,13 +25,16 @@ typedef struct JoxInputWord {
     const char *unit;
 } JoxInputWord;
 
+/* The tool of verbs that programs have, and no page. */
+#define JOX_VERB_PROGRAM "program"
+
 typedef struct JoxVerb {
     const char *name;
     JoxInputWord words[10];
     uint32_t least, most; /* words that it takes: so many or so many */
     const char *example, *meaning;
-    const char
-        *tool; /* of the live page that people need for it, a name of view: {tools}; or NULL */
+    const char *tool; /* of the live page that people need for it, a name of view: {tools}, or
+                         JOX_VERB_PROGRAM; NULL: stands in logs alone */
     /* Does it, before a step; false with a sentence in `why`. NULL: what a run does, or nothing. */
     bool (*perform)(JoWorld *world, const JoxInputEntry *entry, JoxText *why);
 } JoxVerb;
@@ -38,6 +42,12 @@ typedef struct JoxVerb {
 enum { JOX_INPUT_MOST_VERBS = 32 };
 extern const JoxVerb jox_input_verbs[];
 extern const uint32_t jox_input_verb_count;
+
+/* Does what a program wants, before a step: looks at names and numbers as the reader of a log does,
+   performs it and has it recorded (world->record). False with `error` (it may be NULL). */
+bool jox_input_act(JoWorld *world, JoxInputEntry *entry, JoError *error);
+/* Whether a line can hold the name; else a sentence in `why`. */
+bool jox_input_writable(const char *what, const char *name, JoxText *why);
 
 /* "push AGENT FX FY" */
 void jox_input_usage(const JoxVerb *verb, JoxText *out);

@@ -1,0 +1,25 @@
+"""Jostle: dense crowds that push, with bodies and behaviours.
+
+    import jostle
+
+    scene = jostle.Scene("scenes/evacuation.yaml", seed=3, set={"groups.people.count": 80})
+    scene.run(20)                                # simulated seconds; other Python threads go on meanwhile
+    x, y = scene["x"], scene["y"]                # views, not copies, until the next step
+    print(scene.summary()["density_max"], scene.probes()["door"])
+
+Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.
+"""
+from ._events import Events
+from ._library import Error
+from .recording import Recording
+from .scene import Agent, Body, Scene
+from .sweep import Sweep, sweep
+
+__all__ = ["Agent", "Body", "Error", "Events", "Recording", "Scene", "Sweep", "sweep", "version"]
+
+
+def version() -> str:
+    """The version of the C library, as "0.1.0"."""
+    from ._library import lib, text_of
+
+    return text_of(lib.jo_version())

@@ -1,0 +1,70 @@
+"""The shared library, and its errors as exceptions."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Optional
+
+from ._declarations import ffi
+
+__all__ = ["Error", "check", "ffi", "lib", "text_of"]
+
+
+def _candidates() -> list[str]:
+    """Where the library may be, the first that is there is taken."""
+    named = os.environ.get("JOSTLE_LIBRARY")
+    if named:
+        return [named]
+    found = ["libjostle.so.0"]
+    for folder in Path(__file__).resolve().parents:
+        if (folder / "core" / "include" / "jostle.h").is_file():
+            found = [str(path) for path in sorted((folder / "build" / "release").glob("libjostle.so.*"))] + found
+    return found
+
+
+def _open() -> Any:
+    reasons = []
+    for name in _candidates():
+        try:
+            return ffi.dlopen(name)
+        except OSError as error:
+            reasons.append(str(error))
+    raise ImportError("libjostle was not found; JOSTLE_LIBRARY may name it: " + "; ".join(reasons))
+
+
+lib = _open()
+
+
+class Error(Exception):
+    """What the library refused, with where in which file.
+
+    `code` is 1 where a run failed, 2 where the call makes no sense, 3 where a scene, behaviour or value is
+    wrong; `file` is "" and `line` and `column` are 0 where there is no such place.
+    """
+
+    def __init__(self, text: str, code: int = 1, file: str = "", line: int = 0, column: int = 0) -> None:
+        self.text, self.code, self.file, self.line, self.column = text, code, file, line, column
+        place = f"{file}:{line}:{column}: " if file and line else f"{file}: " if file else ""
+        super().__init__(place + text)
+
+
+def text_of(pointer: Any) -> str:
+    """A C string that the library keeps."""
+    return ffi.string(pointer).decode("utf-8", "replace") if pointer else ""
+
+
+def taken(pointer: Any) -> Optional[str]:
+    """A C string that the caller frees; None for NULL."""
+    if not pointer:
+        return None
+    try:
+        return text_of(pointer)
+    finally:
+        lib.jo_free(pointer)
+
+
+def check(good: Any, error: Any) -> Any:
+    """Returns what a call returned, or raises what it refused."""
+    if good:
+        return good
+    raise Error(text_of(error.text) or "the call was refused", error.code, text_of(error.file), error.line, error.column)

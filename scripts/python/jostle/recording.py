@@ -1,0 +1,67 @@
+"""Recordings of runs: SQLite files in the format of JuPedSim, version 2, which PedPy reads too."""
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+from typing import Any, Iterator, Optional, Union
+
+import numpy as np
+
+from ._library import Error
+
+__all__ = ["Recording"]
+
+
+class Recording:
+    """A recording as arrays. Columns: frame, id, x, y (m), ori_x, ori_y, and where the run wrote them more, as
+    force and load (N), compression (N/m)."""
+
+    def __init__(self, path: Union[str, Path]) -> None:
+        self.path = str(path)
+        if not Path(path).is_file():
+            raise Error("there is no such recording", 3, self.path)
+        try:
+            with sqlite3.connect(f"file:{self.path}?mode=ro", uri=True) as database:
+                self.metadata = dict(database.execute("SELECT key, value FROM metadata"))
+                rows = database.execute("SELECT * FROM trajectory_data ORDER BY frame, id")
+                names = [column[0] for column in rows.description]
+                table = rows.fetchall()
+        except sqlite3.Error as error:
+            raise Error(str(error), 3, self.path) from error
+        self._columns = {name: np.array([row[n] for row in table]) for n, name in enumerate(names)}
+
+    @property
+    def fps(self) -> float:
+        """Frames a second."""
+        return float(self.metadata["fps"])
+
+    def names(self) -> list:
+        """Of the columns."""
+        return list(self._columns)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._columns[name]
+
+    def __len__(self) -> int:
+        return len(self._columns["frame"])
+
+    def frames(self) -> Iterator[tuple]:
+        """For each frame its number and the slice of its rows."""
+        frame = self._columns["frame"]
+        starts = np.flatnonzero(np.r_[True, frame[1:] != frame[:-1]]) if len(frame) else np.empty(0, int)
+        for begin, end in zip(starts, np.r_[starts[1:], len(frame)]):
+            yield int(frame[begin]), slice(int(begin), int(end))
+
+    def path_of(self, agent: int) -> np.ndarray:
+        """Where an agent was: an array of rows x, y, one for each frame that it is in."""
+        rows = self._columns["id"] == agent
+        return np.column_stack([self._columns["x"][rows], self._columns["y"][rows]])
+
+    def table(self, names: Optional[list] = None) -> Any:
+        """A pandas DataFrame where pandas is installed, else a dict of arrays."""
+        chosen = {name: self._columns[name] for name in (names or self.names())}
+        try:
+            import pandas
+        except ImportError:
+            return chosen
+        return pandas.DataFrame(chosen)

@@ -1,0 +1,504 @@
+"""A scene that runs, its agents and bodies."""
+from __future__ import annotations
+
+import functools
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from ._events import Events, events_of
+from ._library import Error, check, ffi, lib, taken, text_of
+from .show import Picture, live_page, picture_of
+
+__all__ = ["Agent", "Body", "Scene"]
+
+TYPES = {lib.JO_U8: np.uint8, lib.JO_U16: np.uint16, lib.JO_U32: np.uint32, lib.JO_I32: np.int32, lib.JO_U64: np.uint64,
+         lib.JO_F32: np.float32, lib.JO_F64: np.float64}
+
+
+def _written(value: Any) -> str:
+    """A value as `jostle run --set` takes it."""
+    return value if isinstance(value, str) else json.dumps(value, default=float)
+
+
+def _keep(_owner: Any, _pointer: Any) -> None:
+    """What a view refers to, its scene, lives as long as the view."""
+
+
+def _vector(numbers: Optional[Sequence[float]], count: int) -> Any:
+    if numbers is None:
+        return ffi.NULL
+    if len(numbers) != count:
+        raise ValueError(f"expected {count} numbers, not {len(numbers)}")
+    return ffi.new("double[]", [float(n) for n in numbers])
+
+
+class Hit(NamedTuple):
+    """What a ray or disc met: `kind` is "agent", "body" or "wall"; `what` an id, a slot or a wall's edge."""
+
+    kind: str
+    what: int
+    share: float
+    x: float
+    y: float
+    normal: tuple
+
+
+class Scene:
+    """A scene of a YAML file. Every error of loading goes to `message`, the first is raised as an Error.
+
+    seed, dt: in place of the scene's (dt in s). set: keys of the scene and their values, as `jostle run --set`.
+    threads: 0 are all processors; they never change a result. mods: folders or names of mods, and no others.
+    input_log: a file of what people and programs did, played back. message: is told what is to be said to people;
+    by default it goes to stderr. One scene must not be used by two threads at once.
+    """
+
+    def __init__(self, path: Union[str, Path], seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
+                 dt: Optional[float] = None, threads: int = 0, mods: Sequence[str] = (),
+                 input_log: Union[str, Path, None] = None, message: Optional[Callable[[str], Any]] = None,
+                 density: bool = True) -> None:
+        self.path, self.seed, self.overrides = str(path), seed, dict(set or {})
+        self._scene = ffi.NULL
+        self._stepping = False
+        say = message or sys.stderr.write
+        self._message = ffi.callback("JoMessage", lambda _context, text: (say(text_of(text)), None)[1])
+        definition = ffi.new("JoSceneDef *", lib.jo_default_scene_def())
+        kept = [ffi.new("char[]", self.path.encode())]
+        definition.path = kept[0]
+        overrides = [ffi.new("char[]", f"{key}={_written(value)}".encode()) for key, value in self.overrides.items()]
+        names = [ffi.new("char[]", str(mod).encode()) for mod in mods]
+        kept += [ffi.new("char *[]", overrides or [ffi.NULL]), ffi.new("char *[]", names or [ffi.NULL])]
+        definition.overrides, definition.override_count = ffi.cast("const char *const *", kept[1]), len(overrides)
+        definition.mods, definition.mod_count = ffi.cast("const char *const *", kept[2]), len(names)
+        definition.named_mods_only, definition.no_density = True, not density
+        definition.threads, definition.message = threads, self._message
+        if seed is not None:
+            definition.has_seed, definition.seed = True, seed
+        if dt is not None:
+            definition.has_dt, definition.dt = True, dt
+        if input_log is not None:
+            kept.append(ffi.new("char[]", str(input_log).encode()))
+            definition.input_log = kept[-1]
+        self._error = ffi.new("JoError *")
+        self._scene = check(lib.jo_scene_load(definition, self._error), self._error)
+        self._world = lib.jo_scene_world(self._scene)
+
+    # ---- its life ----
+
+    def close(self) -> None:
+        """Frees it; arrays that are views of it must not be read any more."""
+        if self._scene:
+            self._live()
+            lib.jo_scene_free(self._scene)
+            self._scene = self._world = ffi.NULL
+
+    def __enter__(self) -> "Scene":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_scene", None):
+            lib.jo_scene_free(self._scene)
+
+    def _live(self) -> Any:
+        """The world; refuses where the scene is closed or another thread steps it."""
+        if not self._scene:
+            raise Error("the scene is closed", 2)
+        if self._stepping:
+            raise Error("another thread steps this scene", 2)
+        return self._world
+
+    def _do(self, call: Any, *arguments: Any) -> Any:
+        """A call of the library that takes a JoError at its end."""
+        self._live()
+        return check(call(*arguments, self._error), self._error)
+
+    # ---- stepping ----
+
+    def step(self, steps: int = 1) -> None:
+        """Advances by so many steps. Other Python threads run meanwhile."""
+        for _ in range(steps):
+            self._live()
+            self._stepping = True
+            try:
+                good = lib.jo_scene_step(self._scene, self._error)
+            finally:
+                self._stepping = False
+            check(good, self._error)
+
+    def run(self, seconds: Optional[float] = None) -> "Scene":
+        """Advances by simulated seconds; without, until the scene's duration is over."""
+        self._live()
+        left = lib.jo_scene_duration(self._scene) - self.time if seconds is None else seconds
+        self.step(max(0, round(left / self.dt)))
+        return self
+
+    @property
+    def time(self) -> float:
+        """Simulated seconds so far."""
+        return lib.jo_world_time(self._live())
+
+    @property
+    def tick(self) -> int:
+        """Steps done."""
+        return lib.jo_world_tick(self._live())
+
+    @property
+    def dt(self) -> float:
+        """Seconds of a step."""
+        self._live()
+        return lib.jo_scene_stats(self._scene).dt
+
+    @property
+    def hash(self) -> str:
+        """Of the whole state, as 16 hex digits: equal for equal input at any number of threads."""
+        return f"{lib.jo_world_hash(self._live()):016x}"
+
+    def __len__(self) -> int:
+        return lib.jo_world_agent_count(self._live())
+
+    # ---- what is there ----
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A column, one number for each agent, in place and read-only: it holds until the next step or the next call
+        that changes the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
+        column = lib.jo_world_column(self._live(), name.encode())
+        if not column.stride:
+            raise KeyError(name)
+        dtype = TYPES[column.type]
+        if not column.count:
+            return np.empty(0, dtype)
+        owner = ffi.gc(ffi.cast("char *", column.data), functools.partial(_keep, self))
+        view = np.frombuffer(ffi.buffer(owner, column.count * column.stride), dtype)
+        view.flags.writeable = False
+        return view
+
+    def columns(self) -> list:
+        """Names of all columns."""
+        names, n = [], 0
+        while True:
+            name = text_of(lib.jo_column_name(n))
+            if not name:
+                return names
+            names.append(name)
+            n += 1
+
+    def positions(self) -> np.ndarray:
+        """Rows x, y of all agents, m, in the order of `scene["id"]`: a copy."""
+        return np.column_stack((self["x"], self["y"]))
+
+    def states(self) -> np.ndarray:
+        """The name of each agent's state: a copy."""
+        machine, state = self["machine"], self["state"]
+        names = {(m, s): text_of(lib.jo_world_state_name(self._world, int(m), int(s)))
+                 for m, s in np.unique(np.column_stack((machine, state)), axis=0)}
+        return np.array([names[pair] for pair in zip(machine, state)])
+
+    def table(self, names: Optional[Sequence[str]] = None) -> Any:
+        """Columns as a pandas DataFrame where pandas is installed, else as a dict of arrays: a copy."""
+        chosen = {name: self[name].copy() for name in (names or ("id", "x", "y", "vx", "vy", "group", "state"))}
+        try:
+            import pandas
+        except ImportError:
+            return chosen
+        return pandas.DataFrame(chosen)
+
+    def events(self) -> Events:
+        """What happened in the last step."""
+        return events_of(lib.jo_world_events(self._live()))
+
+    def agents(self) -> list:
+        """All agents, in ascending id."""
+        return [Agent(self, int(agent)) for agent in np.sort(self["id"])]
+
+    def agent(self, agent: int) -> "Agent":
+        """The agent with an id. KeyError where it is not there."""
+        if not lib.jo_world_agent_of(self._live(), agent).generation:
+            raise KeyError(agent)
+        return Agent(self, agent)
+
+    def body(self, name: str) -> "Body":
+        """The body of a name. KeyError where there is none."""
+        body = lib.jo_world_find_body(self._live(), name.encode())
+        if not body.generation:
+            raise KeyError(name)
+        return Body(self, body)
+
+    # ---- questions ----
+
+    def neighbours(self, x: float, y: float, radius: float) -> tuple:
+        """Ids and distances (m) of agents whose centres are within `radius` m, the nearest first; at most 1,024."""
+        ids, distances = np.empty(1024, np.uint32), np.empty(1024, np.float32)
+        count = lib.jo_world_neighbours(self._live(), x, y, radius, ffi.from_buffer("uint32_t *", ids),
+                                        ffi.from_buffer("float *", distances), 1024)
+        return ids[:count].copy(), distances[:count].copy()
+
+    def cast(self, start: Sequence[float], end: Sequence[float], radius: float = 0.0, agents: bool = True,
+             bodies: bool = True, walls: bool = True) -> Optional[Hit]:
+        """What a disc (a ray, without radius) meets first on its way; None where the way is free."""
+        kinds = lib.JO_CAST_AGENTS * agents + lib.JO_CAST_BODIES * bodies + lib.JO_CAST_WALLS * walls
+        met = lib.jo_world_cast(self._live(), _vector(start, 2), _vector(end, 2), radius, kinds)
+        kind = {lib.JO_TOUCHED_AGENT: "agent", lib.JO_TOUCHED_BODY: "body", lib.JO_TOUCHED_WALL: "wall"}[met.kind]
+        return Hit(kind, met.what, met.share, met.x, met.y, (met.nx, met.ny)) if met.hit else None
+
+    def way(self, x: float, y: float, place: str) -> np.ndarray:
+        """The way round walls to a place: rows x, y about 0.25 m apart; no rows where none leads there."""
+        count = lib.jo_world_path(self._live(), x, y, place.encode(), ffi.NULL, 0, ffi.NULL)
+        points = np.empty((count, 2))
+        lib.jo_world_path(self._world, x, y, place.encode(), ffi.from_buffer("double *", points), count, ffi.NULL)
+        return points
+
+    def density(self, x: float, y: float) -> float:
+        """People per m2 at a point."""
+        return lib.jo_world_density(self._live(), x, y)
+
+    # ---- what is done to it ----
+
+    def spawn(self, group: str, x: float, y: float) -> "Agent":
+        """A new agent of a group, at a point, m."""
+        self._live()
+        agent = lib.jo_world_spawn(self._world, group.encode(), x, y, self._error)
+        check(agent.generation, self._error)
+        return Agent(self, lib.jo_agent_state(self._world, agent).id)
+
+    def signal(self, name: str) -> None:
+        """Calls a name out, which everybody hears in the next step."""
+        self._do(lib.jo_world_signal, self._world, name.encode())
+
+    def open(self, wall: str, is_open: bool = True) -> None:
+        """Opens or closes the walls of a name."""
+        self._do(lib.jo_world_open_wall, self._world, wall.encode(), is_open)
+
+    def add_wall(self, name: str, points: Sequence[Sequence[float]]) -> None:
+        """A thin wall between 2 points or a solid with 4 corners, m."""
+        flat = [number for point in points for number in point]
+        self._do(lib.jo_world_add_wall, self._world, name.encode(), _vector(flat, 2 * len(points)), len(points))
+
+    def remove_wall(self, name: str) -> None:
+        """Takes out the walls of a name that were added."""
+        self._do(lib.jo_world_remove_wall, self._world, name.encode())
+
+    def input(self, line: str) -> None:
+        """Does what a line of an input log says: "push 7 300 0"."""
+        self._do(lib.jo_scene_input, self._scene, line.encode())
+
+    # ---- what it leaves ----
+
+    def record(self, path: Union[str, Path], every: float = 0.0) -> None:
+        """Writes trajectories to an SQLite file from here on, a frame each `every` s (0: each 0.1 s)."""
+        self._do(lib.jo_scene_record, self._scene, str(path).encode(), every)
+
+    def log_input(self, path: Union[str, Path]) -> None:
+        """Writes what is done to it to a file from here on, which `input_log` plays back to the same state."""
+        self._do(lib.jo_scene_log_input, self._scene, str(path).encode())
+
+    def finish(self) -> None:
+        """Ends recordings and logs: their files are whole."""
+        self._do(lib.jo_scene_finish, self._scene)
+
+    def snapshot(self) -> bytes:
+        """All that its future depends on."""
+        size = ffi.new("size_t *")
+        data = check(lib.jo_world_snapshot(self._live(), size, self._error), self._error)
+        try:
+            return bytes(ffi.buffer(ffi.cast("char *", data), size[0]))
+        finally:
+            lib.jo_free(data)
+
+    def restore(self, data: bytes) -> None:
+        """Puts it into that state: it goes on as it did then, to the bit."""
+        self._do(lib.jo_world_restore, self._world, ffi.from_buffer(data), len(data))
+
+    def summary(self) -> dict:
+        """The figures of the run so far, as `jostle run --summary` gives them."""
+        self._live()
+        return json.loads(taken(lib.jo_scene_summary(self._scene)) or "{}")
+
+    def probes(self) -> dict:
+        """The table of each probe by its name: a dict of arrays by column, as "time [s]"."""
+        self._live()
+        tables, n = {}, 0
+        while True:
+            name = text_of(lib.jo_scene_probe_name(self._scene, n))
+            if not name:
+                return tables
+            tables[name] = _table(taken(lib.jo_scene_probe_table(self._scene, n)) or "")
+            n += 1
+
+    # ---- looking at it ----
+
+    def show(self, live: bool = False, width: int = 800, height: int = 600) -> Picture:
+        """In a notebook a picture of how it stands, seen from above; `live`: the live page of another run of the same
+        scene, in a frame. Needs the command `jostle` for that."""
+        self._live()
+        return live_page(self, width, height) if live else picture_of(self, width, height)
+
+    def _repr_svg_(self) -> str:
+        return self.show().svg
+
+    def __iter__(self) -> Iterator["Agent"]:
+        return iter(self.agents())
+
+    def __repr__(self) -> str:
+        return f"<jostle.Scene {self.path!r}, closed>" if not self._scene else (
+            f"<jostle.Scene {self.path!r}, {len(self)} agents, t = {self.time:.2f} s>")
+
+
+def _table(text: str) -> dict:
+    """A CSV text with a line of names."""
+    head, _, rest = text.partition("\n")
+    names = [name.strip() for name in head.split(",")]
+    if not rest.strip():
+        return {name: np.empty(0) for name in names}
+    values = np.genfromtxt(io.StringIO(rest), delimiter=",", ndmin=2)
+    return {name: values[:, n] for n, name in enumerate(names)}
+
+
+class Agent:
+    """An agent of a scene, by its id. What it is asked for raises Error once it has left."""
+
+    __slots__ = ("scene", "id")
+
+    def __init__(self, scene: Scene, id: int) -> None:
+        self.scene, self.id = scene, id
+
+    def _handle(self) -> Any:
+        return lib.jo_world_agent_of(self.scene._live(), self.id)
+
+    def _state(self) -> Any:
+        handle = self._handle()
+        if not handle.generation:
+            raise Error(f"agent {self.id} has left", 3)
+        return lib.jo_agent_state(self.scene._world, handle)
+
+    def _do(self, call: Any, *arguments: Any) -> None:
+        self.scene._do(call, self.scene._world, self._handle(), *arguments)
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it has not left."""
+        return self._handle().generation != 0
+
+    @property
+    def position(self) -> tuple:
+        """x, y, m."""
+        state = self._state()
+        return state.x, state.y
+
+    @property
+    def velocity(self) -> tuple:
+        """m/s."""
+        state = self._state()
+        return state.vx, state.vy
+
+    @property
+    def force(self) -> tuple:
+        """Net force of the last step, N."""
+        state = self._state()
+        return state.fx, state.fy
+
+    @property
+    def state(self) -> str:
+        """The state of its behaviour that it is in."""
+        return text_of(self._state().state)
+
+    def set_state(self, state: str) -> None:
+        """Puts it into a state."""
+        self._do(lib.jo_agent_set_state, state.encode())
+
+    def set_goal(self, place: str) -> None:
+        """Has it aim at a place."""
+        self._do(lib.jo_agent_set_goal, place.encode())
+
+    def teleport(self, x: float, y: float) -> None:
+        """Moves it to a point, m, or to the nearest free spot."""
+        self._do(lib.jo_agent_teleport, x, y)
+
+    def push(self, fx: float, fy: float) -> None:
+        """A force during the next step, N, up to 10,000 along each axis."""
+        self._state()
+        self.scene.input(f"push {self.id} {fx!r} {fy!r}")
+
+    def remove(self) -> None:
+        """Takes it out."""
+        self._state()
+        lib.jo_world_remove_agent(self.scene._world, self._handle())
+
+    def memory(self, name: str) -> float:
+        """A value that it remembers. KeyError where there is none."""
+        return self._value(lib.jo_agent_memory, name)
+
+    def set_memory(self, name: str, value: float) -> None:
+        """Sets a value that it remembers."""
+        self._do(lib.jo_agent_set_memory, name.encode(), value)
+
+    def parameter(self, name: str) -> float:
+        """A parameter at present. KeyError where there is none."""
+        return self._value(lib.jo_agent_parameter, name)
+
+    def set_parameter(self, name: str, value: float) -> None:
+        """Its own value of a parameter, in all states that set none."""
+        self._do(lib.jo_agent_set_parameter, name.encode(), value)
+
+    def _value(self, call: Any, name: str) -> float:
+        self._state()
+        value = ffi.new("double *")
+        if not call(self.scene._world, self._handle(), name.encode(), value):
+            raise KeyError(name)
+        return value[0]
+
+    def __repr__(self) -> str:
+        return f"<jostle.Agent {self.id}>"
+
+
+class Body:
+    """A rigid body of a scene."""
+
+    __slots__ = ("scene", "_body")
+
+    def __init__(self, scene: Scene, body: Any) -> None:
+        self.scene, self._body = scene, body
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it was not taken out."""
+        return lib.jo_body_is_live(self.scene._live(), self._body)
+
+    def _state(self) -> Any:
+        if not self.is_there:
+            raise Error("the body is not there any more", 3)
+        return lib.jo_body_state(self.scene._world, self._body)
+
+    @property
+    def position(self) -> tuple:
+        """Of its centre of mass: x, y, z, m."""
+        state = self._state()
+        return state.x, state.y, state.z
+
+    @property
+    def velocity(self) -> tuple:
+        """m/s."""
+        state = self._state()
+        return state.vx, state.vy, state.vz
+
+    def impulse(self, impulse: Sequence[float], at: Optional[Sequence[float]] = None) -> None:
+        """N s, at a point, m, or at its centre of mass."""
+        self.scene._do(lib.jo_body_impulse, self.scene._world, self._body, _vector(impulse, 3), _vector(at, 3))
+
+    def place(self, at: Sequence[float], turn: Optional[Sequence[float]] = None) -> None:
+        """Moves it to a point, m, turned by a unit quaternion x, y, z, w or as it is, at rest."""
+        self.scene._do(lib.jo_body_place, self.scene._world, self._body, _vector(at, 3), _vector(turn, 4))
+
+    def set_velocity(self, velocity: Sequence[float], spin: Optional[Sequence[float]] = None) -> None:
+        """m/s and rad/s."""
+        self.scene._do(lib.jo_body_set_velocity, self.scene._world, self._body, _vector(velocity, 3), _vector(spin, 3))
+
+    def remove(self) -> None:
+        """Takes it out."""
+        self.scene._do(lib.jo_body_remove, self.scene._world, self._body)

@@ -1,0 +1,186 @@
+"""Tests of the package `jostle`, with small scenes and few steps."""
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import jostle
+
+BEHAVIOUR = """local mine = memory { hits = 0 }
+return machine { name = "walker", version = 1, start = "Walk",
+  defaults = { speed = normal(1.2, 0.2), goal = "west" },
+  states = {
+    Walk = { steer = seek(own.goal), { to = "Call", when = mine.hits:above(2) } },
+    Call = { steer = hold, signal = "here" },
+  } }
+"""
+SCENE = """jostle: 1
+step: 0.05
+duration: 2
+seed: 5
+places: {west: {point: [-20, 0]}, east: {point: [20, 0]}}
+walls: [{line: [[30, -5], [30, 5]], name: gate}]
+groups: {people: {behaviour: walker.lua, at: [[0, 0], [1, 0.1], [2, -0.3], [3, 0.2]]}}
+probes: {line: {flow: [[-1, -5], [-1, 5]]}}
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    (tmp_path / "walker.lua").write_text(BEHAVIOUR)
+    (tmp_path / "scene.yaml").write_text(SCENE)
+    return tmp_path / "scene.yaml"
+
+
+def test_steps_and_columns(path):
+    with jostle.Scene(path) as scene:
+        assert len(scene) == 4 and scene.dt == 0.05 and scene.tick == 0
+        scene.step(3)
+        assert scene.tick == 3 and scene.time == pytest.approx(0.15)
+        x = scene["x"]
+        assert x.dtype == np.float32 and not x.flags.writeable and not x.flags.owndata
+        agent = scene.agent(2)
+        assert x[list(scene["id"]).index(2)] == np.float32(agent.position[0])
+        assert set(scene.columns()) >= {"id", "x", "radius", "speed"}
+        assert scene.positions().shape == (4, 2)
+        assert list(scene.states()) == ["Walk"] * 4
+        assert set(scene.table()) >= {"id", "x", "y"}
+        with pytest.raises(KeyError):
+            scene["no such column"]
+        scene.run()
+        assert scene.time == pytest.approx(2.0)
+
+
+def test_the_same_input_gives_the_same_state(path):
+    hashes = {jostle.Scene(path, seed=7, threads=threads).run(1).hash for threads in (1, 2)}
+    assert len(hashes) == 1
+    assert jostle.Scene(path, seed=8).run(1).hash not in hashes
+    assert len(jostle.Scene(path, set={"groups.people.at": [[0, 0]]})) == 1
+
+
+def test_errors_have_their_place(path):
+    (path.parent / "walker.lua").write_text(BEHAVIOUR.replace("hold", "hald"))
+    said = []
+    with pytest.raises(jostle.Error) as error:
+        jostle.Scene(path, message=said.append)
+    assert error.value.file.endswith("walker.lua") and error.value.line == 6 and error.value.code == 3
+    assert "hald" in str(error.value) and "Did you mean 'hold'?" in "".join(said)
+    with pytest.raises(jostle.Error):
+        jostle.Scene(path.parent / "none.yaml", message=said.append)
+
+
+def test_what_is_done_and_what_happens(path):
+    scene = jostle.Scene(path)
+    scene.log_input(path.parent / "a.input")
+    entered = scene.events().entered
+    assert list(entered["agent"]) == [0, 1, 2, 3]
+    scene.step()
+    new = scene.spawn("people", 6, 2)
+    new.set_goal("east")
+    new.set_parameter("speed", 0.7)
+    assert new.parameter("speed") == pytest.approx(0.7, abs=1e-6)
+    scene.agent(0).set_memory("hits", 3)
+    assert scene.agent(0).memory("hits") == 3
+    scene.agent(1).push(300, 0)
+    gone = scene.agent(3)
+    gone.remove()
+    scene.add_wall("barrier", [(-3, -5), (-3, 5)])
+    scene.step()
+    events = scene.events()
+    assert events.transitions["agent"].tolist() == [0] and events.said["agent"].tolist() == [0]
+    assert events.entered["agent"].tolist() == [4] and events.left["agent"].tolist() == [3]
+    assert scene.agent(0).state == "Call"
+    with pytest.raises(jostle.Error, match="has left"):
+        gone.position
+    with pytest.raises(jostle.Error, match="Did you mean 'west'"):
+        new.set_goal("wst")
+    with pytest.raises(KeyError):
+        new.memory("none")
+    scene.run(0.5)
+    state = scene.hash
+    scene.finish()
+    replay = jostle.Scene(path, input_log=path.parent / "a.input")
+    replay.step(scene.tick)
+    assert replay.hash == state
+
+
+def test_questions(path):
+    scene = jostle.Scene(path)
+    scene.step()
+    ids, distances = scene.neighbours(0, 0, 1.5)
+    assert ids[0] == 0 and np.all(np.diff(distances) >= 0)
+    hit = scene.cast((25, 0), (35, 0), agents=False)
+    assert hit.kind == "wall" and hit.share == pytest.approx(0.5, abs=1e-3) and hit.normal[0] == pytest.approx(-1)
+    assert scene.cast((25, 3), (27, 3)) is None
+    assert scene.cast((10, 0.2), (0, 0.2), radius=0.1).what == 3
+    way = scene.way(35, 0, "west")
+    length = np.hypot(*np.diff(way, axis=0).T).sum()
+    assert 55.5 < length < 57.5  # round an end of the wall
+    assert scene.density(1, 0) > scene.density(12, 0)
+
+
+def test_snapshots(path):
+    scene = jostle.Scene(path)
+    scene.step(5)
+    data = scene.snapshot()
+    later = scene.run(0.5).hash
+    scene.restore(data)
+    assert scene.tick == 5 and scene.run(0.5).hash == later
+    with pytest.raises(jostle.Error):
+        scene.restore(data[:100])
+
+
+def test_what_a_run_leaves(path):
+    scene = jostle.Scene(path)
+    scene.record(path.parent / "run.sqlite")
+    scene.run()
+    scene.finish()
+    assert scene.summary()["agents"] == 4
+    table = scene.probes()["line"]
+    assert len(table) > 1 and all(isinstance(column, np.ndarray) for column in table.values())
+    recording = jostle.Recording(path.parent / "run.sqlite")
+    assert recording.fps == 10 and set(recording["id"]) == {0, 1, 2, 3}
+    frames = list(recording.frames())
+    assert len(frames) >= 20 and sum(rows.stop - rows.start for _, rows in frames) == len(recording)
+    assert recording.path_of(0)[-1] == pytest.approx(scene.agent(0).position, abs=0.15)
+    with pytest.raises(jostle.Error):
+        jostle.Recording(path)
+
+
+def test_a_sweep(path):
+    runs = jostle.sweep(path, {"groups.people.at": [[[0, 0]], [[0, 0], [1, 1]]]}, seeds=(1, 2), seconds=0.2)
+    assert runs.column("agents").tolist() == [1, 1, 2, 2]
+    assert len(runs.table("agents")["seed"]) == 4
+
+
+def test_pictures(path):
+    scene = jostle.Scene(path)
+    svg = scene.show().svg
+    assert svg.count("<circle") == 5 and svg.count("<polyline") == 2 and "Walk" in svg
+    assert scene._repr_svg_() == svg
+
+
+def test_other_threads_run_while_it_steps(path):
+    scene = jostle.Scene(path)
+    counted, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted[0] += 1
+            time.sleep(0)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    scene.run(5)
+    done.set()
+    thread.join()
+    assert counted[0] > 10
+
+
+def test_a_closed_scene(path):
+    scene = jostle.Scene(path)
+    scene.close()
+    with pytest.raises(jostle.Error, match="closed"):
+        scene.step()
+    assert "closed" in repr(scene)
