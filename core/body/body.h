@@ -123,8 +123,8 @@ typedef struct JoxBodyLook {
 bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out);
 /* False, and nothing done, for a static body or a number that is not finite. */
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin);
-/* Puts the shape's own frame at a position, m, turned by a quaternion x, y, z, w (NULL: as it is), at
-   rest; static bodies too. Nobody carries it from here on. False where there is no such body. */
+/* Puts the shape's own frame at a position, m, turned by a quaternion x, y, z, w (NULL: as it is),
+   at rest; static bodies too. Nobody carries it from here on. False where there is no such body. */
 bool jox_bodies_place(JoxBodies *bodies, uint32_t row, const double position[3],
                       const double turn[4]);
 /* From here on an agent carries the body: it touches nothing until it is let go. False for a static

@@ -105,8 +105,8 @@ typedef struct JoxPlacement {
    `walls_came`, also older ones that stand in a wall or deep within its reach. */
 JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *agents, uint32_t first_id,
                                        bool walls_came);
-/* Where the agent at an index could stand: *at, or the nearest spot to it of a spiral that is free of
-   walls and of others, by the same measures. False where there is none within 25 m. */
+/* Where the agent at an index could stand: *at, or the nearest spot to it of a spiral that is free
+   of walls and of others, by the same measures. False where there is none within 25 m. */
 bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *agents, uint32_t agent, JoxV2 *at);
 
 #endif

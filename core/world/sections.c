@@ -26,12 +26,14 @@ static void restore_made(JoWorld *w, JoxSections *s) {
 static void list_walls(JoWorld *w, JoxSections *s) {
     JoxWalls *walls = &w->model.all_walls;
     JoxHash shape = jox_hash_begin();
-    jox_world_mark_made(w);
-    for (uint32_t v = 0; v < w->model.made_vertex; v++)
+    const uint32_t own = w->state.made_count > 0 ? w->model.made_vertex : walls->count;
+    if (s->mode == JOX_SECTIONS_RESTORE)
+        jox_world_mark_made(w);
+    for (uint32_t v = 0; v < own; v++)
         jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
     jox_section_model(s, "walls", jox_hash_end(&shape));
     JOX_SECTION_ARRAY(s, "made", w->state.made, w->state.made_count, w->state.made_capacity);
-    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed)
+    if (s->mode == JOX_SECTIONS_RESTORE) /* where it failed too: both lists agree */
         restore_made(w, s);
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         struct JoxWallRing *ring = &walls->rings[r];

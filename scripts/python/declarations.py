@@ -6,7 +6,6 @@ from pathlib import Path
 import cffi
 
 HEADERS = ("jostle.h", "jostle_act.h", "jostle_read.h")
-CALLBACKS = ""
 
 
 def include_folder() -> Path:

@@ -6,10 +6,13 @@
 
 #define OWN                                                                                        \
     "local mine = memory { met = false, hits = 0 }\n" HEAD                                         \
-    "\"Walk\", defaults = { speed = normal(1.2, 0.2), goal = \"west\" }, states = {\n"             \
+    "\"Walk\", defaults = { speed = normal(1.2, 0.2) }, states = {\n"                              \
     "  Walk = { steer = seek(own.goal), { to = \"Rest\", when = mine.hits:above(2) } },\n"         \
     "  Rest = { steer = hold, set = { met = true } },\n"                                           \
     "  Left = { removes = true } } }\n"
+#define WESTWARD                                                                                   \
+    "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0.1], [2, -0.3], [3, 0.2]],"           \
+    " set: {mass: 80, goal: west}}}\n"
 #define PLACES "places: {west: {point: [-20, 0]}, east: {point: [20, 0]}}\n"
 
 static JoScene *scene;
@@ -17,7 +20,7 @@ static JoWorld *world;
 static JoError error;
 
 static void begin_scene(void) {
-    scene = load_own(jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_own(jox_bodies_available() ? WORLD PLACES WESTWARD : PLAIN PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
     error = (JoError){0};
 }
@@ -69,9 +72,10 @@ static void what_people_want_is_set(void **state) {
     (void)state;
     begin_scene();
     step(scene, 10);
-    const JoAgent one = agent_of(0), two = agent_of(1);
+    const JoAgent one = agent_of(0), two = agent_of(3); /* whom nobody follows */
     double value;
     assert_true(jo_agent_state(world, one).vx < 0.0);
+    assert_true(jo_agent_teleport(world, one, 0, -9, &error)); /* out of the others' way */
     assert_true(jo_agent_set_goal(world, one, "east", &error));
     assert_true(jo_agent_set_parameter(world, two, "speed", 0.5, &error));
     step(scene, 60);
@@ -187,7 +191,7 @@ static void walls_come_and_go(void **state) {
 /* A snapshot holds the walls that were added, and whether they are open. */
 static void added_walls_are_state(void **state) {
     (void)state;
-    scene = load_own(PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_own(PLAIN PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
     JoxText empty = {0}, walled = {0};
     assert_true(jox_world_snapshot(world, &empty, &error));

@@ -149,7 +149,10 @@ JoBody jo_world_body_at(const JoWorld *world, uint32_t slot) {
     JOX_REQUIRE(world, (JoBody){0});
     const uint32_t id =
         jox_heap_has_failed(world->heap) ? JOX_NO_BODY : jox_bodies_id(world->state.bodies, slot);
-    return id == JOX_NO_BODY ? (JoBody){0} : (JoBody){slot, id + 1};
+    JoBody body = {0};
+    if (id != JOX_NO_BODY)
+        body = (JoBody){slot, id + 1};
+    return body;
 }
 
 JoBody jo_world_find_body(const JoWorld *world, const char *name) {

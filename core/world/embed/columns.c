@@ -64,7 +64,10 @@ JoAgent jo_world_agent_of(const JoWorld *world, uint32_t id) {
     if (jox_heap_has_failed(world->heap))
         return (JoAgent){0};
     const uint32_t i = jox_agents_find(&world->state.agents, id);
-    return i == JOX_NO_INDEX ? (JoAgent){0} : jox_world_handle(world, i);
+    JoAgent agent = {0};
+    if (i != JOX_NO_INDEX)
+        agent = jox_world_handle(world, i);
+    return agent;
 }
 
 const char *jo_world_group_name(const JoWorld *world, uint32_t group) {

@@ -52,7 +52,7 @@ static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t 
                      double *out) {
     const JoxField *field = field_to(w, place, at);
     uint32_t count = 0;
-    double walked = 0.0, unused, *length = out ? out : &unused;
+    double walked = 0.0, unused = 0.0, *length = out ? out : &unused;
     *length = INFINITY;
     if (!isfinite(jox_field_distance(field, at)))
         return 0;

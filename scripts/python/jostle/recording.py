@@ -28,7 +28,7 @@ class Recording:
                 table = rows.fetchall()
         except sqlite3.Error as error:
             raise Error(str(error), 3, self.path) from error
-        self._columns = {name: np.array([row[n] for row in table]) for n, name in enumerate(names)}
+        self._columns = {name.replace("pos_", ""): np.array([row[n] for row in table]) for n, name in enumerate(names)}
 
     @property
     def fps(self) -> float:

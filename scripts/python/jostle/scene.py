@@ -22,6 +22,8 @@ TYPES = {lib.JO_U8: np.uint8, lib.JO_U16: np.uint16, lib.JO_U32: np.uint32, lib.
 
 def _written(value: Any) -> str:
     """A value as `jostle run --set` takes it."""
+    if isinstance(value, (list, tuple, dict, np.ndarray)):
+        raise TypeError(f"a key is set to a number, a text or a truth value, not to {value!r}")
     return value if isinstance(value, str) else json.dumps(value, default=float)
 
 
@@ -65,7 +67,7 @@ class Scene:
         self._scene = ffi.NULL
         self._stepping = False
         say = message or sys.stderr.write
-        self._message = ffi.callback("JoMessage", lambda _context, text: (say(text_of(text)), None)[1])
+        self._message = ffi.callback("void(void *, const char *)", lambda _context, text: (say(text_of(text)), None)[1])
         definition = ffi.new("JoSceneDef *", lib.jo_default_scene_def())
         kept = [ffi.new("char[]", self.path.encode())]
         definition.path = kept[0]

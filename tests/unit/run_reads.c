@@ -1,0 +1,237 @@
+/* What a program reads of a running scene through jostle_read.h. */
+#include <math.h>
+
+#include "unit/run_acted.h"
+
+#define OWN                                                                                        \
+    "local mine = memory { hits = 0 }\n" HEAD "\"Walk\", defaults = { speed = 1.2 }, states = {\n" \
+    "  Walk = { steer = drift(1, 0), { to = \"Call\", when = mine.hits:above(2) } },\n"            \
+    "  Call = { steer = hold, signal = \"here\" } } }\n"
+#define PLACES "places: {west: {point: [-20, 0]}, east: {point: [40, 0]}}\n"
+
+static JoScene *scene;
+static JoWorld *world;
+static JoError error;
+
+static void begin_scene(void) {
+    scene = load_own(jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
+    world = jo_scene_world(scene);
+}
+
+static void columns_are_in_place(void **state) {
+    (void)state;
+    begin_scene();
+    step(scene, 3);
+    const JoColumn id = jo_world_column(world, "id"), x = jo_world_column(world, "x"),
+                   mass = jo_world_column(world, "mass"),
+                   machine = jo_world_column(world, "machine");
+    assert_true(id.type == JO_U32 && id.stride == 4 && x.type == JO_F32 && machine.type == JO_U16);
+    assert_int_equal(x.count, 4);
+    for (uint32_t i = 0; i < x.count; i++) {
+        const JoAgent agent = jo_world_agent_of(world, ((const uint32_t *)id.data)[i]);
+        const JoAgentState s = jo_agent_state(world, agent);
+        assert_true(s.x == (double)*(const float *)((const char *)x.data + i * x.stride));
+        assert_true(((const float *)mass.data)[i] == 80.0f);
+    }
+    assert_true(x.data == world->state.agents.x); /* no copy */
+    uint32_t names = 0;
+    for (; jo_column_name(names); names++)
+        assert_non_null(jo_world_column(world, jo_column_name(names)).data);
+    assert_true(names > 30);
+    assert_null(jo_world_column(world, "none").data);
+    assert_int_equal(jo_world_agent_of(world, 99).generation, 0);
+    assert_string_equal(jo_world_group_name(world, 0), "people");
+    const uint32_t walks = ((const uint16_t *)jo_world_column(world, "state").data)[0];
+    assert_string_equal(jo_world_state_name(world, 0, walks), "Walk");
+    assert_string_equal(jo_world_state_name(world, 0, 1 - walks), "Call");
+    assert_string_equal(jo_world_state_name(world, 0, 2), "");
+    assert_string_equal(jo_world_machine_name(world, 7), "");
+    assert_string_equal(jo_world_place_name(world, 1), "east");
+    jo_scene_free(scene);
+}
+
+static void events_tell_what_happened(void **state) {
+    (void)state;
+    begin_scene();
+    JoEvents e = jo_world_events(world);
+    assert_int_equal(e.entered_count, 4);
+    assert_int_equal(e.entered[3].agent, 3);
+    step(scene, 1);
+    const JoAgent second = jo_world_agent_of(world, 1);
+    assert_true(jo_agent_set_memory(world, second, "hits", 3, &error));
+    jo_world_remove_agent(world, jo_world_agent_of(world, 2));
+    const JoAgent added = jo_world_spawn(world, "people", 9, -4, &error);
+    step(scene, 1);
+    e = jo_world_events(world);
+    assert_int_equal(e.transition_count, 1);
+    assert_int_equal(e.transitions[0].agent, 1);
+    assert_string_equal(jo_world_state_name(world, e.transitions[0].machine, e.transitions[0].to),
+                        "Call");
+    assert_int_equal(e.said_count, 1);
+    assert_string_equal(jo_world_signal_name(world, e.said[0].signal), "here");
+    assert_true(e.entered_count == 1 && e.entered[0].agent == 4 && e.entered[0].x > 8.9f);
+    assert_true(e.left_count == 1 && e.left[0].agent == 2 && fabs(e.left[0].x - 2.0) < 0.2);
+    const JoEvents again = jo_world_events(world); /* of the same step */
+    assert_true(again.entered_count == 1 && again.transition_count == 1);
+    step(scene, 1);
+    e = jo_world_events(world);
+    assert_int_equal(e.entered_count + e.left_count + e.transition_count, 0);
+    assert_true(jo_agent_is_live(world, added));
+    jo_scene_free(scene);
+}
+
+/* Who walks into a wall presses on it; that begins once. */
+static void touches_begin(void **state) {
+    (void)state;
+    scene = load_own("jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
+                     "groups: {people: {behaviour: own.lua, at: [[2, 0], [1.4, 0]]}}\n",
+                     HEAD "\"Walk\", defaults = { speed = 1.5, push = 300, push_reach = 1 }, "
+                          "states = { Walk = { steer = drift(1, 0) } } }\n");
+    world = jo_scene_world(scene);
+    uint32_t walls_begun = 0, walls = 0, people_begun = 0;
+    for (int n = 0; n < 60; n++) {
+        jo_agent_apply_force(world, jo_world_agent_of(world, 0), 400, 0);
+        jo_agent_apply_force(world, jo_world_agent_of(world, 1), 400, 0);
+        step(scene, 1);
+        const JoEvents e = jo_world_events(world);
+        for (uint32_t k = 0; k < e.touch_count; k++) {
+            assert_true(e.touches[k].force > 0.0f);
+            assert_true(k == 0 || e.touches[k - 1].agent <= e.touches[k].agent);
+            walls += e.touches[k].kind == JO_TOUCHED_WALL;
+            walls_begun += e.touches[k].kind == JO_TOUCHED_WALL && e.touches[k].began;
+            people_begun += e.touches[k].kind == JO_TOUCHED_AGENT && e.touches[k].began;
+        }
+    }
+    assert_true(walls > 10 && walls_begun >= 1 && walls_begun < walls / 2 && people_begun >= 1);
+    jo_scene_free(scene);
+}
+
+static void a_ball_hits(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    begin_scene();
+    const JoBody ball = jo_world_find_body(world, "ball");
+    assert_true(jo_body_place(world, ball, (double[]){6, 0.2, 1.2}, NULL, &error));
+    assert_true(jo_body_set_velocity(world, ball, (double[]){-12, 0, 0}, NULL, &error));
+    uint32_t hits = 0;
+    for (int n = 0; n < 10; n++) {
+        step(scene, 1);
+        const JoEvents e = jo_world_events(world);
+        for (uint32_t k = 0; k < e.hit_count; k++, hits++) {
+            assert_int_equal(jo_world_body_at(world, e.hits[k].body).generation, ball.generation);
+            assert_true(e.hits[k].impulse > 1.0f && e.hits[k].z > 0.5f);
+            assert_int_equal(e.hits[k].agent, 3); /* the nearest to it */
+        }
+        if (hits)
+            break;
+    }
+    assert_int_equal(hits, 1);
+    jo_scene_free(scene);
+}
+
+static void questions_have_exact_answers(void **state) {
+    (void)state;
+    begin_scene();
+    uint32_t ids[8];
+    float away[8];
+    assert_int_equal(jo_world_neighbours(world, 0, 0, 2.1, ids, away, 8), 3);
+    assert_true(ids[0] == 0 && ids[1] == 1 && ids[2] == 2 && away[0] == 0.0f);
+    assert_int_equal(jo_world_neighbours(world, 0, 0, 2.1, ids, NULL, 1), 3);
+    const double r = jo_agent_state(world, jo_world_agent_of(world, 0)).radius;
+    JoCast c = jo_world_cast(world, (double[]){-4, 0}, (double[]){6, 0}, 0.1, JO_CAST_ALL);
+    assert_true(c.hit && c.kind == JO_TOUCHED_AGENT && c.what == 0);
+    assert_true(fabs(c.x + r + 0.1) < 1e-5 && fabs(c.nx + 1.0) < 1e-6);
+    c = jo_world_cast(world, (double[]){25, 2}, (double[]){35, 2}, 0, JO_CAST_WALLS);
+    assert_true(c.hit && c.kind == JO_TOUCHED_WALL && fabs(c.share - 0.5) < 1e-6);
+    c = jo_world_cast(world, (double[]){35, 2}, (double[]){25, 2}, 0.5, JO_CAST_WALLS);
+    assert_true(c.hit && fabs(c.x - 30.5) < 1e-5 && fabs(c.nx - 1.0) < 1e-6);
+    c = jo_world_cast(world, (double[]){25, 5.3}, (double[]){35, 5.3}, 0.5, JO_CAST_WALLS);
+    assert_true(c.hit && fabs(c.x - 29.6) < 1e-4); /* the wall's end: 0.4 before it, 0.3 beside */
+    c = jo_world_cast(world, (double[]){25, 5.3}, (double[]){35, 5.3}, 0.2, JO_CAST_WALLS);
+    assert_true(!c.hit && c.share == 1.0 && c.x == 35.0);
+    c = jo_world_cast(world, (double[]){0, 0}, (double[]){0, 0}, 0, JO_CAST_AGENTS); /* within */
+    assert_true(c.hit && c.share == 0.0);
+    assert_true(jo_scene_open_wall(scene, "gate", true, &error));
+    assert_false(jo_world_cast(world, (double[]){25, 2}, (double[]){35, 2}, 0, JO_CAST_WALLS).hit);
+    assert_int_equal(jo_world_walls(world, NULL, 0), 0);
+    assert_true(jo_scene_open_wall(scene, "gate", false, &error));
+    double edges[8];
+    assert_int_equal(jo_world_walls(world, edges, 2), 2); /* there and back */
+    assert_true(edges[0] == 30.0 && edges[6] == 30.0);
+    if (jox_bodies_available()) {
+        step(scene, 1);
+        c = jo_world_cast(world, (double[]){10, 5}, (double[]){20, 5}, 0.25, JO_CAST_BODIES);
+        assert_true(c.hit && c.kind == JO_TOUCHED_BODY && fabs(c.x - 14.25) < 1e-4);
+        assert_string_equal(jo_world_body_name(world, c.what), "pillar");
+        double ring[32];
+        assert_int_equal(jo_body_outline(world, jo_world_find_body(world, "pillar"), ring, 16), 4);
+        assert_true(fabs(fabs(ring[0] - 15.0) - 0.5) < 1e-5);
+    }
+    jo_scene_free(scene);
+}
+
+static void ways_lead_round_walls(void **state) {
+    (void)state;
+    begin_scene();
+    double length, xy[800];
+    const double straight = hypot(10.0, 5.0); /* to the wall's end, on either side of it */
+    const uint32_t count = jo_world_path(world, 20, 0, "east", xy, 400, &length);
+    assert_true(count > 60 && count < 400);
+    assert_true(length > 2.0 * straight && length < 2.0 * straight + 1.5);
+    assert_true(xy[0] == 20.0 && hypot(xy[2 * count - 2] - 40.0, xy[2 * count - 1]) < 0.6);
+    for (uint32_t k = 1; k < count; k++)
+        assert_true(hypot(xy[2 * k] - xy[2 * k - 2], xy[2 * k + 1] - xy[2 * k - 1]) < 0.51);
+    assert_true(jo_scene_open_wall(scene, "gate", true, &error));
+    jo_world_path(world, 20, 0, "east", NULL, 0, &length);
+    assert_true(fabs(length - 20.0) < 0.6);
+    assert_int_equal(jo_world_path(world, 20, 0, "nowhere", NULL, 0, &length), 0);
+    assert_true(isinf(length));
+    jo_scene_free(scene);
+}
+
+static void density_is_a_gaussian_that_walls_stop(void **state) {
+    (void)state;
+    scene = load_own("jostle: 1\nwalls: [{line: [[0.5, -5], [0.5, 5]]}]\n"
+                     "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0]]}}\n",
+                     OWN);
+    world = jo_scene_world(scene);
+    assert_true(fabs(jo_world_density(world, 0, 0) - 0.31830989) < 1e-6);
+    assert_true(fabs(jo_world_density(world, 0, 1) - 0.31830989 * exp(-1.0)) < 1e-6);
+    assert_true(jo_world_density(world, 60, 60) == 0.0);
+    jo_scene_free(scene);
+}
+
+static void a_snapshot_goes_on_to_the_bit(void **state) {
+    (void)state;
+    scene = load_own(PLAIN PLACES PEOPLE_OF, OWN);
+    world = jo_scene_world(scene);
+    size_t size;
+    step(scene, 4);
+    void *data = jo_world_snapshot(world, &size, &error);
+    assert_non_null(data);
+    step(scene, 20);
+    const uint64_t later = jo_world_hash(world);
+    assert_false(jo_world_restore(world, data, size / 2, &error));
+    assert_true(jo_world_hash(world) == later && error.text[0]);
+    assert_true(jo_world_restore(world, data, size, &error));
+    assert_int_equal(jo_world_tick(world), 4);
+    step(scene, 20);
+    assert_true(jo_world_hash(world) == later);
+    jo_free(data);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_in_place),
+        cmocka_unit_test(events_tell_what_happened),
+        cmocka_unit_test(touches_begin),
+        cmocka_unit_test(a_ball_hits),
+        cmocka_unit_test(questions_have_exact_answers),
+        cmocka_unit_test(ways_lead_round_walls),
+        cmocka_unit_test(density_is_a_gaussian_that_walls_stop),
+        cmocka_unit_test(a_snapshot_goes_on_to_the_bit),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
