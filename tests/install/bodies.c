@@ -38,11 +38,16 @@ int main(void) {
     const JoAgent one = jo_world_add_agent(world, &person, &error);
     jo_agent_set_preferred(world, one, 1.2, 0);
 
-    uint32_t hits = 0, touches = 0;
+    uint32_t hits = 0;
     double stopped_at = 0;
     for (int step = 0; step < 240; step++) {
-        if (step == 20) /* from behind, at chest height */
+        if (step == 0 || step == 150) /* the cart is set going: 80 N s on 40 kg */
+            jo_body_impulse(world, wagon, (double[]){80, 0, 0}, NULL, &error);
+        if (step == 20) { /* thrown from behind, at chest height */
+            const JoAgentState at = jo_agent_state(world, one);
+            jo_body_place(world, crate, (double[]){at.x - 2, at.y, 1.2}, NULL, &error);
             jo_body_set_velocity(world, crate, (double[]){9, 0, 1}, NULL, &error);
+        }
         if (step == 140) { /* the door goes aside */
             stopped_at = jo_body_state(world, wagon).x;
             jo_body_place(world, door, (double[]){6, 5, 1}, NULL, &error);
@@ -50,17 +55,14 @@ int main(void) {
         jo_world_step(world, 1);
         const JoEvents events = jo_world_events(world);
         hits += events.hit_count;
-        for (uint32_t k = 0; k < events.touch_count; k++)
-            touches += events.touches[k].kind == JO_TOUCHED_BODY && events.touches[k].began;
     }
     const JoCast ahead = jo_world_cast(world, (double[]){-10, 0}, (double[]){40, 0}, 0.1,
                                        JO_CAST_BODIES | JO_CAST_AGENTS);
     const double end = jo_body_state(world, wagon).x;
-    printf("%u hits, %u touches; the cart stood at %.2f m, then went to %.2f m; a disc meets kind "
-           "%d at %.2f m\n",
-           hits, touches, stopped_at, end, (int)ahead.kind, ahead.x);
-    const int good =
-        hits > 0 && touches > 0 && stopped_at < 5.5 && end > stopped_at + 0.5 && ahead.hit;
+    printf(
+        "%u hits; the cart stood at %.2f m, then went to %.2f m; a disc meets kind %d at %.2f m\n",
+        hits, stopped_at, end, (int)ahead.kind, ahead.x);
+    const int good = hits > 0 && stopped_at < 5.5 && end > stopped_at + 0.5 && ahead.hit;
     jo_world_free(world);
     return good ? 0 : 1;
 }
