@@ -77,17 +77,23 @@ static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t 
     return 0; /* it leads round and round */
 }
 
+static uint32_t walk_to(JoWorld *w, double x, double y, const char *place, double *xy,
+                        uint32_t capacity, double *length) {
+    const JoxV2 at = {(float)x, (float)y};
+    const int found = jox_place_find(w->model.places, w->model.scene_places, place);
+    if (found >= 0)
+        return walk(w, (uint32_t)found, at, xy, capacity, length);
+    if (length)
+        *length = INFINITY;
+    return 0;
+}
+
 uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, double *xy,
                        uint32_t capacity, double *length) {
     JOX_REQUIRE(world && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
     JOX_GUARD (world->heap, NULL)
         return 0;
-    const int found = jox_place_find(world->model.places, world->model.scene_places, place);
-    if (found >= 0)
-        return walk(world, (uint32_t)found, (JoxV2){(float)x, (float)y}, xy, capacity, length);
-    if (length)
-        *length = INFINITY;
-    return 0;
+    return walk_to(world, x, y, place, xy, capacity, length);
 }
 
 /* ---- snapshots ---- */
