@@ -31,8 +31,8 @@ JO_API bool jo_agent_teleport(JoWorld *world, JoAgent agent, double x, double y,
    such a value. */
 JO_API bool jo_agent_set_goal(JoWorld *world, JoAgent agent, const char *place, JoError *error);
 /* Puts an agent into a state of its behaviour, as if it had just entered it: its time begins, what
-   it does on entering is done in the next step. A state that becomes another behaviour leads to
-   that one's start. */
+   it does on entering is done in the next step; a state in which people leave takes it out at once.
+   A state that becomes another behaviour leads to that one's start. */
 JO_API bool jo_agent_set_state(JoWorld *world, JoAgent agent, const char *state, JoError *error);
 /* Sets a value of an agent's memory by its name; truth is 0 or 1. */
 JO_API bool jo_agent_set_memory(JoWorld *world, JoAgent agent, const char *name, double value,

@@ -257,6 +257,7 @@ static void all_of_it_plays_back(void **state) {
     step(scene, 37);
     assert_true(jo_world_hash(jo_scene_world(scene)) == hash);
     jo_scene_free(scene);
+    assert_int_equal(remove(log), 0);
 }
 
 int main(void) {

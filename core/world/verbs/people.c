@@ -149,6 +149,8 @@ bool jox_perform_state(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
     if (state >= 0) {
         tell_machines(world);
         jox_machines_set_state(&world->machines, i, (uint16_t)state);
+        if (world->state.agents.removed[i]) /* a state in which people leave */
+            world->state.statistics.removed += jox_agents_compact(&world->state.agents);
         return true;
     }
     const char *names[MOST_NAMES];
