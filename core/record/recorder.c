@@ -36,6 +36,7 @@ struct JoxRecorder {
     Frame frames[FRAMES]; /* a ring: `first` is the oldest, `count` are filled */
     uint32_t first, count;
     bool ending, failed;
+    bool lent; /* the file, to the thread that steps */
     char why[256];
     double low_x, high_x, low_y, high_y, committed;
     uint64_t geometry;
@@ -94,6 +95,15 @@ static bool write_bounds(JoxRecorder *r) {
            set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
 }
 
+/* Parts of a metre in which places are recorded. */
+static const double PLACE_PARTS = 1e4;
+
+/* A place, m, as it is read again; what is no number stays none. */
+static double as_recorded(float place) {
+    return isfinite(place) ? (double)llround((double)place * PLACE_PARTS) / PLACE_PARTS
+                           : (double)NAN;
+}
+
 /* In whole parts; what is no number is NULL, which the table does not take. */
 static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
     if (isfinite(value))
@@ -105,11 +115,11 @@ static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
 static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
     const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
                              row->force, row->compression, row->load};
-    static const double PARTS[] = {1e4, 1e4, 1e3, 1e3, 10.0, 10.0, 10.0};
+    const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3, 10.0, 10.0, 10.0};
     sqlite3_bind_int64(to, first, frame);
     sqlite3_bind_int64(to, first + 1, row->id);
     for (int k = 0; k < 7; k++)
-        bind_parts(to, first + 2 + k, numbers[k], PARTS[k]);
+        bind_parts(to, first + 2 + k, numbers[k], parts[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
 }
@@ -121,8 +131,9 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
         for (uint32_t k = 0; k < count; k++, i++) {
             const JoxRecordRow *row = &f->rows[i];
             bind_row(to, 1 + (int)k * COLUMNS, f->number, row);
-            r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
-            r->low_y = fmin(r->low_y, row->y), r->high_y = fmax(r->high_y, row->y);
+            const double x = as_recorded(row->x), y = as_recorded(row->y);
+            r->low_x = fmin(r->low_x, x), r->high_x = fmax(r->high_x, x);
+            r->low_y = fmin(r->low_y, y), r->high_y = fmax(r->high_y, y);
         }
         if (!put(r, to))
             return false;
@@ -166,7 +177,8 @@ static void wait_for_frames(JoxRecorder *r) {
         }
         clock_gettime(CLOCK_REALTIME, &until);
         until.tv_sec += (time_t)COMMITTED;
-        if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0)
+        if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0 &&
+            !r->lent && !sqlite3_get_autocommit(r->db)) /* nobody else has committed meanwhile */
             r->failed |= !commit(r);
     }
 }
@@ -192,34 +204,10 @@ static void *writer(void *argument) {
     return NULL;
 }
 
-/* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths
-   of millimetres, directions in thousandths and loads in tenths, and the format's table is a view
-   of them, which its readers cannot tell from a table. Columns of ours stand beside those of the
-   format. The key is the format's index: rows are found by it, and lie in its order. */
-static const char SCHEMA[] =
-    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
-    "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"
-    " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"
-    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, PRIMARY KEY(frame, id))"
-    " WITHOUT ROWID;"
-    "CREATE VIEW trajectory_data AS " JOX_RECORDED_ROWS ";"
-    "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
-    "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
-    "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
-    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT);"
-    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT);"
-    "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
-    " qz REAL, qw REAL);"
-    "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
-    " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
-    " corners TEXT, PRIMARY KEY(id, frame, part));"
-    "CREATE TABLE jostle_wall(name TEXT, solid INTEGER, closed INTEGER, open INTEGER, height REAL,"
-    " points TEXT);";
-
 static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
-    bool good = run(r, SCHEMA) && set_metadata(r, "version", "2") && set_number(r, "fps", fps) &&
-                write_bounds(r) &&
+    bool good = run(r, jox_recording_schema) && set_metadata(r, "version", "2") &&
+                set_number(r, "fps", fps) && write_bounds(r) &&
                 prepare(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
     if (good) {
         sqlite3_bind_int64(geometry, 1, (sqlite3_int64)r->geometry);
@@ -340,11 +328,19 @@ JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error)
     return NULL;
 }
 
-/* The writing thread uses the file while there are frames; afterwards it sleeps until the next. */
-static void wait_for_writer(JoxRecorder *r) {
+/* The writing thread uses the file while there are frames; afterwards it sleeps until the next, and
+   wakes only to commit, which it leaves while the file is lent to the thread that steps. */
+static void borrow_file(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
     while (r->count > 0)
         pthread_cond_wait(&r->emptied, &r->lock);
+    r->lent = true;
+    pthread_mutex_unlock(&r->lock);
+}
+
+static void return_file(JoxRecorder *r) {
+    pthread_mutex_lock(&r->lock);
+    r->lent = false;
     pthread_mutex_unlock(&r->lock);
 }
 
@@ -354,9 +350,11 @@ static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const ch
     sqlite3_stmt *statement;
     char text[8];
     jox_colour_write(colour, text);
-    wait_for_writer(r);
-    if (!prepare(r, &statement, sql))
+    borrow_file(r);
+    if (!prepare(r, &statement, sql)) {
+        return_file(r);
         return;
+    }
     sqlite3_bind_int64(statement, 1, number);
     sqlite3_bind_text(statement, 2, first, -1, SQLITE_STATIC);
     if (colour)
@@ -365,6 +363,7 @@ static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const ch
         sqlite3_bind_text(statement, 4, second, -1, SQLITE_STATIC);
     put(r, statement);
     sqlite3_finalize(statement);
+    return_file(r);
 }
 
 void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state,
@@ -381,7 +380,7 @@ void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name, JoxCo
 void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
     sqlite3_stmt *statement;
     JoxText points = {0};
-    wait_for_writer(r);
+    borrow_file(r);
     bool good = prepare(r, &statement, "INSERT INTO jostle_wall VALUES(?, ?, ?, ?, ?, ?)");
     for (uint32_t w = 0; good && w < walls->ring_count; w++) {
         const struct JoxWallRing *ring = &walls->rings[w];
@@ -403,6 +402,7 @@ void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
     }
     if (statement)
         sqlite3_finalize(statement);
+    return_file(r);
     jox_text_free(&points);
 }
 
@@ -416,7 +416,7 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
         jox_text_printf(&corners, "%s%.6g %.6g %.6g", c ? ", " : "", (double)look->corners[c].x,
                         (double)look->corners[c].y, (double)look->corners[c].z);
     sqlite3_stmt *statement;
-    wait_for_writer(r);
+    borrow_file(r);
     if (prepare(r, &statement,
                 "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
         const uint32_t whole[] = {frame, body, part, (uint32_t)look->kind};
@@ -428,6 +428,7 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
         put(r, statement);
         sqlite3_finalize(statement);
     }
+    return_file(r);
     jox_text_free(&corners);
 }
 
@@ -459,8 +460,9 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
 }
 
 bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
-    wait_for_writer(r);
+    borrow_file(r);
     const bool good = !r->failed && (sqlite3_get_autocommit(r->db) || commit(r));
+    return_file(r);
     if (!good)
         jox_text_printf(error, "recording failed: %s", r->why);
     return good;

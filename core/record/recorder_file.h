@@ -20,4 +20,7 @@ FILE *jox_claim_recording(const char *path, JoxText *error);
     "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \
     "load, state, member FROM jostle_row"
 
+/* What makes an empty file a recording, up to the first rows; it leaves a transaction open. */
+extern const char jox_recording_schema[];
+
 #endif

@@ -78,16 +78,16 @@ for command in check "run --for 1 --quiet"; do
 done
 scene 'walls: [{solid: [[-30, -30], [60, -30], [60, 60], [-30, 60]]}]
 groups: {g: {behaviour: odd.lua, at: [[10, 10]]}}'
-says "  and those who find no way out" 0 "1 of 1 people stand in a wall or deep in others" "$program" check scene.yaml
+says "  and those who find no way out" 0 "1 of 1 person stands in a wall or deep in others" "$program" check scene.yaml
 scene 'groups: {g: {behaviour: odd.lua, count: 30000, in: square}}'
 sed -i 's/^places:/places:\n  square: {polygon: [[0, 0], [3, 0], [3, 3], [0, 3]]}/' "$yard/scene.yaml"
 (ulimit -t 10 -v 2000000
 for command in check "run --quiet"; do
-    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of 30000 people stand in a wall or deep in others, as no free spot was found" \
+    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of 30,000 people stand in a wall or deep in others, as no free spot was found" \
         "$program" $command scene.yaml
 done
 scene 'groups: {g: {behaviour: odd.lua, count: 100000, fill: circle, in: ring}}'
-says "and 100,000 on a circle" 3 "100000 agents on 31.4 m stand less than 0.005 m apart" "$program" run scene.yaml --quiet
+says "and 100,000 on a circle" 3 "100,000 agents on 31.4 m would stand less than 0.005 m apart" "$program" run scene.yaml --quiet
 # Bodies in one place: one after the other, and as copies that are larger than they are apart.
 { printf 'jostle: 1\nbodies:\n'; for n in $(seq 1000); do echo '  - {shape: {sphere: {radius: 0.2}}, at: [0, 0, 1]}'; done; } >"$yard/scene.yaml"
 says "bodies that begin in each other" 3 "pairs of bodies lie in each other" "$program" run scene.yaml --quiet
