@@ -38,10 +38,16 @@ static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     seen->forces[JOX_FORCE_PART_body] = body;
 }
 
-/* What the agent would choose as everything stands: before the first step nobody knows. */
+/* Whether the agent was in the last step, so that its scratch columns hold figures: they do not of
+   who came since, nor in a world that was restored since. */
+static bool was_in_step(const JoWorld *w, uint32_t i) {
+    return w->scratch.substep.dt > 0.0 && w->state.agents.breadth[i] > 0.0f;
+}
+
+/* What the agent would choose as everything stands; unknown of who was not in the last step. */
 static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
-    if (w->scratch.substep.dt == 0.0)
+    if (!was_in_step(w, i))
         return;
     JoxPlan *plan = jox_alloc(1, sizeof *plan);
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);

@@ -43,8 +43,9 @@ typedef struct JoxInspection {
 
 struct JoWorld;
 /* The inspection of the agent that is in a slot; begun where there is none, in place of the one
-   that was asked for longest ago: then it says what the agent would choose as everything stands.
-   NULL where nobody is in the slot, or who was inspected there is gone: that inspection then ends.
+   that was asked for longest ago: then it says what the agent would choose as everything stands, or
+   is not `seen` where the agent was not in the last step or the world was restored since. NULL
+   where nobody is in the slot, or who was inspected there is gone: that inspection then ends.
  */
 JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxWatched **watched);
 /* In a step, behind the stages push, solve and infer. */

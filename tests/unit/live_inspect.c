@@ -143,6 +143,25 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
     jo_scene_free(plain);
 }
 
+/* A world that was restored lacks the figures of its last step, until the next. */
+static void a_restored_world_is_seen_from_its_next_step_on(void **state) {
+    (void)state;
+    JoScene *scene = load_own(PLAIN PEOPLE_OF, WALKER);
+    JoError error = {0};
+    size_t size;
+    step(scene, 3);
+    void *saved = jo_world_snapshot(scene->world, &size, &error);
+    assert_true(saved && jo_world_restore(scene->world, saved, size, &error));
+    jo_free(saved);
+    for (int n = 0; n < 2; n++) {
+        char *json = jo_scene_inspect(scene, 2);
+        assert_non_null(strstr(json, n ? "\"seen\": true" : "\"seen\": false"));
+        jo_free(json);
+        step(scene, 1);
+    }
+    jo_scene_free(scene);
+}
+
 static void an_inspection_says_why(void **state) {
     (void)state;
     JoScene *scene = begin();
@@ -176,6 +195,12 @@ static void an_inspection_says_why(void **state) {
     jo_free(json);
     json = jo_scene_inspect(scene, 1);
     assert_non_null(strstr(json, "{\"agent\": {\"id\": 4,"));
+    assert_non_null(strstr(json, "\"seen\": false")); /* it was in no step */
+    assert_non_null(strstr(json, "\"planes\": []"));
+    jo_free(json);
+    step(scene, 1);
+    json = jo_scene_inspect(scene, 1);
+    assert_non_null(strstr(json, "\"seen\": true"));
     jo_free(json);
     json = jo_scene_inspect(scene, 4000000000u);
     assert_string_equal(json, "{\"agent\": null}");
@@ -210,6 +235,7 @@ int main(void) {
         cmocka_unit_test(an_inspection_adds_up),
         cmocka_unit_test(a_look_between_steps_tells_of_the_next),
         cmocka_unit_test(an_inspection_says_why),
+        cmocka_unit_test(a_restored_world_is_seen_from_its_next_step_on),
         cmocka_unit_test(looking_ends_by_itself),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -86,7 +86,7 @@ export class AgentPage {
             "No velocity satisfies all half-planes: the one that breaks them least was taken.");
         this.last = el("div");
         this.picture = svg("svg", { class: "velocity", role: "img", "aria-label": "Velocities: forbidden half-planes, the preferred and the chosen one" });
-        this.unseen = el("p", { className: "faint" }, "Known from the first step on.");
+        this.unseen = el("p", { className: "faint" }, "Known from the next step on.");
         this.planes = el("ul", { className: "key" });
         this.forces = el("ul", { className: "key" });
         this.noForce = el("p", { className: "faint" }, "No force acts.");
