@@ -132,6 +132,13 @@ typedef struct CliReportPage {
 } CliReportPage;
 int cli_report_page(const CliCommand *command, const CliReportPage *page);
 
+/* The page of a sweep's file of one variant: of runs with many seeds. */
+int cli_runs_page(const CliCommand *command, const char *runs, const char *folder, bool quiet);
+/* Whether a file is one of `jostle sweep`. */
+bool cli_is_sweep(const char *path);
+/* Makes a folder, and those above it; false with a message. */
+bool cli_make_folder(const CliCommand *command, const char *path);
+
 /* Whether functions of behaviours were suspended or people were lost, which it says. */
 bool cli_troubled(const CliCommand *command, const JoScene *scene);
 

@@ -1,8 +1,7 @@
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/format/path.h"
 #include "base/mem.h"
@@ -65,45 +64,15 @@ static const CliOption OPTIONS[] = {
 typedef enum Kind { SCENE, SWEEP, RECORDING } Kind;
 
 static Kind kind_of(const char *path) {
-    enum { AT = 68 }; /* of the number of who wrote an SQLite file */
-    unsigned char head[AT + 4] = {0};
-    FILE *file = fopen(path, "rb");
-    const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
     const char *dot = strrchr(path, '.');
-    if (file)
-        fclose(file);
-    if (!file || (dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"))))
+    if (access(path, R_OK) != 0 || (dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"))))
         return SCENE;
-    return got == sizeof head && !memcmp(head, "SQLite format 3", 16) &&
-                   !memcmp(head + AT, "JSwp", 4)
-               ? SWEEP
-               : RECORDING;
+    return cli_is_sweep(path) ? SWEEP : RECORDING;
 }
 
 static bool vet(void *context, const JoSceneDef *scene) {
     Compare *compare = context;
     return cli_vet(&cli_compare, scene, &compare->files) == JO_OK;
-}
-
-/* Makes a folder, and those above it; false with a message. */
-static bool make_folder(const char *path) {
-    char *folder = jox_strdup(path);
-    bool good = true;
-    for (char *at = folder + 1; good && *folder; at++) {
-        const char was = *at;
-        if (was && was != '/')
-            continue;
-        *at = 0;
-        good = mkdir(folder, 0777) == 0 || errno == EEXIST;
-        if (!good)
-            fprintf(stderr, "jostle compare: cannot make the folder '%s': %s\n", folder,
-                    strerror(errno));
-        *at = was;
-        if (!was)
-            break;
-    }
-    jox_free(folder);
-    return good;
 }
 
 /* Runs what of a scene is not there yet, in a file of the folder, whose path is returned. */
@@ -148,7 +117,7 @@ static int run_scenes(Compare *compare, const CliList *plain, Kind *kinds) {
             compare->sides[s] = jox_strdup(plain->items[s]);
         else if (!compare->def.out)
             status = cli_misused(&cli_compare, "--out DIR says where the runs of scenes are kept");
-        else if (!make_folder(compare->def.out))
+        else if (!cli_make_folder(&cli_compare, compare->def.out))
             status = JO_FAILED;
         else
             status = run_scene(compare, plain->items[s], &compare->sides[s]);

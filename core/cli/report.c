@@ -42,6 +42,11 @@ static int measure(const Wanted *wanted) {
     if (!wanted->def.directory && !wanted->summary)
         return cli_misused(&cli_report, "nothing is asked for: give --out DIR, or --summary FILE");
     confine(wanted);
+    if (cli_is_sweep(wanted->def.recording)) {
+        if (wanted->summary || wanted->def.scene || !wanted->def.directory)
+            return cli_misused(&cli_report, "the runs of a sweep go with --out DIR alone");
+        return cli_runs_page(&cli_report, wanted->def.recording, wanted->def.directory, false);
+    }
     char *summary = jo_report(&wanted->def, &error);
     if (!summary) /* what is wrong with a file was sent as a message */
         return cli_failed(&cli_report, &error, error.code != JO_FAILED);
@@ -69,7 +74,8 @@ const CliCommand cli_report = {
     .about = "Measures a recording: an SQLite file of `jostle run --record` or of JuPedSim "
              "(versions 1 and 2), text with the columns id, frame, x, y (PeTrack, the archive of "
              "Juelich), or CSV with a line of names (ID,Frame,x,y,v_x,v_y). Give one of --out and "
-             "--summary, or both.",
+             "--summary, or both. Of a file of `jostle sweep` with one variant, --out has the page "
+             "of all its seeds.",
     .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

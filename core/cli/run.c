@@ -53,7 +53,10 @@ static const CliOption OPTIONS[] = {
      "write a page to hand on or print, pictures and tables into DIR (index.html): a summary in "
      "sentences, a plan, who left when, who was over which published limit, maps and moments, "
      "levels of service, what probes measure, inputs and their hashes. Runs once more at half the "
-     "step to show the difference beside each figure",
+     "step to show the difference beside each figure. With --seeds: how far the runs differ, in "
+     "sentences, curves with bands, maps of the mean and the worst, and each run with its hash; "
+     "the runs are kept in DIR/runs.sqlite, with which the same command goes on, or makes a page "
+     "of more seeds",
      CLI_TO(Run, report)},
     {"no-half-step", NULL, "do not run once more", CLI_TO(Run, no_half)},
     {"data", "DIR",
@@ -242,24 +245,39 @@ static int simulate_seeds(Run *run, char **summary) {
     def.quiet = run->quiet;
     def.stop = &cli_signal;
     cli_catch_signals(true);
+    JoxText kept = {0};
+    if (run->report) {
+        if (!cli_make_folder(&cli_run, run->report))
+            return JO_FAILED;
+        jox_text_printf(&kept, "%s/runs.sqlite", run->report);
+        def.out = kept.data;
+        def.renew = true;
+    }
     const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
-    const bool good = jo_sweep(&def, &counts, summary, &error);
+    const bool good =
+        jo_sweep(&def, &counts, run->report && !run->summary ? NULL : summary, &error);
     if (run->files.sealed)
         jox_overlay_use(before);
-    if (cli_signal)
-        return JO_OK; /* which says how it ended */
-    run->troubled |= counts.troubled > 0;
-    return !good ? complain(&error, false) : counts.failed ? JO_FAILED : JO_OK;
+    int status = JO_OK; /* of a signal, too, which says how it ended */
+    if (!cli_signal) {
+        run->troubled |= counts.troubled > 0;
+        status = !good ? complain(&error, false) : counts.failed ? JO_FAILED : JO_OK;
+        if (good && run->report && counts.done + counts.failed) {
+            const int page = cli_runs_page(&cli_run, kept.data, run->report, run->quiet);
+            status = status == JO_OK ? page : status;
+        }
+    }
+    jox_text_free(&kept);
+    return status;
 }
 
 /* What of the options does not go together; NULL: nothing. */
 static const char *misuse(const Run *run) {
     const JoViewDef *live = &run->live;
     return run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
-           : run->seeds && (run->record || run->report || run->watch || run->log ||
-                            run->has_trace || run->profile)
-               ? "--seeds cannot be combined with --record, --report, --log-input, --watch, "
-                 "--trace or --profile-lua"
+           : run->seeds && (run->record || run->watch || run->log || run->has_trace || run->profile)
+               ? "--seeds cannot be combined with --record, --log-input, --watch, --trace or "
+                 "--profile-lua"
            : run->seeds && run->has_steps && run->steps == 0 ? "--seeds goes with a step at least"
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"

@@ -168,6 +168,8 @@ typedef struct JoSweepDef {
     uint32_t only;    /* the number of one run, from 1: all seeds of the first combination, then of
                          the next; 0: all runs */
     bool again;       /* runs that failed before are done once more */
+    bool renew;       /* a file of other inputs is begun anew, not refused, and other seeds are
+                         taken out of it */
     bool quiet;       /* no progress on stderr */
     /* NULL, or called with each combination before it is loaded; false refuses, having said why. */
     bool (*vet)(void *context, const JoSceneDef *scene);

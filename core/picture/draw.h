@@ -9,6 +9,7 @@
 #include "picture/canvas.h"
 #include "record/fields/density.h"
 #include "record/frame.h"
+#include "record/trajectory_reader.h"
 
 /* What colours tell of people, or of the floor. */
 typedef enum JoxShow {
@@ -47,7 +48,16 @@ typedef struct JoxDrawnBody {
    false where it is nowhere. */
 bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], JoxDrawnBody *out);
 /* Sets `high` of all parts of one body. */
-void jox_draw_reach(JoxDrawnBody *parts, uint32_t count);
+void jox_draw_reach(JoxDrawnBody *parts, size_t count);
+
+typedef struct JoxDrawnBodies {
+    JoxDrawnBody *items;
+    size_t count, capacity;
+} JoxDrawnBodies;
+/* Adds those of a world as they are now; their names are the world's. */
+void jox_draw_add_bodies(JoxDrawnBodies *out, const JoxBodies *bodies);
+/* Adds those of a recording in the last frame up to a time, s; nothing where it has none. */
+void jox_draw_add_recorded(JoxDrawnBodies *out, JoxTrajectoryReader *reader, double time);
 
 /* Where somebody, or a body, went. A point that is not finite parts it. */
 typedef struct JoxTrail {

@@ -4,6 +4,7 @@
 
 #include "body/footprint.h"
 
+#include "base/mem.h"
 #include "base/sort.h"
 #include "picture/draw_parts.h"
 
@@ -99,10 +100,63 @@ bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], Jo
     return true;
 }
 
-void jox_draw_reach(JoxDrawnBody *parts, uint32_t count) {
+void jox_draw_reach(JoxDrawnBody *parts, size_t count) {
     bool touched = false;
-    for (uint32_t p = 0; p < count; p++)
+    for (size_t p = 0; p < count; p++)
         touched |= parts[p].top > JOX_BAND_LOW && parts[p].low < JOX_BAND_HIGH;
-    for (uint32_t p = 0; p < count; p++)
+    for (size_t p = 0; p < count; p++)
         parts[p].high = !touched;
+}
+
+/* A part of a body by their numbers; false: it has no more. */
+typedef bool Look(void *source, uint32_t body, uint32_t part, JoxBodyLook *out);
+
+static void add(JoxDrawnBodies *out, Look *look, void *source, uint32_t body, const char *name,
+                JoxV3 at, const float turn[4]) {
+    const size_t first = out->count;
+    JoxBodyLook part;
+    for (uint32_t n = 0; look(source, body, n, &part); n++) {
+        JOX_RESERVE(out->items, out->capacity, out->count + 1);
+        if (jox_draw_outline(&part, at, turn, &out->items[out->count]))
+            out->items[out->count++].name = name;
+    }
+    if (out->count > first)
+        jox_draw_reach(out->items + first, out->count - first);
+}
+
+static bool look_at_world(void *source, uint32_t row, uint32_t part, JoxBodyLook *out) {
+    return jox_bodies_look(source, row, part, out);
+}
+
+void jox_draw_add_bodies(JoxDrawnBodies *out, const JoxBodies *bodies) {
+    for (uint32_t row = 0; bodies && row < jox_bodies_rows(bodies); row++) {
+        JoxPose pose;
+        if (jox_bodies_pose(bodies, row, &pose))
+            add(out, look_at_world, (void *)(uintptr_t)bodies, row, jox_bodies_name(bodies, row),
+                pose.position, pose.turn);
+    }
+}
+
+typedef struct Recorded {
+    JoxTrajectoryReader *reader;
+    uint32_t frame;
+} Recorded;
+
+static bool look_at_reel(void *source, uint32_t body, uint32_t part, JoxBodyLook *out) {
+    Recorded *recorded = source;
+    return jox_trajectory_reader_part(recorded->reader, recorded->frame, body, part, out);
+}
+
+void jox_draw_add_recorded(JoxDrawnBodies *out, JoxTrajectoryReader *reader, double time) {
+    Recorded recorded = {reader, jox_trajectory_reader_find(reader, time)};
+    JoxTrajectoryReaderFrame frame;
+    JoxText why = {0};
+    if (jox_trajectory_reader_read(reader, recorded.frame, &frame, &why))
+        for (uint32_t b = 0; b < frame.body_count; b++) {
+            const JoxRecordBody *body = &frame.bodies[b];
+            const float turn[4] = {body->qx, body->qy, body->qz, body->qw};
+            add(out, look_at_reel, &recorded, body->id, "", (JoxV3){body->x, body->y, body->z},
+                turn);
+        }
+    jox_text_free(&why);
 }

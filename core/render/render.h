@@ -26,8 +26,7 @@ typedef struct JoxRender {
     float *density;    /* of each person */
     size_t density_capacity;
     JoxTrajectoryReader *reader; /* of a recording that has bodies, for these; else NULL */
-    JoxDrawnBody *bodies;
-    size_t body_capacity;
+    JoxDrawnBodies bodies;
     const char **states; /* of a scene: with their machines' names where there are several */
     char **state_texts;
     uint32_t state_count;
@@ -49,8 +48,6 @@ void jox_render_widen(JoxRender *render);
 /* The picture of now. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);
-/* render_bodies.c: those of now, for the picture. */
-void jox_render_bodies(JoxRender *render);
 /* What colours can tell of this crowd; false with `error`. */
 bool jox_render_choose(JoxRender *render, JoError *error);
 

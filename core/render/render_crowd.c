@@ -341,6 +341,16 @@ bool jox_render_advance(JoxRender *r, double time, JoError *error) {
     return true;
 }
 
+static void draw_bodies(JoxRender *r) {
+    r->bodies.count = 0;
+    if (r->scene)
+        jox_draw_add_bodies(&r->bodies, r->scene->world->state.bodies);
+    else if (r->reader)
+        jox_draw_add_recorded(&r->bodies, r->reader, r->frame.time + 0.25 * r->pace);
+    r->picture.bodies = r->bodies.items;
+    r->picture.body_count = (uint32_t)r->bodies.count;
+}
+
 const JoxPicture *jox_render_picture(JoxRender *r) {
     JoxPicture *p = &r->picture;
     p->frame = &r->frame;
@@ -353,7 +363,7 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
     }
-    jox_render_bodies(r);
+    draw_bodies(r);
     p->trails = r->trails;
     p->trail_count = r->trail_count;
     if (r->grid)
@@ -448,7 +458,7 @@ void jox_render_free(JoxRender *r) {
     jox_danger_free(r->danger);
     jox_density_free(r->grid);
     jox_free(r->density);
-    jox_free(r->bodies);
+    jox_free(r->bodies.items);
     for (uint32_t s = 0; s < r->state_count; s++)
         jox_free(r->state_texts[s]);
     jox_free(r->state_texts);

@@ -1,23 +1,20 @@
-/* The plan, maps over time and snapshots of a report: one drawing, all panels of one size. */
+/* The plan and maps over time of a report: one drawing, all panels of one size. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/format/noun.h"
 #include "base/mem.h"
-#include "picture/draw.h"
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
 #include "report/danger_files_parts.h"
-#include "report/subject.h"
+#include "report/maps.h"
 
 enum { MOST_AS_SVG = 5000 /* people: of more there are images alone */ };
 static const float MARGIN = 1.0f; /* m about what the plan shows */
 
 /* ---- what all of them show ---- */
 
-/* An upper end of a scale: 1, 2, 3, 4, 5, 6, 8 or 10 times a power of ten. */
-static float scale_end(double most) {
+float jox_maps_scale_end(double most) {
     static const float ENDS[] = {1, 2, 3, 4, 5, 6, 8, 10};
     if (!(most > 0.0))
         return 1.0f;
@@ -28,8 +25,9 @@ static float scale_end(double most) {
     return ENDS[e] * power;
 }
 
-static JoxPicture begin(const JoxSubject *s, const JoxFrame *frame) {
+JoxPicture jox_maps_begin(const JoxSubject *s, const JoxFrame *frame) {
     const JoxDensity *g = s->grid;
+    const JoxDrawnBodies *bodies = s->bodies;
     return (JoxPicture){
         .title = s->title,
         .frame = frame,
@@ -37,6 +35,8 @@ static JoxPicture begin(const JoxSubject *s, const JoxFrame *frame) {
         .walls = s->walls,
         .places = s->places,
         .place_count = s->place_count,
+        .bodies = bodies ? bodies->items : NULL,
+        .body_count = bodies ? (uint32_t)bodies->count : 0,
         .radius = 0.2f,
         .low = g->low,
         .high = {g->low.x + (float)g->columns * g->cell, g->low.y + (float)g->rows * g->cell}};
@@ -50,9 +50,8 @@ static const char **exit_names(const JoxSubject *s) {
     return names;
 }
 
-/* As NAME.png, where this build makes images, and, unless there are too many people in it, as
-   NAME.svg. */
-static bool put(const JoxSubject *s, const JoxPicture *picture, const char *name, JoxText *error) {
+bool jox_maps_put(const JoxSubject *s, const JoxPicture *picture, const char *name,
+                  JoxText *error) {
     const bool images = jox_canvas_has_images();
     uint32_t width, height;
     bool good = true;
@@ -94,11 +93,9 @@ static JoxDrawnProbe *probes_of(const JoxSubject *s, uint32_t *count) {
     return probes;
 }
 
-/* Every place, probe and exit, with their names; what lies far outside of what is measured is left
-   out. */
-static bool draw_plan(const JoxSubject *s, JoxText *error) {
+bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
     const JoxFrame nobody = {.time = s->until};
-    JoxPicture p = begin(s, &nobody);
+    JoxPicture p = jox_maps_begin(s, &nobody);
     const JoxV2 size = jox_sub(p.high, p.low);
     const JoxV2 least = jox_sub(p.low, size), most = jox_add(p.high, size);
     const char **exits = exit_names(s);
@@ -123,7 +120,7 @@ static bool draw_plan(const JoxSubject *s, JoxText *error) {
     p.exit_count = s->exits->count;
     p.probes = probes;
     p.probe_count = probe_count;
-    const bool good = put(s, &p, "plan", error);
+    const bool good = jox_maps_put(s, &p, "plan", error);
     jox_free(exits);
     jox_free(probes);
     return good;
@@ -174,34 +171,52 @@ static JoxDrawnLoad *wall_loads(const JoxSubject *s, double *most, uint32_t *cou
     return loads;
 }
 
+bool jox_maps_draw_field(const JoxSubject *s, const JoxMapField *map, JoxText *error) {
+    const JoxFrame nobody = {.time = s->until};
+    JoxPicture p = jox_maps_begin(s, &nobody);
+    p.title = map->title;
+    p.when = map->when;
+    p.panel = true;
+    p.grid = map->values ? s->grid : NULL;
+    p.field = map->values;
+    p.field_legend = map->legend;
+    p.floor = map->show;
+    p.floor_most = jox_maps_scale_end(map->most);
+    p.wall_loads = map->wall_loads;
+    p.wall_load_count = map->wall_load_count;
+    return jox_maps_put(s, &p, map->file, error);
+}
+
 /* Both maps of density have one scale. */
 static bool draw_map(const JoxSubject *s, const struct Map *map, JoxText *error) {
     const size_t cells = (size_t)s->grid->columns * s->grid->rows;
-    const JoxFrame nobody = {.time = s->until};
     float *field = jox_alloc(cells + 1, sizeof *field);
     double most = map->measure == JOX_DANGER_DENSITY ? (double)s->grid->most : 0.0;
-    JoxPicture p = begin(s, &nobody);
     JoxDrawnLoad *loads = NULL;
+    uint32_t load_count = 0;
     char when[64];
     for (size_t c = 0; c < cells; c++) {
         field[c] = value_of(s, map, c);
         most = fmax(most, isnan(field[c]) ? 0.0 : (double)field[c]);
     }
     if (map->measure == JOX_DANGER_LOAD)
-        p.wall_loads = loads = wall_loads(s, &most, &p.wall_load_count);
+        loads = wall_loads(s, &most, &load_count);
     snprintf(when, sizeof when, "%.4g to %.4g s",
              map->greatest ? s->from : fmax(s->from, s->mean_from), s->until);
-    p.title = map->title;
-    p.when = when;
-    p.panel = true;
-    p.grid = s->grid;
-    p.field = field;
-    p.field_legend = map->legend;
-    p.floor = map->measure == JOX_DANGER_DENSITY    ? JOX_SHOW_DENSITY
-              : map->measure == JOX_DANGER_PRESSURE ? JOX_SHOW_PRESSURE
-                                                    : JOX_SHOW_LOAD;
-    p.floor_most = scale_end(most);
-    const bool good = put(s, &p, map->file, error);
+    const bool good = jox_maps_draw_field(
+        s,
+        &(JoxMapField){.file = map->file,
+                       .title = map->title,
+                       .when = when,
+                       .legend = map->legend,
+                       .show = map->measure == JOX_DANGER_DENSITY    ? JOX_SHOW_DENSITY
+                               : map->measure == JOX_DANGER_PRESSURE ? JOX_SHOW_PRESSURE
+                                                                     : JOX_SHOW_LOAD,
+                       .values = field,
+                       .most = most,
+                       .wall_loads = loads,
+                       .wall_load_count = load_count},
+        error);
     jox_free(field);
     jox_free(loads);
     return good;
@@ -213,131 +228,23 @@ static bool is_drawn(const JoxSubject *s, const struct Map *map) {
            jox_danger_most(s->danger, map->measure).value > 0.0;
 }
 
-void jox_maps_fields(FILE *out, const JoxSubject *s) {
+void jox_maps_panels(FILE *out, const JoxSubject *s) {
     uint32_t width, height;
-    const JoxPicture p = begin(s, NULL);
+    const JoxPicture p = jox_maps_begin(s, NULL);
     jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
+}
+
+void jox_maps_fields(FILE *out, const JoxSubject *s) {
+    jox_maps_panels(out, s);
     for (size_t m = 0; m < MAP_COUNT; m++)
         if (is_drawn(s, &MAPS[m]))
             jox_html_figure(out, s->folder, MAPS[m].file, MAPS[m].title, false);
     jox_html_panels_end(out);
 }
 
-/* ---- snapshots ---- */
-
-static bool same_time(const JoxSubject *s, int a, int b) {
-    const JoxMoment *m = s->story->moments;
-    return m[a].taken && m[b].taken && m[a].time == m[b].time;
-}
-
-static void name_moment(const JoxSubject *s, int kind, char title[128], char when[64]) {
-    const JoxMoment *m = &s->story->moments[kind];
-    char people[JOX_NOUN];
-    snprintf(when, 64, "%.1f s", m->time);
-    if (kind == JOX_MOMENT_START)
-        snprintf(title, 128, "At the start%s",
-                 same_time(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
-    else if (kind == JOX_MOMENT_DENSEST)
-        snprintf(title, 128, "Greatest density");
-    else if (kind == JOX_MOMENT_HALF)
-        snprintf(title, 128, "Half have left");
-    else if (s->inside == 0)
-        snprintf(title, 128, "The last %s inside", jox_noun(people, m->count, "person|people"));
-    else
-        snprintf(title, 128, "At the end: %s inside", jox_noun(people, m->count, "person|people"));
-}
-
-/* A frame of the moment; its columns are freed by free_frame. */
-static JoxFrame frame_of(const JoxMoment *m) {
-    uint32_t *key = jox_alloc(m->count + 1, sizeof *key);
-    float *x = jox_alloc(4 * m->count + 1, sizeof *x);
-    const bool radii = m->count && m->people[0].radius > 0.0f;
-    for (size_t i = 0; i < m->count; i++) {
-        const JoxMomentPerson *person = &m->people[i];
-        key[i] = person->key;
-        x[i] = person->x;
-        x[m->count + i] = person->y;
-        x[2 * m->count + i] = person->radius;
-    }
-    float *still = x + 3 * m->count; /* nobody's heading is drawn */
-    return (JoxFrame){.time = m->time,
-                      .count = (uint32_t)m->count,
-                      .key = key,
-                      .x = x,
-                      .y = x + m->count,
-                      .vx = still,
-                      .vy = still,
-                      .radius = radii ? x + 2 * m->count : NULL};
-}
-
-static void free_frame(JoxFrame *frame) {
-    jox_free((void *)(uintptr_t)frame->key);
-    jox_free((void *)(uintptr_t)frame->x);
-}
-
-/* The walls with their gates as they were then; `rings` is freed by the caller. */
-static JoxWalls walls_of(const JoxSubject *s, const JoxMoment *m) {
-    JoxWalls walls = *s->walls;
-    walls.rings = jox_alloc(walls.ring_count + 1, sizeof *walls.rings);
-    for (uint32_t r = 0; r < walls.ring_count; r++) {
-        walls.rings[r] = s->walls->rings[r];
-        walls.rings[r].open = r < m->rings ? m->open[r] : walls.rings[r].open;
-    }
-    return walls;
-}
-
-static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
-    const JoxMoment *m = &s->story->moments[kind];
-    char file[32], title[128], when[64];
-    JoxFrame frame = frame_of(m);
-    JoxWalls walls = walls_of(s, m);
-    JoxPicture p = begin(s, &frame);
-    name_moment(s, kind, title, when);
-    snprintf(file, sizeof file, "snapshot-%d", kind + 1);
-    p.title = title;
-    p.when = when;
-    p.panel = true;
-    p.walls = &walls;
-    p.grid = s->grid;
-    p.field = m->field;
-    p.floor = JOX_SHOW_DENSITY;
-    p.field_legend = "people per m\xc2\xb2";
-    p.floor_most = scale_end((double)s->grid->most); /* one scale for all of them */
-    const bool good = put(s, &p, file, error);
-    jox_free(walls.rings);
-    free_frame(&frame);
-    return good;
-}
-
-/* One picture a moment. */
-static bool is_shown(const JoxSubject *s, int kind) {
-    const JoxMoment *m = &s->story->moments[kind];
-    return m->taken && m->cells == (size_t)s->grid->columns * s->grid->rows &&
-           (kind == JOX_MOMENT_LAST || !same_time(s, kind, JOX_MOMENT_LAST)) &&
-           (kind != JOX_MOMENT_DENSEST || !same_time(s, kind, JOX_MOMENT_START));
-}
-
-void jox_maps_moments(FILE *out, const JoxSubject *s) {
-    uint32_t width, height;
-    const JoxPicture p = begin(s, NULL);
-    jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
-    for (int kind = 0; kind < JOX_MOMENTS; kind++) {
-        char file[32], title[128], when[64], caption[200];
-        if (!is_shown(s, kind))
-            continue;
-        name_moment(s, kind, title, when);
-        snprintf(file, sizeof file, "snapshot-%d", kind + 1);
-        snprintf(caption, sizeof caption, "%s, %s", title, when);
-        jox_html_figure(out, s->folder, file, caption, false);
-    }
-    jox_html_panels_end(out);
-}
-
 bool jox_maps_write(const JoxSubject *s, JoxText *error) {
-    bool good = draw_plan(s, error);
+    bool good = jox_maps_draw_plan(s, error);
     for (size_t m = 0; good && m < MAP_COUNT; m++)
         good = !is_drawn(s, &MAPS[m]) || draw_map(s, &MAPS[m], error);
-    for (int kind = 0; good && kind < JOX_MOMENTS; kind++)
-        good = !is_shown(s, kind) || draw_moment(s, kind, error);
-    return good;
+    return good && jox_moments_write(s, error);
 }

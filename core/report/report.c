@@ -104,6 +104,12 @@ static bool load(JoxReport *r) {
     if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
         return false;
     r->probes = jox_alloc(r->spec ? r->spec->probe_count + 2 : 2, sizeof(JoxProbe *));
+    if (jox_is_sqlite(def->recording))
+        r->reel = jox_trajectory_reader_open(def->recording, &options, &r->diagnostics);
+    if (r->reel && !jox_trajectory_reader_info(r->reel).has_bodies) {
+        jox_trajectory_reader_close(r->reel);
+        r->reel = NULL;
+    }
     bool good = true;
     if (!r->spec || r->spec->probe_count == 0)
         add_usual(r);
@@ -180,8 +186,11 @@ static void measure(JoxReport *r) {
             jox_probe_frame(r->probes[p], &frame);
         jox_danger_frame(r->danger, &frame, &r->exits);
         if (jox_danger_local(r->danger)->time == frame.time)
-            jox_story_sample(&r->story, &frame, jox_danger_local(r->danger)->grid,
-                             jox_report_walls(r), r->exits.left);
+            jox_story_sample(&r->story, &(JoxStorySample){.frame = &frame,
+                                                          .grid = jox_danger_local(r->danger)->grid,
+                                                          .walls = jox_report_walls(r),
+                                                          .left = r->exits.left,
+                                                          .reel = r->reel});
     }
     int64_t end = t->number[t->count - 1];
     if (t->last > end) { /* it goes on, empty */
@@ -239,6 +248,7 @@ static char *report(const JoReportDef *def, JoError *error) {
     jox_danger_free(r.danger);
     jox_exits_free(&r.exits);
     jox_story_free(&r.story);
+    jox_trajectory_reader_close(r.reel);
     jox_trajectories_free(r.crowd);
     jox_scene_free(r.spec);
     return text;

@@ -15,7 +15,8 @@ typedef struct JoxReport {
     JoxProbe **probes;
     uint32_t count;
     JoxDanger *danger;
-    JoxExits exits; /* who is in no later frame; none has a name */
+    JoxExits exits;            /* who is in no later frame; none has a name */
+    JoxTrajectoryReader *reel; /* of a recording with bodies; else NULL */
     JoxStory story;
 } JoxReport;
 

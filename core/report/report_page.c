@@ -161,6 +161,7 @@ JoxSubject jox_report_subject(const JoxReport *r) {
                         .mean_from = first.time,
                         .exits = &r->exits,
                         .story = &r->story,
+                        .bodies = &r->story.moments[JOX_MOMENT_START].bodies,
                         .walls = jox_report_walls(r),
                         .places = r->spec ? r->spec->places : NULL,
                         .place_count = r->spec ? r->spec->place_count : 0,

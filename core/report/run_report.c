@@ -57,8 +57,11 @@ static void sample_story(RunReport *r, JoScene *scene) {
     const JoxLocal *local = jox_run_local(scene);
     const JoxFrame *frame = jox_run_frame(scene);
     if (local->time == frame->time)
-        jox_story_sample(&r->story, frame, local->grid, &scene->world->model.all_walls,
-                         scene->world->state.exits.left);
+        jox_story_sample(&r->story, &(JoxStorySample){.frame = frame,
+                                                      .grid = local->grid,
+                                                      .walls = &scene->world->model.all_walls,
+                                                      .left = scene->world->state.exits.left,
+                                                      .bodies = scene->world->state.bodies});
 }
 
 /* Points of the paths of those who came first, and of what moves. */
@@ -197,6 +200,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .mean_from = spec->heatmap_from,
                         .exits = &scene->world->state.exits,
                         .story = report ? &report->story : &none,
+                        .bodies = report ? &report->story.moments[JOX_MOMENT_START].bodies : NULL,
                         .walls = &scene->world->model.all_walls,
                         .places = spec->places,
                         .place_count = spec->place_count,

@@ -4,12 +4,23 @@
 
 #include "base/mem.h"
 
-static void take(JoxMoment *m, const JoxFrame *frame, const JoxDensity *grid, const JoxWalls *walls,
-                 uint64_t left) {
+static void take_bodies(JoxMoment *m, const JoxStorySample *sample) {
+    m->bodies.count = 0;
+    jox_draw_add_bodies(&m->bodies, sample->bodies);
+    if (sample->reel)
+        jox_draw_add_recorded(&m->bodies, sample->reel, sample->frame->time);
+    for (size_t b = 0; b < m->bodies.count; b++)
+        m->bodies.items[b].name = NULL; /* bodies end before the story does */
+}
+
+static void take(JoxMoment *m, const JoxStorySample *sample) {
+    const JoxFrame *frame = sample->frame;
+    const JoxDensity *grid = sample->grid;
+    const JoxWalls *walls = sample->walls;
     const size_t cells = (size_t)grid->columns * grid->rows;
     m->taken = true;
     m->time = frame->time;
-    m->left = left;
+    m->left = sample->left;
     JOX_RESERVE(m->people, m->capacity, frame->count);
     for (m->count = 0; m->count < frame->count; m->count++)
         m->people[m->count] =
@@ -21,23 +32,25 @@ static void take(JoxMoment *m, const JoxFrame *frame, const JoxDensity *grid, co
     JOX_RESERVE(m->open, m->ring_capacity, walls->ring_count);
     for (m->rings = 0; m->rings < walls->ring_count; m->rings++)
         m->open[m->rings] = walls->rings[m->rings].open;
+    take_bodies(m, sample);
 }
 
-void jox_story_sample(JoxStory *story, const JoxFrame *frame, const JoxDensity *grid,
-                      const JoxWalls *walls, uint64_t left) {
+void jox_story_sample(JoxStory *story, const JoxStorySample *sample) {
+    const JoxFrame *frame = sample->frame;
+    const JoxDensity *grid = sample->grid;
     float most = 0.0f;
     bool takes[JOX_MOMENTS] = {false};
     if (frame->count > 0)
         for (size_t c = 0; c < (size_t)grid->columns * grid->rows; c++)
             most = grid->now[c] > most ? grid->now[c] : most;
-    const bool half = left > 0 && left >= frame->count;
+    const bool half = sample->left > 0 && sample->left >= frame->count;
     takes[JOX_MOMENT_START] = frame->count > 0 && !story->moments[JOX_MOMENT_START].taken;
     takes[JOX_MOMENT_DENSEST] = most > story->most;
     takes[JOX_MOMENT_HALF] = frame->count > 0 && half && !story->half;
     takes[JOX_MOMENT_LAST] = frame->count > 0;
     for (int m = 0; m < JOX_MOMENTS; m++)
         if (takes[m])
-            take(&story->moments[m], frame, grid, walls, left);
+            take(&story->moments[m], sample);
     story->most = most > story->most ? most : story->most;
     story->half = half;
 }
@@ -51,6 +64,7 @@ void jox_story_sections(JoxStory *story, JoxSections *s) {
         JOX_SECTION_ARRAY(s, "people", m->people, m->count, m->capacity);
         JOX_SECTION_ARRAY(s, "field", m->field, m->cells, m->cell_capacity);
         JOX_SECTION_ARRAY(s, "open", m->open, m->rings, m->ring_capacity);
+        JOX_SECTION_ARRAY(s, "bodies", m->bodies.items, m->bodies.count, m->bodies.capacity);
     }
     JOX_SECTION(s, "most", story->most);
     JOX_SECTION(s, "half", story->half);
@@ -61,5 +75,6 @@ void jox_story_free(JoxStory *story) {
         jox_free(story->moments[k].people);
         jox_free(story->moments[k].field);
         jox_free(story->moments[k].open);
+        jox_free(story->moments[k].bodies.items);
     }
 }

@@ -5,8 +5,7 @@
 #include <stdbool.h>
 
 #include "base/sections.h"
-#include "record/fields/density.h"
-#include "record/frame.h"
+#include "picture/draw.h"
 
 typedef enum JoxMomentKind {
     JOX_MOMENT_START,
@@ -31,6 +30,7 @@ typedef struct JoxMoment {
     size_t cells, cell_capacity;
     uint8_t *open; /* by ring of the walls: whether it was */
     size_t rings, ring_capacity;
+    JoxDrawnBodies bodies; /* without names */
 } JoxMoment;
 
 typedef struct JoxStory {
@@ -39,9 +39,16 @@ typedef struct JoxStory {
     bool half;  /* had left at the last sample */
 } JoxStory;
 
-/* A sample of the density `grid`, whose `now` is that of the frame; `walls` are all of them. */
-void jox_story_sample(JoxStory *story, const JoxFrame *frame, const JoxDensity *grid,
-                      const JoxWalls *walls, uint64_t left);
+/* A moment as it is shown to a story. */
+typedef struct JoxStorySample {
+    const JoxFrame *frame;
+    const JoxDensity *grid;    /* whose `now` is that of the frame */
+    const JoxWalls *walls;     /* all of them */
+    uint64_t left;             /* people, so far */
+    const JoxBodies *bodies;   /* of a run; or NULL */
+    JoxTrajectoryReader *reel; /* of a recording with bodies; or NULL */
+} JoxStorySample;
+void jox_story_sample(JoxStory *story, const JoxStorySample *sample);
 void jox_story_sections(JoxStory *story, JoxSections *sections);
 void jox_story_free(JoxStory *story);
 

@@ -19,8 +19,9 @@ typedef struct JoxSubject {
     uint32_t place_count;
     const JoxProbe *const *probes;
     uint32_t probe_count;
-    uint32_t inside;    /* people who are still there at the end */
-    double from, until; /* s: what is measured */
+    const JoxDrawnBodies *bodies; /* at the start; NULL: none are known */
+    uint32_t inside;              /* people who are still there at the end */
+    double from, until;           /* s: what is measured */
     bool simulated;
 } JoxSubject;
 
@@ -32,7 +33,8 @@ void jox_where(const JoxSubject *subject, JoxV2 at, JoxText *out);
    dangerous for how long, and at which levels of service people were. */
 void jox_summary_crowd(FILE *out, const JoxSubject *subject);
 
-/* maps.c: the plan, maps and snapshots, into the folder; false with a sentence in `error`. */
+/* maps.c, moments.c: the plan, maps and snapshots, into the folder; false with a sentence in
+   `error`. */
 bool jox_maps_write(const JoxSubject *subject, JoxText *error);
 /* Their figures of the page, as far as they were drawn. */
 void jox_maps_plan(FILE *out, const JoxSubject *subject);

@@ -85,7 +85,7 @@ bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
     if (def->scene.has_dt)
         snprintf(step, sizeof step, "%.9g s", def->scene.dt);
     for (size_t o = 0; o < def->scene.override_count; o++)
-        jox_text_printf(&sets, "%s%s", o ? " " : "", def->scene.overrides[o]);
+        jox_text_printf(&sets, "%s%s", o ? "\n" : "", def->scene.overrides[o]);
     for (size_t m = 0; m < def->scene.mod_count; m++)
         jox_text_printf(&mods, "%s%s", m ? " " : "", def->scene.mods[m]);
     const struct {

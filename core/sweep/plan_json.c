@@ -2,6 +2,8 @@
 #include <math.h>
 
 #include "base/format/json_writer.h"
+#include "base/mem.h"
+#include "picture/draw.h"
 #include "run/run.h"
 #include "sweep/sweep.h"
 
@@ -33,6 +35,41 @@ void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls) {
     jox_json_end(json);
 }
 
+static void put_probes(JoxJson *json, const JoxSceneSpec *spec) {
+    static const char *const KINDS[JOX_PROBE_KINDS] = {[JOX_PROBE_FLOW] = "flow",
+                                                       [JOX_PROBE_MEASURE] = "measure",
+                                                       [JOX_PROBE_TRANSIT] = "transit"};
+    jox_json_array(json, "probes");
+    for (uint32_t p = 0; p < spec->probe_count; p++) {
+        const JoxProbeDef *probe = &spec->probes[p];
+        if (!KINDS[probe->kind])
+            continue; /* it measures nowhere in particular */
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", probe->name);
+        jox_json_string(json, "kind", KINDS[probe->kind]);
+        put_points(json, probe->points, probe->count);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
+/* A disc by its middle, other parts by their outlines. */
+static void put_bodies(JoxJson *json, const JoxBodies *bodies) {
+    JoxDrawnBodies drawn = {0};
+    jox_draw_add_bodies(&drawn, bodies);
+    jox_json_array(json, "bodies");
+    for (size_t b = 0; b < drawn.count; b++) {
+        const JoxDrawnBody *part = &drawn.items[b];
+        jox_json_object(json, NULL);
+        jox_json_bool(json, "high", part->high);
+        jox_json_number(json, "radius", (double)part->radius);
+        put_points(json, part->count ? part->ring : &part->at, part->count ? part->count : 1);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+    jox_free(drawn.items);
+}
+
 void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     JoxV2 low, high;
@@ -54,5 +91,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
         jox_json_end(&json);
     }
     jox_json_end(&json);
+    put_probes(&json, spec);
+    put_bodies(&json, scene->world->state.bodies);
     jox_json_end(&json);
 }

@@ -56,6 +56,10 @@ bool jox_sweep_put_run(const JoxSweepStore *store, int64_t variant, uint64_t see
 bool jox_sweep_put_failure(const JoxSweepStore *store, int64_t variant, uint64_t seed,
                            const char *why, JoError *error);
 
+/* Takes out all runs but those of so many seeds from `first` on. */
+bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
+                          JoError *error);
+
 /* csv.c: a row for each run, with a column for each setting and figure. */
 bool jox_sweep_csv(const JoxSweepStore *store, FILE *out, JoError *error);
 

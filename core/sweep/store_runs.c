@@ -127,12 +127,30 @@ static bool put_plan(Putting *p, const char *plan) {
     return p->good = jox_sweep_finish(p->store, s, p->error);
 }
 
+static const char *const TABLES[] = {"figure", "curve_point", "field", "run"}; /* by seed */
+enum { TABLE_COUNT = sizeof TABLES / sizeof *TABLES };
+
+bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
+                          JoError *error) {
+    bool good = true;
+    for (size_t t = 0; good && t < TABLE_COUNT; t++) {
+        char text[100];
+        snprintf(text, sizeof text, "DELETE FROM %s WHERE seed < ? OR seed >= ?", TABLES[t]);
+        sqlite3_stmt *s = jox_sweep_ask(store, text, error);
+        if (s) {
+            sqlite3_bind_int64(s, 1, (sqlite3_int64)first);
+            sqlite3_bind_int64(s, 2, (sqlite3_int64)(first + count));
+        }
+        good = jox_sweep_finish(store, s, error);
+    }
+    return good;
+}
+
 /* The row of the run, and none of its other rows. */
 static bool put_row(Putting *p, const char *state, const char *reason,
                     const JoxSweepNumbers *numbers, const char *summary) {
-    static const char *const TABLES[] = {"figure", "curve_point", "field"};
     char text[100];
-    for (size_t t = 0; t < sizeof TABLES / sizeof *TABLES; t++) {
+    for (size_t t = 0; t < TABLE_COUNT; t++) {
         snprintf(text, sizeof text, "DELETE FROM %s WHERE variant = ? AND seed = ?", TABLES[t]);
         sqlite3_stmt *s = jox_sweep_ask(p->store, text, p->error);
         if (s)

@@ -83,7 +83,7 @@ static bool add_job(Sweep *s, uint32_t variant, uint64_t seed, JoError *error) {
         !jox_sweep_state(&s->store, job.id, seed, &state, error))
         return false;
     s->counts.runs++;
-    if (state < 0 || (state == JOX_SWEEP_FAILED && s->def->again)) {
+    if (state < 0 || s->def->data || (state == JOX_SWEEP_FAILED && s->def->again)) {
         JOX_RESERVE(s->jobs, s->capacity, s->count + 1);
         s->jobs[s->count++] = job;
         return true;
@@ -107,29 +107,51 @@ static bool list_jobs(Sweep *s, JoError *error) {
     return true;
 }
 
-/* The file, with what all runs share and are made of. */
+/* Says what differs from the inputs of the file, and refuses it. */
+static bool refuse(const Sweep *s, const JoxText *differences, JoError *error) {
+    JoxText text = {0};
+    jox_text_printf(&text, "%s:\n%s", s->def->out, differences->data);
+    say(s, text.data);
+    jox_text_free(&text);
+    jox_error(error, JO_INPUT,
+              "%s was begun with other inputs, so that its runs do not compare with these: give "
+              "another --out, or bring back what was",
+              s->def->out);
+    return false;
+}
+
+/* The file, with what all runs share and are made of; of one begun with other inputs `differences`,
+   with nothing written. */
+static bool try_file(Sweep *s, JoxText *differences, JoError *error) {
+    JoError ignored;
+    if (!jox_sweep_open(&s->store, s->def->out, error) ||
+        !jox_sweep_do_sql(&s->store, "BEGIN IMMEDIATE", error) ||
+        !jox_sweep_note_inputs(&s->store, s->def, &s->files, differences, error))
+        return false;
+    if (differences->length)
+        return jox_sweep_do_sql(&s->store, "ROLLBACK", &ignored);
+    return (!s->def->renew ||
+            jox_sweep_keep_seeds(&s->store, s->plan.first_seed, s->plan.seeds, error)) &&
+           list_jobs(s, error) && jox_sweep_do_sql(&s->store, "COMMIT", error);
+}
+
 static bool open_file(Sweep *s, JoError *error) {
     JoxText differences = {0};
-    bool good = jox_sweep_open(&s->store, s->def->out, error) &&
-                jox_sweep_do_sql(&s->store, "BEGIN IMMEDIATE", error) &&
-                jox_sweep_note_inputs(&s->store, s->def, &s->files, &differences, error) &&
-                (differences.length || list_jobs(s, error));
-    if (good && differences.length) {
-        JoError ignored;
-        jox_sweep_do_sql(&s->store, "ROLLBACK", &ignored);
-        JoxText text = {0};
-        jox_text_printf(&text, "%s:\n%s", s->def->out, differences.data);
-        say(s, text.data);
-        jox_text_free(&text);
-        jox_error(
-            error, JO_INPUT,
-            "%s was begun with other inputs, so that its runs do not compare with these: give "
-            "another --out, or bring back what was",
-            s->def->out);
-        good = false;
+    bool good = try_file(s, &differences, error);
+    if (good && differences.length && s->def->renew) {
+        jox_sweep_close(&s->store);
+        differences.length = 0;
+        good = unlink(s->def->out) == 0;
+        if (good)
+            good = try_file(s, &differences, error);
+        else
+            jox_error(error, JO_FAILED, "cannot replace '%.300s': %s", s->def->out,
+                      strerror(errno));
     }
+    if (good && differences.length)
+        good = refuse(s, &differences, error);
     jox_text_free(&differences);
-    return good && jox_sweep_do_sql(&s->store, "COMMIT", error);
+    return good;
 }
 
 /* ---- the runs ---- */

@@ -108,16 +108,21 @@ static bool load(JoxComparison *c, JoError *error) {
     uint32_t runs = 0;
     for (uint32_t s = 0; s < c->sides.count; s++)
         runs += c->sides.items[s].runs;
-    if (!runs)
-        jox_error(error, JO_INPUT, "there is no run with figures as yet");
     name_sides(&c->sides);
-    return runs > 0 && find_base(c, error);
+    if (!runs && !(def->out && c->sides.count == 1 && c->sides.items[0].all_count)) {
+        jox_error(error, JO_INPUT, "there is no run with figures as yet");
+        return false; /* but of one side, whose page says why each failed */
+    }
+    return find_base(c, error);
 }
 
 static bool write_page(const JoxComparison *c, JoError *error) {
     JoxText why = {0};
-    const bool good = jox_plot_folder(c->def->out, &why) && jox_compare_plots(c, &why) &&
-                      jox_compare_plans(c, &why) && jox_compare_page(c, &why);
+    const bool alone = c->sides.count == 1 && !c->sides.items[0].recorded;
+    const bool good = jox_plot_folder(c->def->out, &why) &&
+                      (alone ? jox_seeds_page(c, &why)
+                             : jox_compare_plots(c, &why) && jox_compare_plans(c, &why) &&
+                                   jox_compare_page(c, &why));
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);

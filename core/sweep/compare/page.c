@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/mem.h"
 #include "picture/html.h"
@@ -12,15 +11,6 @@
 /* Four digits are enough, and no powers of ten. */
 static void put_mean(FILE *out, double value, const char *unit) {
     jox_html_cell_number(out, fabs(value) >= 1000 ? round(value) : value, unit);
-}
-
-/* A paragraph that begins with words in bold. */
-static void put_statement(FILE *out, const char *lead, const char *text) {
-    fputs("<p><b>", out);
-    jox_html_text(out, lead);
-    fputs("</b> ", out);
-    jox_html_text(out, text);
-    fputs("</p>\n", out);
 }
 
 /* ---- in sentences ---- */
@@ -66,8 +56,9 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     const bool has_spread = c->sides.items[s].runs > 1 && c->sides.items[c->base].runs > 1;
     JoxText thin = {0};
     uint32_t count = 0;
-    put_statement(out, c->sides.items[s].name,
-                  has_spread ? "" : "It takes two runs of each to say how sure a difference is.");
+    jox_html_statement(out, c->sides.items[s].name,
+                       has_spread ? ""
+                                  : "It takes two runs of each to say how sure a difference is.");
     fputs("<ul>\n", out);
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
@@ -105,12 +96,13 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
 
 static void put_summary(FILE *out, const JoxComparison *c) {
     JoxText text = {0};
+    jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
     jox_text_printf(&text,
                     "%s. Means of the runs; in brackets, the difference and its %.0f %% "
                     "interval.",
                     c->sides.items[c->base].name, 100 * c->def->share);
-    put_statement(out, "All are compared with", text.data);
+    jox_html_statement(out, "All are compared with", text.data);
     for (uint32_t s = 0; s < c->sides.count; s++)
         if (s != c->base)
             put_findings(out, c, s);
@@ -122,7 +114,7 @@ static void put_summary(FILE *out, const JoxComparison *c) {
 
 static void put_sides(FILE *out, const JoxComparison *c) {
     jox_html_heading(out, "What is compared");
-    jox_html_table(out, "side|settings|runs|seeds|left out|from");
+    jox_html_table(out, "side|settings|>runs|seeds|>left out|from");
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
         char seeds[64] = "";
@@ -211,8 +203,9 @@ static void put_figures(FILE *out, const JoxComparison *c, bool keys) {
     const bool two = c->sides.count == 2;
     char heads[400];
     snprintf(heads, sizeof heads,
-             "figure%s|%.80s|%.80s|difference|%.0f %% interval|which says|runs", two ? "" : "|side",
-             base->name, two ? c->sides.items[!c->base].name : "this side", 100 * c->def->share);
+             "figure%s|>%.80s|>%.80s|>difference|>%.0f %% interval|which says|>runs",
+             two ? "" : "|side", base->name, two ? c->sides.items[!c->base].name : "this side",
+             100 * c->def->share);
     jox_html_table(out, heads);
     for (uint32_t f = 0; f < c->count; f++)
         if (c->figures[f].varies && c->figures[f].words.is_key == keys)
@@ -250,13 +243,13 @@ static void put_methods(FILE *out, const JoxComparison *c) {
 
 /* ---- percentiles ---- */
 
-static void put_percentiles(FILE *out, const JoxComparison *c) {
+void jox_compare_percentiles(FILE *out, const JoxComparison *c) {
     const double q = c->def->percentile / 100;
     char heads[200];
     JoxText text = {0};
     snprintf(heads, sizeof heads, "%.4g %% values and worst cases", c->def->percentile);
     jox_html_heading(out, heads);
-    snprintf(heads, sizeof heads, "figure|side|above %.4g %% of all|worst|bound|runs",
+    snprintf(heads, sizeof heads, "figure|side|>above %.4g %% of all|>worst|>bound|>runs",
              c->def->percentile);
     jox_html_table(out, heads);
     for (uint32_t f = 0; f < c->count; f++) {
@@ -296,45 +289,22 @@ static void put_percentiles(FILE *out, const JoxComparison *c) {
 
 /* ---- pictures ---- */
 
-/* NAME.svg, or NAME.png with that behind it, if it is there. */
-static void put_picture(FILE *out, const JoxComparison *c, const char *name, const char *caption) {
-    char svg[48], png[48];
-    JoxText path = {0};
-    snprintf(svg, sizeof svg, "%.40s.svg", name);
-    snprintf(png, sizeof png, "%.40s.png", name);
-    jox_text_printf(&path, "%s/%s", c->def->out, svg);
-    const bool drawn = access(path.data, R_OK) == 0;
-    path.length = 0;
-    jox_text_printf(&path, "%s/%s", c->def->out, png);
-    const bool image = access(path.data, R_OK) == 0;
-    jox_text_free(&path);
-    if (drawn)
-        jox_html_picture(out, image ? png : svg, svg, caption);
-}
-
-static void put_wide(FILE *out, const JoxComparison *c, const char *name, const char *caption) {
-    fputs("<div class=plan>\n", out);
-    put_picture(out, c, name, caption);
-    fputs("</div>\n", out);
-}
-
 static void put_pictures(FILE *out, const JoxComparison *c) {
-    char name[40];
     jox_html_heading(out, "Over time");
     jox_html_paragraph(out, "Lines are means of the runs; nine runs in ten lie in the bands, from "
                             "5 to 95 %.");
+    jox_html_panels(out, false);
     for (uint32_t n = 0; n < JOX_COMPARE_CURVES && jox_compare_curve(c, n); n++) {
+        char name[40];
         snprintf(name, sizeof name, "curve-%u", n + 1);
-        put_picture(out, c, name, jox_compare_curve(c, n)->name);
+        jox_html_figure(out, c->def->out, name, jox_compare_curve(c, n)->name, false);
     }
+    jox_html_panels_end(out);
     jox_html_heading(out, "Plans");
     jox_html_paragraph(out,
                        "The greatest density that each place had at any time until the end, as "
                        "a mean over the runs; one scale for all.");
-    for (uint32_t s = 0; s < c->sides.count; s++) {
-        snprintf(name, sizeof name, "plan-%u", s + 1);
-        put_picture(out, c, name, c->sides.items[s].name);
-    }
+    jox_compare_plan_figures(out, c);
 }
 
 static void put_worth(FILE *out) {
@@ -375,14 +345,15 @@ bool jox_compare_page(const JoxComparison *c, JoxText *why) {
     if (c->sides.count > 1) {
         jox_html_heading(out, "Figures");
         if (jox_compare_rows(c))
-            put_wide(
-                out, c, "effects",
-                "Changes of the means, with their intervals; those that go far beyond are cut");
+            jox_html_figure(out, c->def->out, "effects",
+                            "Changes of the means, with their intervals; those that go far beyond "
+                            "are cut",
+                            true);
         put_figures(out, c, true);
         put_methods(out, c);
     }
     if (c->def->percentile > 0)
-        put_percentiles(out, c);
+        jox_compare_percentiles(out, c);
     put_pictures(out, c);
     if (c->sides.count > 1) {
         jox_html_heading(out, "All other figures");

@@ -38,7 +38,7 @@ static JoxSideCurve *curve(JoxSide *side, uint32_t n, const char *name, const ch
 
 static void add_point(JoxSideCurve *c, double time, double value) {
     JOX_RESERVE(c->points, c->capacity, c->count + 1);
-    c->points[c->count++] = (struct JoxSidePoint){time, value, value, value};
+    c->points[c->count++] = (struct JoxSidePoint){time, value, value, value, value, value, value};
 }
 
 static double mean_speed(const JoxFrame *frame) {
@@ -75,16 +75,16 @@ static void sample(JoxSide *side, const JoxTrajectories *t, JoxLocal *local, flo
 
 static void put_field(JoxSide *side, const JoxDensity *grid, const float *most) {
     const size_t cells = (size_t)grid->columns * grid->rows;
-    side->field = (JoxSweepField){.name = jox_strdup("greatest density"),
-                                  .unit = jox_strdup("1/m2"),
-                                  .low_x = (double)grid->low.x,
-                                  .low_y = (double)grid->low.y,
-                                  .cell = (double)grid->cell,
-                                  .columns = grid->columns,
-                                  .rows = grid->rows,
-                                  .values = jox_alloc(cells, sizeof(float))};
+    side->fields[JOX_FIELD_GREATEST] = (JoxSweepField){.name = jox_strdup("greatest density"),
+                                                       .unit = jox_strdup("1/m2"),
+                                                       .low_x = (double)grid->low.x,
+                                                       .low_y = (double)grid->low.y,
+                                                       .cell = (double)grid->cell,
+                                                       .columns = grid->columns,
+                                                       .rows = grid->rows,
+                                                       .values = jox_alloc(cells, sizeof(float))};
     for (size_t k = 0; k < cells; k++)
-        side->field.values[k] = jox_density_area(grid, k) > 0 ? most[k] : NAN;
+        side->fields[JOX_FIELD_GREATEST].values[k] = jox_density_area(grid, k) > 0 ? most[k] : NAN;
 }
 
 /* The outlines of the recording, or the scene's walls and places. */

@@ -1,20 +1,23 @@
-/* Sides: the variants of a sweep, read from its file. */
+/* Sides: runs with their figures and curves. */
 #include <math.h>
 #include <string.h>
 
-#include "base/database.h"
-#include "base/format/json.h"
-#include "base/guard.h"
+#include "base/mem.h"
 #include "sweep/compare/compare.h"
-#include "sweep/store.h"
-
-enum { MOST_RUNS = JOX_SWEEP_RUNS, MOST_FIGURES = 20000, MOST_SIDES = 1000, MOST_CELLS = 1 << 22 };
 
 JoxSide *jox_sides_add(JoxSides *sides, const char *source) {
     JOX_RESERVE(sides->items, sides->capacity, sides->count + 1);
     JoxSide *side = &sides->items[sides->count++];
     *side = (JoxSide){.source = jox_strdup(source)};
     return side;
+}
+
+static void free_notes(JoxSideNotes *notes) {
+    for (uint32_t n = 0; n < notes->count; n++) {
+        jox_free(notes->items[n].key);
+        jox_free(notes->items[n].value);
+    }
+    jox_free(notes->items);
 }
 
 void jox_sides_free(JoxSides *sides) {
@@ -29,7 +32,15 @@ void jox_sides_free(JoxSides *sides) {
             jox_free(side->curves[k].unit);
             jox_free(side->curves[k].points);
         }
-        jox_sweep_free_field(&side->field);
+        for (int k = 0; k < JOX_FIELDS; k++)
+            jox_sweep_free_field(&side->fields[k]);
+        for (uint32_t r = 0; r < side->all_count; r++) {
+            jox_free(side->all[r].reason);
+            jox_free(side->all[r].hash);
+        }
+        jox_free(side->all);
+        free_notes(&side->notes);
+        free_notes(&side->inputs);
         jox_free(side->figures);
         jox_free(side->curves);
         jox_free(side->seeds);
@@ -41,6 +52,13 @@ void jox_sides_free(JoxSides *sides) {
     }
     jox_free(sides->items);
     *sides = (JoxSides){0};
+}
+
+const char *jox_side_note(const JoxSide *side, const char *key) {
+    for (uint32_t n = 0; n < side->notes.count; n++)
+        if (strcmp(side->notes.items[n].key, key) == 0)
+            return side->notes.items[n].value;
+    return "";
 }
 
 const JoxSideFigure *jox_side_find(const JoxSide *side, const char *name) {
@@ -61,225 +79,4 @@ JoxSideFigure *jox_side_figure(JoxSide *side, const char *name) {
     for (uint32_t r = 0; r < side->runs; r++)
         figure->values[r] = NAN;
     return figure;
-}
-
-/* ---- reading ---- */
-
-static char *text_of(sqlite3_stmt *s, int column) {
-    const char *text = (const char *)sqlite3_column_text(s, column);
-    return jox_strdup(text ? text : "");
-}
-
-static bool ended(const JoxSweepStore *store, sqlite3_stmt *s, int code, JoError *error) {
-    const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
-    sqlite3_finalize(s);
-    return good;
-}
-
-static sqlite3_stmt *ask(const JoxSweepStore *store, const char *sql, int64_t variant,
-                         JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, sql, error);
-    if (s)
-        sqlite3_bind_int64(s, 1, variant);
-    return s;
-}
-
-static bool read_runs(const JoxSweepStore *store, int64_t variant, JoxSide *side, JoError *error) {
-    sqlite3_stmt *s =
-        ask(store, "SELECT seed, state FROM run WHERE variant = ? ORDER BY seed", variant, error);
-    int code = SQLITE_DONE;
-    if (!s)
-        return false;
-    while ((code = sqlite3_step(s)) == SQLITE_ROW && side->runs < MOST_RUNS) {
-        char *state = text_of(s, 1);
-        if (strcmp(state, jox_sweep_states[JOX_SWEEP_DONE]) == 0) {
-            JOX_RESERVE(side->seeds, side->run_capacity, side->runs + 1);
-            side->seeds[side->runs++] = (uint64_t)sqlite3_column_int64(s, 0);
-        } else {
-            side->left_out++;
-        }
-        jox_free(state);
-    }
-    return ended(store, s, code, error);
-}
-
-/* The number of a run by its seed; `runs` where there is none. */
-static uint32_t run_of(const JoxSide *side, uint64_t seed) {
-    uint32_t low = 0, high = side->runs;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (side->seeds[middle] < seed)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < side->runs && side->seeds[low] == seed ? low : side->runs;
-}
-
-static bool read_figures(const JoxSweepStore *store, int64_t variant, JoxSide *side,
-                         JoError *error) {
-    sqlite3_stmt *s =
-        ask(store, "SELECT name, seed, value FROM figure WHERE variant = ? ORDER BY name", variant,
-            error);
-    JoxSideFigure *figure = NULL;
-    int code = SQLITE_DONE;
-    if (!s)
-        return false;
-    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
-        const char *name = (const char *)sqlite3_column_text(s, 0);
-        const uint32_t run = run_of(side, (uint64_t)sqlite3_column_int64(s, 1));
-        if (!name || run == side->runs)
-            continue;
-        if (!figure || strcmp(figure->name, name) != 0) {
-            if (side->figure_count == MOST_FIGURES)
-                continue;
-            figure = jox_side_figure(side, name);
-        }
-        if (sqlite3_column_type(s, 2) != SQLITE_NULL)
-            figure->values[run] = sqlite3_column_double(s, 2);
-    }
-    return ended(store, s, code, error);
-}
-
-/* Mean and spread of the values of one moment, where at least half of the runs have one. A run that
-   has not the curve of an exit is one in which nobody left by it. */
-static void add_moment(JoxSide *side, JoxSideCurve *curve, double time, double *values,
-                       size_t count) {
-    static const char EXIT[] = "left by ";
-    while (count < side->runs && strncmp(curve->name, EXIT, sizeof EXIT - 1) == 0)
-        values[count++] = 0;
-    if (count == 0 || 2 * count < side->runs)
-        return;
-    const JoxMoments m = jox_moments(values, count);
-    JOX_RESERVE(curve->points, curve->capacity, curve->count + 1);
-    curve->points[curve->count++] = (struct JoxSidePoint){
-        time, m.mean, jox_quantile(values, count, 0.05), jox_quantile(values, count, 0.95)};
-}
-
-static JoxSideCurve *add_curve(JoxSide *side, char *name, char *unit) {
-    JOX_RESERVE(side->curves, side->curve_capacity, side->curve_count + 1);
-    side->curves[side->curve_count] = (JoxSideCurve){.name = name, .unit = unit};
-    return &side->curves[side->curve_count++];
-}
-
-static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *side,
-                        JoError *error) {
-    sqlite3_stmt *s = ask(store,
-                          "SELECT p.curve, p.time, p.value, c.name, c.unit FROM curve_point p"
-                          " JOIN curve_name c ON c.id = p.curve"
-                          " JOIN run r ON r.variant = p.variant AND r.seed = p.seed"
-                          " WHERE p.variant = ? AND r.state = 'done' ORDER BY p.curve, p.time",
-                          variant, error);
-    double *values = jox_alloc(side->runs + 1, sizeof *values), time = NAN;
-    JoxSideCurve *curve = NULL;
-    int64_t last = -1;
-    size_t count = 0;
-    int code = SQLITE_ERROR;
-    while (s && (code = sqlite3_step(s)) == SQLITE_ROW) {
-        const int64_t number = sqlite3_column_int64(s, 0);
-        const double now = sqlite3_column_double(s, 1);
-        if (number != last || now != time) {
-            if (curve)
-                add_moment(side, curve, time, values, count);
-            count = 0;
-            time = now;
-        }
-        if (number != last)
-            curve = add_curve(side, text_of(s, 3), text_of(s, 4));
-        last = number;
-        if (sqlite3_column_type(s, 2) != SQLITE_NULL && count < side->runs)
-            values[count++] = sqlite3_column_double(s, 2);
-    }
-    if (curve)
-        add_moment(side, curve, time, values, count);
-    jox_free(values);
-    return s && ended(store, s, code, error);
-}
-
-/* Adds a field to the sum of the side's, if it is one of the same places. */
-static void add_field(JoxSide *side, sqlite3_stmt *s, uint32_t *summed) {
-    const int64_t columns = sqlite3_column_int64(s, 4), rows = sqlite3_column_int64(s, 5);
-    const float *cells = sqlite3_column_blob(s, 6);
-    JoxSweepField *f = &side->field;
-    if (columns < 1 || rows < 1 || columns > MOST_CELLS || rows > MOST_CELLS / columns || !cells ||
-        (size_t)sqlite3_column_bytes(s, 6) != sizeof(float) * (size_t)(columns * rows) ||
-        !(sqlite3_column_double(s, 3) > 0))
-        return;
-    if (!f->values) {
-        *f = (JoxSweepField){.name = jox_strdup("greatest density"),
-                             .unit = text_of(s, 0),
-                             .low_x = sqlite3_column_double(s, 1),
-                             .low_y = sqlite3_column_double(s, 2),
-                             .cell = sqlite3_column_double(s, 3),
-                             .columns = (uint32_t)columns,
-                             .rows = (uint32_t)rows};
-        f->values = jox_alloc((size_t)(columns * rows), sizeof *f->values);
-    }
-    if (f->columns != columns || f->rows != rows || f->low_x != sqlite3_column_double(s, 1) ||
-        f->low_y != sqlite3_column_double(s, 2) || f->cell != sqlite3_column_double(s, 3))
-        return;
-    for (size_t k = 0; k < (size_t)(columns * rows); k++) {
-        float value;
-        memcpy(&value, cells + k, sizeof value);
-        f->values[k] += value;
-    }
-    (*summed)++;
-}
-
-static bool read_field(const JoxSweepStore *store, int64_t variant, JoxSide *side, JoError *error) {
-    sqlite3_stmt *s = ask(store,
-                          "SELECT f.unit, f.low_x, f.low_y, f.cell, f.columns, f.rows, f.cells"
-                          " FROM field f JOIN run r ON r.variant = f.variant AND r.seed = f.seed"
-                          " WHERE f.variant = ? AND f.name = 'greatest density'"
-                          " AND r.state = 'done'",
-                          variant, error);
-    uint32_t summed = 0;
-    int code = SQLITE_ERROR;
-    while (s && (code = sqlite3_step(s)) == SQLITE_ROW)
-        add_field(side, s, &summed);
-    for (size_t k = 0; summed && k < (size_t)side->field.columns * side->field.rows; k++)
-        side->field.values[k] /= (float)summed;
-    return s && ended(store, s, code, error);
-}
-
-static bool find_title(void *context, const JoxJsonItem *item) {
-    JoxSide *side = context;
-    if (item->kind == JOX_JSON_TEXT && !strcmp(item->path, "title") && !side->title)
-        side->title = jox_strdup(item->text);
-    return true;
-}
-
-bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error) {
-    JoxSweepStore store;
-    double left;
-    bool good = jox_sweep_open_to_read(&store, path, error);
-    if (good)
-        jox_database_bound(store.db, &left);
-    sqlite3_stmt *s =
-        good ? jox_sweep_ask(&store, "SELECT id, settings, plan FROM variant ORDER BY id", error)
-             : NULL;
-    const uint32_t before = sides->count;
-    int code = SQLITE_DONE;
-    good = s != NULL;
-    while (good && (code = sqlite3_step(s)) == SQLITE_ROW && sides->count < MOST_SIDES) {
-        const int64_t id = sqlite3_column_int64(s, 0);
-        JoxSide *side = jox_sides_add(sides, path);
-        side->settings = text_of(s, 1);
-        side->plan = sqlite3_column_type(s, 2) == SQLITE_NULL ? NULL : text_of(s, 2);
-        if (side->plan)
-            jox_json_read(side->plan, jox_json_own_files, find_title, side);
-        good = read_runs(&store, id, side, error) && read_figures(&store, id, side, error) &&
-               read_curves(&store, id, side, error) && read_field(&store, id, side, error);
-    }
-    if (s && good && code != SQLITE_DONE && code != SQLITE_ROW)
-        good = jox_sweep_broken(&store, error);
-    sqlite3_finalize(s);
-    if (store.db)
-        jox_database_bound(store.db, NULL);
-    jox_sweep_close(&store);
-    if (good && sides->count == before) {
-        jox_error(error, JO_INPUT, "%.300s has no runs as yet", path);
-        return false;
-    }
-    return good;
 }

@@ -32,7 +32,9 @@ static void put_sides(const JoxComparison *c, JoxText *out) {
                             (unsigned long long)side->seeds[side->runs - 1]);
         if (side->left_out)
             jox_text_printf(out, "; %u that failed or went wrong left out", side->left_out);
-        jox_text_add(out, s == c->base ? "  (what the others are compared with)\n" : "\n");
+        jox_text_add(out, s == c->base && c->sides.count > 1
+                              ? "  (what the others are compared with)\n"
+                              : "\n");
     }
 }
 
@@ -118,6 +120,31 @@ static void put_methods(const JoxComparison *c, JoxText *out) {
                      "number of seeds that it takes.\n");
 }
 
+/* ---- one side alone ---- */
+
+/* How its figures spread over its runs. */
+static void put_alone(const JoxComparison *c, JoxText *out) {
+    const JoxSide *side = &c->sides.items[0];
+    jox_text_printf(out, "\n%-*s%*s%*s%*s%*s  of\n", WORDS, "over the runs", NUMBER, "median",
+                    NUMBER, "5 %", NUMBER, "95 %", NUMBER, "greatest");
+    for (uint32_t f = 0; f < c->count; f++) {
+        const JoxCompared *figure = &c->figures[f];
+        const JoxSpread s = jox_spread_of(side, figure->figure);
+        const double values[] = {s.median, s.p5, s.p95, s.most};
+        if (!s.runs || !(c->def->all || (figure->words.is_key && (figure->varies || s.most != 0))))
+            continue;
+        char words[240];
+        snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
+                 figure->words.unit);
+        jox_text_printf(out, "%-*s", WORDS, words);
+        if (strlen(words) >= WORDS)
+            jox_text_printf(out, "\n%*s", WORDS, "");
+        for (size_t v = 0; v < sizeof values / sizeof *values; v++)
+            put_number(out, values[v], NUMBER, false);
+        jox_text_printf(out, "  %u run%s\n", s.runs, s.runs == 1 ? "" : "s");
+    }
+}
+
 /* ---- percentiles ---- */
 
 static void put_percentile(const JoxComparison *c, const JoxCompared *figure, uint32_t s,
@@ -171,6 +198,8 @@ void jox_compare_text(const JoxComparison *c, JoxText *out) {
             put_side(c, s, out);
     if (c->sides.count > 1)
         put_methods(c, out);
+    else
+        put_alone(c, out);
     if (c->def->percentile > 0)
         put_percentiles(c, out);
 }

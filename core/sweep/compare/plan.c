@@ -1,0 +1,181 @@
+/* The plan of a side, read from its JSON. */
+#include "sweep/compare/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/format/json.h"
+#include "base/mem.h"
+
+enum { MOST_POINTS = 100000 };
+
+typedef enum PartOf { WALLS, PLACES, PROBES, BODIES, NOTHING } PartOf;
+static const char *const LISTS[NOTHING] = {"walls.", "places.", "probes.", "bodies."};
+
+/* A wall, place, probe or body that is being read. */
+typedef struct Part {
+    PartOf of;
+    char *name, *kind;
+    bool solid, closed, open, high;
+    float radius;
+    float *numbers; /* x, y, ... */
+    size_t count, capacity;
+} Part;
+
+typedef struct Reading {
+    JoxSidePlan *plan;
+    float area[4];
+    uint32_t corners;
+    size_t place_capacity, probe_capacity, points; /* points of all */
+    Part part;
+} Reading;
+
+static void add_wall(Reading *r, const JoxV2 *points, uint32_t count) {
+    const Part *part = &r->part;
+    JoxSidePlan *plan = r->plan;
+    const uint32_t first = plan->walls.ring_count;
+    if (part->solid && count >= 3)
+        jox_walls_add_solid(&plan->walls, points, count, INFINITY);
+    else if (!part->solid && count >= (part->closed ? 3u : 2u))
+        jox_walls_add_polyline(&plan->walls, points, count, part->closed, INFINITY);
+    if (part->name && *part->name)
+        jox_walls_name(&plan->walls, first, part->name, part->open);
+}
+
+static void add_place(Reading *r, const JoxV2 *points, uint32_t count) {
+    const Part *part = &r->part;
+    JoxSidePlan *plan = r->plan;
+    int kind = 0;
+    while (kind < JOX_PLACE_KINDS &&
+           (!part->kind || strcmp(part->kind, jox_place_kinds[kind].name) != 0))
+        kind++;
+    if (kind == JOX_PLACE_KINDS || kind == JOX_PLACE_SET ||
+        count < jox_place_kinds[kind].least_points || count > jox_place_kinds[kind].most_points)
+        return;
+    JOX_RESERVE(plan->places, r->place_capacity, plan->place_count + 1);
+    JoxPlace *place = &plan->places[plan->place_count++];
+    *place = (JoxPlace){.name = jox_strdup(part->name ? part->name : ""),
+                        .kind = (JoxPlaceKind)kind,
+                        .points = jox_alloc(count, sizeof(JoxV2)),
+                        .count = count,
+                        .radius = part->radius,
+                        .start = -1};
+    memcpy(place->points, points, sizeof(JoxV2) * count);
+    jox_place_finish(place);
+}
+
+static void add_probe(Reading *r, const JoxV2 *points, uint32_t count) {
+    static const struct {
+        const char *name;
+        JoxProbeKind kind;
+        uint32_t least, most; /* points */
+    } KINDS[] = {{"flow", JOX_PROBE_FLOW, 2, 2},
+                 {"measure", JOX_PROBE_MEASURE, 3, MOST_POINTS},
+                 {"transit", JOX_PROBE_TRANSIT, 4, 4}};
+    JoxSidePlan *plan = r->plan;
+    for (size_t k = 0; r->part.kind && k < sizeof KINDS / sizeof *KINDS; k++) {
+        if (strcmp(r->part.kind, KINDS[k].name) != 0 || count < KINDS[k].least ||
+            count > KINDS[k].most)
+            continue;
+        JOX_RESERVE(plan->probes, r->probe_capacity, plan->probe_count + 1);
+        plan->probes[plan->probe_count++] =
+            jox_probe_create(&(JoxProbeDef){.name = r->part.name ? r->part.name : "",
+                                            .kind = KINDS[k].kind,
+                                            .until = INFINITY,
+                                            .points = points,
+                                            .count = count,
+                                            .every = 1.0,
+                                            .cutoff = 1.0});
+    }
+}
+
+static void add_body(Reading *r, const JoxV2 *points, uint32_t count) {
+    const Part *part = &r->part;
+    JoxDrawnBodies *bodies = &r->plan->bodies;
+    if (count == 2 || count > JOX_OUTLINE_POINTS)
+        return;
+    JOX_RESERVE(bodies->items, bodies->capacity, bodies->count + 1);
+    JoxDrawnBody *body = &bodies->items[bodies->count++];
+    *body = (JoxDrawnBody){.at = points[0], .radius = part->radius, .high = part->high};
+    if (count > 1)
+        memcpy(body->ring, points, sizeof(JoxV2) * count);
+    body->count = count > 1 ? count : 0;
+}
+
+/* What was read of a wall, place, probe or body becomes one. */
+static void end_part(Reading *r) {
+    static void (*const ADD[NOTHING])(Reading *, const JoxV2 *, uint32_t) = {add_wall, add_place,
+                                                                             add_probe, add_body};
+    Part *part = &r->part;
+    const uint32_t count = (uint32_t)(part->count / 2);
+    JoxV2 *points = jox_alloc(count + 1, sizeof *points);
+    for (uint32_t p = 0; p < count; p++)
+        points[p] = (JoxV2){part->numbers[2 * p], part->numbers[2 * p + 1]};
+    if (count && part->of < NOTHING)
+        ADD[part->of](r, points, count);
+    jox_free(points);
+    jox_free(part->name);
+    jox_free(part->kind);
+    jox_free(part->numbers);
+    *part = (Part){.of = NOTHING};
+}
+
+static void read_part(Reading *r, const JoxJsonItem *item) {
+    Part *part = &r->part;
+    const char *key = item->key;
+    if (item->kind == JOX_JSON_NUMBER && !key && fabs(item->number) < 1e6 &&
+        r->points++ < MOST_POINTS) {
+        JOX_RESERVE(part->numbers, part->capacity, part->count + 1);
+        part->numbers[part->count++] = (float)item->number;
+    } else if (item->kind == JOX_JSON_TEXT && key && !strcmp(key, "name") && !part->name) {
+        part->name = jox_strdup(item->text);
+    } else if (item->kind == JOX_JSON_TEXT && key && !strcmp(key, "kind") && !part->kind) {
+        part->kind = jox_strdup(item->text);
+    } else if (item->kind == JOX_JSON_NUMBER && key && !strcmp(key, "radius")) {
+        part->radius = (float)item->number;
+    } else if (item->kind == JOX_JSON_BOOL && key) {
+        const bool yes = item->number != 0;
+        part->solid = !strcmp(key, "solid") ? yes : part->solid;
+        part->closed = !strcmp(key, "closed") ? yes : part->closed;
+        part->open = !strcmp(key, "open") ? yes : part->open;
+        part->high = !strcmp(key, "high") ? yes : part->high;
+    }
+}
+
+static bool read_item(void *context, const JoxJsonItem *item) {
+    Reading *r = context;
+    if (item->depth == 2 && item->kind == JOX_JSON_NUMBER && r->corners < 4 &&
+        strncmp(item->path, "area.", 5) == 0)
+        r->area[r->corners++] = (float)item->number;
+    if (item->depth == 2 && item->kind == JOX_JSON_OBJECT) {
+        end_part(r);
+        for (int of = 0; of < NOTHING; of++)
+            if (strncmp(item->path, LISTS[of], strlen(LISTS[of])) == 0)
+                r->part.of = (PartOf)of;
+    }
+    if (item->depth > 2)
+        read_part(r, item);
+    return true;
+}
+
+bool jox_side_plan_read(JoxSidePlan *plan, const char *json) {
+    Reading r = {.plan = plan, .part = {.of = NOTHING}};
+    *plan = (JoxSidePlan){0};
+    const bool good = jox_json_read(json, jox_json_own_files, read_item, &r);
+    end_part(&r);
+    plan->low = (JoxV2){r.area[0], r.area[1]};
+    plan->high = (JoxV2){r.area[2], r.area[3]};
+    return good && r.corners == 4 && plan->high.x > plan->low.x && plan->high.y > plan->low.y &&
+           plan->high.x - plan->low.x < 1e5f && plan->high.y - plan->low.y < 1e5f;
+}
+
+void jox_side_plan_free(JoxSidePlan *plan) {
+    for (uint32_t p = 0; p < plan->place_count; p++)
+        jox_place_free(&plan->places[p]);
+    for (uint32_t p = 0; p < plan->probe_count; p++)
+        jox_probe_free(plan->probes[p]);
+    jox_free(plan->places);
+    jox_free(plan->probes);
+    jox_free(plan->bodies.items);
+    jox_walls_free(&plan->walls);
+}

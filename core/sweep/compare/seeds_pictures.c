@@ -1,0 +1,181 @@
+/* Pictures of many seeds: curves over time with bands, and maps. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/quote.h"
+#include "base/mem.h"
+#include "picture/html.h"
+#include "picture/plot.h"
+#include "report/maps.h"
+#include "sweep/compare/compare.h"
+
+/* ---- curves ---- */
+
+enum { WIDE = 1300, STRIP = 270 };
+/* What is drawn first, if it is there; those of exits follow. */
+static const struct {
+    const char *curve, *title, *unit;
+} STRIPS[] = {{"people inside", "People inside", "people"},
+              {"greatest density", "Greatest density anywhere", "people per m\xc2\xb2"},
+              {"mean speed", "Mean speed of all who are inside", "m/s"}};
+enum { STRIP_COUNT = sizeof STRIPS / sizeof *STRIPS };
+static const char EXIT[] = "left by ";
+
+static const JoxSideCurve *curve_of(const JoxSide *side, const char *name) {
+    for (uint32_t k = 0; k < side->curve_count; k++)
+        if (strcmp(side->curves[k].name, name) == 0 && side->curves[k].count > 1)
+            return &side->curves[k];
+    return NULL;
+}
+
+static bool is_exit(const JoxSideCurve *curve) {
+    return strncmp(curve->name, EXIT, sizeof EXIT - 1) == 0 && curve->count > 1;
+}
+
+/* A block for each curve: time, least, 5 %, median, 95 % and greatest of the runs. */
+static bool write_curves(const JoxSide *side, const char *folder, JoxText *why) {
+    FILE *out = jox_plot_open(folder, "spread.dat", why);
+    if (!out)
+        return false;
+    for (uint32_t k = 0; k < side->curve_count; k++) {
+        const JoxSideCurve *c = &side->curves[k];
+        JoxText name = {0};
+        jox_text_printf(&name, "%s%s%s", c->name, *c->unit ? ", " : "", c->unit);
+        fputs("# ", out); /* a comment: nothing but letters goes into it */
+        for (const char *at = name.data; *at; at++)
+            fputc(*at < ' ' ? ' ' : *at, out);
+        fputs(": time, least, 5 %, median, 95 %, greatest\n", out);
+        jox_text_free(&name);
+        for (size_t p = 0; p < c->count; p++)
+            fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g\n", c->points[p].time, c->points[p].least,
+                    c->points[p].low, c->points[p].median, c->points[p].high, c->points[p].most);
+        if (c->count == 0)
+            fputs("0 NaN NaN NaN NaN NaN\n", out);
+        fputs("\n\n", out);
+    }
+    return jox_plot_close(out, "spread.dat", why);
+}
+
+static void bands(FILE *script, const JoxSide *side, const JoxSideCurve *curve) {
+    const unsigned at = (unsigned)(curve - side->curves);
+    fprintf(script,
+            "plot 'spread.dat' index %u using 1:2:6 with filledcurves lc '#fde3c0' title 'all "
+            "runs', '' index %u using 1:3:5 with filledcurves lc '#f8a140' title '5 to 95 %% of "
+            "the runs', '' index %u using 1:4 with lines lw 2 lc '#4d0b3b' title 'median'\n",
+            at, at, at);
+}
+
+static void exits(FILE *script, const JoxSide *side) {
+    static const char *const COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                          "#e69f00", "#56b4e9", "#555555", "#000000"};
+    uint32_t n = 0;
+    fputs("set title 'People who have left by each exit: medians, and 5 to 95 % of the "
+          "runs'\nset ylabel 'people'\n",
+          script);
+    for (uint32_t k = 0; k < side->curve_count; k++) {
+        const char *colour = COLOURS[n % (sizeof COLOURS / sizeof *COLOURS)];
+        if (!is_exit(&side->curves[k]))
+            continue;
+        fprintf(script,
+                "%s'spread.dat' index %u using 1:3:5 with filledcurves fc rgb '%s' fs transparent "
+                "solid 0.25 noborder notitle, '' index %u using 1:4 with lines lw 2 lc '%s' title ",
+                n++ ? ", " : "plot ", k, colour, k, colour);
+        jox_quote_put(script, jox_quote_gnuplot, side->curves[k].name + sizeof EXIT - 1);
+        fputs(" noenhanced", script);
+    }
+    fputc('\n', script);
+}
+
+static bool draw_curves(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
+    const char *folder = drawn->subject.folder;
+    int strips = 0;
+    bool left = false;
+    for (int k = 0; k < STRIP_COUNT; k++)
+        strips += curve_of(side, STRIPS[k].curve) != NULL;
+    for (uint32_t k = 0; k < side->curve_count; k++)
+        left |= is_exit(&side->curves[k]);
+    strips += left;
+    if (strips == 0)
+        return true;
+    FILE *script = jox_plot_open(folder, "spread.plt", why);
+    if (!script)
+        return false;
+    for (int svg = 0; svg < 2; svg++) {
+        jox_plot_begin(script, "spread", svg, WIDE, 20 + strips * STRIP);
+        fprintf(script,
+                "set multiplot layout %d,1\nset grid\nset lmargin 10\nset rmargin 29\nset xlabel "
+                "'time (s)'\nset xrange [0:%g]\nset yrange [0:*]\nset key at graph 1.01,1 left top "
+                "Left reverse\nset style fill solid 1 noborder\n",
+                strips, fmax(drawn->subject.until, 1.0));
+        for (int k = 0; k < STRIP_COUNT; k++) {
+            const JoxSideCurve *curve = curve_of(side, STRIPS[k].curve);
+            if (!curve)
+                continue;
+            fprintf(script, "set title '%s'\nset ylabel '%s'\n", STRIPS[k].title, STRIPS[k].unit);
+            bands(script, side, curve);
+        }
+        if (left)
+            exits(script, side);
+        fputs("unset multiplot\nset output\n", script);
+    }
+    return jox_plot_close(script, "spread.plt", why) && jox_plot_draw(folder, "spread.plt", why);
+}
+
+void jox_seeds_curves(FILE *out, const JoxSideDrawn *drawn) {
+    jox_html_figure(out, drawn->subject.folder, "spread",
+                    "Over time: the median of the runs, what nine in ten lie between, and all. At "
+                    "each moment for itself: no run needs to be the median all the time.",
+                    true);
+}
+
+/* ---- maps ---- */
+
+static const struct {
+    const char *file, *title, *legend;
+    JoxSideFieldKind kind;
+    bool density;
+} MAPS[] = {{"density", "Mean density", "people per m\xc2\xb2, mean over time and runs",
+             JOX_FIELD_MEAN, true},
+            {"density-greatest", "Greatest density, mean of the runs",
+             "people per m\xc2\xb2, greatest of all times, mean of the runs", JOX_FIELD_GREATEST,
+             true},
+            {"density-worst", "Greatest density, worst of the runs",
+             "people per m\xc2\xb2, greatest of all times and runs", JOX_FIELD_WORST, true},
+            {"density-often", "Where it is 5 per m\xc2\xb2 or more",
+             "% of the runs in which it ever was that dense here", JOX_FIELD_OFTEN, false}};
+enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
+
+static bool has_map(const JoxSide *side, int map) {
+    return side->fields[MAPS[map].kind].values &&
+           (MAPS[map].density || jox_side_field_most(side, MAPS[map].kind) > 0);
+}
+
+bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
+    bool good = jox_maps_draw_plan(&drawn->subject, why) &&
+                write_curves(side, drawn->subject.folder, why) && draw_curves(side, drawn, why);
+    char when[48];
+    snprintf(when, sizeof when, "0 to %.4g s", drawn->subject.until);
+    for (int m = 0; good && m < MAP_COUNT; m++)
+        if (has_map(side, m))
+            good = jox_maps_draw_field(
+                &drawn->subject,
+                &(JoxMapField){.file = MAPS[m].file,
+                               .title = MAPS[m].title,
+                               .when = when,
+                               .legend = MAPS[m].legend,
+                               .show = MAPS[m].density ? JOX_SHOW_DENSITY : JOX_SHOW_LOAD,
+                               .values = side->fields[MAPS[m].kind].values,
+                               .most = MAPS[m].density ? jox_side_field_most(side, JOX_FIELD_WORST)
+                                                       : 100.0},
+                why);
+    return good;
+}
+
+void jox_seeds_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    jox_maps_panels(out, &drawn->subject);
+    for (int m = 0; m < MAP_COUNT; m++)
+        if (has_map(side, m))
+            jox_html_figure(out, drawn->subject.folder, MAPS[m].file, MAPS[m].title, false);
+    jox_html_panels_end(out);
+}

@@ -1,0 +1,223 @@
+/* The first section of the page of many seeds: what all runs come to, in sentences. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/noun.h"
+#include "picture/html.h"
+#include "record/danger/danger.h"
+#include "sweep/compare/compare.h"
+
+static void put(FILE *out, const char *lead, JoxText *text) {
+    jox_html_statement(out, lead, text->data ? text->data : "");
+    jox_text_free(text);
+}
+
+static void put_run(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    const char *settings = side->settings ? side->settings : "";
+    const JoxSpread people = jox_spread_of(side, "events.spawned");
+    JoxText text = {0};
+    char runs[JOX_NOUN];
+    jox_text_printf(&text, "The scene %s (%s)", drawn->subject.title, jox_side_note(side, "scene"));
+    if (people.runs) {
+        jox_text_add(&text, ", in which ");
+        if (people.least == people.most)
+            jox_text_printf(&text, "%.0f people are", people.most);
+        else
+            jox_text_printf(&text, "%.0f to %.0f people are", people.least, people.most);
+    }
+    jox_text_printf(&text, ": %s with the seeds %llu to %llu",
+                    jox_noun(runs, side->all_count, "run"), (unsigned long long)side->all[0].seed,
+                    (unsigned long long)side->all[side->all_count - 1].seed);
+    if (drawn->subject.until > 0)
+        jox_text_printf(&text, ", of %.4g s each", drawn->subject.until);
+    jox_text_printf(&text, ", by Jostle %s.", jox_side_note(side, "version"));
+    if (*settings) {
+        jox_text_add(&text, " Settings: ");
+        for (const char *at = settings; *at; at++)
+            jox_text_append(&text, *at == '\n' ? ", " : at, *at == '\n' ? 2 : 1);
+        jox_text_add(&text, ".");
+    }
+    jox_text_add(&text, side->runs > 1 ? " Figures are medians of the runs; brackets have what "
+                                         "nine in ten lie between (5 to 95 %), and the greatest "
+                                         "with its seed."
+                                       : "");
+    put(out, "What was run.", &text);
+}
+
+static void put_left_out(FILE *out, const JoxSide *side) {
+    enum { MOST = 5 };
+    JoxText text = {0};
+    uint32_t told = 0;
+    char runs[JOX_NOUN];
+    if (side->left_out == 0)
+        return;
+    jox_text_printf(&text,
+                    "%s failed or did not go as written, and %s left out of all that follows:",
+                    jox_noun(runs, side->left_out, "run"), side->left_out == 1 ? "is" : "are");
+    for (uint32_t r = 0; r < side->all_count && told < MOST; r++)
+        if (side->all[r].state != JOX_SWEEP_DONE)
+            jox_text_printf(&text, "%s seed %llu: %.300s", told++ ? ";" : "",
+                            (unsigned long long)side->all[r].seed, side->all[r].reason);
+    put(out, "What went wrong.", &text);
+}
+
+static void put_leaving(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    const JoxSpread half = jox_spread_of(side, "danger.leaving_s.p50");
+    const JoxSpread most = jox_spread_of(side, "danger.leaving_s.p95");
+    const JoxSpread last = jox_spread_of(side, "danger.last_left_s");
+    const JoxSpread inside = jox_spread_of(side, "danger.inside");
+    const JoxSpread clear = jox_spread_of(side, "danger.clearance_s");
+    JoxText text = {0};
+    if (last.runs == 0) {
+        jox_text_printf(&text, "In no run did anybody leave within %.4g s.", drawn->subject.until);
+        put(out, "Who got out when.", &text);
+        return;
+    }
+    jox_text_add(&text, "Half of those who left had done so by ");
+    jox_spread_say(&half, "s", false, &text);
+    jox_text_add(&text, ", 95 % by ");
+    jox_spread_say(&most, "s", false, &text);
+    jox_text_add(&text, ", the last by ");
+    jox_spread_say(&last, "s", false, &text);
+    jox_text_add(&text, ".");
+    for (uint32_t e = 0; e < drawn->exits.count; e++) {
+        const char *name = drawn->exits.items[e].name;
+        const JoxSpread people = jox_spread_at(side, "danger.exits.%s.people", name);
+        const JoxSpread then = jox_spread_at(side, "danger.exits.%s.last_s", name);
+        if (!people.runs)
+            continue;
+        jox_text_printf(&text, "%s%.60s ", e ? "; " : " By exits: ", name);
+        jox_spread_say(&people, people.median == 1 ? "person" : "people", false, &text);
+        if (then.runs)
+            jox_text_printf(&text, ", the last at %.1f s", then.median);
+    }
+    jox_text_add(&text, drawn->exits.count ? "." : "");
+    put(out, "Who got out when.", &text);
+    if (inside.most > 0) {
+        jox_text_printf(&text, "%s in %u of %u runs. At the end, %.4g s, ",
+                        clear.runs ? "Not always:" : "No:", clear.runs, side->runs,
+                        drawn->subject.until);
+        jox_spread_say(&inside, inside.median == 1 ? "person" : "people", false, &text);
+        jox_text_add(&text, inside.median == 1 ? " was still inside." : " were still inside.");
+    } else {
+        jox_text_printf(&text, "Yes, in %s: nobody is inside from ",
+                        side->runs == 1 ? "the run" : "all runs");
+        jox_spread_say(&clear, "s", false, &text);
+        jox_text_add(&text, " on.");
+    }
+    put(out, "Cleared?", &text);
+}
+
+/* Where the mean over runs of the greatest density is greatest. */
+static void say_where(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *out) {
+    const JoxSweepField *f = &side->fields[JOX_FIELD_GREATEST];
+    size_t most = SIZE_MAX;
+    for (size_t k = 0; f->values && k < (size_t)f->columns * f->rows; k++)
+        if (f->values[k] > 0 && (most == SIZE_MAX || f->values[k] > f->values[most]))
+            most = k;
+    if (most == SIZE_MAX)
+        return;
+    const JoxV2 at = {(float)(f->low_x + f->cell * ((double)(most % f->columns) + 0.5)),
+                      (float)(f->low_y + f->cell * ((double)(most / f->columns) + 0.5))};
+    jox_text_add(out, " It was densest, as a mean of the runs, at ");
+    jox_where(&drawn->subject, at, out);
+    jox_text_add(out, ".");
+}
+
+/* In how many runs anybody was over each limit of a measure, up to the first that nobody passed. */
+static void say_limits(const JoxSide *side, JoxDangerMeasure measure, JoxText *out) {
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        const JoxDangerLimit *limit = &jox_danger_limits[l];
+        char name[100];
+        snprintf(name, sizeof name, "danger.limits.%s.people", limit->key);
+        const uint32_t runs = jox_spread_runs_over(side, name);
+        const JoxSpread people = jox_spread_of(side, name);
+        if (limit->measure != measure || people.runs == 0)
+            continue;
+        if (runs == 0) {
+            jox_text_printf(out, " In no run was anybody over a %s.", limit->title);
+            return;
+        }
+        const JoxSpread time = jox_spread_at(side, "danger.limits.%s.longest_s", limit->key);
+        jox_text_printf(out, " In %u of %u runs somebody was over a %s (%s): ", runs, side->runs,
+                        limit->title, limit->what);
+        jox_spread_say(&people, people.median == 1 ? "person" : "people", false, out);
+        if (time.runs) {
+            jox_text_add(out, ", one of them for ");
+            jox_spread_say(&time, "s", false, out);
+        }
+        jox_text_add(out, ".");
+    }
+}
+
+static void put_measures(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    const JoxSpread density = jox_spread_of(side, "density_max");
+    const JoxSpread load = jox_spread_of(side, "danger.load_max");
+    const JoxSpread pressure = jox_spread_of(side, "danger.pressure_max");
+    JoxText text = {0};
+    if (density.runs) {
+        jox_text_add(&text, "The greatest density of any place and time was ");
+        jox_spread_say(&density, "1/m2", false, &text);
+        jox_text_add(&text, ".");
+        say_where(side, drawn, &text);
+        say_limits(side, JOX_DANGER_DENSITY, &text);
+        put(out, "Where it was dense.", &text);
+    }
+    if (load.runs) {
+        jox_text_add(&text, "The greatest load from one side was ");
+        jox_spread_say(&load, "N", false, &text);
+        jox_text_add(&text, ".");
+        say_limits(side, JOX_DANGER_LOAD, &text);
+        put(out, "What people bore.", &text);
+    }
+    if (pressure.runs) {
+        jox_text_printf(&text, "Crowd pressure was measured in %u of %u runs; the greatest was ",
+                        pressure.runs, side->runs);
+        jox_spread_say(&pressure, "1/s2", false, &text);
+        jox_text_add(&text, ".");
+        say_limits(side, JOX_DANGER_PRESSURE, &text);
+    } else {
+        jox_text_add(&text, "Not measured: in no run was the crowd dense enough for long enough (5 "
+                            "per m\xc2\xb2 or more on 12 m\xc2\xb2 for 20 s).");
+    }
+    put(out, "Crowd turbulence.", &text);
+}
+
+/* What the spread is, and what it is not. */
+static void put_worth(FILE *out, const JoxSide *side) {
+    enum { ENOUGH = 20 };
+    const size_t many = jox_rank_runs(0.95, 0.95);
+    JoxText text = {0};
+    jox_text_add(&text,
+                 "The engine is compared with published measurements and standard tests (jostle "
+                 "reproduce). This scenario is not: its plan, numbers of people, behaviours and "
+                 "parameters are its author's, and nothing here was compared with a crowd that did "
+                 "this here. The spread is that of chance between seeds alone: it holds nothing of "
+                 "what is not known of people, places and the model.");
+    if (side->runs < ENOUGH)
+        jox_text_printf(&text,
+                        " The seeds are few: of fewer than %d runs the values at 5 and 95 %% are "
+                        "hardly more than the least and the greatest run.",
+                        ENOUGH);
+    if (side->runs < many)
+        jox_text_printf(
+            &text,
+            " It takes %zu runs until the worst of them lies above the true 95 %% value "
+            "with a probability of 95 %% (Wilks 1941).",
+            many);
+    put(out, "What is validated, and what is not.", &text);
+}
+
+void jox_seeds_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    jox_html_heading(out, "Summary");
+    fputs("<div class=summary>\n", out);
+    put_run(out, side, drawn);
+    put_left_out(out, side);
+    if (side->runs) {
+        put_leaving(out, side, drawn);
+        put_measures(out, side, drawn);
+    }
+    put_worth(out, side);
+    fputs("</div>\n", out);
+}
