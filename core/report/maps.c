@@ -246,5 +246,5 @@ bool jox_maps_write(const JoxSubject *s, JoxText *error) {
     bool good = jox_maps_draw_plan(s, error);
     for (size_t m = 0; good && m < MAP_COUNT; m++)
         good = !is_drawn(s, &MAPS[m]) || draw_map(s, &MAPS[m], error);
-    return good && jox_moments_write(s, error);
+    return good;
 }

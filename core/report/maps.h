@@ -30,7 +30,4 @@ bool jox_maps_draw_field(const JoxSubject *subject, const JoxMapField *field, Jo
 /* Begins panels of the page for them. */
 void jox_maps_panels(FILE *out, const JoxSubject *subject);
 
-/* moments.c: snapshot-N of the story. */
-bool jox_moments_write(const JoxSubject *subject, JoxText *error);
-
 #endif

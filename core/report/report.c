@@ -126,7 +126,8 @@ static bool write(const JoxReport *r, JoError *error) {
         good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, &why);
     good = good && jox_danger_write(r->danger, folder, title, &why);
     const JoxSubject subject = jox_report_subject(r);
-    good = good && jox_maps_write(&subject, &why) && jox_report_page(r, &why);
+    good = good && jox_maps_write(&subject, &why) && jox_moments_write(&subject, &why) &&
+           jox_report_page(r, &why);
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);

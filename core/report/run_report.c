@@ -132,7 +132,7 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     const JoxRegions *regions = jox_run_regions(scene);
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
     JoxSubject subject = jox_run_subject(scene, r->folder);
-    bool good = jox_maps_write(&subject, &why);
+    bool good = jox_maps_write(&subject, &why) && jox_moments_write(&subject, &why);
     jox_run_subject_free(&subject);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,

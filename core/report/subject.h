@@ -33,9 +33,10 @@ void jox_where(const JoxSubject *subject, JoxV2 at, JoxText *out);
    dangerous for how long, and at which levels of service people were. */
 void jox_summary_crowd(FILE *out, const JoxSubject *subject);
 
-/* maps.c, moments.c: the plan, maps and snapshots, into the folder; false with a sentence in
+/* maps.c: the plan and maps, into the folder; moments.c: snapshots. False with a sentence in
    `error`. */
 bool jox_maps_write(const JoxSubject *subject, JoxText *error);
+bool jox_moments_write(const JoxSubject *subject, JoxText *error);
 /* Their figures of the page, as far as they were drawn. */
 void jox_maps_plan(FILE *out, const JoxSubject *subject);
 void jox_maps_fields(FILE *out, const JoxSubject *subject);
