@@ -156,7 +156,7 @@ int cli_failed(const CliCommand *command, const JoError *error, bool sent);
 
 /* Has a scene read by a child process that may do nothing else; `files` are then what it read, and
    sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
-int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files);
+int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files, JoError *error);
 
 /* The file of a scene: what is given, or, of a name alone such as "office", the first there is of
    NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle. To be freed. */

@@ -10,6 +10,7 @@
 
 typedef struct Compare {
     JoCompareDef def;
+    CliList labels;
     const char *json, *scene; /* the scene's probes measure recordings */
     double confidence, seconds;
     uint64_t seeds, resamples;
@@ -36,6 +37,10 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Compare, json)},
     {"base", "SIDE", "what the others are compared with: a number from 1, a name or a file",
      "the first", CLI_TO(Compare, def.base)},
+    {"label", "NAME",
+     "what a side is called, in their order, once for each: of a sweep each variant is a side, the "
+     "last setting changing first",
+     CLI_TO(Compare, labels)},
     {"percentile", "P",
      "also the value above P % of all runs, as MSC.1/Circ.1533 takes the 95 % value, the worst "
      "case, and a bound of the true one",
@@ -70,9 +75,9 @@ static Kind kind_of(const char *path) {
     return cli_is_sweep(path) ? SWEEP : RECORDING;
 }
 
-static bool vet(void *context, const JoSceneDef *scene) {
+static bool vet(void *context, const JoSceneDef *scene, JoError *error) {
     Compare *compare = context;
-    return cli_vet(&cli_compare, scene, &compare->files) == JO_OK;
+    return cli_vet(&cli_compare, scene, &compare->files, error) == JO_OK;
 }
 
 /* Runs what of a scene is not there yet, in a file of the folder, whose path is returned. */
@@ -197,6 +202,8 @@ static int run(int argc, char **argv) {
     if (status == CLI_GO_ON) {
         c.def.share = c.confidence / 100;
         c.def.resamples = (uint32_t)c.resamples;
+        c.def.labels = (const char *const *)c.labels.items;
+        c.def.label_count = c.labels.count;
         status = compare(&c, &plain);
     }
     for (size_t s = 0; s < c.count; s++) {

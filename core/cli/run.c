@@ -303,7 +303,7 @@ static int begin(Run *run) {
     if (run->view && !can_summarize(run))
         return JO_FAILED;
     cli_catch_signals(false);
-    int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files);
+    int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files, NULL);
     if (status != JO_OK)
         return status;
     cli_catch_signals(run->view);

@@ -63,9 +63,9 @@ static const CliOption OPTIONS[] = {
     {"quiet", NULL, "no progress", CLI_TO(Sweep, def.quiet)},
 };
 
-static bool vet(void *context, const JoSceneDef *scene) {
+static bool vet(void *context, const JoSceneDef *scene, JoError *error) {
     Sweep *sweep = context;
-    return cli_vet(&cli_sweep, scene, &sweep->files) == JO_OK;
+    return cli_vet(&cli_sweep, scene, &sweep->files, error) == JO_OK;
 }
 
 /* ---- a list of commands ---- */

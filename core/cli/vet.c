@@ -180,7 +180,13 @@ static int wait_for(pid_t child, struct rusage *usage) {
     return status;
 }
 
-int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files) {
+/* The first of what was said, but for what stands below it: the lines of the file. */
+static void put_first(const JoxText *said, JoError *error) {
+    const char *text = said->data ? said->data : "see what was said above";
+    snprintf(error->text, sizeof error->text, "%.*s", (int)strcspn(text, "\n"), text);
+}
+
+int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files, JoError *error) {
     int ends[2];
     Parent parent = {.command = command, .scene = def->path, .files = files};
     fflush(NULL);
@@ -202,10 +208,15 @@ int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files)
         fprintf(stderr, "jostle %s: no process to read the scene in\n", command->name);
     if (end == REFUSED && parent.said.data)
         tell_refused(command, &parent.said);
-    jox_text_free(&parent.said);
     files->sealed = true;
-    return child < 0        ? JO_FAILED
-           : end == LOADED  ? JO_OK
-           : end == REFUSED ? JO_INPUT
-                            : ended(&parent, end, status, &usage);
+    const int result = child < 0        ? JO_FAILED
+                       : end == LOADED  ? JO_OK
+                       : end == REFUSED ? JO_INPUT
+                                        : ended(&parent, end, status, &usage);
+    if (error && result != JO_OK) {
+        error->code = (JoCode)result;
+        put_first(&parent.said, error);
+    }
+    jox_text_free(&parent.said);
+    return result;
 }

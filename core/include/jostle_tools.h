@@ -171,8 +171,9 @@ typedef struct JoSweepDef {
     bool renew;       /* a file of other inputs is begun anew, not refused, and other seeds are
                          taken out of it */
     bool quiet;       /* no progress on stderr */
-    /* NULL, or called with each combination before it is loaded; false refuses, having said why. */
-    bool (*vet)(void *context, const JoSceneDef *scene);
+    /* NULL, or called with each combination before it is loaded; false refuses, with `error`,
+       having said why. */
+    bool (*vet)(void *context, const JoSceneDef *scene, JoError *error);
     void *vet_context;
     const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *message;       /* NULL: to stderr */
@@ -188,8 +189,9 @@ typedef struct JoSweepCounts {
 } JoSweepCounts;
 /* Runs what is not there yet. A run that fails is kept with its reason, and ends nothing. *summary,
    unless NULL, is what jo_summaries_aggregate makes of all runs with figures; free with jo_free.
-   False with `error`: JO_USAGE if the def makes no sense, JO_INPUT if a combination does not load,
-   or the file is none of a sweep's or of other inputs (all that is wrong went to `message`),
+   So are the runs of a combination that does not load.
+   False with `error`: JO_USAGE if the def makes no sense, JO_INPUT if no combination loads, or the
+   file is none of a sweep's or of other inputs (all that is wrong went to `message`),
    JO_FAILED if it cannot be written, or it was stopped. What was done is kept then. */
 JO_API bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoError *error);
 /* How many runs there are, without running any; 0 with `error`. */
@@ -209,7 +211,10 @@ typedef struct JoCompareDef {
     size_t side_count;
     /* NULL, or for each of `sides` NULL or, of a recording, what jo_report says of it. */
     const char *const *summaries;
-    double fps, unit;  /* of recordings, as for jo_report; 0: as they say */
+    double fps, unit;          /* of recordings, as for jo_report; 0: as they say */
+    const char *const *labels; /* what sides are called, in their order; of the rest by what tells
+                                  them apart */
+    size_t label_count;
     const char *base;  /* what the others are compared with: a side's number from 1, its name or its
                           file; NULL: the first */
     const char *out;   /* folder for a page, index.html, made if it is missing; NULL: none */

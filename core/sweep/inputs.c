@@ -21,9 +21,9 @@ JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant
     return scene;
 }
 
-static bool is_vetted(const JoSweepDef *def, const JoSceneDef *scene) {
+static bool is_vetted(const JoSweepDef *def, const JoSceneDef *scene, JoError *error) {
     const JoxOutside outside = jox_guard_leave();
-    const bool good = !def->vet || def->vet(def->vet_context, scene);
+    const bool good = !def->vet || def->vet(def->vet_context, scene, error);
     jox_guard_return(outside);
     return good;
 }
@@ -33,8 +33,8 @@ static void hear(void *context, const char *text) {
 }
 
 /* Loads without placing anybody, and keeps what was read. */
-static bool load(const JoSweepDef *def, const JoSceneDef *vetted, const char *name,
-                 JoxOverlay *files, JoError *error) {
+static bool load(const JoSweepDef *def, const JoSceneDef *vetted, JoxOverlay *files,
+                 JoError *error) {
     JoSceneDef dry = *vetted;
     JoxText said = {0};
     dry.dry = true;
@@ -48,30 +48,45 @@ static bool load(const JoSweepDef *def, const JoSceneDef *vetted, const char *na
     jo_scene_free(scene);
     if (!good && said.data)
         jox_run_message(def->message, def->message_context, said.data);
-    if (!good)
-        jox_error(error, error->code, "%s%s does not load", *name ? "the variant " : "the scene",
-                  name);
     jox_text_free(&said);
     return good;
 }
 
+/* "a.yaml:3:5: unknown key" */
+static char *reason_of(const JoError *error) {
+    JoxText text = {0};
+    if (*error->file)
+        jox_text_printf(&text, "%s:%d:%d: ", error->file, (int)error->line, (int)error->column);
+    jox_text_printf(&text, "it does not load: %s", error->text);
+    return text.data;
+}
+
 bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
-                           const char *const *names, JoxOverlay *files, JoError *error) {
+                           const char *const *names, JoxOverlay *files, char **refused,
+                           JoError *error) {
+    uint32_t loaded = 0, first = plan->variant_count;
     for (uint32_t v = 0; v < plan->variant_count; v++) {
+        JoError why = {0};
         if (def->only && (def->only - 1) / plan->seeds != v)
             continue;
         JoSceneDef scene = jox_sweep_scene(def, &plan->variants[v], plan->first_seed);
-        const bool vetted = is_vetted(def, &scene);
-        if (!vetted)
-            jox_error(error, JO_INPUT, "%s%s does not load",
-                      *names[v] ? "the variant " : "the scene", names[v]);
-        const bool good = vetted && load(def, &scene, names[v], files, error);
+        const bool good = is_vetted(def, &scene, &why) && load(def, &scene, files, &why);
         jox_free((void *)(uintptr_t)scene.overrides);
-        if (!good)
+        loaded += good;
+        if (good)
+            continue;
+        if (why.code == JO_FAILED) { /* not for what it says */
+            *error = why;
             return false;
+        }
+        refused[v] = reason_of(&why);
+        first = v < first ? v : first;
     }
     files->sealed = true;
-    return true;
+    if (loaded == 0 && !def->only)
+        jox_error(error, JO_INPUT, "%s%s does not load",
+                  *names[first] ? "the variant " : "the scene", names[first]);
+    return loaded > 0 || def->only;
 }
 
 bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,

@@ -7,9 +7,11 @@
 /* The scene of one run: that of the def, with what the variant sets besides. */
 JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant, uint64_t seed);
 /* Reads and compiles every variant that is to be run; `files` are then all that was read, and
-   sealed. `names` are those of the variants. False with `error`, all of which was told. */
+   sealed. `names` are those of the variants. Why one does not load goes to its place in `refused`,
+   to be freed. False with `error` where none does; all that is wrong was told. */
 bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
-                           const char *const *names, JoxOverlay *files, JoError *error);
+                           const char *const *names, JoxOverlay *files, char **refused,
+                           JoError *error);
 /* Notes what all runs share, and compares it with what was noted before. */
 bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
                            const JoxOverlay *files, JoxText *differences, JoError *error);

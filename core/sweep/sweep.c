@@ -36,6 +36,7 @@ typedef struct Sweep {
     JoxOverlay files; /* all that the runs read */
     char **names;     /* of variants */
     bool *heard;      /* of variants: what a run of it says was told */
+    char **refused;   /* of variants: why it does not load; or NULL */
     Job *jobs;        /* to be done */
     uint32_t count, next;
     size_t capacity;
@@ -237,8 +238,25 @@ static bool take_end(Sweep *s, const JoxChildEnd *end, JoError *error) {
     return true;
 }
 
+/* The run of a variant that does not load fails without a process. */
+static bool take_refused(Sweep *s, const Job *job, JoError *error) {
+    const char *why = s->refused[job->variant];
+    if (!jox_sweep_put_failure(&s->store, job->id, job->seed, why, error))
+        return false;
+    count(s, JOX_SWEEP_FAILED);
+    if (!s->heard[job->variant])
+        tell_run(s, job, JOX_SWEEP_FAILED, why, NULL);
+    s->heard[job->variant] = true;
+    return true;
+}
+
 static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
     while (!is_stopped(s) && (s->next < s->count || jox_children_count(children))) {
+        if (s->next < s->count && s->refused[s->jobs[s->next].variant]) {
+            if (!take_refused(s, &s->jobs[s->next++], error))
+                return false;
+            continue;
+        }
         if (s->next < s->count && jox_children_has_room(children)) {
             if (jox_children_start(children, s->next, work, s)) {
                 s->next++;
@@ -284,7 +302,9 @@ static char *aggregate(Sweep *s, JoError *error) {
 }
 
 static bool go(Sweep *s, char **summary, JoError *error) {
-    if (!jox_sweep_load_inputs(s->def, &s->plan, (const char *const *)s->names, &s->files, error) ||
+    s->refused = jox_alloc(s->plan.variant_count, sizeof *s->refused);
+    if (!jox_sweep_load_inputs(s->def, &s->plan, (const char *const *)s->names, &s->files,
+                               s->refused, error) ||
         !open_file(s, error))
         return false;
     const uint32_t threads = s->def->scene.threads ? s->def->scene.threads : 1;
@@ -312,8 +332,11 @@ static bool go(Sweep *s, char **summary, JoError *error) {
 
 static void release(Sweep *s) {
     jox_sweep_close(&s->store);
-    for (uint32_t v = 0; s->names && v < s->plan.variant_count; v++)
+    for (uint32_t v = 0; s->names && v < s->plan.variant_count; v++) {
         jox_free(s->names[v]);
+        jox_free(s->refused ? s->refused[v] : NULL);
+    }
+    jox_free(s->refused);
     jox_free(s->names);
     jox_free(s->heard);
     jox_free(s->jobs);

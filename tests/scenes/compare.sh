@@ -43,6 +43,8 @@ expect "by bootstrap" 0 "bootstrap of the differences of 4 seeds, 2000 resamples
 "$program" sweep "$scene" --set groups.hall.count=90 --set groups.archive.count=2 --set groups.office.count=20 --seeds 3 --seed 50 --for 12 --out others.sqlite --quiet
 expect "seeds that are not shared are not paired" 0 "Welch's t of 4 and 3 runs" "$program" compare halls.sqlite others.sqlite --base 1
 grep -q '^ 3  others: 3 runs, seeds 50 to 52' "$work/out"; verdict "  files are called by their names" $?
+expect "labels" 0 "as it is, less fewer:" "$program" compare halls.sqlite --label fewer --label "as it is"
+expect "  more than sides" 2 "there are 3 labels, and 2 sides" "$program" compare halls.sqlite --label a --label b --label c
 expect "another base" 0 "less halls: count=90:" "$program" compare halls.sqlite others.sqlite --base "halls: count=90"
 
 # ---- the page ----
@@ -70,5 +72,8 @@ expect "a base that is no side" 2 "there are 'count=30', 'count=90'" "$program" 
 cp halls.sqlite damaged.sqlite; dd if=/dev/urandom of=damaged.sqlite bs=4096 seek=2 count=60 conv=notrunc 2>/dev/null
 expect "a damaged sweep" 3 "damaged.sqlite" "$program" compare damaged.sqlite
 expect "a page where none can be written" 1 "cannot make the folder '/proc/x'" "$program" compare halls.sqlite --out /proc/x
+cp halls.sqlite large.sqlite
+sqlite3 large.sqlite "with recursive n(k) as (select 1 union all select k + 1 from n where k < 20000) insert into curve_point select variant, seed, 1, 1000 + k, k from n, run"
+expect "a large file, whose rows are sorted without temporary files" 0 "Student's t of the differences of 4 seeds" "$program" compare large.sqlite
 sqlite3 halls.sqlite "update field set columns = 99999999, rows = 99999999; update figure set value = 'text' where seed = 2; update variant set plan = '{\"area\": [0, 0, 1e300, 2]}'; update run set summary = NULL"
 expect "numbers that make no sense are left out" 0 "density" "$program" compare halls.sqlite --out hostile

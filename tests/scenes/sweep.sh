@@ -89,8 +89,11 @@ grep -q 'seed 1 failed: its process was ended by signal 9' "$work/out"; verdict 
 
 # ---- errors ----
 expect "a path that is none" 3 "Did you mean 'count'?" "$program" sweep $scene --set groups.hall.cuont=1,2 --out x.sqlite
-expect "  of a variant that is named" 3 "the variant count=a lot does not load" "$program" sweep $scene --set 'groups.hall.count=30,a lot' --out x.sqlite
+expect "  of variants that are named" 3 "the variant count=few does not load" "$program" sweep $scene --set 'groups.hall.count=few,a lot' --out x.sqlite
 [ ! -e x.sqlite ]; verdict "  no file is made" $?
+expect "one variant that does not load is a row" 1 "3 runs with figures, 3 failed" "$program" sweep $scene --set 'groups.hall.count=a lot,5' --steps 1 --seeds 3 --out partly.sqlite
+[ "$(sqlite3 partly.sqlite "select count(*) from run join variant on id = variant where settings like '%a lot' and state = 'failed' and reason like '%it does not load: %a lot%'")" = 3 ]; verdict "  that says why" $?
+expect "  and of the rest there is a page" 0 "partly: count=5" "$program" compare partly.sqlite whole.sqlite --base 2 --out partly
 expect "an empty value" 2 "a value of the list is empty" "$program" sweep $scene --set groups.hall.count=1,,2 --out x.sqlite
 expect "a value twice" 2 "stands in the list twice" "$program" sweep $scene --set groups.hall.count=1,2,1 --out x.sqlite
 "$program" sweep $scene --set 'groups.hall.set.speed=normal(1.3, 0.1),1.2' --steps 1 --out drawn.sqlite --quiet && [ "$(sqlite3 drawn.sqlite 'select count(*) from variant')" = 2 ]; verdict "a comma within brackets parts nothing" $?

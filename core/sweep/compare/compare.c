@@ -70,12 +70,30 @@ static void name_sides(JoxSides *sides) {
     }
 }
 
+/* Those that the def gives, in place of what tells sides apart; false with JO_USAGE. */
+static bool label_sides(JoxComparison *c, JoError *error) {
+    const JoCompareDef *def = c->def;
+    if (def->label_count > c->sides.count) {
+        jox_error(error, JO_USAGE, "there are %zu labels, and %u %s", def->label_count,
+                  c->sides.count, c->sides.count == 1 ? "side" : "sides");
+        return false;
+    }
+    for (size_t l = 0; l < def->label_count; l++) {
+        jox_free(c->sides.items[l].name);
+        c->sides.items[l].name = jox_strdup(def->labels[l]);
+    }
+    return true;
+}
+
 /* The side that is named by its number, its name, or its file; false with JO_USAGE. */
 static bool find_base(JoxComparison *c, JoError *error) {
     const char *base = c->def->base;
     char *end;
-    if (!base)
+    if (!base) { /* the first with runs */
+        while (c->base + 1 < c->sides.count && c->sides.items[c->base].runs == 0)
+            c->base++;
         return true;
+    }
     const unsigned long number = strtoul(base, &end, 10);
     if (*base && !*end && number >= 1 && number <= c->sides.count) {
         c->base = (uint32_t)number - 1;
@@ -113,7 +131,7 @@ static bool load(JoxComparison *c, JoError *error) {
         jox_error(error, JO_INPUT, "there is no run with figures as yet");
         return false; /* but of one side, whose page says why each failed */
     }
-    return find_base(c, error);
+    return label_sides(c, error) && find_base(c, error);
 }
 
 static bool write_page(const JoxComparison *c, JoError *error) {

@@ -58,7 +58,9 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     uint32_t count = 0;
     jox_html_statement(out, c->sides.items[s].name,
                        has_spread ? ""
-                                  : "It takes two runs of each to say how sure a difference is.");
+                       : c->sides.items[s].runs == 0
+                           ? "No run of it has figures; why is told below."
+                           : "It takes two runs of each to say how sure a difference is.");
     fputs("<ul>\n", out);
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
@@ -112,6 +114,29 @@ static void put_summary(FILE *out, const JoxComparison *c) {
 
 /* ---- sides ---- */
 
+/* Why runs are left out, of each side the first. */
+static void put_left_out(FILE *out, const JoxComparison *c) {
+    bool begun = false;
+    for (uint32_t s = 0; s < c->sides.count; s++) {
+        const JoxSide *side = &c->sides.items[s];
+        uint32_t r = 0;
+        while (r < side->all_count && side->all[r].state == JOX_SWEEP_DONE)
+            r++;
+        if (r == side->all_count)
+            continue;
+        if (!begun)
+            jox_html_paragraph(out, "Runs that failed, or did not go as they were written, are "
+                                    "left out; where there are many, the means are of the rest.");
+        begun = true;
+        JoxText text = {0};
+        jox_text_printf(&text, "%s, %u of %u runs: seed %llu, %s", side->name, side->left_out,
+                        side->all_count, (unsigned long long)side->all[r].seed,
+                        side->all[r].reason);
+        jox_html_paragraph(out, text.data);
+        jox_text_free(&text);
+    }
+}
+
 static void put_sides(FILE *out, const JoxComparison *c) {
     jox_html_heading(out, "What is compared");
     jox_html_table(out, "side|settings|>runs|seeds|>left out|from");
@@ -136,12 +161,7 @@ static void put_sides(FILE *out, const JoxComparison *c) {
         jox_html_cell(out, side->source);
     }
     jox_html_table_end(out);
-    for (uint32_t s = 0; s < c->sides.count; s++)
-        if (c->sides.items[s].left_out) {
-            jox_html_paragraph(out, "Runs that failed, or did not go as they were written, are "
-                                    "left out; where there are many, the means are of the rest.");
-            return;
-        }
+    put_left_out(out, c);
 }
 
 /* ---- figures ---- */
@@ -345,10 +365,11 @@ bool jox_compare_page(const JoxComparison *c, JoxText *why) {
     if (c->sides.count > 1) {
         jox_html_heading(out, "Figures");
         if (jox_compare_rows(c))
-            jox_html_figure(out, c->def->out, "effects",
-                            "Changes of the means, with their intervals; those that go far beyond "
-                            "are cut",
-                            true);
+            jox_html_figure(
+                out, c->def->out, "effects",
+                "Changes of the means, with their intervals. What changes by more than its "
+                "base is told in numbers at the edge.",
+                true);
         put_figures(out, c, true);
         put_methods(out, c);
     }

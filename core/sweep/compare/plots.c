@@ -81,7 +81,7 @@ static void draw_curve(const JoxComparison *c, uint32_t n, FILE *script) {
                     *curve->unit ? ")" : "");
     fputs("set xlabel 'time (s)'\nset ylabel ", script);
     jox_quote_put(script, jox_quote_gnuplot, label.data);
-    fputs(" noenhanced\nset yrange [0:*]\nset key outside top center horizontal noenhanced\n"
+    fputs(" noenhanced\nset yrange [0:0.1<*]\nset key outside top center horizontal noenhanced\n"
           "set grid lc '#dddddd'\nset border 3\nset tics nomirror\n",
           script);
     jox_text_free(&label);
@@ -124,8 +124,23 @@ uint32_t jox_compare_rows(const JoxComparison *c) {
     return rows;
 }
 
+/* Half of the range of the plot, %: what changes by more than its base is cut, and told in numbers.
+ */
+static double reach(const JoxComparison *c) {
+    double most = 0;
+    for (uint32_t f = 0; f < c->count; f++)
+        for (uint32_t s = 0; s < c->sides.count; s++)
+            if (jox_compare_is_drawn(c, f, s)) {
+                const JoxDifference *d = &c->figures[f].sides[s];
+                const double change = 100 * fabs(d->effect.difference / d->base.mean);
+                most = change <= 100 ? fmax(most, change) : most;
+            }
+    return fmax(10, 1.4 * most);
+}
+
 /* Change in per cent of the base's mean, with its interval; rows from above. */
 static bool write_effects(const JoxComparison *c, JoxText *why) {
+    const double most = reach(c);
     const uint32_t rows = jox_compare_rows(c), others = c->sides.count - 1;
     FILE *out = jox_plot_open(c->def->out, "effects.dat", why);
     if (!out)
@@ -142,6 +157,8 @@ static bool write_effects(const JoxComparison *c, JoxText *why) {
                 continue;
             const JoxDifference *d = &c->figures[f].sides[s];
             const double part = 100 / fabs(d->base.mean);
+            if (part * fabs(d->effect.difference) > most)
+                continue;
             put(out, rows - row + 0.3 - 0.6 * (place + 0.5) / others);
             put(out, part * d->effect.difference);
             put(out, part * d->effect.low);
@@ -154,16 +171,39 @@ static bool write_effects(const JoxComparison *c, JoxText *why) {
     return jox_plot_close(out, "effects.dat", why);
 }
 
-/* Half of the range of the plot, %: what is a good part beyond the greatest change is cut. */
-static double reach(const JoxComparison *c) {
-    double most = 0;
-    for (uint32_t f = 0; f < c->count; f++)
-        for (uint32_t s = 0; s < c->sides.count; s++)
-            if (jox_compare_is_drawn(c, f, s)) {
-                const JoxDifference *d = &c->figures[f].sides[s];
-                most = fmax(most, 100 * fabs(d->effect.difference / d->base.mean));
-            }
-    return fmax(10, 1.4 * most);
+/* The numbers of those that are cut, at the edge where they are. */
+static void tell_cut(const JoxComparison *c, FILE *script) {
+    const uint32_t rows = jox_compare_rows(c), others = c->sides.count - 1;
+    uint32_t row = 0;
+    for (uint32_t f = 0; f < c->count; f++) {
+        if (!is_row(c, f))
+            continue;
+        row++;
+        for (uint32_t s = 0, place = 0; s < c->sides.count; s++) {
+            const JoxDifference *d = &c->figures[f].sides[s];
+            const double change = 100 * d->effect.difference / fabs(d->base.mean);
+            if (s == c->base)
+                continue;
+            if (jox_compare_is_drawn(c, f, s) && fabs(change) > reach(c))
+                fprintf(
+                    script,
+                    "set label '%+.0f %% (%+.0f to %+.0f)' at graph %s, first %.3f %s tc '%s'\n",
+                    change, 100 * d->effect.low / fabs(d->base.mean),
+                    100 * d->effect.high / fabs(d->base.mean), change > 0 ? "0.995" : "0.005",
+                    rows - row + 0.3 - 0.6 * (place + 0.5) / others, change > 0 ? "right" : "left",
+                    COLOURS[s % COLOUR_COUNT]);
+            place++;
+        }
+    }
+}
+
+/* A label of an axis, which is a format of numbers. */
+static void put_tic(FILE *script, const char *text) {
+    JoxText label = {0};
+    for (; *text; text++)
+        jox_text_append(&label, *text == '%' ? "%%" : text, *text == '%' ? 2 : 1);
+    jox_quote_put(script, jox_quote_gnuplot, label.data);
+    jox_text_free(&label);
 }
 
 static void draw_effects(const JoxComparison *c, FILE *script) {
@@ -185,10 +225,11 @@ static void draw_effects(const JoxComparison *c, FILE *script) {
         if (is_row(c, f)) {
             row++;
             fputs(row > 1 ? ", " : "", script);
-            jox_quote_put(script, jox_quote_gnuplot, c->figures[f].words.text);
+            put_tic(script, c->figures[f].words.text);
             fprintf(script, " %u", rows - row);
         }
     fputs(")\nset arrow from 0, graph 0 to 0, graph 1 nohead lc '#333333' lw 1 back\n", script);
+    tell_cut(c, script);
     for (uint32_t s = 0, place = 0; s < c->sides.count; s++) {
         if (s == c->base)
             continue;

@@ -103,11 +103,12 @@ static bool draw_curves(const JoxSide *side, const JoxSideDrawn *drawn, JoxText 
         return false;
     for (int svg = 0; svg < 2; svg++) {
         jox_plot_begin(script, "spread", svg, WIDE, 20 + strips * STRIP);
-        fprintf(script,
-                "set multiplot layout %d,1\nset grid\nset lmargin 10\nset rmargin 29\nset xlabel "
-                "'time (s)'\nset xrange [0:%g]\nset yrange [0:*]\nset key at graph 1.01,1 left top "
-                "Left reverse\nset style fill solid 1 noborder\n",
-                strips, fmax(drawn->subject.until, 1.0));
+        fprintf(
+            script,
+            "set multiplot layout %d,1\nset grid\nset lmargin 10\nset rmargin 29\nset xlabel "
+            "'time (s)'\nset xrange [0:%g]\nset yrange [0:0.1<*]\nset key at graph 1.01,1 left top "
+            "Left reverse\nset style fill solid 1 noborder\n",
+            strips, fmax(drawn->subject.until, 1.0));
         for (int k = 0; k < STRIP_COUNT; k++) {
             const JoxSideCurve *curve = curve_of(side, STRIPS[k].curve);
             if (!curve)

@@ -13,6 +13,8 @@ static const struct {
     bool is_key;
 } ROWS[] = {
     {"danger.clearance_s", "time until everybody had left", "s", true},
+    {"danger.leaving_s.p50", "time by which half had left", "s", true},
+    {"danger.leaving_s.p95", "time by which 95 % had left", "s", true},
     {"danger.left", "people who left", "", true},
     {"danger.inside", "people still inside at the end", "", true},
     {"danger.last_left_s", "time at which the last of those who left did", "s", true},
@@ -31,7 +33,53 @@ static const struct {
     {"danger.lines.*.congestion.seconds", "time of congestion at %s", "s", true},
     {"danger.lines.*.stop_and_go.seconds", "time of stop-and-go at %s", "s", true},
     {"regions.*", "mean speed in %s", "m/s", true},
+    {"danger.leaving_s.first", "time at which the first left", "s", false},
+    {"danger.leaving_s.p25", "time by which 25 % had left", "s", false},
+    {"danger.leaving_s.p75", "time by which 75 % had left", "s", false},
+    {"danger.leaving_s.last", "time at which the last left", "s", false},
+    {"danger.areas.*.density_max", "greatest mean density in %s", "1/m2", false},
+    {"danger.areas.*.density_max_s", "time of the greatest mean density in %s", "s", false},
+    {"danger.areas.*.people_max", "most people in %s", "", false},
+    {"danger.areas.*.level_s.*", "", "s", false},
+    {"danger.density_max_s", "time of the greatest density", "s", false},
+    {"danger.pressure_max_s", "time of the greatest crowd pressure", "s", false},
+    {"danger.compression_max_s", "time of the greatest compression", "s", false},
+    {"danger.load_max_s", "time of the greatest load", "s", false},
+    {"danger.dose_max_s", "time of the greatest dose of load", "s", false},
+    {"danger.walls.load_max_s", "time of the greatest load of a wall", "s", false},
+    {"danger.walls.pieces", "pieces of walls", "", false},
+    {"danger.lines.*.flow_max_s", "time of the greatest flow at %s", "s", false},
+    {"danger.lines.*.congestion.first_s", "time at which congestion began at %s", "s", false},
+    {"danger.lines.*.stop_and_go.first_s", "time at which stop-and-go began at %s", "s", false},
+    {"probes.*.people", "people in %s, mean over time", "", false},
+    {"probes.*.density_max", "greatest density in %s", "1/m2", false},
+    {"probes.*.density_p90", "density that 90 % of the time is below in %s", "1/m2", false},
+    {"probes.*.density_median", "median density in %s", "1/m2", false},
+    {"probes.*.density_classical", "people by the area of %s", "1/m2", false},
+    {"probes.*.intervals", "samples of %s", "", false},
+    {"probes.*.standing", "share of people who stand in %s", "", false},
+    {"probes.*.speed_deviation", "deviation of the speeds at %s", "m/s", false},
+    {"probes.*.flow_all", "flow through %s from the first to the last passage", "1/s", false},
+    {"probes.*.forward", "passages of %s", "", false},
+    {"probes.*.back", "passages back of %s", "", false},
+    {"probes.*.first", "time of the first passage of %s", "s", false},
+    {"probes.*.last", "time of the last passage of %s", "s", false},
+    {"probes.*.duration", "time from the first to the last passage of %s", "s", false},
+    {"probes.*.lapse_median", "median time between passages of %s", "s", false},
+    {"probes.*.lapse_max", "longest time between passages of %s", "s", false},
     {"agents", "people at the end", "", false},
+    {"events.spawned", "people who came", "", false},
+    {"events.removed", "people who were taken out", "", false},
+    {"events.hits", "hits by bodies", "", false},
+    {"events.throws", "throws", "", false},
+    {"events.kicks", "kicks", "", false},
+    {"events.pickups", "bodies taken up", "", false},
+    {"events.transitions", "changes of state", "", false},
+    {"events.opened", "gates opened", "", false},
+    {"events.closed", "gates closed", "", false},
+    {"events.people_lost", "people lost", "", false},
+    {"events.bodies_lost", "bodies lost", "", false},
+    {"lp_failure_peak", "greatest share of agents in a step whose 2-D program failed", "", false},
     {"danger.density_max", "greatest density that was sampled", "1/m2", false},
     {"danger.compression_max", "greatest compression of anybody", "N/m", false},
     {"danger.walls.load_max", "greatest load of a wall", "N/m", false},
@@ -115,10 +163,7 @@ static bool limit_words(const char *path, JoxFigureWords *out) {
             char name[100];
             if (strcmp(end + 1, ENDS[e].end) != 0)
                 continue;
-            const char *unit = jox_danger_units[limit->measure];
-            const bool is_part = strncmp(unit, "1/", 2) == 0; /* "per m2" */
-            snprintf(name, sizeof name, "a %s of %g %s%s", jox_danger_names[limit->measure],
-                     limit->value, is_part ? "per " : "", unit + 2 * is_part);
+            snprintf(name, sizeof name, "a %s", limit->title);
             const char *at = strstr(ENDS[e].words, "%s");
             snprintf(out->text, sizeof out->text, "%.*s%s%s", (int)(at - ENDS[e].words),
                      ENDS[e].words, name, at + 2);
@@ -145,8 +190,8 @@ JoxFigureWords jox_figure_words(const char *path) {
         return out;
     }
     const char *words = ROWS[r].words, *at = strstr(words, "%s"), *last = strrchr(path, '.');
-    const bool of_level = strstr(path, ".level_s.") != NULL;
-    if (of_level) /* two names */
+    const bool of_level = strstr(path, ".level_s.") != NULL; /* of lines and areas */
+    if (of_level)                                            /* two names */
         snprintf(out.text, sizeof out.text, "time at level of service %.8s of %s", last + 1, first);
     else if (!strncmp(path, "states.", 7))
         snprintf(out.text, sizeof out.text, "people of %s at the end in the state %.60s", first,
@@ -165,10 +210,11 @@ int jox_figure_order(const char *a, const char *b) {
     char first[100];
     const JoxFigureWords x = jox_figure_words(a), y = jox_figure_words(b);
     int r = row_of(a, first), s = row_of(b, first);
-    /* Limits stand behind the density. */
-    r = strncmp(a, LIMITS, sizeof LIMITS - 1) == 0 ? 7 : r;
-    s = strncmp(b, LIMITS, sizeof LIMITS - 1) == 0 ? 7 : s;
+    const int density = row_of("density_max", first); /* limits stand behind it */
+    r = strncmp(a, LIMITS, sizeof LIMITS - 1) == 0 ? density : r;
+    s = strncmp(b, LIMITS, sizeof LIMITS - 1) == 0 ? density : s;
     if (x.is_key != y.is_key)
         return x.is_key ? -1 : 1;
-    return r != s ? r - s : strcmp(a, b);
+    const bool is_a = strcmp(a, "density_max") == 0, is_b = strcmp(b, "density_max") == 0;
+    return r != s ? r - s : is_a != is_b ? is_b - is_a : strcmp(a, b);
 }
