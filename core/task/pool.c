@@ -5,11 +5,12 @@
 #include <stdbool.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "simd/pause.h"
 #include "task/thread.h"
 
-enum { MOST_THREADS = 64, SPINS = 2000 };
+enum { MOST_THREADS = 64 };
 static const unsigned OPEN = 1u << 31; /* of `gate` */
 
 /* Beside busy neighbours several threads may take longer than one, as a loop waits for a thread
@@ -77,14 +78,34 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     jox_heap_use(before);
 }
 
+/* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a
+   thread takes 50 us and more where processors are virtual. Bounded in time, as a pause takes from
+   10 to 150 cycles. */
+static const double SPIN = 300e-6; /* s */
+typedef struct Spin {
+    double until; /* s */
+    unsigned turns;
+} Spin;
+
+/* False when the time is up. */
+static bool spin(Spin *wait) {
+    jox_pause();
+    if (++wait->turns % 64 != 0)
+        return true;
+    const double now = jox_clock_wall();
+    if (wait->until <= 0.0)
+        wait->until = now + SPIN;
+    return now < wait->until;
+}
+
 /* Waits for a round that is not the last one seen. */
 static unsigned await_round(JoxPool *pool, unsigned seen) {
-    for (int i = 0; i < SPINS; i++) {
+    Spin wait = {0};
+    do {
         const unsigned round = atomic_load(&pool->round);
         if (round != seen)
             return round;
-        jox_pause();
-    }
+    } while (spin(&wait));
     pthread_mutex_lock(&pool->lock);
     atomic_fetch_add(&pool->asleep, 1); /* before the look at the round: who opens looks here */
     while (atomic_load(&pool->round) == seen)
@@ -163,8 +184,8 @@ static void start_round(JoxPool *pool, uint32_t wanted) {
 /* Nobody enters any more; returns when nobody is inside. */
 static void shut(JoxPool *pool) {
     atomic_fetch_and(&pool->gate, ~OPEN);
-    for (int i = 0; i < SPINS && atomic_load(&pool->gate) > 0; i++)
-        jox_pause();
+    for (Spin wait = {0}; atomic_load(&pool->gate) > 0 && spin(&wait);)
+        continue;
     if (atomic_load(&pool->gate) == 0)
         return;
     pthread_mutex_lock(&pool->lock);
