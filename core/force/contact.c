@@ -33,6 +33,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
         a->contacts[i] = (uint8_t)(contacts < UINT8_MAX ? contacts : UINT8_MAX);
         a->contact_x[i] = sum.x * per_second;
         a->contact_y[i] = sum.y * per_second;
+        jox_load_measure(f, i);
     }
 }
 
@@ -63,5 +64,5 @@ void jox_force_contact(JoxForces *f) {
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep(f);
     jox_touches_finish(f);
-    jox_loads_measure(f);
+    jox_wall_loads_measure(f);
 }

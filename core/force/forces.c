@@ -94,21 +94,27 @@ static float widest_radius(const JoxAgents *a) {
     return widest;
 }
 
-/* The terms that do not carry over from the last step. */
-static void zero_terms(JoxAgents *a) {
+/* What does not carry over from the last step, of agents [begin, end). */
+static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
+    JoxAgents *a = f->step.agents;
+#define ZERO_SCRATCH(column) memset((column) + begin, 0, (end - begin) * sizeof *(column));
 #define ZERO_STATE(column)
-#define ZERO_SCRATCH(column) memset(column, 0, a->count * sizeof *column);
 #define ZERO(X, keep, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
     JOX_FORCE_TERMS(ZERO, )
+    ZERO_SCRATCH(f->braced)
+    ZERO_SCRATCH(a->compression)
+    ZERO_SCRATCH(a->load)
+    ZERO_SCRATCH(a->contacts)
 #undef ZERO
-#undef ZERO_SCRATCH
 #undef ZERO_STATE
+#undef ZERO_SCRATCH
 }
 
-static void breadth_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
     JoxAgents *a = f->step.agents;
+    zero_chunk(f, begin, end);
     KERNELS[f->isa](f, begin, end);
     for (uint32_t i = begin; i < end; i++)
         f->records[i] =
@@ -142,18 +148,11 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
     JOX_RESERVE(f->records, f->record_capacity, n);
-    if (n) {
-        zero_terms(a);
-        memset(f->braced, 0, n * sizeof *f->braced);
-        memset(a->compression, 0, n * sizeof *a->compression);
-        memset(a->load, 0, n * sizeof *a->load);
-        memset(a->contacts, 0, n);
-    }
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = widest_radius(a);
     if (n)
         jox_decay(&f->decay, a->param[JOX_PARAM_damping][0], (float)step->dt);
-    jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, breadth_chunk, f);
+    jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);
     f->bodies = n && step->objects && step->objects->grid.columns;
 }
 

@@ -209,8 +209,9 @@ static inline uint32_t jox_chunk_agents(const JoxForces *f) {
 void jox_contacts_solve(JoxForces *forces);
 /* contact_planes.c: half-planes of what is touched. */
 void jox_contact_planes_make(JoxForces *forces);
-/* load.c: compression and load of people and walls. */
-void jox_loads_measure(JoxForces *forces);
+/* load.c: compression and load of one agent, and of all walls, by the impulses found. */
+void jox_load_measure(JoxForces *forces, uint32_t agent);
+void jox_wall_loads_measure(JoxForces *forces);
 
 /* touch.c: contacts with bodies. begin: velocities of bodies, first impulses; pass: one over all
    touches, which returns the greatest change of an impulse, N s; finish: impulses for the bodies.

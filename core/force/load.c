@@ -69,20 +69,16 @@ static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t m
     return n;
 }
 
-static void measure_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    JoxForces *f = context;
+void jox_load_measure(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     JoxV2 force[MOST_FORCES];
-    for (uint32_t i = begin; i < end; i++) {
-        uint32_t n = forces_on(f, i, force, MOST_FORCES);
-        float sum = 0.0f;
-        for (uint32_t k = 0; k < n; k++)
-            sum += jox_length(force[k]);
-        a->compression[i] = sum / jox_circumference(a->param[JOX_PARAM_radius][i]);
-        a->load[i] = greatest_push(force, n);
-        JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
-    }
+    const uint32_t n = forces_on(f, i, force, MOST_FORCES);
+    float sum = 0.0f;
+    for (uint32_t k = 0; k < n; k++)
+        sum += jox_length(force[k]);
+    a->compression[i] = sum / jox_circumference(a->param[JOX_PARAM_radius][i]);
+    a->load[i] = greatest_push(force, n);
+    JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
 }
 
 /* Pieces of an edge: none is longer than this. */
@@ -116,7 +112,7 @@ void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls) {
     }
 }
 
-static void measure_walls(JoxForces *f) {
+void jox_wall_loads_measure(JoxForces *f) {
     for (uint32_t k = 0; k < f->piece_count; k++)
         f->pieces[k].load = 0.0f;
     for (uint32_t k = 0; k < f->wall_count && f->walls; k++) {
@@ -132,9 +128,4 @@ static void measure_walls(JoxForces *f) {
 const JoxWallLoad *jox_force_wall_loads(const JoxForces *f, uint32_t *count) {
     *count = f->piece_count;
     return f->pieces;
-}
-
-void jox_loads_measure(JoxForces *f) {
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, measure_chunk, f);
-    measure_walls(f);
 }
