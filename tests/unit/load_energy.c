@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
+#include "unit/effort.h"
 #include "world/world.h"
 
 enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40 };
@@ -294,7 +295,7 @@ static bool try_kind(Kind kind, bool people) {
     uint32_t count = 0, grow = 0, above = 0, drift = 0;
     uint64_t worst = 0, highest = 0, farthest = 0;
     Growth most = {0};
-    for (uint64_t number = kind; number < ENCOUNTERS; number += KINDS, count++) {
+    for (uint64_t number = kind; number < ENCOUNTERS; number += KINDS * EFFORT_EACH, count++) {
         Growth g = run_encounter(number, people, false);
         grow += g.step > (g.things ? TIPS : GROWS);
         above += g.all > GROWS;

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "unit/effort.h"
 #include "unit/live_page.h"
 
 enum { STEPS = 24, MOST_PEOPLE = 100, LONG_FILE = 1500, LARGEST = 1 << 18, COARSE = 11 };
@@ -80,14 +81,14 @@ static uint64_t hash_alone(const char *path) {
 /* ---- every beginning of a file, saved while the crowd runs ---- */
 
 static size_t next_prefix(size_t n, size_t length) {
-    size_t next = length > LONG_FILE && n >= 400 ? n + 5 : n + 1;
+    size_t next = n + (length > LONG_FILE && n >= 400 ? 5 : 1) * EFFORT_EACH;
     return next > length && n < length ? length : next; /* the whole is always the last */
 }
 
 /* A behaviour that an earlier scene has tried whole is cut at fewer places, unless
  * JOSTLE_ALL_PREFIXES is set: other people are there, but the text is the same. */
 static size_t next_cut(size_t n, size_t length, bool known) {
-    size_t next = known ? n + COARSE : next_prefix(n, length);
+    size_t next = known ? n + COARSE * EFFORT_EACH : next_prefix(n, length);
     return next > length && n < length ? length : next;
 }
 
