@@ -7,6 +7,7 @@ BULLET  ?= 1
 CAIRO   ?= 1
 VIEW    ?= 1
 PREFIX  ?= /usr/local
+LIBDIR  ?= $(PREFIX)/lib
 # Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
 DATADIR ?= $(CURDIR)
 # Its live page, and the three.js that the page uses (Debian's libjs-three).
@@ -87,7 +88,7 @@ CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fPIC -fvisibility=
 PKG_CFLAGS := $(shell $(PKG) --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 PKG_LIBS   := $(shell $(PKG) --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
-LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now
+LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now $(LDFLAGS)
 
 # One short line a file; V=1 shows the commands.
 ifeq ($(V),1)
@@ -106,7 +107,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install uninstall clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -276,24 +277,43 @@ unit: $(B)/units
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
 HEADERS   := $(sort $(wildcard core/include/*.h))
-install:
+L          = $(DESTDIR)$(LIBDIR)
+install-built:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) SHARED=$(SHARED) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all
-	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
+install: install-built
+	install -d $(D)/bin $(L)/pkgconfig $(D)/include $(D)/share/man/man1
 	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
-	install -m 644 $(INSTALL_B)/libjostle.a $(D)/lib/
-	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(D)/lib/
-	ln -sf libjostle.so.$(VERSION) $(D)/lib/libjostle.so.0
-	ln -sf libjostle.so.0 $(D)/lib/libjostle.so
+	install -m 644 $(INSTALL_B)/libjostle.a $(L)/
+	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(L)/
+	ln -sf libjostle.so.$(VERSION) $(L)/libjostle.so.0
+	ln -sf libjostle.so.0 $(L)/libjostle.so
 	install -m 644 $(HEADERS) $(D)/include/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
-	printf 'prefix=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -ljostle\nRequires.private: %s\nLibs.private: -lstdc++ -lm -pthread\n' '$(PREFIX)' '$(VERSION)' '$(PKGS)' > $(D)/lib/pkgconfig/jostle.pc
+	printf 'prefix=%s\nlibdir=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -ljostle\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' '$(VERSION)' '$(PKG_LIBS) -lstdc++ -lm -pthread' > $(L)/pkgconfig/jostle.pc
 	install -d $(D)/share/jostle/page
 	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
+	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python
 uninstall:
 	rm -rf $(D)/share/jostle
-	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(HEADERS:core/%=$(D)/%)
-	rm -f $(D)/lib/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
+	rm -f $(D)/bin/jostle $(L)/libjostle.a $(L)/libjostle.so* $(HEADERS:core/%=$(D)/%)
+	rm -f $(L)/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
+# build/out/jostle-VERSION.tar.gz: what is committed, the same bytes each time, and its sum.
+DIST := build/out/jostle-$(VERSION).tar.gz
+dist:
+	@mkdir -p build/out
+	git archive --format=tar --prefix=jostle-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
+	cd build/out && sha256sum $(notdir $(DIST)) > SHA256SUMS
+# Debian packages of that archive, in build/deb; `make deb-check` looks at them with lintian and runs what is
+# installed from them in a root of its own.
+deb: dist
+	@.ci/setup deb
+	rm -rf build/deb && mkdir -p build/deb
+	tar -xzf $(DIST) -C build/deb
+	cp -R build/deb/jostle-$(VERSION)/scripts/debian build/deb/jostle-$(VERSION)/debian
+	cd build/deb/jostle-$(VERSION) && DEB_BUILD_OPTIONS=parallel=$$(nproc) dpkg-buildpackage -us -uc -b
+deb-check: deb
+	@bash tests/deb/run.sh build/deb
 clean:
 	rm -rf build
 format:
