@@ -31,6 +31,8 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 ONLY    ?=
 
 FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine world/input world/happened world world/verbs world/embed scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest sweep sweep/compare)
+# Of them, what libjostle leaves to libjostle-tools: pages, pictures, reports.
+TOOLS   := view picture live report render validate luatest sweep sweep/compare
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 # Kernels: one source, compiled for each instruction set that core/simd has lanes for.
 SRC_WIDE := $(filter %_wide.c,$(SRC_C))
@@ -52,7 +54,10 @@ SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
+# Systems give Lua 5.4 different names.
+LUA     := $(firstword $(shell for p in lua5.4 lua-5.4 lua54 lua; do $(PKG) --exists "$$p >= 5.4" 2>/dev/null && echo $$p; done) lua5.4)
+ENGINE_PKGS := $(LUA) yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet)
+PKGS    := $(ENGINE_PKGS) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
@@ -88,6 +93,8 @@ CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fPIC -fvisibility=
 PKG_CFLAGS := $(shell $(PKG) --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 PKG_LIBS   := $(shell $(PKG) --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
+LIBS_jostle       := $(shell $(PKG) --libs $(ENGINE_PKGS) 2>/dev/null) -lm -pthread
+LIBS_jostle-tools := $(LIBS)
 LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now $(LDFLAGS)
 
 # One short line a file; V=1 shows the commands.
@@ -102,13 +109,16 @@ endif
 objects  = $(foreach s,$(1),$(if $(filter $(s),$(PLACED)),$(B),$(SHARED))/$(basename $(s)).o)
 OBJ_WIDE := $(foreach i,$(ISAS),$(SRC_WIDE:%.c=$(SHARED)/%.$(i).o))
 OBJ     := $(call objects,$(SRC_C) $(SRC_CC)) $(OBJ_WIDE)
+OBJ_jostle       := $(filter-out $(foreach d,$(TOOLS),$(SHARED)/core/$(d)/% $(B)/core/$(d)/%),$(OBJ))
+OBJ_jostle-tools := $(OBJ)
 OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
 .PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
-all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
+LIBRARIES := jostle jostle-tools
+all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION))
 
 # The two commands of the README. Both first install what is missing.
 run:
@@ -217,18 +227,21 @@ $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 	$(call say,LINK,$@)
 	$(Q)$(LINK) $^ -o $@ $(LIBS)
 # What leaves the libraries: the public calls alone. Hidden symbols become local.
-$(B)/jostle.o: $(OBJ)
-	@mkdir -p $(@D)
-	$(call say,LD,$@)
-	$(Q)$(CROSS)ld -r $^ -o $@
-	$(Q)$(CROSS)objcopy --localize-hidden $@
-$(B)/libjostle.a: $(B)/jostle.o
-	@rm -f $@
-	$(call say,AR,$@)
-	$(Q)$(CROSS)ar rcs $@ $^
-$(B)/libjostle.so.$(VERSION): $(B)/jostle.o
-	$(call say,LINK,$@)
-	$(Q)$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
+define library
+$(B)/$(1).o: $(OBJ_$(1))
+	@mkdir -p $$(@D)
+	$$(call say,LD,$$@)
+	$$(Q)$$(CROSS)ld -r $$^ -o $$@
+	$$(Q)$$(CROSS)objcopy --localize-hidden $$@
+$(B)/lib$(1).a: $(B)/$(1).o
+	@rm -f $$@
+	$$(call say,AR,$$@)
+	$$(Q)$$(CROSS)ar rcs $$@ $$^
+$(B)/lib$(1).so.$(VERSION): $(B)/$(1).o
+	$$(call say,LINK,$$@)
+	$$(Q)$$(LINK) -shared -Wl,-soname,lib$(1).so.0 -Wl,--as-needed $$^ -o $$@ $$(LIBS_$(1))
+endef
+$(foreach l,$(LIBRARIES),$(eval $(call library,$(l))))
 # A unit test is a program of its own; $(B)/units is all of them in one, which is linked once: `units NAME...`
 # runs those, in the place of their main.
 $(B)/unit/%.o: tests/unit/%.c Makefile
@@ -283,21 +296,20 @@ install-built:
 install: install-built
 	install -d $(D)/bin $(L)/pkgconfig $(D)/include $(D)/share/man/man1
 	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
-	install -m 644 $(INSTALL_B)/libjostle.a $(L)/
-	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(L)/
-	ln -sf libjostle.so.$(VERSION) $(L)/libjostle.so.0
-	ln -sf libjostle.so.0 $(L)/libjostle.so
+	for l in $(LIBRARIES); do install -m 644 $(INSTALL_B)/lib$$l.a $(L)/ && \
+	    install -m 755 $(INSTALL_B)/lib$$l.so.$(VERSION) $(L)/ && \
+	    ln -sf lib$$l.so.$(VERSION) $(L)/lib$$l.so.0 && ln -sf lib$$l.so.0 $(L)/lib$$l.so || exit 1; done
 	install -m 644 $(HEADERS) $(D)/include/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
-	printf 'prefix=%s\nlibdir=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -ljostle\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' '$(VERSION)' '$(PKG_LIBS) -lstdc++ -lm -pthread' > $(L)/pkgconfig/jostle.pc
+	$(foreach l,$(LIBRARIES),printf 'prefix=%s\nlibdir=%s\nName: %s\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -l%s\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' $(l) '$(VERSION)' $(l) '$(LIBS_$(l)) -lstdc++' > $(L)/pkgconfig/$(l).pc;)
 	install -d $(D)/share/jostle/page
 	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
 	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python
 uninstall:
 	rm -rf $(D)/share/jostle
-	rm -f $(D)/bin/jostle $(L)/libjostle.a $(L)/libjostle.so* $(HEADERS:core/%=$(D)/%)
-	rm -f $(L)/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
+	rm -f $(D)/bin/jostle $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)
+	rm -f $(LIBRARIES:%=$(L)/pkgconfig/%.pc) $(D)/share/man/man1/jostle.1
 # build/out/jostle-VERSION.tar.gz: what is committed, the same bytes each time, and its sum.
 DIST := build/out/jostle-$(VERSION).tar.gz
 dist:

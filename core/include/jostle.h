@@ -235,9 +235,6 @@ JO_API JoSceneDef jo_default_scene_def(void);
 /* NULL if anything is wrong: every error went to `message`, the first is in `error`. */
 JO_API JoScene *jo_scene_load(const JoSceneDef *def, JoError *error);
 JO_API void jo_scene_free(JoScene *scene);
-/* The scene of `def` once more, with the seed of one that was loaded from it, half its step, and
-   no messages; it collects what a report does, and draws nothing. NULL with `error`. */
-JO_API JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error);
 /* The world, owned by the scene. It is stepped by jo_scene_step alone. What jostle_act.h does to it
    between two steps, and forces on and removals of agents, go into the input log; agents and bodies
    that are added by hand and preferred velocities do not. */
@@ -262,13 +259,6 @@ JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Does what a line of an input log says, without its tick: "push 7 300 0" (jo_reference("inputs")
    has them all). False with `error` where it cannot be done; nothing is then logged. */
 JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
-/* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
-   jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
-   seconds, its steps are looked at closely: "planes" are the half-planes of its last step, m/s,
-   each allowing what lies to the left of its direction; "forces" the parts of its net force, N;
-   "last" its last transition, and why. {"agent": null} once where nobody is in the slot, or who was
-   inspected there has left. Nothing of it changes the run. */
-JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 /* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
    there), which JoSceneDef.input_log plays back to the same state. */
 JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);

@@ -1,5 +1,6 @@
 /* Jostle's tools: what its commands call besides jostle.h. Live pages, pictures, reports, checks,
- * tests of behaviours and claims. Units and errors are as in jostle.h.
+ * tests of behaviours and claims. Units and errors are as in jostle.h. They are in libjostle-tools,
+ * which holds all of libjostle besides: a program links the one or the other.
  */
 #ifndef JOSTLE_TOOLS_H
 #define JOSTLE_TOOLS_H
@@ -18,11 +19,22 @@ JO_API bool jo_write(const char *path, const char *text, JoError *error);
    like, who stood still, warnings. Free with jo_free. */
 JO_API char *jo_scene_closing(const JoScene *scene);
 
+/* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
+   jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
+   seconds, its steps are looked at closely: "planes" are the half-planes of its last step, m/s,
+   each allowing what lies to the left of its direction; "forces" the parts of its net force, N;
+   "last" its last transition, and why. {"agent": null} once where nobody is in the slot, or who was
+   inspected there has left. Nothing of it changes the run. */
+JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
+
 /* ---- files of a run ---------------------------------------------------------------------- */
 
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
    scene's probes measured, into `directory` (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
+/* The scene of `def` once more, with the seed of one that was loaded from it, half its step, and
+   no messages; it collects what a report does, and draws nothing. NULL with `error`. */
+JO_API JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error);
 /* After jo_scene_finish: writes index.html into the report's `directory`, with the figures of the
    run and, beside each, those of `half`, the same run at half the step. NULL: the page says that
    there was none, because `why`. False with `error` if it cannot be written. */

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "jostle_tools.h"
 #include "live/inspect.h"
 
 enum { DIGITS = 6 };

@@ -3,6 +3,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "jostle_tools.h"
 #include "run/run.h"
 
 static void to_nobody(void *context, const char *text) {

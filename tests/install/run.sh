@@ -8,7 +8,7 @@ export MAKEFLAGS=
 make -s install PREFIX=/opt/jostle-test DESTDIR="$dir" >"$dir/log" 2>&1
 verdict "install" $? ; tail -3 "$dir/log"
 top=$dir/opt/jostle-test
-sed -i "s|^prefix=.*|prefix=$top|" "$top/lib/pkgconfig/jostle.pc"
+sed -i "s|^prefix=.*|prefix=$top|" "$top"/lib/pkgconfig/*.pc
 export PKG_CONFIG_PATH=$top/lib/pkgconfig
 gcc -std=c17 -Wall -Wextra -Werror tests/install/embed.c $(pkg-config --cflags --libs jostle) -lm -o "$dir/shared" &&
     LD_LIBRARY_PATH=$top/lib "$dir/shared"
@@ -21,6 +21,13 @@ for example in loop ascii bodies; do
         (cd "$top/share/jostle" && LD_LIBRARY_PATH=$top/lib "$dir/$example") >"$dir/said" 2>&1
     verdict "the example $example" $? ; tail -3 "$dir/said"
 done
+# The engine alone needs no cairo, no web server; the headers alone name no other's folder.
+! LC_ALL=C ldd "$top/lib/libjostle.so.0" | grep -qE 'cairo|websockets|ssl|X11|fontconfig'
+verdict "the library needs what the engine needs" $? ; LC_ALL=C ldd "$top/lib/libjostle.so.0" | awk '{print "    " $1}'
+[ "$(pkg-config --cflags jostle jostle-tools)" = "-I$top/include" ]; verdict "pkg-config names one folder" $? ; pkg-config --cflags jostle jostle-tools
+gcc -std=c17 -Wall -Wextra -Werror tests/install/picture.c $(pkg-config --cflags --libs jostle-tools) -o "$dir/picture" &&
+    (cd "$dir" && LD_LIBRARY_PATH=$top/lib "$dir/picture" "$top/share/jostle/scenes/circle.yaml" circle.png && [ -s circle.png ])
+verdict "a picture by the library with tools" $?
 (cd "$dir" && "$top/bin/jostle" run "$top/share/jostle/scenes/running-through.yaml" --steps 10 --quiet)
 verdict "an installed scene runs" $?
 [ -s "$top/share/man/man1/jostle.1" ]; verdict "the man page" $?

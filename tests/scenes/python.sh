@@ -10,7 +10,7 @@ fi
 cp -R scripts/python "$work/package"
 (cd "$work/package" && JOSTLE_INCLUDE=$OLDPWD/core/include $python setup.py -q build --build-base "$work/made" --build-lib "$work/lib") >"$work/log" 2>&1
 verdict "the Python package builds" $? ; grep -i error "$work/log" | head -5
-export JOSTLE_LIBRARY=$(ls "$PWD/$B"/libjostle.so.* | head -1) PYTHONPATH=$work/lib PYTHONDONTWRITEBYTECODE=1
+export JOSTLE_LIBRARY=$(ls "$PWD/$B"/libjostle-tools.so.* | head -1) PYTHONPATH=$work/lib PYTHONDONTWRITEBYTECODE=1
 $python -m pytest -p no:cacheprovider -v --tb=short scripts/python/tests >"$work/tests" 2>&1
 sed -n 's/^.*::\([a-z_]*\) PASSED.*$/ok python \1/p; s/^.*::\([a-z_]*\) \(FAILED\|ERROR\).*$/not ok python \1/p' "$work/tests"
 grep -q PASSED "$work/tests" || { echo "not ok the tests of the Python package ran"; tail -20 "$work/tests"; }

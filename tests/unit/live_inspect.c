@@ -1,6 +1,7 @@
 /* Agents that somebody looks at: what is shown is what the step did, and changes nothing. */
 #include <math.h>
 
+#include "jostle_tools.h"
 #include "unit/run_acted.h"
 
 #define TIGHT                                                                                      \

@@ -11,14 +11,14 @@ __all__ = ["Error", "check", "ffi", "lib", "text_of"]
 
 
 def _candidates() -> list[str]:
-    """Where the library may be, the first that is there is taken."""
+    """Where the library may be, the first that is there is taken: with the tools, or the engine alone."""
     named = os.environ.get("JOSTLE_LIBRARY")
     if named:
         return [named]
-    found = ["libjostle.so.0"]
+    found = ["libjostle-tools.so.0", "libjostle.so.0"]
     for folder in Path(__file__).resolve().parents:
         if (folder / "core" / "include" / "jostle.h").is_file():
-            found = [str(path) for path in sorted((folder / "build" / "release").glob("libjostle.so.*"))] + found
+            found = [str(path) for path in sorted((folder / "build" / "release").glob("libjostle-tools.so.*"))] + found
     return found
 
 
