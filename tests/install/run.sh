@@ -24,7 +24,7 @@ done
 # The engine alone needs no cairo, no web server; the headers alone name no other's folder.
 ! LC_ALL=C ldd "$top/lib/libjostle.so.0" | grep -qE 'cairo|websockets|ssl|X11|fontconfig'
 verdict "the library needs what the engine needs" $? ; LC_ALL=C ldd "$top/lib/libjostle.so.0" | awk '{print "    " $1}'
-[ "$(pkg-config --cflags jostle jostle-tools)" = "-I$top/include" ]; verdict "pkg-config names one folder" $? ; pkg-config --cflags jostle jostle-tools
+[ "$(pkg-config --cflags jostle jostle-tools | xargs)" = "-I$top/include" ]; verdict "pkg-config names one folder" $? ; pkg-config --cflags jostle jostle-tools
 gcc -std=c17 -Wall -Wextra -Werror tests/install/picture.c $(pkg-config --cflags --libs jostle-tools) -o "$dir/picture" &&
     (cd "$dir" && LD_LIBRARY_PATH=$top/lib "$dir/picture" "$top/share/jostle/scenes/circle.yaml" circle.png && [ -s circle.png ])
 verdict "a picture by the library with tools" $?
