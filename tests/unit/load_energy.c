@@ -16,7 +16,7 @@
 #include "unit/effort.h"
 #include "world/world.h"
 
-enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40 };
+enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40, EACH = KINDS * EFFORT_EACH };
 static const double GROWS = 1e-4;  /* of the energy at the start, or of 1 J where that is less */
 static const double TIPS = 1e-3;   /* the same in a step where Bullet lifts a tipping body off */
 static const double DRIFTS = 1e-5; /* of the sizes of all momenta at the start */

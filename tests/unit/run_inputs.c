@@ -2,6 +2,7 @@
    the same state. */
 #include <math.h>
 
+#include "jostle_tools.h"
 #include "live/inspect.h"
 #include "unit/run_acted.h"
 
