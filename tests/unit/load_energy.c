@@ -1,6 +1,6 @@
-/* Contact makes no energy and no momentum: 10,000 random encounters of people, boxes and balls that
-   overlap or approach, and a few by hand. With the number of an encounter as its argument the
-   program prints the energy of every step of that one; with a second one, of its bodies alone. */
+/* Contact makes no energy and no momentum: 10,000 random encounters of people, boxes and balls, and
+   a few by hand. With the number of an encounter as its argument the program prints the energy of
+   every step of that one; with a second one, of its bodies alone. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -39,9 +39,8 @@ typedef struct Encounter {
     JoWorld *world;
     JoAgent people[MOST_PEOPLE];
     uint32_t count;
-    bool coasting;
-    bool rough; /* Bullet alone may take energy and give some of it back */
-    bool later; /* what people pass on arrives after they have braked */
+    bool coasting, rough; /* rough: Bullet alone may take energy and give some of it back */
+    bool later;           /* what people pass on arrives after they have braked */
 } Encounter;
 
 typedef struct Growth {
