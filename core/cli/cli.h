@@ -110,6 +110,14 @@ extern volatile int cli_signal;
 /* The exit status of a command that a signal ended: 128 and its number, as shells have it. */
 int cli_interrupted(int status);
 
+/* Whether all that was printed has been written to standard output. If not, the program ends with
+   JO_FAILED and a message, for which the first errno is kept. */
+bool cli_flush(void);
+extern int cli_output_errno;
+/* Prints the address of a page that can be opened now (a JoMessage). Where it cannot be written,
+   serving ends, by cli_signal. */
+void cli_print_address(void *context, const char *address);
+
 /* Finishes a run whose steps went well (`ok`) or ended with an error, which it prints; returns the
    exit status. */
 int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);

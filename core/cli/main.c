@@ -1,4 +1,3 @@
-#include <errno.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
@@ -21,10 +20,9 @@ static void print_help(FILE *out) {
 
 /* The status of a command, unless what it printed went nowhere. */
 static int end(int status) {
-    const bool printed = fflush(stdout) == 0 && !ferror(stdout);
-    if (printed)
+    if (cli_flush())
         return status;
-    fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(errno));
+    fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(cli_output_errno));
     return status == JO_OK ? JO_FAILED : status;
 }
 

@@ -203,13 +203,6 @@ static int simulate(Run *run, char **summary) {
     return status;
 }
 
-static void print_address(void *context, const char *address) {
-    (void)context;
-    printf("%s\n", address);
-    fflush(stdout);
-    fputs("Open this address in a browser; Ctrl-C ends the run.\n", stderr);
-}
-
 /* On its live page, until it is interrupted. */
 static int show(Run *run, char **summary) {
     JoViewDef *live = &run->live;
@@ -220,7 +213,7 @@ static int show(Run *run, char **summary) {
     live->record_every = run->record_every;
     live->log_input = run->log;
     live->stop = &cli_signal;
-    live->opened = print_address;
+    live->opened = cli_print_address;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
     const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;

@@ -1,18 +1,9 @@
-#include <stdio.h>
-
 #include "cli/cli.h"
 
 typedef struct View {
     JoViewRecordingDef def;
     bool trusted;
 } View;
-
-static void print_address(void *context, const char *address) {
-    (void)context;
-    printf("%s\n", address);
-    fflush(stdout);
-    fputs("Open this address in a browser; Ctrl-C ends it.\n", stderr);
-}
 
 static bool read_unit(void *options, const char *text, char why[160]) {
     return cli_unit(&((View *)options)->def.unit, text, why);
@@ -53,7 +44,7 @@ static int run(int argc, char **argv) {
         cli_catch_signals(true);
         view.def.recording = plain.items[0];
         view.def.stop = &cli_signal;
-        view.def.opened = print_address;
+        view.def.opened = cli_print_address;
         confine(&view);
         status = jo_view_recording(&view.def, &error)
                      ? JO_OK /* what is wrong with a file was sent as a message */

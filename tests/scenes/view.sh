@@ -54,6 +54,12 @@ refuses() { # NAME STATUS TEXT ARGS...
     [ $got = "$status" ] && grep -q -e "$text" "$work/out" || { got=$?; sed 's/^/    /' "$work/out"; false; }
     verdict "$name" $?
 }
+"$JOSTLE" run scenes/running-through.yaml --steps 2 --quiet --record "$work/r.sqlite"
+for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
+    timeout -s KILL 60 "$JOSTLE" $command $page >/dev/full 2>"$work/errors" </dev/null
+    [ $? = 1 ] && grep -q "cannot write to standard output: No space" "$work/errors"
+    verdict "${command%% *} ends where its address cannot be written" $?
+done
 refuses "a page that is not there" 1 "give its folder by --page" scenes/circle.yaml --view --page /nowhere
 refuses "three.js that is not there" 1 "libjs-three" scenes/circle.yaml --view --page "$work/page" --three /nowhere
 refuses "an address that is none" 1 "no address" scenes/circle.yaml --view $page --view-address here
