@@ -73,10 +73,9 @@ static const CliOption OPTIONS[] = {
      .read = read_size},
     {"area", "X0,Y0,X1,Y1", "what is shown, m", "everything", .kind = CLI_READ, .read = read_area},
     {"colour", "WHAT[:MOST]",
-     "of people: state, group, speed, force, compression, load, density or none; MOST is the value "
-     "at "
-     "the end of the bar, as speed:1.5",
-     CLI_TO(Wanted, def.colour)},
+     "of people: state, group, speed, force, compression, load, density, direction or none; MOST "
+     "is the value at the end of the bar, as speed:1.5",
+     "what the scene's view says", CLI_TO(Wanted, def.colour)},
     {"color", "WHAT[:MOST]", CLI_TO(Wanted, def.colour)},
     {"field", "WHAT[:MOST]",
      "on the floor: density (people/m2) or pressure (crowd pressure, 1/s2, from 20 s on, where "

@@ -128,8 +128,8 @@ typedef struct JoRenderDef {
     uint32_t width, height;  /* pixels, 320 to 8192; 0: what suits the area */
     const double *area;      /* x0, y0, x1, y1, m; NULL: all */
     const char *colour;      /* "state", "group", "speed", "force", "compression", "load",
-                                "density" or "none", or as "speed:1.5" with the value at the bar's end;
-                                NULL:      state or, where none is known, group or speed */
+                                "density", "direction" or "none", or as "speed:1.5" with the value at
+                                the bar's end; NULL: what the scene's `view` says */
     const char *field;       /* "density" or "pressure", or with a value; NULL: a bare floor */
     bool paths;              /* draws where people went until then */
     bool progress;           /* on stderr, as jo_scene_show_progress */

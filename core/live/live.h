@@ -65,6 +65,8 @@ typedef struct JoxLiveSession {
 typedef struct JoxLive JoxLive;
 /* {"type": "scene", ...}: all that stays as it is for a while. */
 void jox_live_scene(JoScene *scene, JoxText *out);
+/* What people are coloured by until a page asks for something else. */
+JoxLiveColour jox_live_first_colour(const JoScene *scene);
 /* Another number whenever that message is due again: machines, walls, places or bodies changed. */
 uint64_t jox_live_version(const JoScene *scene);
 /* {"type": "status", ...}. `fired`, times and failures are those since the last second or status.

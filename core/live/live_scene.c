@@ -274,6 +274,15 @@ static void add_charts(JoxJson *json, const JoxSceneSpec *spec) {
     jox_json_end(json);
 }
 
+JoxLiveColour jox_live_first_colour(const JoScene *scene) {
+    const JoxMachineSet *machines = scene->world->machines.set;
+    uint32_t states = 0;
+    for (uint32_t m = 0; m < machines->count; m++)
+        states += machines->items[m]->state_count;
+    return (JoxLiveColour)jox_live_colour(
+        jox_scene_colour(scene->spec, states, scene->spec->group_count));
+}
+
 void jox_live_scene(JoScene *scene, JoxText *out) {
     const JoxLive *live = jox_live_of(scene);
     const JoxSceneSpec *spec = scene->spec;
@@ -299,7 +308,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     add_tools(&json, scene);
     jox_live_add_camera(spec, &json);
     jox_live_add_colours(&json);
-    jox_live_add_view((JoxLiveColour)spec->view.colour, (JoxLiveField)spec->view.field, &json);
+    jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field, &json);
     add_charts(&json, spec);
     jox_json_end(&json);
 }

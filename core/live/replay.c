@@ -291,9 +291,8 @@ void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxBytes *out) {
 }
 
 JoxLiveColour jox_replay_colour(const JoxReplay *r) {
-    if (r->spec)
-        return (JoxLiveColour)r->spec->view.colour;
-    return r->names.state_count ? JOX_LIVE_COLOUR_state : JOX_LIVE_COLOUR_speed;
+    const char *name = jox_scene_colour(r->spec, r->names.state_count, r->info.group_count);
+    return (JoxLiveColour)jox_live_colour(name);
 }
 
 JoxLiveField jox_replay_first_field(const JoxReplay *r) {

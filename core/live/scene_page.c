@@ -77,7 +77,7 @@ static double advance(void *self, double now) {
 
 static JoxLiveColour first_colour(const void *self) {
     const JoxScenePage *s = self;
-    return (JoxLiveColour)s->scene->spec->view.colour;
+    return jox_live_first_colour(s->scene);
 }
 
 static JoxLiveField first_field(const void *self) {

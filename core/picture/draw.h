@@ -21,7 +21,8 @@ typedef enum JoxShow {
     JOX_SHOW_COMPRESSION,
     JOX_SHOW_LOAD,
     JOX_SHOW_DENSITY,
-    JOX_SHOW_PRESSURE, /* of the floor alone */
+    JOX_SHOW_DIRECTION, /* in which people walk; who stands: look */
+    JOX_SHOW_PRESSURE,  /* of the floor alone */
     JOX_SHOWS
 } JoxShow;
 /* Name, how legends call it (unit and all), and the value at the bar's upper end unless another is

@@ -113,13 +113,25 @@ static void bar(Legend *l, float most, bool floor) {
     char text[32];
     for (int k = 0; k < JOX_DRAW_BINS; k++) {
         ink[k + 1] = floor ? jox_draw_floor_ink(d->picture, (uint32_t)k)
-                           : jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+                           : jox_draw_value_ink(d->picture, (uint32_t)k);
         levels[k] = levels[JOX_DRAW_BINS + k] = levels[2 * JOX_DRAW_BINS + k] = (uint8_t)(k + 1);
     }
     JoxCells cells = {{l->x, l->y}, size, JOX_DRAW_BINS, thick, levels, ink, JOX_DRAW_BINS + 1};
     jox_canvas_open(d->canvas, NULL, "bar", (JoxStyle){.fill = jox_ink_text});
     jox_canvas_cells(d->canvas, &cells);
     l->y += (float)thick * size + 2 * u;
+    if (!floor && d->picture->colour == JOX_SHOW_DIRECTION) {
+        static const char *const NAMES[] = {"E", "N", "W", "S", "E"};
+        for (int k = 0; k < 5; k++)
+            write(l, l->x + 0.25f * (float)k * l->bar * u,
+                  k == 0   ? JOX_ANCHOR_START
+                  : k == 4 ? JOX_ANCHOR_END
+                           : JOX_ANCHOR_MIDDLE,
+                  false, NAMES[k]);
+        jox_canvas_close(d->canvas);
+        l->y += ROW * u;
+        return;
+    }
     write(l, l->x, JOX_ANCHOR_START, false, "0");
     snprintf(text, sizeof text, "%.4g", (double)most / 2);
     write(l, l->x + 0.5f * l->bar * u, JOX_ANCHOR_MIDDLE, false, text);

@@ -44,6 +44,9 @@ JoxInk jox_draw_class(const JoxDrawing *drawing, uint32_t n, const char **name);
 /* Sets `classes` and `inks`. */
 void jox_draw_classes(JoxDrawing *drawing);
 bool jox_draw_is_class(JoxShow show);
+/* Colour of the n-th of JOX_DRAW_BINS steps of what people's colours tell, where it is a value or a
+   direction. */
+JoxInk jox_draw_value_ink(const JoxPicture *picture, uint32_t n);
 /* Colour of the n-th of JOX_DRAW_BINS steps on the floor: greys where people's colours are of a
    value as well. */
 JoxInk jox_draw_floor_ink(const JoxPicture *picture, uint32_t n);

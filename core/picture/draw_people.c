@@ -14,6 +14,13 @@ bool jox_draw_is_class(JoxShow show) {
     return show == JOX_SHOW_STATE || show == JOX_SHOW_GROUP;
 }
 
+JoxInk jox_draw_value_ink(const JoxPicture *p, uint32_t n) {
+    const float share = ((float)n + 0.5f) / JOX_DRAW_BINS;
+    return p->colour == JOX_SHOW_SPEED       ? jox_palette_calm(share)
+           : p->colour == JOX_SHOW_DIRECTION ? jox_palette_way((float)n / JOX_DRAW_BINS)
+                                             : jox_palette_value(share);
+}
+
 JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
     float share = ((float)n + 0.5f) / JOX_DRAW_BINS;
     uint8_t grey = (uint8_t)(235.0f - 195.0f * share);
@@ -34,11 +41,23 @@ JoxInk jox_draw_class(const JoxDrawing *d, uint32_t n, const char **name) {
     return d->inks[n];
 }
 
+/* In turns from the east, half a bin on, so that the first bin has the east in its middle. */
+static float turn_of(const JoxPicture *p, uint32_t i) {
+    const JoxFrame *frame = p->frame;
+    const bool walks = frame->vx[i] != 0.0f || frame->vy[i] != 0.0f;
+    const float x = walks || !p->face_x ? frame->vx[i] : p->face_x[i];
+    const float y = walks || !p->face_y ? frame->vy[i] : p->face_y[i];
+    const float turn = atan2f(y, x) / (2.0f * 3.14159265f) + 0.5f / JOX_DRAW_BINS;
+    return turn - floorf(turn);
+}
+
 /* Share of the bar's length, 0 to 1, at which a person's value is. */
 static float share(const JoxPicture *p, uint32_t i) {
     const JoxFrame *frame = p->frame;
     float value = 0.0f;
     switch (p->colour) {
+    case JOX_SHOW_DIRECTION:
+        return turn_of(p, i);
     case JOX_SHOW_SPEED:
         value = jox_length(jox_v2(frame->vx[i], frame->vy[i]));
         break;
@@ -142,7 +161,7 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
         for (char *c = kind; (c = strchr(c, ' ')) != NULL;) /* else it were two classes */
             *c = '-';
     } else {
-        style.fill = jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+        style.fill = jox_draw_value_ink(p, k);
         snprintf(kind, 96, "%s-%u", jox_shown[p->colour].name, k);
     }
     return style;

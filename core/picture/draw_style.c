@@ -14,6 +14,7 @@ const struct JoxShown jox_shown[JOX_SHOWS] = {
     {"compression", "Compression, N/m", 2000},
     {"load", "Load from one side, N", 1112},
     {"density", "Density, 1/m\xc2\xb2", 8},
+    {"direction", "Way they go", 0},
     {"pressure", "Crowd pressure, 1/s\xc2\xb2", 0.04f},
 };
 

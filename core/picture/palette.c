@@ -1,5 +1,7 @@
 #include "picture/palette.h"
 
+#include <math.h>
+
 #include "base/vec.h"
 
 static const JoxInk CLASSES[] = {
@@ -15,6 +17,17 @@ static const uint8_t RAMP[ANCHORS][3] = {
     {0xfb, 0xf6, 0xd3}, {0xfd, 0xe3, 0x9a}, {0xfc, 0xc5, 0x62},
     {0xf8, 0xa1, 0x40}, {0xee, 0x76, 0x2f}, {0xd8, 0x4a, 0x2c},
     {0xb3, 0x25, 0x36}, {0x82, 0x12, 0x3f}, {0x4d, 0x0b, 0x3b},
+};
+enum { CALM_ANCHORS = 8, WAYS = 8 };
+static const uint8_t CALM[CALM_ANCHORS][3] = {
+    {0xf6, 0xf5, 0xdc}, {0xd3, 0xe8, 0xcf}, {0xa3, 0xd6, 0xcf}, {0x6b, 0xbd, 0xcf},
+    {0x3c, 0x9c, 0xc4}, {0x25, 0x77, 0xad}, {0x1a, 0x52, 0x8b}, {0x14, 0x2f, 0x63},
+};
+/* East first, by north, and east again; their lightness differs, too. */
+static const uint8_t WAY[WAYS + 1][3] = {
+    {0xd5, 0x5e, 0x00}, {0xf0, 0xb9, 0x42}, {0x7f, 0xb8, 0x42},
+    {0x1c, 0x9e, 0x77}, {0x37, 0xa6, 0xdd}, {0x2c, 0x5f, 0xb8},
+    {0x7b, 0x4a, 0xa8}, {0xc0, 0x50, 0x8f}, {0xd5, 0x5e, 0x00},
 };
 
 static uint8_t level(float share) {
@@ -69,13 +82,26 @@ void jox_palette_classes(const JoxColour *given, uint32_t count, JoxInk *out) {
     }
 }
 
-JoxInk jox_palette_value(float share) {
-    const float at = jox_clampf(share, 0.0f, 1.0f) * (float)(ANCHORS - 1);
-    const int low = (int)at < ANCHORS - 2 ? (int)at : ANCHORS - 2;
+/* At a share, 0 to 1, of a list of colours. */
+static JoxInk between(const uint8_t stops[][3], int count, float share) {
+    const float at = jox_clampf(share, 0.0f, 1.0f) * (float)(count - 1);
+    const int low = (int)at < count - 2 ? (int)at : count - 2;
     const float part = at - (float)low;
     uint8_t mixed[3];
     for (int c = 0; c < 3; c++)
-        mixed[c] =
-            (uint8_t)((float)RAMP[low][c] * (1.0f - part) + (float)RAMP[low + 1][c] * part + 0.5f);
+        mixed[c] = (uint8_t)((float)stops[low][c] * (1.0f - part) +
+                             (float)stops[low + 1][c] * part + 0.5f);
     return (JoxInk){mixed[0], mixed[1], mixed[2], 1.0f};
+}
+
+JoxInk jox_palette_value(float share) {
+    return between(RAMP, ANCHORS, share);
+}
+
+JoxInk jox_palette_calm(float share) {
+    return between(CALM, CALM_ANCHORS, share);
+}
+
+JoxInk jox_palette_way(float turn) {
+    return between(WAY, WAYS + 1, turn - floorf(turn));
 }

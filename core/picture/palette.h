@@ -19,5 +19,9 @@ void jox_palette_classes(const JoxColour *given, uint32_t count, JoxInk *out);
 JoxColour jox_palette_colour(JoxInk ink);
 /* A value, 0 to 1: pale yellow to dark purple; lightness falls throughout, in grey too. */
 JoxInk jox_palette_value(float share);
+/* The same of what is no danger, as speed: pale to dark blue. */
+JoxInk jox_palette_calm(float share);
+/* A way, in turns from the east, counter-clockwise: hues of a circle. */
+JoxInk jox_palette_way(float turn);
 
 #endif

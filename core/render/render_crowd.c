@@ -139,20 +139,36 @@ static bool read_show(const char *option, const char *text, const char *choices,
     return true;
 }
 
-/* Whether the crowd has what the colours tell; else the way out. */
-static bool known(const JoxRender *r, JoxShow show, JoError *error) {
+static bool known(const JoxRender *r, JoxShow show) {
     const JoxFrame *f = &r->frame;
-    bool there = show == JOX_SHOW_STATE         ? f->state != NULL && f->state_count > 0
-                 : show == JOX_SHOW_GROUP       ? f->group != NULL
-                 : show == JOX_SHOW_FORCE       ? f->force != NULL
-                 : show == JOX_SHOW_COMPRESSION ? f->compression != NULL
-                 : show == JOX_SHOW_LOAD        ? f->load != NULL
-                                                : true;
-    if (!there)
-        jox_error(error, JO_INPUT,
-                  "this recording does not know the %s of people; --colour speed, or density",
-                  jox_shown[show].name);
-    return there;
+    return show == JOX_SHOW_STATE         ? f->state != NULL && f->state_count > 0
+           : show == JOX_SHOW_GROUP       ? f->group != NULL
+           : show == JOX_SHOW_FORCE       ? f->force != NULL
+           : show == JOX_SHOW_COMPRESSION ? f->compression != NULL
+           : show == JOX_SHOW_LOAD        ? f->load != NULL
+                                          : true;
+}
+
+/* Whether the crowd has what the colours tell; else the way out. */
+static bool check_known(const JoxRender *r, JoxShow show, JoError *error) {
+    if (known(r, show))
+        return true;
+    jox_error(error, JO_INPUT,
+              "this recording does not know the %s of people; --colour speed, or density",
+              jox_shown[show].name);
+    return false;
+}
+
+/* What the scene says, or what tells most. Levels of service are of density. */
+static JoxShow first_colour(const JoxRender *r) {
+    const JoxFrame *f = &r->frame;
+    const uint32_t states = f->state && f->state_count > 0 ? f->state_count - 1 : 0; /* "none" */
+    const char *name = jox_scene_colour(r->scene ? r->scene->spec : r->spec, states,
+                                        f->group ? f->group_count : 0);
+    for (int s = 0; s < JOX_SHOWS; s++)
+        if (strcmp(jox_shown[s].name, name) == 0 && known(r, (JoxShow)s))
+            return (JoxShow)s;
+    return strcmp(name, "service") == 0 ? JOX_SHOW_DENSITY : JOX_SHOW_SPEED;
 }
 
 bool jox_render_choose(JoxRender *r, JoError *error) {
@@ -162,16 +178,12 @@ bool jox_render_choose(JoxRender *r, JoError *error) {
         !read_show("field", def->field, "density or pressure", &p->floor, &p->floor_most, error))
         return false;
     if (def->colour)
-        return read_show("colour", def->colour,
-                         "state, group, speed, force, compression, load, density or none",
-                         &p->colour, &p->colour_most, error) &&
-               known(r, p->colour, error);
-    /* On a coloured floor people are rings. */
-    const JoxFrame *f = &r->frame;
-    p->colour = def->field                       ? JOX_SHOW_NOTHING
-                : f->state && f->state_count > 1 ? JOX_SHOW_STATE
-                : f->group && f->group_count > 1 ? JOX_SHOW_GROUP
-                                                 : JOX_SHOW_SPEED;
+        return read_show(
+                   "colour", def->colour,
+                   "state, group, speed, force, compression, load, density, direction or none",
+                   &p->colour, &p->colour_most, error) &&
+               check_known(r, p->colour, error);
+    p->colour = def->field ? JOX_SHOW_NOTHING : first_colour(r); /* then people are rings */
     p->colour_most = jox_shown[p->colour].most;
     return true;
 }

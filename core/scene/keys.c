@@ -14,6 +14,7 @@
 #define LIST JOX_TYPE_LIST
 #define VALUES JOX_TYPE_VALUES
 #define TO JOX_TO
+#define OR(name) "|" #name
 #define ITEMS JOX_TO_ITEMS
 #define READ JOX_READ
 #define READ_TO JOX_READ_TO
@@ -135,8 +136,9 @@ static const JoxKey KEYS[] = {
     {"camera", "target", POINT3, "m", -FAR, FAR, "", TO(JoxSceneCamera, target), .meaning = "what it looks at"},
     {"view", "tools", NAMES, "", 0, 0, "throw|drag|push|gates|parameters|signals|player", TO(JoxSceneView, tools), .choices = TOOLS,
      .meaning = "what people may do: throw boxes, drag bodies, push people, open and close gates, change parameters of behaviours, give signals, drive the player"},
-    {"view", "colour", TEXT, "", 0, 0, "state", TO(JoxSceneView, colour), .choices = "state|speed|force|compression|load|density|group|direction|service",
-     .meaning = "what people are coloured by; direction: the way they go; service: levels of service A to F"},
+    {"view", "colour", TEXT, "", 0, 0, "auto", TO(JoxSceneView, colour), .choices = "auto" JOX_SCENE_COLOURS(OR),
+     .meaning = "what people are coloured by, as in pictures of `jostle render`; direction: the way they go; service: levels of service A to F; auto: their state, "
+                "where behaviours have three or more in all; else their group, where there are two to eight; else their speed"},
     {"view", "field", TEXT, "", 0, 0, "none", TO(JoxSceneView, field), .choices = "density|pressure|none",
      .meaning = "what the floor shows"},
 

@@ -60,6 +60,10 @@ typedef struct JoxSceneCamera {
     bool given;
 } JoxSceneCamera;
 
+/* What people may be coloured by, in the order of the key's choices, which begin with "auto". */
+#define JOX_SCENE_COLOURS(X)                                                                       \
+    X(state) X(speed) X(force) X(compression) X(load) X(density) X(group) X(direction) X(service)
+
 typedef struct JoxSceneView {
     uint32_t tools;         /* bit per JoxTool */
     uint32_t colour, field; /* which of the keys' choices, in their order */
@@ -138,6 +142,9 @@ JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t len
 void jox_scene_free(JoxSceneSpec *scene);
 /* Whether two versions of a scene hold other things under one of its keys. */
 bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char *key);
+/* Name of what people are coloured by first: what the scene says (NULL: it says nothing), or what
+   tells most where behaviours have so many states in all, and people so many groups. */
+const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_t groups);
 /* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
  */
 void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);

@@ -67,6 +67,20 @@ bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool 
     return good;
 }
 
+const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_t groups) {
+    static const char *const NAMES[] = {
+#define X(name) #name,
+        JOX_SCENE_COLOURS(X)
+#undef X
+    };
+    enum { TELLING_STATES = 3, MOST_GROUPS = 8 }; /* "walks" and "is gone" tell little */
+    if (scene && scene->view.colour > 0)
+        return NAMES[scene->view.colour - 1];
+    return states >= TELLING_STATES               ? "state"
+           : groups >= 2 && groups <= MOST_GROUPS ? "group"
+                                                  : "speed";
+}
+
 const char *const jox_scene_tools[JOX_TOOL_COUNT] = {
 #define X(tool, name) name,
     JOX_TOOLS(X)

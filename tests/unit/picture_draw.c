@@ -161,8 +161,15 @@ static void values_are_colours(void **state) {
     h.picture.colour = JOX_SHOW_SPEED; /* 1 and 0.5 m/s of 2: bins 16 and 8 of 32 */
     h.picture.colour_most = 2;
     jox_draw(canvas, &h.picture);
-    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_value(16.5f / 32));
-    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_value(8.5f / 32));
+    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_calm(16.5f / 32));
+    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_calm(8.5f / 32));
+    h.picture.colour = JOX_SHOW_DIRECTION;
+    jox_draw(canvas, &h.picture);
+    for (uint32_t i = 0; i < 2; i++) { /* the nearest of 32 ways */
+        const float turn = atan2f(h.frame.vy[i], h.frame.vx[i]) / 6.2831853f;
+        expect(jox_canvas_pixels(canvas), i ? 5 : 4.8f, i ? 7.8f : 5,
+               jox_palette_way(roundf(32 * turn) / 32));
+    }
     h.picture.colour = JOX_SHOW_FORCE;
     h.picture.colour_most = 400; /* above the bar's end: its last colour */
     jox_draw(canvas, &h.picture);

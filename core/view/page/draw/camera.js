@@ -1,10 +1,12 @@
 // Where the eye stands so that a scene fills the window, and from which side.
 import * as THREE from "/three/build/three.module.js";
 
-const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60]; // degrees from the south, eastwards
-const RISES = [36, 48]; // degrees above the floor
+const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75, -90, 90]; // degrees from the south, eastwards
+const RISES = [36, 48, 60]; // degrees above the floor
 const FILL = 0.94; // of the window
-const RELUCTANCE = 0.12; // share of the score that a turn of 90 degrees from the south costs
+const RELUCTANCE = 0.1; // share of the score that a turn of 90 degrees from the south costs
+const STEEP = [48, 0.01]; // degrees from which on people are seen from above, and what each costs of the score
+const EVEN = 0.7; // how much it counts that what is far is not much smaller: power of the distances' ratio
 const TALL = 1.8; // m, the height that has to be in sight
 
 /** The corners of a box [[x0, y0], [x1, y1]], on the floor and at the height of heads, m. */
@@ -39,7 +41,7 @@ function standOf(points, { right, up, ahead }, tangents) {
 }
 
 /** The share of the window that the floor's corners span, and how much smaller what is far is. */
-function scoreOf(points, eye, { right, up, ahead }, tangents, turn) {
+function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
     let area = 0, nearest = Infinity, farthest = 0;
     const floor = points.filter((p) => p.z === 0).map((p) => {
         const v = p.clone().sub(eye), depth = v.dot(ahead);
@@ -51,7 +53,8 @@ function scoreOf(points, eye, { right, up, ahead }, tangents, turn) {
         const [nx, ny] = floor[(i + 1) % floor.length];
         area += (x * ny - nx * y) / 8; // the window is 2 by 2
     });
-    return Math.abs(area) * Math.sqrt(nearest / farthest) * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2));
+    const steep = STEEP[1] * Math.max(0, rise * (180 / Math.PI) - STEEP[0]);
+    return Math.abs(area) * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
 }
 
 /**
@@ -65,7 +68,7 @@ export function fitBox(box, fieldOfView, aspect) {
     for (const turn of TURNS.map((t) => (t * Math.PI) / 180)) {
         for (const rise of RISES.map((r) => (r * Math.PI) / 180)) {
             const axes = axesOf(turn, rise), at = standOf(points, axes, tangents);
-            const score = scoreOf(points, at, axes, tangents, turn);
+            const score = scoreOf(points, at, axes, tangents, turn, rise);
             if (!best || score > best.score) best = { score, at, ahead: axes.ahead };
         }
     }
