@@ -72,6 +72,8 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     /* Greatest push borne from any one direction, N: over directions d, the sum of the positive   \
        parts of f.d over the contacts. */                                                          \
     X(STATE, float, load)                                                                          \
+    X(SCRATCH, float, given_x) /* force from outside in the last step, N, for who looks at it */   \
+    X(SCRATCH, float, given_y)                                                                     \
     X(SCRATCH, uint32_t, index_in_step) /* its index when velocities were chosen */                \
     X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
     X(SCRATCH, float, forced_y)                                                                    \

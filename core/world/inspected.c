@@ -26,7 +26,7 @@ static void end(JoWorld *w, uint32_t n) {
     w->machines.watched_count = all->count;
 }
 
-/* The forces of the last step, but for those that were given from outside for it alone. */
+/* The forces of the last step. */
 static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
     const JoxV2 body = jox_force_of_bodies(w->scratch.forces, a->index_in_step[i]);
@@ -34,6 +34,7 @@ static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     seen->forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
     JOX_FORCE_TERMS(PART, )
 #undef PART
+    seen->forces[JOX_FORCE_PART_ext] = (JoxV2){a->given_x[i], a->given_y[i]}; /* used up since */
     seen->forces[JOX_FORCE_PART_contact] = jox_sub(seen->forces[JOX_FORCE_PART_contact], body);
     seen->forces[JOX_FORCE_PART_body] = body;
 }

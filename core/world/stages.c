@@ -75,8 +75,11 @@ void jox_stage_push(const JoxPushStage *s) {
     jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
     if (!s->substep->last || s->agents->count == 0)
         return;
-    memset(s->agents->ext_x, 0, s->agents->count * sizeof(float)); /* given for this step alone */
-    memset(s->agents->ext_y, 0, s->agents->count * sizeof(float));
+    const size_t size = s->agents->count * sizeof(float);
+    memcpy(s->agents->given_x, s->agents->ext_x, size);
+    memcpy(s->agents->given_y, s->agents->ext_y, size);
+    memset(s->agents->ext_x, 0, size); /* given for this step alone */
+    memset(s->agents->ext_y, 0, size);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {

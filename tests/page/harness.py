@@ -23,6 +23,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
 PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
 PATIENCE = 40  # s, for what should happen soon; much, as machines may be busy
+# Ten pictures a second: more would cost the processor, which draws them, and tell the tests nothing.
+SELDOM = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);"
 
 
 class Failure(Exception):
@@ -92,6 +94,7 @@ class Browser:
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
         self.driver.set_script_timeout(30)
+        self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": SELDOM})
         self.driver.set_page_load_timeout(150)
 
     def size(self, wide, high, ratio=1):

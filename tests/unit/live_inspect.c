@@ -107,6 +107,13 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
     for (int n = 0; n < 400 && a->count > 4; n++) {
         JoxConstraint before[JOX_MOST_CONSTRAINTS], after[JOX_MOST_CONSTRAINTS];
         const uint32_t people = a->count;
+        for (uint32_t s = 0; n % 8 == 0 && s < a->slot_count; s++) /* everybody, by hand */
+            if (a->slot_index[s] != JOX_NO_INDEX) {
+                char push[40];
+                snprintf(push, sizeof push, "push %u 20 -10", s);
+                does(scene, push);
+                does(plain, push);
+            }
         step(scene, 1);
         step(plain, 1);
         if (a->count == people && n % 8)
@@ -119,6 +126,8 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
         assert_int_equal(scene->world->scratch.inspection.count, 0);
         const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
         assert_true(seen && seen->seen);
+        assert_true(seen->forces[JOX_FORCE_PART_ext].x == (n % 8 ? 0.0f : 20.0f));
+        assert_true(seen->forces[JOX_FORCE_PART_ext].y == (n % 8 ? 0.0f : -10.0f));
         const JoxV2 chosen = seen->chosen, preferred = seen->preferred;
         const uint32_t count = seen_planes(seen, before);
         const bool touches = a->contacts[i] > 0 || seen->plane_count != count; /* or is pressed */

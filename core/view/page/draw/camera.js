@@ -94,14 +94,19 @@ export function boxOf(points, least = 2) {
     return [low, high];
 }
 
+const LARGER = 8; // times the area of a crowd without walls that the crowd and where it goes may take
+
 /**
  * The box that a picture of a scene has to show: walls and people, and of places those that lie
- * near them; far ones (where people go once they are out) are left out. `people`: [x, y] of each.
+ * near them; far ones (where people go once they are out) are left out, but not those to which a
+ * crowd walks that nothing encloses. `people`: [x, y] of each.
  */
 export function sceneBox(scene, people) {
     const places = (scene.places ?? []).filter((p) => p.kind !== "set").map((p) => p.points ?? []);
     const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...people]);
     if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
+    const all = boxOf([...core, ...places.flat()]), area = ([[x0, y0], [x1, y1]]) => (x1 - x0) * (y1 - y0);
+    if (!scene.walls?.length && area(all) <= LARGER * area(core)) return all;
     const wide = core[1][0] - core[0][0], deep = core[1][1] - core[0][1], margin = 0.2 * Math.max(wide, deep, 10);
     const near = places.filter((points) => points.length && points.every(([x, y]) => x > core[0][0] - margin && x < core[1][0] + margin
         && y > core[0][1] - margin && y < core[1][1] + margin)).flat();
