@@ -1,6 +1,9 @@
-/* SIGINT and SIGTERM: the first asks a command to end, with its files whole; the second ends the
-   process at once. */
+/* What ends a command from outside. SIGINT and SIGTERM: the first asks it to end, with its files
+   whole; the second ends the process at once. Standard output that cannot be written: serving a
+   page of which nobody knows ends. */
+#include <errno.h>
 #include <signal.h>
+#include <stdio.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
@@ -25,4 +28,22 @@ void cli_catch_signals(bool has_files) {
 
 int cli_interrupted(int status) {
     return cli_signal && status == JO_OK ? STATUS + cli_signal : status;
+}
+
+int cli_output_errno;
+
+bool cli_flush(void) {
+    const bool flushed = fflush(stdout) == 0 && !ferror(stdout);
+    if (!flushed && cli_output_errno == 0)
+        cli_output_errno = errno;
+    return flushed;
+}
+
+void cli_print_address(void *context, const char *address) {
+    (void)context;
+    printf("%s\n", address);
+    if (cli_flush())
+        fputs("Open this address in a browser; Ctrl-C ends it.\n", stderr);
+    else
+        cli_signal = SIGPIPE; /* nobody knows the address: nobody can open the page, nor end it */
 }

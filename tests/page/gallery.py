@@ -2,20 +2,22 @@
 
     gallery.py OUT [SCENE...]    scenes by name; without: all of the folder scenes
 
-Time is stepped by hand, so that a clip runs in real time however slowly it is drawn. Needs ffmpeg."""
+Time is stepped by hand, so that a clip runs in real time however slowly it is drawn. A scene that fails is named, and the
+others go on; then the status is 1. Needs ffmpeg."""
 import base64
 import glob
 import html
 import os
-import shutil
+import resource
 import subprocess
 import sys
 import tempfile
 
-from harness import ROOT, Browser, Session
+from harness import ROOT, Browser, Failure, Session
+from selenium.common.exceptions import WebDriverException
 
-WIDE, HIGH = 960, 600  # pixels
-FRAMES, RATE = 60, 10  # of a clip; a second
+PICTURE, CLIP = (960, 600), (480, 300)  # pixels: clips are small, as the processor may have to draw them
+FRAMES, RATE = 24, 8  # of a clip; a second
 # s before the picture, where the first one shows little
 BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 9, "circle": 14, "two-bottlenecks": 30, "evacuation": 16, "counterflow": 40,
           "running-through": 3, "bottleneck": 15, "arena": 10, "station": 8, "san-fermin": 20}
@@ -25,8 +27,8 @@ PREPARE = """
 document.querySelectorAll('#bar, #tools, #panel, #legend, #replay, .messages, .hint').forEach((n) => n.hidden = true);
 document.body.style.display = 'block';
 document.querySelector('main').style.height = '100vh';
+page.loop = () => {}; // only what is shot is drawn
 page.resize();
-page.view.goHome();
 """
 SHOOT = """
 page.crowd.snap = true;
@@ -49,7 +51,13 @@ class Shown:
         browser.open(self.session)
         browser.wait("return page.bar.paused", "no pause")
         browser.run(PREPARE)
+        self.size(*PICTURE)
         self.dt, self.title, self.about = browser.run("return [page.scene.dt, page.scene.title, page.scene.about]")
+
+    def size(self, wide, high):
+        self.browser.size(wide, high)
+        self.browser.wait("return innerWidth === arguments[0] && page.view.wide === innerWidth", "the window keeps its size", wide)
+        self.browser.run("page.view.goHome()")
 
     def advance(self, seconds):
         steps = max(1, round(seconds / self.dt))
@@ -67,13 +75,14 @@ def show(browser, name, out):
     shown = Shown(browser, name)
     try:
         shown.advance(BEFORE.get(name, OTHERWISE))
+        shown.shoot(os.path.join(out, f"{name}.jpg"))
         with tempfile.TemporaryDirectory() as folder:
+            shown.size(*CLIP)
             for frame in range(FRAMES):
                 shown.shoot(os.path.join(folder, f"{frame:03}.jpg"))
                 shown.advance(1 / RATE)
-            shutil.copy(os.path.join(folder, "000.jpg"), os.path.join(out, f"{name}.jpg"))
             subprocess.run(["ffmpeg", "-v", "error", "-y", "-framerate", str(RATE), "-i", os.path.join(folder, "%03d.jpg"),
-                            "-c:v", "libvpx-vp9", "-crf", "36", "-b:v", "0", "-pix_fmt", "yuv420p", os.path.join(out, f"{name}.webm")], check=True)
+                            "-c:v", "libvpx-vp9", "-cpu-used", "6", "-crf", "36", "-b:v", "0", "-pix_fmt", "yuv420p", os.path.join(out, f"{name}.webm")], check=True)
     finally:
         shown.session.stop()
     return shown.title, shown.about
@@ -85,8 +94,8 @@ def write_page(out, shown):
                     for name, (title, about) in shown.items())
     with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
         file.write("<!DOCTYPE html><html lang='en'><meta charset='utf-8'><title>Jostle: gallery</title><style>"
-                   "body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(22rem,1fr))}"
-                   "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;border-radius:.5rem}code{display:block;color:#5a6370}</style>"
+                   ":root{color-scheme:light dark}body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(22rem,1fr))}"
+                   "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;border-radius:.5rem}code{display:block;opacity:.75}</style>"
                    f"<h1>Jostle: gallery</h1>{items}</html>\n")
 
 
@@ -94,16 +103,22 @@ def main():
     out, names = os.path.abspath(sys.argv[1]), sys.argv[2:]
     names = names or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
     os.makedirs(out, exist_ok=True)
-    browser, shown = Browser(), {}
-    browser.size(WIDE, HIGH)
+    browser, shown, failed = Browser(), {}, []
     try:
         for done, name in enumerate(names, 1):
-            shown[name] = show(browser, name, out)
-            print(f"{done} of {len(names)}: {name}", flush=True)
+            try:
+                shown[name] = show(browser, name, out)
+                write_page(out, shown)
+                print(f"{done} of {len(names)}: {name}", flush=True)
+            except (Failure, WebDriverException, OSError, subprocess.CalledProcessError) as error:
+                failed.append(name)
+                print(f"{done} of {len(names)}: {name} failed: {str(error).splitlines()[0]}", flush=True)
     finally:
         browser.close()
-    write_page(out, shown)
-    print(os.path.join(out, "index.html"))
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{os.path.join(out, 'index.html')}: {len(shown)} scenes in {(used.ru_utime + used.ru_stime) / 60:.0f} minutes of processor time")
+    if failed:
+        sys.exit(f"without {', '.join(failed)}")
 
 
 main()

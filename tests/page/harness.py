@@ -126,10 +126,12 @@ class Browser:
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
     def button(self, text):
-        for node in self.driver.find_elements(By.TAG_NAME, "button"):
-            if node.text == text and node.is_displayed():
-                return node
-        raise Failure(f"no button {text!r}")
+        """The button with this text that is in sight: found at once, as panels are built anew at any time."""
+        node = self.run("return [...document.querySelectorAll('button')].find((b) => b.textContent.trim() === arguments[0]"
+                        " && b.getClientRects().length)", text)
+        if not node:
+            raise Failure(f"no button {text!r}")
+        return node
 
     def press(self, *keys):
         """Keys for whatever has the focus."""

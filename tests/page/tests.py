@@ -240,7 +240,7 @@ step: 0.05
 duration: 600
 places:
   room: {polygon: [[0, 0], [20, 0], [20, 12], [0, 12]]}
-  goals: {point: [60, 6]}
+  goals: {point: [600, 6]}
 walls:
   - {line: [[0, -0.5], [50, -0.5]]}
   - {line: [[0, 12.5], [50, 12.5]]}
@@ -282,6 +282,7 @@ def with_walkers(test):
 def edits(browser, _):
     """a parameter that is changed takes effect, and Lua to keep it is shown"""
     mean = "return page.charts.speed.values.get('')?.slice(-1)[0]"
+    browser.run("page.connection.input('open', 'gate')")  # they walk for as long as a busy machine may take
     browser.wait("const v = page.charts.speed.values.get(''); return v && v.slice(-1)[0] > 0.9", "nobody walks")
     browser.find("#tab-parameters").click()
     Select(browser.driver.find_elements("css selector", "#page-parameters select")[1]).select_by_visible_text("Walk")
