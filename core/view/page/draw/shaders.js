@@ -41,7 +41,7 @@ Person decode() {
     Person p;
     p.at = mix(before, after, t);
     p.ahead = vec2(cos(turn), sin(turn));
-    p.radius = max(person.x, 5.0) / 100.0;
+    p.radius = (person.x < 0.5 ? 20.0 : max(person.x, 5.0)) / 100.0; // 0: not told yet
     float failed = mod(floor(info.w / 2.0), 2.0);
     p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
         : classes < 3.5 ? 4.0 - failed : floor(256.0 * fract(turn / TURN + 1.0))) + 0.5) / 256.0;
