@@ -40,6 +40,49 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
     }
 }
 
+/* Number of a team of the scene: that of the first group in it, plus 1; 0 with an error. */
+static uint16_t find_team(JoxBuild *b, const char *path, const char *name) {
+    const JoxScope *scope = b->script->scope;
+    const char *names[256];
+    size_t count = 0;
+    for (uint32_t g = 0; g < scope->group_count; g++) {
+        if (!scope->groups[g].team)
+            continue;
+        if (strcmp(scope->groups[g].team, name) == 0)
+            return (uint16_t)(g + 1);
+        if (count < 256)
+            names[count++] = scope->groups[g].team;
+    }
+    char hint[96];
+    const char *near = jox_did_you_mean(name, names, count, hint);
+    if (scope->complete)
+        jox_build_error(b, jox_read_at(b, path), "unknown-team",
+                        near ? near : "A group of the scene gives it: team: red",
+                        "no group of the scene has the team '%.60s'", name);
+    return 0;
+}
+
+/* set = { team = ..., tags = ... }, unless these are names of memory. */
+static void read_belonging(JoxBuild *b, int table, const char *path, JoxActions *actions) {
+    lua_State *L = b->script->vm.L;
+    char part[256];
+    jox_read_join(part, path, "team");
+    const int type = jox_read_field(L, table, "team");
+    if (jox_read_memory(b, "team") < 0 && type == LUA_TSTRING) {
+        actions->sets_team = true;
+        actions->team = find_team(b, part, lua_tostring(L, -1));
+    } else if (jox_read_memory(b, "team") < 0 && type != LUA_TNIL) {
+        jox_build_error(b, jox_read_at(b, part), "bad-value", "Example: set = { team = \"red\" }",
+                        "team is the name of a team");
+    }
+    lua_settop(L, table);
+    if (jox_read_memory(b, "tags") >= 0)
+        return;
+    actions->sets_tags = jox_read_field(L, table, "tags") != LUA_TNIL;
+    lua_settop(L, table);
+    actions->tags = jox_read_tags(b, table, path, "tags");
+}
+
 static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && !actions->set);
@@ -54,7 +97,8 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
         return;
     }
     const JoxScript *script = b->script;
-    const char *names[64];
+    const char *names[66];
+    read_belonging(b, table, full, actions);
     actions->set = jox_alloc(script->memory_count + 1, sizeof *actions->set);
     for (uint32_t m = 0; m < script->memory_count; m++) {
         names[m] = script->memory[m].name;
@@ -65,7 +109,9 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
         jox_read_join(part, full, names[m]);
         read_assign(b, part, jox_read_memory(b, names[m]), &actions->set[actions->set_count++]);
     }
-    jox_read_check(b, table, full, names, script->memory_count, false);
+    names[script->memory_count] = "team";
+    names[script->memory_count + 1] = "tags";
+    jox_read_check(b, table, full, names, script->memory_count + 2, false);
     lua_settop(L, table - 1);
 }
 

@@ -225,9 +225,11 @@ void jox_build(JoxScript *script, const JoxSource *source) {
                         "a machine needs a name");
     lua_pop(L, 1);
     read_defaults(&build, table);
+    jox_read_own(&build, table);
     read_states(&build, table);
     read_start(&build, table);
     jox_read_counts(&build, table, "", -1);
+    jox_read_public(&build, table);
     read_renamed(&build, table);
     if (script->diagnostics->errors == errors) {
         judge_states(&build);

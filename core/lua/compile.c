@@ -48,7 +48,8 @@ int32_t jox_build_memory(JoxBuild *build, const char *name) {
         if (*name && strcmp(m->memory[i].name, name) == 0)
             return (int32_t)i;
     JOX_RESERVE(m->memory, build->memory_capacity, m->memory_count + 1);
-    m->memory[m->memory_count] = (JoxMemorySlot){jox_strdup(name), JOX_MEMORY_NUMBER, 0.0};
+    m->memory[m->memory_count] =
+        (JoxMemorySlot){.name = jox_strdup(name), .kind = JOX_MEMORY_NUMBER};
     return (int32_t)m->memory_count++;
 }
 
@@ -65,21 +66,60 @@ int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
     return (int16_t)m->name_count++;
 }
 
+/* The memory that holds an agent's own post, hidden by a name that no script can write. */
+static void build_home(JoxBuild *build) {
+    build->machine->home = (uint32_t)jox_build_memory(build, "home x") + 1;
+    jox_build_memory(build, "home y");
+}
+
+static JoxWhose build_whose(JoxBuild *build, const JoxNodeWhose *whose) {
+    JoxWhose made = {.some = whose->state || whose->machine || whose->memory || whose->grouped,
+                     .state = -1,
+                     .machine = -1,
+                     .memory = -1,
+                     .group = whose->grouped ? whose->group : -1,
+                     .least = whose->least,
+                     .greatest = whose->greatest};
+    if (whose->state)
+        made.state = jox_build_name(build, whose->state, JOX_NAME_STATE);
+    if (whose->machine)
+        made.machine = jox_build_name(build, whose->machine, JOX_NAME_MACHINE);
+    if (whose->memory)
+        made.memory = jox_build_name(build, whose->memory, JOX_NAME_MEMORY);
+    return made;
+}
+
+static bool same_whose(const JoxWhose *a, const JoxWhose *b) {
+    return a->some == b->some && a->state == b->state && a->machine == b->machine &&
+           a->memory == b->memory && a->group == b->group && a->least == b->least &&
+           a->greatest == b->greatest;
+}
+
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JoxMachine *m = build->machine;
     if (!node || node->kind == JOX_NODE_ERROR)
         return -1;
-    JoxTarget target = {node->target_kind, node->target_arg, NULL};
+    JoxTarget target = {node->target_kind, node->target_arg, NULL,
+                        build_whose(build, &node->whose)};
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
+        build_home(build);
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
     if (node->kind == JOX_NODE_OWN || own_set) {
         int32_t slot = jox_build_own_at(build, node);
+        if (m->own[slot].declared && !m->own[slot].is_place)
+            jox_build_error(build, node->position, "bad-value",
+                            "Name a place in the machine's `own`",
+                            "own.%.60s is a number, and a place is wanted here", node->name);
+        if (!m->own[slot].declared) /* none until the scene's group names one */
+            m->own[slot].dist = jox_dist_constant(-1.0);
         m->own[slot].is_place = true;
-        m->own[slot].dist = jox_dist_constant(-1.0); /* none until the scene's group names one */
-        target = (JoxTarget){own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE, slot, NULL};
+        target.kind = own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE;
+        target.arg = slot;
     }
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
-            strcmp(m->targets[i].name, node->name) == 0)
+            strcmp(m->targets[i].name, node->name) == 0 &&
+            same_whose(&m->targets[i].whose, &target.whose))
             return (int16_t)i;
     JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
     target.name = jox_strdup(node->name);
@@ -123,9 +163,9 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
         in.arg = jox_build_own_at(code->build, node);
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
-    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_IN_STATE)
+    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_THEIRS)
         in.name = jox_build_name(code->build, node->name,
-                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_STATE);
+                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_MEMORY);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)

@@ -44,6 +44,9 @@ void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *
                       double *every);
 /* kick, take, throw and become of a state. */
 void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
+/* declare.c: reads `own` and `public` of the machine's table at `index`. */
+void jox_read_own(JoxBuild *build, int index);
+void jox_read_public(JoxBuild *build, int index);
 /* Id of the transition table at `index`, number `nth` of its id: "Exit", "Exit#2". */
 void jox_read_id(lua_State *L, int index, int nth, char id[128]);
 /* Joins a path and a key. */

@@ -15,7 +15,11 @@ static const struct Section {
      "Joined by `+ - * /`; made conditions by `:above(n)`, `:below(n)`, `:at_least(n)`, "
      "`:at_most(n)` and `:is(n)`.",
      JOX_NODE_NUMBER},
-    {"Targets", "Where a target is asked for, the name of a place does as well.", JOX_NODE_TARGET},
+    {"Targets",
+     "Where a target is asked for, the name of a place does as well. Walls that are open, and "
+     "those "
+     "lower than 1.3 m, hide nobody.",
+     JOX_NODE_TARGET},
     {"Steering", "Weighted sums: `0.8 * seek(goal) + 0.2 * spread`.", JOX_NODE_STEER},
     {"Drawn values", "For `defaults`, parameters and `lasts`.", JOX_NODE_DIST},
     {"Counting", "", JOX_NODE_CIRCUITS},
@@ -143,6 +147,8 @@ static const char *argument_type(char letter) {
 }
 
 static void define_word(JoxText *out, const JoxWord *word) {
+    if (*word->name == ':') /* a method: see jox_lua_definitions */
+        return;
     static const char *const KEYWORDLESS[] = {"require", "print", "machine"};
     for (size_t k = 0; k < 2; k++)
         if (!strcmp(word->name, KEYWORDLESS[k]))
@@ -203,6 +209,7 @@ static const char *editor_type(const char *type) {
         {"target", "string|jostle.Target|jostle.Number"},
         {"\"equal\" or \"nearest\"", "\"equal\"|\"nearest\""},
         {"tag or list of tags", "string|string[]"},
+        {"name or list of names", "string|string[]"},
         {"function(me)", "fun(me: jostle.Me)"},
         {"function(name)", "fun(name: string)"},
         {"list", "jostle.Me[]"}};
@@ -249,12 +256,19 @@ void jox_lua_definitions(JoxText *out) {
                         "---@param n number|jostle.Number\n---@return jostle.Condition\nfunction "
                         "Number:%s(n) end\n",
                         METHODS[m]);
-    jox_text_add(
-        out,
-        "---@param state string\n---@return jostle.Number\nfunction Number:in_state(state) end\n"
-        "\n---@class jostle.Target\n---@class jostle.Drawn\n"
-        "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"
-        "---@operator mul(number|jostle.Number): jostle.Steering\n");
+    jox_text_add(out, "\n---@class jostle.Target\nlocal Target = {}\n");
+    static const char *const CLASSES[] = {"Number", "Target"};
+    for (size_t w = 0; w < jox_word_count; w++)
+        for (size_t c = 0; *jox_words[w].name == ':' && c < 2; c++)
+            jox_text_printf(out,
+                            "--- %s\n---@param name string\n---@return jostle.%s\nfunction "
+                            "%s%s(name%s) end\n",
+                            jox_words[w].meaning, CLASSES[c], CLASSES[c], jox_words[w].name,
+                            !strcmp(jox_words[w].name, ":where") ? ", ..." : "");
+    jox_text_add(out,
+                 "\n---@class jostle.Drawn\n"
+                 "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"
+                 "---@operator mul(number|jostle.Number): jostle.Steering\n");
     define_table(out, "jostle.Machine", "machine", false);
     define_table(out, "jostle.State", "state", true);
     define_table(out, "jostle.Transition", "transition", false);
@@ -276,7 +290,8 @@ void jox_lua_luacheck(JoxText *out) {
                  "-- The words of behaviours, for luacheck. Made by `jostle reference luacheck`.\n"
                  "std = {\n  read_globals = {\n");
     for (size_t w = 0; w < jox_word_count; w++)
-        jox_text_printf(out, "    \"%s\",\n", jox_words[w].name);
+        if (*jox_words[w].name != ':')
+            jox_text_printf(out, "    \"%s\",\n", jox_words[w].name);
     for (size_t p = 0; p < sizeof PLAIN / sizeof *PLAIN; p++)
         jox_text_printf(out, "    \"%s\",\n", PLAIN[p]);
     jox_text_add(
@@ -294,11 +309,12 @@ static void example_behaviour(JoxText *out, const char *top, const char *state,
                               const char *transition) {
     jox_text_printf(
         out,
-        "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s\n"
+        "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s%s\n"
         "  states = {\n    Start = { { to = \"Trial\", when = after(0.2) } },\n"
         "    Trial = { %s\n      { to = \"Next\"%s } },\n"
         "    Next = { steer = hold, set = { laps = mine.laps, touched = false } },\n  },\n}\n",
-        MEMORY, top, state, transition);
+        MEMORY, strstr(top, "public") || strstr(top, "counts") ? "" : " public = \"laps\",", top,
+        state, transition);
 }
 
 static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {

@@ -32,6 +32,12 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
     jox_read_join(full, path, "steer");
     int type = jox_read_field(L, index, "steer");
     JoxNode *node = jox_node_get(L, -1);
+    if (lua_iscfunction(L, -1)) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "steer = wander(), or seek(goal)",
+                        "a word of steering that takes arguments is called, with parentheses");
+        lua_pop(L, 1);
+        return;
+    }
     if (type == LUA_TFUNCTION) {
         state->steer[0] = (JoxSteerTerm){
             .kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_add_hook(b, full)};
@@ -48,6 +54,8 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         *term = t->term;
         term->target = t->target ? jox_build_target(b, t->target) : -1;
         term->weight = read_weight(b, t->weight, jox_read_at(b, full));
+        term->drift[0] = read_weight(b, t->a, jox_read_at(b, full));
+        term->drift[1] = read_weight(b, t->b, jox_read_at(b, full));
     }
     if (type != LUA_TNIL &&
         !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_ERROR)))

@@ -28,10 +28,9 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT(op != JOX_OP_MEMORY || (uint32_t)in->arg < m->memory_count);
     JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT && op != JOX_OP_SHUT) ||
                in->place >= 0);
-    JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_IN_STATE) ||
+    JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
-    JOX_ASSERT((op != JOX_OP_TAGGED && op != JOX_OP_IN_STATE) ||
-               (in->arg >= JOX_KIN_OPPONENTS && in->arg < 64));
+    JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS) || in->target >= 0);
 }
 
 /* Straight-line code reads what it wrote before, and its last instruction writes register 0. */
@@ -88,6 +87,8 @@ static void check_state(const JoxMachine *m, const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++) {
         JOX_ASSERT(is_index(state->steer[t].target, m->target_count));
         check_value(m, &state->steer[t].weight);
+        check_value(m, &state->steer[t].drift[0]);
+        check_value(m, &state->steer[t].drift[1]);
     }
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         check_value(m, &state->param[p]);
@@ -109,6 +110,11 @@ void jox_machine_check(const JoxMachine *m) {
             (target->kind != JOX_TARGET_OWN_PLACE && target->kind != JOX_TARGET_ONE_OF_OWN) ||
             (uint32_t)target->arg < m->own_count);
         JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
+        JOX_ASSERT(target->kind != JOX_TARGET_HOME || (m->home && m->home < m->memory_count));
+        const JoxWhose *whose = &target->whose;
+        JOX_ASSERT(!whose->some || (is_index(whose->state, m->name_count) &&
+                                    is_index(whose->machine, m->name_count) &&
+                                    is_index(whose->memory, m->name_count)));
     }
     for (uint32_t c = 0; c < m->counter_count; c++) {
         const JoxCounter *counter = &m->counters[c];

@@ -52,6 +52,14 @@ static void crosses(const JoxMachineRun *run, const JoxMachine *machine, const J
         cross(run, agents + n, step, jox_target_place(run, agents[n], in->place), to + n);
 }
 
+/* Whether the gap to a spot is below so many metres; somebody or a body behind a wall is not
+   touched. */
+static bool is_touching(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, float gap) {
+    const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
+    return jox_spot_gap(run, i, spot) < gap &&
+           (spot->place >= 0 || !jox_is_hidden(run, at, (JoxV2){spot->x, spot->y}, true));
+}
+
 /* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
 static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, double reach) {
     const JoxAgents *a = run->agents;
@@ -88,7 +96,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return run->scratch->rank[i] == 0;
     case JOX_OP_TOUCHES:
         spot = jox_target_find(run, i, in->target);
-        return jox_spot_gap(run, i, &spot) < 0.05f;
+        return is_touching(run, i, &spot, 0.05f);
     case JOX_OP_GROUNDED:
         spot = jox_target_find(run, i, in->target);
         return spot.object >= 0 && run->objects->rows[spot.object].grounded;
@@ -98,7 +106,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         if (jox_target_means(run, i, in->target, run->agents->struck[i]))
             return true;
         spot = jox_target_find(run, i, in->target);
-        return jox_spot_gap(run, i, &spot) < 0.1f && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
+        return is_touching(run, i, &spot, 0.1f) && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
     case JOX_OP_INCOMING:
         spot = jox_target_find(run, i, in->target);
         return is_incoming(run, i, &spot, a);
@@ -108,12 +116,12 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return jox_holding(run, i, in->target) >= 0;
     case JOX_OP_HEARD:
         return jox_heard(run, i, machine->names[in->name].number, a);
-    case JOX_OP_TAGGED:
-        return jox_neighbours_of(run, i, in->arg, -1);
+    case JOX_OP_NEIGHBOURS:
+        return jox_neighbours_of(run, i, in->target);
+    case JOX_OP_THEIRS:
+        return jox_theirs(run, i, in->target, machine->names[in->name].number);
     case JOX_OP_SHUT:
         return jox_sees_shut(run, i, jox_target_place(run, i, in->place));
-    case JOX_OP_IN_STATE:
-        return jox_neighbours_of(run, i, in->arg, (int32_t)machine->names[in->name].number);
     default:
         return 0.0;
     }

@@ -88,7 +88,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 }
 
 static bool is_condition(JoxOp op) {
-    return op >= JOX_OP_INSIDE && op != JOX_OP_TAGGED && op != JOX_OP_IN_STATE;
+    return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS;
 }
 
 /* Writes what an instruction leaves in its register, which has `value` for the agent. */

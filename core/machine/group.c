@@ -4,7 +4,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
-#include "machine/internal.h"
+#include "machine/rows.h"
 
 JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
     if (!run->scratch)
@@ -31,6 +31,8 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     s->list = jox_realloc(s->list, n, sizeof *s->list);
     s->spare = jox_realloc(s->spare, JOX_SORT_SPARE(n), sizeof *s->spare);
     s->queue = jox_realloc(s->queue, n, sizeof *s->queue);
+    s->row = jox_realloc(s->row, n, sizeof *s->row);
+    s->entries = jox_realloc(s->entries, n + JOX_SORT_SPARE(n), sizeof *s->entries);
     JOX_RESERVE(run->taken, run->taken_capacity, n);
     run->push_on = jox_realloc(run->push_on, n, 1);
     run->push_nearest = jox_realloc(run->push_nearest, n, 1);
@@ -49,6 +51,8 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->rank);
     jox_free(s->heading);
     jox_free(s->queue);
+    jox_free(s->row);
+    jox_free(s->entries);
     jox_free(s->list);
     jox_free(s->spare);
     jox_free(s->heard);

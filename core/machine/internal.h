@@ -38,7 +38,9 @@ typedef struct JoxMachineScratch {
     uint32_t *list;  /* agents that take something, by id */
     uint32_t *spare; /* room to sort it */
     uint32_t list_count;
-    JoxSignal *heard; /* called in the last step, by name and x */
+    JoxV2 *row;                  /* per agent that stands in a row: where in it */
+    struct JoxRowEntry *entries; /* those who do */
+    JoxSignal *heard;            /* called in the last step, by name and x */
     uint32_t heard_count;
     uint32_t *everywhere; /* names called out to everybody in the last step */
     uint32_t everywhere_count;
@@ -67,6 +69,15 @@ static inline double jox_time_in_state(const JoxMachineRun *run, uint32_t agent)
     return (double)(run->tick - run->agents->entered[agent]) * run->dt;
 }
 
+/* Where the agent came in, x and y, of a machine that asks for it. */
+static inline double *jox_post(const JoxMachineRun *run, uint32_t agent) {
+    const JoxAgents *a = run->agents;
+    return a->memory + (size_t)agent * a->memory_stride + jox_machine_of(run, agent)->home - 1;
+}
+
+/* Makes that where it is now. */
+void jox_post_set(JoxMachineRun *run, uint32_t agent);
+
 /* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* The place a target names for this agent, or -1. */
@@ -83,6 +94,12 @@ float jox_headway(const JoxMachineRun *run, uint32_t agent);
 /* What one term of a state asks of an agent, as a share of the wanted speed: of length 1 at most,
    drift and player aside. Not of those that are done for a batch at once, and not evade. */
 JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t agent, const JoxSteerTerm *term);
+/* About, turning gradually; back from walls, and into the place that it keeps to. */
+JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t agent, int32_t target);
+/* rows.c: finds for all who stand in rows where in them that is, into the scratch's `row`. */
+void jox_rows_form(JoxMachineRun *run);
+/* Full speed towards a point, less when it is near. */
+JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed);
 /* Past those who come towards where the other terms lead. */
 JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t agent, JoxV2 ahead);
 /* Towards a target, straight; slower where it is about to arrive at a point. */
@@ -119,8 +136,21 @@ JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run);
 void jox_machines_listen(JoxMachineRun *run);
 /* Whether another agent within `reach` metres called the name. */
 bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double reach);
-/* Neighbours of a kind (a tag's bit or JoxKin), and, with a name, in states of that name. */
-uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t kind, int32_t name);
+/* sight.c: whether a wall that stands hides one point from another; those that people look over do
+   so only where `touched`. */
+bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched);
+/* The same of walls of other rings than `but`. */
+bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched);
+/* The first wall that stands on the way from one point to another: true with its unit normal. */
+bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal);
+/* Whether agent j, whom agent i sees, is what a target of i's machine asks for. */
+bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j);
+/* Neighbours that a target asks for. */
+uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t target);
+/* What an agent's memory holds by the name with this number; NAN unless that is public. */
+double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name);
+/* What the agent that a target is remembers by the name with this number; 0 unless public. */
+double jox_theirs(const JoxMachineRun *run, uint32_t agent, int32_t target, uint32_t name);
 /* Whether a gate at the place stands and the agent sees it: within perception, and no other wall
    lies before it. */
 bool jox_sees_shut(const JoxMachineRun *run, uint32_t agent, int32_t place);

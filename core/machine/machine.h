@@ -15,6 +15,8 @@
 enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 /* Greatest weight of a steering term, of either sign. */
 enum { JOX_MOST_WEIGHT = 1000000 };
+/* Greatest figure of a drift, of either sign, in wanted speeds. */
+enum { JOX_MOST_DRIFT = 100 };
 
 #define JOX_LOAD_MEANING                                                                           \
     "greatest push borne from any one direction: over directions d, the greatest sum of the "      \
@@ -68,9 +70,10 @@ typedef enum JoxNow {
    faster than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target,
    as it moves, comes within a metres during the next 2 s. SEES: target exists within perception.
    HAS: the agent holds target, a body. HEARD: another agent within perception, and within a metres,
-   gave the signal `name` in the last step. TAGGED: neighbours of the kind arg (a tag's bit or
-   JoxKin). IN_STATE: those of them in a state `name`. SHUT: a gate at place stands, and the agent
-   sees it. */
+   gave the signal `name` in the last step. NEIGHBOURS: how many of them are what target asks for.
+   THEIRS: what the agent that target is remembers as `name`, if its machine makes that public; else
+   0. SHUT: a gate at place stands, and the agent sees it. Whom a wall hides is not seen, heard or
+   touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -79,7 +82,7 @@ typedef enum JoxNow {
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
     X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
-    X(HAS) X(HEARD) X(TAGGED) X(IN_STATE) X(SHUT)
+    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)
 /* clang-format on */
 
 typedef enum JoxOp {
@@ -88,9 +91,6 @@ typedef enum JoxOp {
 #undef X
         JOX_OP_COUNT
 } JoxOp;
-
-/* Kinds of neighbours that are no tag. */
-typedef enum { JOX_KIN_ALL = -1, JOX_KIN_TEAMMATES = -2, JOX_KIN_OPPONENTS = -3 } JoxKin;
 
 typedef struct JoxInstruction {
     uint8_t op, to, a, b, c;
@@ -117,13 +117,23 @@ typedef enum JoxTargetKind {
     JOX_TARGET_NEAREST,    /* arg: tag bit; nearest seen body or agent that bears it */
     JOX_TARGET_OPPONENT,   /* nearest seen agent of another team */
     JOX_TARGET_TEAMMATE,   /* nearest seen agent of the same team */
-    JOX_TARGET_ANYONE      /* nearest seen agent */
+    JOX_TARGET_ANYONE,     /* nearest seen agent */
+    JOX_TARGET_HOME        /* the agent's own post: where it came in */
 } JoxTargetKind;
+
+/* Whom of the agents that a target asks for it means. Zero: all of them. */
+typedef struct JoxWhose {
+    bool some;                      /* whether anything of the following is asked */
+    int16_t state, machine, memory; /* indices into the machine's names; -1: any */
+    int32_t group;                  /* number of the scene's group; -1: any */
+    double least, greatest;         /* of what memory holds */
+} JoxWhose;
 
 typedef struct JoxTarget {
     JoxTargetKind kind;
     int32_t arg;
     char *name; /* as written: place, own, or tag name */
+    JoxWhose whose;
 } JoxTarget;
 
 typedef enum JoxValueKind {
@@ -147,12 +157,15 @@ typedef enum JoxSteerKind {
     JOX_STEER_ORBIT,     /* round a place counter-clockwise; args: see JoxOrbitArg */
     JOX_STEER_QUEUE,     /* to the agent's place in the queue */
     JOX_STEER_FOLLOW,    /* behind target, args[0] metres */
-    JOX_STEER_DRIFT,     /* along the vector (args[0], args[1]) */
+    JOX_STEER_DRIFT,     /* along the vector `drift` */
     JOX_STEER_SPREAD,    /* away from the neighbours' centroid */
     JOX_STEER_EVADE,     /* sideways, out of the way of those who come towards */
     JOX_STEER_ALONG,     /* along a line's direction or a queue's polyline towards its head */
     JOX_STEER_FIELD,     /* the shortest way to a place round walls */
     JOX_STEER_TOGETHER,  /* towards the mates that are seen, once they are farther than args[0] m */
+    JOX_STEER_WANDER,    /* about, turning gradually; within target, if that is given */
+    JOX_STEER_FORMATION, /* to the agent's place in a row: along a line, or behind somebody across
+                            the way they look; args[0] metres apart */
     JOX_STEER_PLAYER,    /* as the input log says; holds while it says nothing */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;
@@ -171,6 +184,7 @@ typedef struct JoxSteerTerm {
     int16_t target; /* -1 none */
     int32_t hook;   /* FUNCTION; -1 none */
     JoxValue weight;
+    JoxValue drift[2]; /* DRIFT */
     double args[6];
 } JoxSteerTerm;
 
@@ -182,6 +196,9 @@ typedef struct JoxActions {
     } * set;
     uint32_t set_count;
     int16_t signal; /* name that is called out; -1 none */
+    bool sets_team, sets_tags;
+    uint16_t team; /* that it is in from then on */
+    uint64_t tags; /* that it bears from then on, a bit each */
 } JoxActions;
 
 typedef struct JoxTransition {
@@ -233,6 +250,7 @@ typedef struct JoxOwnSlot {
     char *name;   /* "speed", "court"; "" for a distribution written in a state */
     JoxDist dist; /* drawn once per agent; groups may override it by name */
     bool is_place;
+    bool declared;                    /* in the machine's `own`: no group need set it */
     int32_t line, column, end_column; /* where own.NAME was first written; 0 unknown */
     uint32_t source;                  /* number of its file among the machine's files */
 } JoxOwnSlot;
@@ -242,6 +260,8 @@ typedef struct JoxMemorySlot {
     char *name; /* "" for hidden slots */
     JoxMemoryKind kind;
     double initial;
+    bool is_public;       /* other machines may read it */
+    uint32_t name_number; /* of the names that machines share, where it is public */
 } JoxMemorySlot;
 
 /* circuits: net counter-clockwise turns about `target` since its start line was first crossed (or
@@ -252,8 +272,14 @@ typedef struct JoxCounter {
     int32_t state; /* counts in this state only; -1 in all */
 } JoxCounter;
 
-/* Names that machines share: states asked for by others, signals. */
-typedef enum { JOX_NAME_STATE = 1, JOX_NAME_SIGNALLED = 2, JOX_NAME_HEARD = 4 } JoxNameUse;
+/* Names that machines share: signals, and what others are asked for: states, machines, memory. */
+typedef enum {
+    JOX_NAME_STATE = 1,
+    JOX_NAME_SIGNALLED = 2,
+    JOX_NAME_HEARD = 4,
+    JOX_NAME_MACHINE = 8,
+    JOX_NAME_MEMORY = 16
+} JoxNameUse;
 typedef struct JoxName {
     char *text;
     uint32_t uses;   /* of JoxNameUse */
@@ -275,6 +301,8 @@ typedef struct JoxMachine {
     uint32_t own_count;
     JoxMemorySlot *memory;
     uint32_t memory_count;
+    uint32_t home; /* memory of the agent's own post, x and y behind it, plus 1; 0: not asked for */
+    uint32_t name_number; /* of its own name; set when it is added to a set */
     JoxCounter *counters;
     uint32_t counter_count;
     JoxName *names;

@@ -62,10 +62,33 @@ static void orbit(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
     }
 }
 
+/* Along a vector whose figures may be computed, for all of a batch. */
+static void drift(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                  JoxRegisters registers, JoxSteer *s) {
+    float *const ways[] = {s->way_x, s->way_y};
+    for (int k = 0; k < 2; k++) {
+        const JoxValue *value = &term->drift[k];
+        const bool computed = value->kind == JOX_VALUE_EXPRESSION;
+        if (computed)
+            jox_eval(run, machine, &machine->expressions[value->index], s->index, s->count,
+                     registers);
+        for (uint32_t n = 0; n < s->count; n++) {
+            const double number =
+                computed ? registers[0][n] : jox_value(run, machine, value, s->index[n]);
+            ways[k][n] = fabs(number) <= JOX_MOST_DRIFT ? (float)number : 0.0f;
+        }
+    }
+}
+
 /* What a term asks of a batch, into its ways. Weights that are 0, or no numbers that count, as of a
    target that is infinitely far, are not asked for. */
-static void ask(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
+static void ask(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *term,
+                JoxRegisters registers, JoxSteer *s) {
     s->args = term->args;
+    if (term->kind == JOX_STEER_DRIFT) {
+        drift(p->run, machine, term, registers, s);
+        return;
+    }
     if (term->kind == JOX_STEER_ORBIT) {
         orbit(p, term, s);
         return;
@@ -103,7 +126,7 @@ static void sum_terms(const Prefer *p, const JoxMachine *machine, const JoxState
                 s->leads = true;
             }
             weigh(p->run, machine, &term->weight, registers, s);
-            ask(p, term, s);
+            ask(p, machine, term, registers, s);
             p->kernels->add(s);
         }
 }
@@ -175,6 +198,7 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     if (run->set->count == 0)
         return;
     JOX_CHECK(jox_groups_check(run));
+    jox_rows_form(run);
     Prefer prefer = {run, &KERNELS[jox_isa_resolve(run->isa)]};
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
     ask_functions(run);

@@ -269,6 +269,8 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
     memcpy(r->before, memory, r->old->memory_count * sizeof *memory);
     for (uint32_t s = 0; s < r->next->memory_count; s++)
         memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
+    if (r->next->home && r->memory[r->next->home - 1] < 0)
+        jox_post_set(run, i); /* this version asks for it first */
 }
 
 static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {

@@ -58,46 +58,14 @@ bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach
         if (s->name != name || s->x > x + r)
             return false;
         float dx = s->x - x, dy = s->y - y;
-        if (s->agent_id != a->id[i] && dx * dx + dy * dy <= r * r)
+        if (s->agent_id != a->id[i] && dx * dx + dy * dy <= r * r &&
+            !jox_is_hidden(run, (JoxV2){x, y}, (JoxV2){s->x, s->y}, false))
             return true;
     }
     return false;
 }
 
-uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t kind, int32_t name) {
-    const JoxAgents *a = run->agents;
-    const JoxNeighbours *n = run->neighbours;
-    uint32_t count = 0;
-    for (uint32_t k = 0; k < n->count[i]; k++) {
-        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        bool wanted = kind == JOX_KIN_ALL         ? true
-                      : kind == JOX_KIN_TEAMMATES ? a->team[j] && a->team[j] == a->team[i]
-                      : kind == JOX_KIN_OPPONENTS
-                          ? a->team[j] && a->team[i] && a->team[j] != a->team[i]
-                          : (a->tags[j] >> kind & 1) != 0;
-        if (!wanted || (name >= 0 && a->machine[j] == JOX_NO_MACHINE))
-            continue;
-        count +=
-            name < 0 || jox_machine_of(run, j)->states[a->state[j]].name_number == (uint32_t)name;
-    }
-    return count;
-}
-
 static const float AT_PLACE = 0.5f; /* m: a gate nearer to a place than that belongs to it */
-
-/* Whether a wall of another ring than `but` lies between two points. */
-static bool is_hidden(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to) {
-    for (uint32_t r = 0; r < walls->ring_count; r++) {
-        const struct JoxWallRing *ring = &walls->rings[r];
-        if (r == but || ring->open)
-            continue;
-        for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
-            if (jox_segment_crossing(walls->vertices[v].point,
-                                     walls->vertices[walls->vertices[v].next].point, from, to))
-                return true;
-    }
-    return false;
-}
 
 /* Whether an agent sees one of the edges of a gate that belong to a place. */
 static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint32_t gate) {
@@ -111,7 +79,7 @@ static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint
         const JoxV2 middle = jox_scale(jox_add(a, b), 0.5f);
         if (jox_length(jox_sub(jox_segment_nearest(a, b, at), at)) <= perception &&
             jox_place_distance(run->places, place, middle) <= AT_PLACE &&
-            !is_hidden(walls, gate, at, middle))
+            !jox_is_hidden_by(walls, gate, at, middle, false))
             return true;
     }
     return false;
@@ -136,4 +104,10 @@ int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
             return (int32_t)o;
     }
     return -1;
+}
+
+double jox_theirs(const JoxMachineRun *run, uint32_t i, int32_t target, uint32_t name) {
+    const JoxSpot spot = jox_target_find(run, i, target);
+    const double value = spot.agent == JOX_NO_INDEX ? NAN : jox_remembered(run, spot.agent, name);
+    return isnan(value) ? 0.0 : value;
 }

@@ -63,6 +63,10 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         if (isfinite(value))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
     }
+    if (actions->sets_team)
+        a->team[i] = actions->team;
+    if (actions->sets_tags)
+        a->tags[i] = actions->tags;
     if (actions->signal >= 0)
         jox_machines_call(run, i, machine->names[actions->signal].number);
 }

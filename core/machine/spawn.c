@@ -12,8 +12,12 @@
 /* Numbers what is numbered across all machines of the set and all states of the machine. */
 static void number(JoxMachineRun *run, JoxMachine *machine) {
     uint32_t transitions = 0;
+    machine->name_number = jox_machines_name(run, machine->name);
     for (uint32_t n = 0; n < machine->name_count; n++)
         machine->names[n].number = jox_machines_name(run, machine->names[n].text);
+    for (uint32_t s = 0; s < machine->memory_count; s++)
+        if (machine->memory[s].is_public)
+            machine->memory[s].name_number = jox_machines_name(run, machine->memory[s].name);
     for (uint32_t s = 0; s < machine->state_count; s++) {
         machine->states[s].name_number = jox_machines_name(run, machine->states[s].name);
         machine->states[s].first_transition = transitions;
@@ -58,6 +62,14 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
             value = jox_dist_draw(memory[s], run->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
+    if (kind->home && !is_given(memory, kind->home - 1))
+        jox_post_set(run, agent);
+}
+
+void jox_post_set(JoxMachineRun *run, uint32_t agent) {
+    double *post = jox_post(run, agent);
+    post[0] = run->agents->x[agent];
+    post[1] = run->agents->y[agent];
 }
 
 /* Leaves what the next think has to do: it has no neighbours yet. */

@@ -2,12 +2,13 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/number/elementary.h"
 #include "machine/internal.h"
 
 static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
+static const double TURN = 6.283185307179586;
 
-/* Full speed towards a point, less when it is near. */
-static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
+JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
     JoxV2 way = jox_sub(to, from);
     float distance = jox_length(way);
     if (distance < 1e-4f)
@@ -32,10 +33,12 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JoxV2 from = {a->x[i], a->y[i]};
     const int32_t index = jox_target_place(run, i, target);
     if (index >= 0 && run->places[index].kind == JOX_PLACE_POINT)
-        return arrive(from, run->places[index].centre, a->param[JOX_PARAM_speed][i]);
+        return jox_steer_arrive(from, run->places[index].centre, a->param[JOX_PARAM_speed][i]);
     JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
+    if (spot.place < 0 && spot.agent == JOX_NO_INDEX && spot.object < 0) /* one's own post */
+        return jox_steer_arrive(from, (JoxV2){spot.x, spot.y}, a->param[JOX_PARAM_speed][i]);
     if (spot.place < 0) /* something that moves is run at, not arrived at */
         return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
     const JoxPlace *place = &run->places[spot.place];
@@ -44,8 +47,9 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
         return jox_unit(jox_sub(to, from));
     if (jox_place_contains(run->places, (uint32_t)spot.place, from))
         return (JoxV2){0.0f, 0.0f};
-    return place->kind == JOX_PLACE_POLYGON ? jox_unit(jox_sub(to, from))
-                                            : arrive(from, to, a->param[JOX_PARAM_speed][i]);
+    return place->kind == JOX_PLACE_POLYGON
+               ? jox_unit(jox_sub(to, from))
+               : jox_steer_arrive(from, to, a->param[JOX_PARAM_speed][i]);
 }
 
 static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
@@ -56,7 +60,7 @@ static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
         return jox_steer_seek(run, i, term->target);
     const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
-    return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
+    return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
 }
 
 static JoxV2 along(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
@@ -136,7 +140,45 @@ static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *te
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
     JoxV2 behind = jox_scale(jox_unit(jox_sub(from, to)), (float)term->args[0]);
-    return arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
+    return jox_steer_arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
+}
+
+static const double TURNING = 8.0; /* s in which who wanders may turn round twice */
+static const float FEELS = 1.0f;   /* m: a wall or an edge that near turns who wanders back */
+
+/* The angle is noise: between values drawn every TURNING seconds, at times of the agent's own, it
+   goes over smoothly. */
+static JoxV2 roam(const JoxMachineRun *run, uint32_t i) {
+    const uint32_t id = run->agents->id[i];
+    const double own = jox_random_unit(run->seed, id, 0, JOX_DRAW_WANDER, 1);
+    const double time = run->tick * run->dt / TURNING + own, knot = floor(time);
+    double angle[2];
+    for (uint32_t k = 0; k < 2; k++)
+        angle[k] =
+            2.0 * TURN * jox_random_unit(run->seed, id, (uint64_t)knot + k, JOX_DRAW_WANDER, 0);
+    const double t = time - knot, smooth = t * t * (3.0 - 2.0 * t);
+    const double at = TURN * own + angle[0] + (angle[1] - angle[0]) * smooth;
+    return (JoxV2){(float)jox_cos(at), (float)jox_sin(at)};
+}
+
+JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxAgents *a = run->agents;
+    const JoxV2 at = {a->x[i], a->y[i]};
+    const int32_t place = jox_target_place(run, i, target);
+    JoxV2 way = roam(run, i), normal;
+    const float reach = FEELS + a->param[JOX_PARAM_radius][i];
+    const JoxV2 next = jox_add(at, jox_scale(way, reach));
+    if (place >= 0 && !jox_place_contains(run->places, (uint32_t)place, next)) {
+        const JoxV2 in = jox_place_contains(run->places, (uint32_t)place, at)
+                             ? run->places[place].centre
+                             : jox_place_nearest(run->places, (uint32_t)place, at);
+        way = jox_unit(jox_add(jox_scale(jox_unit(jox_sub(in, at)), 1.5f), way));
+    }
+    if (jox_meets_wall(run, at, jox_add(at, jox_scale(way, reach)), &normal)) {
+        const float into = jox_dot(way, normal);
+        way = jox_sub(way, jox_scale(normal, 2.0f * into)); /* as a ball comes back */
+    }
+    return way;
 }
 
 static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
@@ -161,8 +203,11 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return queue(run, i, term);
     case JOX_STEER_FOLLOW:
         return follow(run, i, term);
-    case JOX_STEER_DRIFT:
-        return (JoxV2){(float)term->args[0], (float)term->args[1]};
+    case JOX_STEER_WANDER:
+        return jox_steer_wander(run, i, term->target);
+    case JOX_STEER_FORMATION:
+        return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, run->scratch->row[i],
+                                a->param[JOX_PARAM_speed][i]);
     case JOX_STEER_SPREAD:
         return spread(run, i);
     case JOX_STEER_ALONG:
@@ -173,6 +218,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return player(run, i);
     case JOX_STEER_HOLD:
     case JOX_STEER_ORBIT: /* a kernel's */
+    case JOX_STEER_DRIFT: /* of a batch, as its figures may be computed */
     case JOX_STEER_FIELD: /* of a batch: steer_field.c */
     case JOX_STEER_EVADE: /* by the sum of the others */
     case JOX_STEER_FUNCTION:

@@ -49,22 +49,6 @@ static JoxSpot object_spot(const JoxObject *o, int32_t row) {
                      .agent = JOX_NO_INDEX};
 }
 
-/* Whether agent j is what the target asks for, as seen by agent i. */
-static bool is_wanted(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
-    switch (target->kind) { /* team 0 is none: neither mate nor opponent */
-    case JOX_TARGET_NEAREST:
-        return (a->tags[j] >> target->arg & 1) != 0;
-    case JOX_TARGET_OPPONENT:
-        return a->team[i] != a->team[j] && a->team[i] && a->team[j];
-    case JOX_TARGET_ANYONE:
-        return true;
-    case JOX_TARGET_TEAMMATE:
-        return a->team[i] == a->team[j] && a->team[i];
-    default:
-        return false;
-    }
-}
-
 /* Neighbours come nearest first. Few neighbours are kept, so beyond them all agents are looked at
    where the crowd is small enough for that to be cheap: a game's opponents, not a pilgrimage. */
 enum { SMALL_CROWD = 64 };
@@ -74,14 +58,14 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
     const JoxNeighbours *n = run->neighbours;
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        if (is_wanted(a, target, i, j))
+        if (jox_is_wanted(run, target, i, j))
             return j;
     }
     uint32_t best = JOX_NO_INDEX;
     float reach = a->param[JOX_PARAM_perception][i], least = reach * reach;
     for (uint32_t j = 0; a->count <= SMALL_CROWD && j < a->count; j++) {
         float d2 = jox_length2(jox_offset(a, i, j));
-        if (j == i || !is_wanted(a, target, i, j) || d2 > least)
+        if (j == i || d2 > least || !jox_is_wanted(run, target, i, j))
             continue;
         if (d2 < least || best == JOX_NO_INDEX || a->id[j] < a->id[best]) {
             least = d2;
@@ -89,6 +73,13 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
         }
     }
     return best;
+}
+
+/* Whether a wall hides a body: what flies is seen above those that are lower. */
+static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObject *object) {
+    const JoxV2 from = {run->agents->x[i], run->agents->y[i]};
+    return object->in_band &&
+           jox_is_hidden(run, from, (JoxV2){object->position.x, object->position.y}, false);
 }
 
 static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
@@ -103,7 +94,7 @@ static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target,
             continue;
         float dx = object->position.x - a->x[i], dy = object->position.y - a->y[i];
         float d2 = dx * dx + dy * dy;
-        if (d2 < *distance2) {
+        if (d2 < *distance2 && !is_out_of_sight(run, i, object)) {
             *distance2 = d2;
             best = (int32_t)o;
         }
@@ -125,9 +116,14 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
         JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, (JoxV2){a->x[i], a->y[i]});
         return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
     }
+    if (target->kind == JOX_TARGET_HOME) {
+        const double *post = jox_post(run, i);
+        return (JoxSpot){true, (float)post[0], (float)post[1], 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
+    }
     float object_d2 = INFINITY;
-    int32_t object =
-        target->kind == JOX_TARGET_NEAREST ? nearest_object(run, target, i, &object_d2) : -1;
+    int32_t object = target->kind == JOX_TARGET_NEAREST && !target->whose.some
+                         ? nearest_object(run, target, i, &object_d2)
+                         : -1;
     uint32_t other = nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX) {
         if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)

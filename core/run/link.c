@@ -105,6 +105,23 @@ static bool used(const JoxMachineRun *machines, const char *text, uint32_t use) 
     return false;
 }
 
+static bool is_machine(const JoxMachineRun *machines, const char *name) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (strcmp(machines->set->items[m]->name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool is_public(const JoxMachineRun *machines, const char *name) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
+        for (uint32_t s = 0; s < machine->memory_count; s++)
+            if (machine->memory[s].is_public && strcmp(machine->memory[s].name, name) == 0)
+                return true;
+    }
+    return false;
+}
+
 /* Whether a group whose agents may run the machine sets the own value. */
 static bool given(const JoScene *scene, const JoxMachine *machine, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
@@ -146,7 +163,7 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
     size_t before = diagnostics->count;
     for (uint32_t o = 0; o < machine->own_count; o++) {
         const JoxOwnSlot *slot = &machine->own[o];
-        if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||
+        if (!*slot->name || slot->declared || jox_parameter_find(slot->name) >= 0 ||
             given(scene, machine, slot->name))
             continue;
         const char *names[JOX_PARAM_COUNT], *near;
@@ -186,6 +203,13 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
             if (state && !used(machines, name->text, JOX_NAME_STATE))
                 jox_diag_warn(diagnostics, at, "unknown-state", NULL,
                               "no machine of the scene has a state '%s'", name->text);
+            if ((name->uses & JOX_NAME_MACHINE) && !is_machine(machines, name->text))
+                jox_diag_warn(diagnostics, at, "unknown-machine", NULL,
+                              "no machine of the scene is called '%s'", name->text);
+            if ((name->uses & JOX_NAME_MEMORY) && !is_public(machines, name->text))
+                jox_diag_warn(diagnostics, at, "unknown-memory",
+                              "In the machine that remembers it: public = { ... }",
+                              "no machine of the scene makes memory '%s' public", name->text);
         }
         if (diagnostics->count > before)
             attach(files, count, diagnostics);
@@ -212,6 +236,8 @@ static bool goes_somewhere(const JoxState *state) {
         case JOX_STEER_ORBIT:
         case JOX_STEER_QUEUE:
         case JOX_STEER_FOLLOW:
+        case JOX_STEER_FORMATION:
+        case JOX_STEER_WANDER:
         case JOX_STEER_DRIFT:
         case JOX_STEER_ALONG:
         case JOX_STEER_FIELD:

@@ -60,10 +60,17 @@ static void add_places(JoScene *scene) {
     for (uint32_t i = 0; i < spec->place_count; i++)
         jox_place_copy(&places[i], &spec->places[i]);
     jox_world_set_places(scene->world, places, spec->place_count, spec->place_count + extra);
+    scene->scope_groups = jox_alloc((size_t)spec->group_count + 1, sizeof *scene->scope_groups);
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        scene->scope_groups[g] =
+            (JoxScopeGroup){jox_strdup(spec->groups[g].name),
+                            spec->groups[g].team ? jox_strdup(spec->groups[g].team) : NULL};
     scene->scope = (JoxScope){.places = places,
                               .place_count = spec->place_count,
                               .tags = (const char *const *)scene->world->model.tags,
                               .tag_count = scene->world->model.tag_count,
+                              .groups = scene->scope_groups,
+                              .group_count = spec->group_count,
                               .complete = true,
                               .mods = scene->mods->items,
                               .mod_count = scene->mods->count};
@@ -440,6 +447,11 @@ static void free_scene(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    for (uint32_t g = 0; scene->scope_groups && g < scene->scope.group_count; g++) {
+        jox_free((char *)scene->scope_groups[g].name);
+        jox_free((char *)scene->scope_groups[g].team);
+    }
+    jox_free(scene->scope_groups);
     jox_free(scene->input_path);
     jox_input_free(&scene->input);
     jox_files_free(&scene->logged_files);

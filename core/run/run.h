@@ -34,6 +34,7 @@ struct JoScene {
     JoWorld *world;
     JoxLua *lua;
     JoxScope scope;
+    JoxScopeGroup *scope_groups; /* with copies of their texts */
     JoMessage *message;
     void *message_context;
 

@@ -29,11 +29,42 @@ function Number:at_most(n) end
 ---@param n number|jostle.Number
 ---@return jostle.Condition
 function Number:is(n) end
----@param state string
----@return jostle.Number
-function Number:in_state(state) end
 
 ---@class jostle.Target
+local Target = {}
+--- of `nearest` and `neighbours`: only those in a state of the name
+---@param name string
+---@return jostle.Number
+function Number:in_state(name) end
+--- of `nearest` and `neighbours`: only those in a state of the name
+---@param name string
+---@return jostle.Target
+function Target:in_state(name) end
+--- the same: only those whose machine has the name
+---@param name string
+---@return jostle.Number
+function Number:of_machine(name) end
+--- the same: only those whose machine has the name
+---@param name string
+---@return jostle.Target
+function Target:of_machine(name) end
+--- the same: only those of a group of the scene
+---@param name string
+---@return jostle.Number
+function Number:of_group(name) end
+--- the same: only those of a group of the scene
+---@param name string
+---@return jostle.Target
+function Target:of_group(name) end
+--- the same: only those whose public memory of the name is true, or is a number within bounds, both included
+---@param name string
+---@return jostle.Number
+function Number:where(name, ...) end
+--- the same: only those whose public memory of the name is true, or is a number within bounds, both included
+---@param name string
+---@return jostle.Target
+function Target:where(name, ...) end
+
 ---@class jostle.Drawn
 
 ---@class jostle.Steering
@@ -45,6 +76,8 @@ function Number:in_state(state) end
 ---@field version? number the author's; informs people
 ---@field start? string where agents begin
 ---@field defaults? jostle.State values for all states, drawn once per agent
+---@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group may set them
+---@field public? string|string[] memory that others may ask for, by `theirs` and `:where`
 ---@field counts? table memory that counts by itself, in all states
 ---@field renamed? table<string, string> old state = new state, for agents alive at a reload
 ---@field states? table<string, jostle.State> name = state
@@ -66,7 +99,7 @@ function Number:in_state(state) end
 ---@field throw? table throws the body that it carries
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
----@field set? table on entering, memory = number, condition or true/false
+---@field set? table on entering, memory = number, condition or true/false; team = name of a team of the scene; tags = tag or list of tags, in place of those borne
 ---@field counts? table memory that counts while in this state
 ---@field on_enter? fun(me: jostle.Me) called on entering
 ---@field on_exit? fun(me: jostle.Me) called on leaving
@@ -95,7 +128,7 @@ function Number:in_state(state) end
 ---@field to? string where it leads
 ---@field when? jostle.Condition|fun(me: jostle.Me): boolean absent: always; the first that holds wins
 ---@field chance? number rolled each time `when` turns true
----@field set? table memory = number, condition or true/false
+---@field set? table memory, team and tags, as of a state
 ---@field signal? string calls out
 ---@field on_take? fun(me: jostle.Me) called when it is taken
 ---@field id? string how mods name it; else its target, with #2, #3 for repeats
@@ -218,10 +251,16 @@ function count(a1) end
 ---@return jostle.Number
 function distance(a1) end
 
---- `neighbours(tag)`: neighbours seen that bear a tag, or are "anyone", "teammates", "opponents"; neighbours(tag):in_state(name) counts those of them in a state
+--- `neighbours(tag)`: neighbours seen, with no wall between, that bear a tag, or are "anyone", "teammates", "opponents"; the words with a colon say which of them
 ---@param a1 string
 ---@return jostle.Number
 function neighbours(a1) end
+
+--- `theirs(target, name)`: what another remembers by a name that its machine makes `public`, true as 1; 0 where there is nobody, or nothing of the name
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2 string
+---@return jostle.Number
+function theirs(a1, a2) end
 
 --- `density_here` in 1/m2: people per square metre about the agent, from its neighbours' distances
 ---@type jostle.Number
@@ -292,7 +331,7 @@ now = {}
 ---@type table<string, jostle.Number>
 own = {}
 
---- `nearest(tag)`: the nearest body or agent seen that bears a tag, or of "opponents" or "teammates"
+--- `nearest(tag)`: the nearest body or agent seen, with no wall between, that bears a tag, or of "anyone", "opponents" or "teammates"; the words with a colon say which agents
 ---@param a1 string
 ---@return jostle.Target
 function nearest(a1) end
@@ -305,6 +344,10 @@ function one_of(a1) end
 --- `goal`: the place that one_of drew last, or that a function set
 ---@type jostle.Target
 goal = nil
+
+--- `home`: the agent's own post: where it came in, or became what it is
+---@type jostle.Target
+home = nil
 
 --- `seek(target)`: straight to the target: a line is passed, at a point one stops
 ---@param a1 string|jostle.Target|jostle.Number
@@ -346,11 +389,22 @@ function follow(a1, a2) end
 ---@return jostle.Steering
 function together(a1) end
 
---- `drift(x, y)`: in a fixed direction; a length of 1 is the wanted speed
----@param a1 number
----@param a2 number
+--- `drift(x, y)`: in a direction east and north, of numbers or of what is computed; a length of 1 is the wanted speed
+---@param a1 number|jostle.Number
+---@param a2 number|jostle.Number
 ---@return jostle.Steering
 function drift(a1, a2) end
+
+--- `wander([place])`: about, turning gradually and back from walls; in a place: within it
+---@param a1? string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function wander(a1) end
+
+--- `formation(target [, metres])`: to the agent's place in a row, so far apart: along a line, or behind somebody across the way they look; in the order in which they stand
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2? number
+---@return jostle.Steering
+function formation(a1, a2) end
 
 --- `spread`: away from the neighbours
 ---@type jostle.Steering

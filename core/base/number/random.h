@@ -17,7 +17,8 @@ typedef enum {
     JOX_DRAW_LUA,      /* math.random in hooks */
     JOX_DRAW_MIX,      /* which behaviour of a mix */
     JOX_DRAW_TURN,     /* how far a shoulder is turned */
-    JOX_DRAW_GAP       /* a walker's time gap */
+    JOX_DRAW_GAP,      /* a walker's time gap */
+    JOX_DRAW_WANDER    /* which way one who wanders turns */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */

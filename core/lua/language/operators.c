@@ -1,5 +1,6 @@
 /* The operators of expressions: arithmetic, & | ~, and comparisons by method. Each operator that
    Lua would silently get wrong is refused with the right spelling. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -228,22 +229,78 @@ static int method_is(lua_State *L) {
     return compare(L, JOX_OP_EQ, "is");
 }
 
-/* neighbours(TAG):in_state(NAME) */
+/* ---- which of those that nearest and neighbours mean ---- */
+
+/* The target whose copy a method changes, within a copy of the value that it is called on, which is
+   pushed; NULL with an error pushed. */
+static JoxNodeWhose *narrowed(lua_State *L, const char *method) {
+    const JoxNode *of = jox_node_get(L, 1);
+    const bool counts = of && of->kind == JOX_NODE_NUMBER && of->op == JOX_OP_NEIGHBOURS;
+    const JoxNode *target = counts ? of->target : of;
+    const bool others =
+        target && target->kind == JOX_NODE_TARGET &&
+        (target->target_kind >= JOX_TARGET_NEAREST && target->target_kind <= JOX_TARGET_ANYONE);
+    if (!others || lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60) {
+        jox_word_error(L, method, "bad-operand", "Example: nearest(\"people\"):in_state(\"Exit\")",
+                       others ? ":%s takes a name, which %s is not"
+                              : ":%s says which of `nearest` or `neighbours`, it is nothing of %s",
+                       method, jox_node_kind(L, others ? 2 : 1));
+        return NULL;
+    }
+    JoxNode *copy = jox_node_push(L, JOX_NODE_TARGET);
+    *copy = *target;
+    if (counts) {
+        JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
+        node->op = JOX_OP_NEIGHBOURS;
+        node->target = copy;
+    }
+    return &copy->whose;
+}
+
 static int method_in_state(lua_State *L) {
-    if (jox_node_is_error(L, 1))
-        return jox_node_push_error(L);
-    JoxNode *tagged = jox_node_get(L, 1);
-    if (!tagged || tagged->kind != JOX_NODE_NUMBER || tagged->op != JOX_OP_TAGGED)
-        return jox_word_error(
-            L, "in_state", "bad-operand", "Example: neighbours(\"people\"):in_state(\"Exit\")",
-            ":in_state counts neighbours, it is nothing of %s", jox_node_kind(L, 1));
-    if (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60)
-        return jox_word_error(L, "in_state", "bad-argument", NULL,
-                              ":in_state takes the name of a state");
-    JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
-    node->op = JOX_OP_IN_STATE;
-    node->arg = tagged->arg;
-    node->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "in_state");
+    if (whose)
+        whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    return 1;
+}
+
+static int method_of_machine(lua_State *L) {
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "of_machine");
+    if (whose)
+        whose->machine = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    return 1;
+}
+
+static int method_of_group(lua_State *L) {
+    const JoxScope *scope = jox_script_of(L)->scope;
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "of_group");
+    if (!whose)
+        return 1;
+    const char *name = lua_tostring(L, 2), *names[256];
+    size_t count = 0;
+    whose->grouped = true;
+    whose->group = -2; /* of a scene that is not known: nobody's */
+    for (uint32_t g = 0; g < scope->group_count; g++) {
+        if (count < 256)
+            names[count++] = scope->groups[g].name;
+        if (strcmp(scope->groups[g].name, name) == 0)
+            whose->group = (int32_t)g;
+    }
+    char hint[96];
+    if (whose->group < 0 && scope->complete)
+        return jox_word_error(L, name, "unknown-group", jox_did_you_mean(name, names, count, hint),
+                              "the scene has no group '%s'", name);
+    return 1;
+}
+
+static int method_where(lua_State *L) {
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "where");
+    const int given = lua_isnumber(L, 4) ? 4 : lua_isnumber(L, 3) ? 3 : 2;
+    if (!whose)
+        return 1;
+    whose->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    whose->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
+    whose->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;
 }
 
@@ -253,13 +310,16 @@ static const luaL_Reg METHODS[] = {{"above", method_above},
                                    {"at_most", method_at_most},
                                    {"is", method_is},
                                    {"in_state", method_in_state},
+                                   {"of_machine", method_of_machine},
+                                   {"of_group", method_of_group},
+                                   {"where", method_where},
                                    {NULL, NULL}};
 
 static int meta_index(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const char *names[8];
+    const char *names[sizeof METHODS / sizeof *METHODS];
     size_t count = 0;
     for (const luaL_Reg *m = METHODS; m->name; m++) {
         names[count++] = m->name;
@@ -269,7 +329,7 @@ static int meta_index(lua_State *L) {
         }
     }
     const char *near = jox_suggest(name, names, count);
-    char hint[64] = "Numbers have above, below, at_least, at_most and is";
+    char hint[96] = "Numbers have above, below, at_least, at_most and is";
     if (near)
         strcpy(stpcpy(stpcpy(hint, "Did you mean '"), near), "'?");
     return jox_word_error(L, name, "unknown-method", hint, "%s has no '%s'", jox_node_kind(L, 1),

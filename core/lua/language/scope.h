@@ -13,11 +13,17 @@ void jox_lua_free(JoxLua *lua);
 
 /* Names that a behaviour may use. Not complete: any name is accepted (checking a behaviour without
    a scene); places then stay unresolved, with index -1. */
+typedef struct JoxScopeGroup {
+    const char *name, *team; /* team: NULL none; the first group of a team gives its number */
+} JoxScopeGroup;
+
 typedef struct JoxScope {
     const JoxPlace *places;
     uint32_t place_count;
     const char *const *tags; /* the index is the bit */
     uint32_t tag_count;
+    const JoxScopeGroup *groups; /* the index is the group's number */
+    uint32_t group_count;
     bool complete;
     const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */
     uint32_t mod_count;

@@ -65,6 +65,14 @@ typedef enum {
     JOX_NODE_ERROR    /* stands for something already reported */
 } JoxNodeKind;
 
+/* As JoxWhose, by names; NULL: any. */
+typedef struct JoxNodeWhose {
+    const char *state, *machine, *memory;
+    bool grouped;
+    int32_t group;
+    double least, greatest;
+} JoxNodeWhose;
+
 typedef struct JoxNode JoxNode;
 struct JoxNode {
     JoxNodeKind kind;
@@ -74,6 +82,7 @@ struct JoxNode {
     const char *name; /* own, memory or target name; interned with the VM */
     JoxTargetKind target_kind;
     int32_t target_arg;
+    JoxNodeWhose whose; /* whom of those it means */
     JoxNode *a, *b, *c; /* inputs */
     JoxNode *target, *place;
     JoxDist dist;

@@ -95,8 +95,9 @@ static int make_memory(lua_State *L) {
         if (!isfinite(value))
             return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
                                   "memory '%s' must begin with a finite number", name);
-        JoxMemorySlot slot = {jox_strdup(name),
-                              type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN, value};
+        JoxMemorySlot slot = {.name = jox_strdup(name),
+                              .kind = type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN,
+                              .initial = value};
         uint32_t at = script->memory_count++; /* sorted, for tables have no order */
         for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
             script->memory[at] = script->memory[at - 1];

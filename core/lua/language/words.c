@@ -53,10 +53,9 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     static const struct {
         const char *name;
         JoxTargetKind kind;
-        int32_t kin;
-    } RELATIONS[] = {{"opponents", JOX_TARGET_OPPONENT, JOX_KIN_OPPONENTS},
-                     {"teammates", JOX_TARGET_TEAMMATE, JOX_KIN_TEAMMATES},
-                     {"anyone", JOX_TARGET_ANYONE, JOX_KIN_ALL}};
+    } RELATIONS[] = {{"opponents", JOX_TARGET_OPPONENT},
+                     {"teammates", JOX_TARGET_TEAMMATE},
+                     {"anyone", JOX_TARGET_ANYONE}};
     JoxScript *script = jox_script_of(L);
     const JoxScope *scope = script->scope;
     char hint[96];
@@ -72,7 +71,7 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     for (size_t r = 0; r < sizeof RELATIONS / sizeof *RELATIONS; r++)
         if (strcmp(RELATIONS[r].name, name) == 0) {
             kind = RELATIONS[r].kind;
-            arg = RELATIONS[r].kin;
+            arg = 0;
         }
     for (uint32_t i = 0; kind == JOX_TARGET_NEAREST && i < scope->tag_count; i++)
         if (strcmp(scope->tags[i], name) == 0)
@@ -147,7 +146,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     return NULL;
 }
 
-/* Whether the n-th plain number of a word is in its range; false with an error pushed. */
+/* Whether the n-th number of a word, if it is plain, is in its range; false with an error pushed.
+ */
 static bool in_range(lua_State *L, const JoxWord *word, uint32_t n, double value) {
     const JoxWordNumber *number = jox_word_number(word->name, n);
     if (!number || (value >= number->least && value <= number->greatest))
@@ -181,7 +181,7 @@ static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
         else if (*letter == 's')
             node->name = arguments[i]->name;
         else if (*letter == 'g')
-            node->arg = arguments[i]->target_arg;
+            node->target = arguments[i];
         else if (!node->a)
             node->a = arguments[i];
         else if (!node->b)
@@ -221,11 +221,10 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
             node->term.args[0] =
                 count ? arguments[0]->number : jox_word_number(word->name, 0)->standard;
         else if (word->op == JOX_STEER_DRIFT)
-            memcpy(node->term.args, (double[]){arguments[0]->number, arguments[1]->number},
-                   2 * sizeof(double));
+            node->a = arguments[0], node->b = arguments[1];
         else
             node->target = arguments[0];
-        if (word->op == JOX_STEER_FOLLOW)
+        if (word->op == JOX_STEER_FOLLOW || word->op == JOX_STEER_FORMATION)
             node->term.args[0] =
                 count > 1 ? arguments[1]->number : jox_word_number(word->name, 0)->standard;
         break;
@@ -267,8 +266,11 @@ static int make_word(lua_State *L) {
             break;
         if (!(arguments[count] = jox_word_argument(L, word->name, count + 1, *t)))
             return 1;
-        if (*t == 'd' && !in_range(L, word, numbers++, arguments[count]->number))
+        const bool plain = *t == 'd' || (arguments[count]->kind == JOX_NODE_NUMBER &&
+                                         arguments[count]->op == JOX_OP_CONST && *t == 'n');
+        if (plain && !in_range(L, word, numbers, arguments[count]->number))
             return 1;
+        numbers += *t == 'd' || *t == 'n';
         count++;
     }
     int most = (int)strlen(word->takes) - (strchr(word->takes, '?') != NULL);

@@ -1,0 +1,137 @@
+/* What a machine declares of its agents: own values besides the parameters, and what of their
+   memory others may read. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "lua/read.h"
+
+/* The place that a text names, as a distribution; places of a scene that is not known are -1. */
+static JoxDist read_place(JoxBuild *b, const char *path) {
+    lua_State *L = b->script->vm.L;
+    const JoxScope *scope = b->script->scope;
+    const char *name = lua_tostring(L, -1);
+    const int32_t place =
+        scope->places ? jox_place_find(scope->places, scope->place_count, name) : -1;
+    if (place < 0 && scope->complete)
+        jox_build_error(b, jox_read_at(b, path), "unknown-place", NULL,
+                        "the scene has no place '%.60s'", name);
+    return jox_dist_constant(place);
+}
+
+/* One own value, on top of the stack; popped. */
+static void read_own(JoxBuild *b, const char *path, const char *name) {
+    static const JoxParameterInfo ANY = {"an own value", "", "", -1e12, 1e12, 0};
+    lua_State *L = b->script->vm.L;
+    const int32_t slot = jox_build_own(b, name);
+    JoxOwnSlot *own = &b->machine->own[slot];
+    own->declared = true;
+    if (lua_type(L, -1) == LUA_TSTRING) {
+        own->is_place = true;
+        own->dist = read_place(b, path);
+        lua_pop(L, 1);
+        return;
+    }
+    if (lua_type(L, -1) == LUA_TBOOLEAN) {
+        own->dist = jox_dist_constant(lua_toboolean(L, -1));
+        lua_pop(L, 1);
+        return;
+    }
+    bool is_dist;
+    JoxDist dist;
+    const JoxValue value = jox_read_value(b, path, &ANY, &is_dist, &dist);
+    if (is_dist || value.kind == JOX_VALUE_CONST)
+        b->machine->own[slot].dist = is_dist ? dist : jox_dist_constant(value.number);
+    else if (value.kind != JOX_VALUE_UNSET)
+        jox_build_error(b, jox_read_at(b, path), "bad-value",
+                        "What changes belongs in memory, or into the expression itself",
+                        "an own value is drawn once: a number, a distribution or a place");
+}
+
+/* The names in a table, ascending: tables have no order of their own; returns how many. */
+enum { MOST_NAMES = 64 };
+static uint32_t names_of(JoxBuild *b, int table, const char *path, const char **names) {
+    lua_State *L = b->script->vm.L;
+    uint32_t count = 0;
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+        if (!name || !*name || strlen(name) > 60 || count == MOST_NAMES) {
+            jox_build_error(b, jox_read_at(b, path), "bad-key", "own = { courage = uniform(0, 1) }",
+                            "own maps up to %d names to values", MOST_NAMES);
+            continue;
+        }
+        uint32_t at = count++;
+        for (; at > 0 && strcmp(names[at - 1], name) > 0; at--)
+            names[at] = names[at - 1];
+        names[at] = name;
+    }
+    return count;
+}
+
+void jox_read_own(JoxBuild *b, int index) {
+    lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
+    const int type = jox_read_field(L, index, "own"), table = lua_gettop(L);
+    const char *names[MOST_NAMES];
+    uint32_t count = 0;
+    if (type == LUA_TTABLE)
+        count = names_of(b, table, "own", names);
+    else if (type != LUA_TNIL)
+        jox_build_error(b, jox_read_at(b, "own"), "bad-value", "own = { courage = uniform(0, 1) }",
+                        "own must be a table");
+    for (uint32_t n = 0; n < count; n++) {
+        char path[256];
+        jox_read_join(path, "own", names[n]);
+        if (jox_parameter_find(names[n]) >= 0) {
+            jox_build_error(b, jox_read_at(b, path), "bad-key", "Put it into `defaults`",
+                            "'%s' is a parameter, which every agent has", names[n]);
+            continue;
+        }
+        jox_read_field(L, table, names[n]);
+        read_own(b, path, names[n]);
+    }
+    lua_settop(L, table - 1);
+}
+
+/* Makes the memory public whose name is on top of the stack; popped. */
+static void publish(JoxBuild *b) {
+    lua_State *L = b->script->vm.L;
+    JoxMachine *m = b->machine;
+    const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL, *names[64];
+    const int32_t slot = name ? jox_read_memory(b, name) : -1;
+    size_t count = 0;
+    char hint[96];
+    for (uint32_t s = 0; s < b->script->memory_count && count < 64; s++)
+        names[count++] = b->script->memory[s].name;
+    if (slot >= 0)
+        m->memory[slot].is_public = true;
+    else
+        jox_build_error(b, jox_read_at(b, "public"), "unknown-memory",
+                        name ? jox_did_you_mean(name, names, count, hint) : NULL,
+                        name ? "memory has no '%.60s' to make public" : "public lists names%s",
+                        name ? name : "");
+    for (uint32_t c = 0; slot >= 0 && c < m->counter_count; c++)
+        if (m->counters[c].value == slot)
+            jox_build_error(
+                b, jox_read_at(b, "public"), "bad-value", "Copy it with `set` where it changes",
+                "'%.60s' counts by itself while others look: it cannot be public", name);
+    lua_pop(L, 1);
+}
+
+void jox_read_public(JoxBuild *b, int index) {
+    lua_State *L = b->script->vm.L;
+    const int type = jox_read_field(L, index, "public"), table = lua_gettop(L);
+    if (type == LUA_TSTRING) {
+        lua_pushvalue(L, table);
+        publish(b);
+    } else if (type == LUA_TTABLE) {
+        for (lua_Integer n = 1; lua_rawgeti(L, table, n) != LUA_TNIL && n <= MOST_NAMES; n++)
+            publish(b);
+    } else if (type != LUA_TNIL) {
+        jox_build_error(b, jox_read_at(b, "public"), "bad-value", "public = { \"infected\" }",
+                        "public lists names of memory");
+    }
+    lua_settop(L, table - 1);
+}

@@ -1,0 +1,114 @@
+/* Who sees, hears and touches whom: walls lie between, and others are of a kind. */
+#include <math.h>
+
+#include "geom/wall_grid.h"
+#include "machine/internal.h"
+
+static const float EYES = 1.3f; /* m: walls below are looked over, and called over */
+
+/* Whether a box about the way from one point to another holds none of an edge. */
+static bool is_beside(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {
+    return jox_maxf(a.x, b.x) < jox_minf(from.x, to.x) ||
+           jox_minf(a.x, b.x) > jox_maxf(from.x, to.x) ||
+           jox_maxf(a.y, b.y) < jox_minf(from.y, to.y) ||
+           jox_minf(a.y, b.y) > jox_maxf(from.y, to.y);
+}
+
+/* The first edge on the way that stops it, of another ring than `but`: its vertex, or -1. */
+static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to,
+                             float least_height) {
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        if (r == but || ring->open || ring->height < least_height)
+            continue;
+        for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
+            const JoxV2 a = walls->vertices[v].point,
+                        b = walls->vertices[walls->vertices[v].next].point;
+            if (!is_beside(from, to, a, b) && jox_segments_cross(from, to, a, b))
+                return v;
+        }
+    }
+    return -1;
+}
+
+bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched) {
+    return stopping_edge(walls, but, from, to, touched ? 0.0f : EYES) >= 0;
+}
+
+bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched) {
+    return run->walls && jox_is_hidden_by(run->walls, UINT32_MAX, from, to, touched);
+}
+
+bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal) {
+    const int64_t edge = run->walls ? stopping_edge(run->walls, UINT32_MAX, from, to, 0.0f) : -1;
+    if (edge >= 0)
+        *normal = jox_left(run->walls->vertices[edge].direction);
+    return edge >= 0;
+}
+
+/* ---- others ---- */
+
+double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
+    const JoxAgents *a = run->agents;
+    if (a->machine[agent] == JOX_NO_MACHINE)
+        return NAN;
+    const JoxMachine *machine = jox_machine_of(run, agent);
+    for (uint32_t s = 0; s < machine->memory_count; s++)
+        if (machine->memory[s].is_public && machine->memory[s].name_number == name)
+            return a->memory[(size_t)agent * a->memory_stride + s];
+    return NAN;
+}
+
+/* Whether agent j has all that is asked of those a target means; names are of agent i's machine. */
+static bool is_such(const JoxMachineRun *run, const JoxWhose *whose, uint32_t i, uint32_t j) {
+    const JoxAgents *a = run->agents;
+    const JoxName *names = jox_machine_of(run, i)->names;
+    if (whose->group >= 0 && a->group[j] != whose->group)
+        return false;
+    if (whose->state < 0 && whose->machine < 0 && whose->memory < 0)
+        return true;
+    if (a->machine[j] == JOX_NO_MACHINE)
+        return false;
+    const JoxMachine *machine = jox_machine_of(run, j);
+    if (whose->machine >= 0 && machine->name_number != names[whose->machine].number)
+        return false;
+    if (whose->state >= 0 && machine->states[a->state[j]].name_number != names[whose->state].number)
+        return false;
+    if (whose->memory < 0)
+        return true;
+    const double value = jox_remembered(run, j, names[whose->memory].number);
+    return value >= whose->least && value <= whose->greatest;
+}
+
+/* Whether agent j is of the kind that a target asks for. */
+static bool is_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
+    switch (target->kind) { /* team 0 is none: neither mate nor opponent */
+    case JOX_TARGET_NEAREST:
+        return (a->tags[j] >> target->arg & 1) != 0;
+    case JOX_TARGET_OPPONENT:
+        return a->team[i] != a->team[j] && a->team[i] && a->team[j];
+    case JOX_TARGET_ANYONE:
+        return true;
+    case JOX_TARGET_TEAMMATE:
+        return a->team[i] == a->team[j] && a->team[i];
+    default:
+        return false;
+    }
+}
+
+bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
+    const JoxAgents *a = run->agents;
+    if (!is_kind(a, target, i, j) || (target->whose.some && !is_such(run, &target->whose, i, j)))
+        return false;
+    const JoxV2 from = {a->x[i], a->y[i]};
+    return !jox_is_hidden(run, from, jox_add(from, jox_offset(a, i, j)), false);
+}
+
+uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxNeighbours *n = run->neighbours;
+    const JoxTarget *wanted = &jox_machine_of(run, i)->targets[target];
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < n->count[i]; k++)
+        count += jox_is_wanted(run, wanted, i, n->index[jox_neighbour_at(n, i, k)]);
+    return count;
+}
