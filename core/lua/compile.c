@@ -99,8 +99,9 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JoxMachine *m = build->machine;
     if (!node || node->kind == JOX_NODE_ERROR)
         return -1;
+    static const JoxNodeWhose ANY;
     JoxTarget target = {node->target_kind, node->target_arg, NULL,
-                        build_whose(build, &node->whose)};
+                        build_whose(build, node->kind == JOX_NODE_TARGET ? &node->whose : &ANY)};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
         build_home(build);
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
@@ -163,9 +164,11 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
         in.arg = jox_build_own_at(code->build, node);
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
-    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_THEIRS)
+    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_THEIRS || node->op == JOX_OP_OPEN)
         in.name = jox_build_name(code->build, node->name,
-                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_MEMORY);
+                                 node->op == JOX_OP_HEARD    ? JOX_NAME_HEARD
+                                 : node->op == JOX_OP_THEIRS ? JOX_NAME_MEMORY
+                                                             : JOX_NAME_GATE);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)

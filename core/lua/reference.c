@@ -313,8 +313,11 @@ static void example_behaviour(JoxText *out, const char *top, const char *state,
         "  states = {\n    Start = { { to = \"Trial\", when = after(0.2) } },\n"
         "    Trial = { %s\n      { to = \"Next\"%s } },\n"
         "    Next = { steer = hold, set = { laps = mine.laps, touched = false } },\n  },\n}\n",
-        MEMORY, strstr(top, "public") || strstr(top, "counts") ? "" : " public = \"laps\",", top,
-        state, transition);
+        MEMORY,
+        strstr(top, "public") || strstr(top, "counts") || strstr(state, "counts")
+            ? ""
+            : " public = \"laps\",",
+        top, state, transition);
 }
 
 static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {

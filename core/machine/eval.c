@@ -1,6 +1,7 @@
 /* Programs over batches: one dispatch per instruction for up to 256 agents. What is arithmetic, or
    lies in the agents' columns, is done by the kernel (eval_wide.c), the rest here. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "machine/kernels.h"
@@ -120,6 +121,9 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return jox_neighbours_of(run, i, in->target);
     case JOX_OP_THEIRS:
         return jox_theirs(run, i, in->target, machine->names[in->name].number);
+    case JOX_OP_QUEUED:
+        place = jox_target_place(run, i, in->place);
+        return place < 0 ? 0.0 : run->scratch->place_queue[place];
     case JOX_OP_SHUT:
         return jox_sees_shut(run, i, jox_target_place(run, i, in->place));
     default:
@@ -127,14 +131,33 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     }
 }
 
+/* Whether gates have the name and none of them stands: the same for all. */
+static bool is_open(const JoxMachineRun *run, const char *gate) {
+    bool any = false;
+    for (uint32_t r = 0; run->walls && r < run->walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &run->walls->rings[r];
+        if (!ring->name || strcmp(ring->name, gate) != 0)
+            continue;
+        if (!ring->open)
+            return false;
+        any = true;
+    }
+    return any;
+}
+
 static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
                     const uint32_t *agents, uint32_t count, JoxRegisters r) {
     double *to = r[in->to];
-    if (in->op == JOX_OP_CROSSES)
+    if (in->op == JOX_OP_CROSSES) {
         crosses(run, machine, in, agents, count, to);
-    else if (!KERNELS[run->isa](run, in, agents, count, r))
+    } else if (in->op == JOX_OP_OPEN) {
+        const double open = is_open(run, machine->names[in->name].text);
+        for (uint32_t n = 0; n < count; n++)
+            to[n] = open;
+    } else if (!KERNELS[run->isa](run, in, agents, count, r)) {
         for (uint32_t n = 0; n < count; n++)
             to[n] = sense(run, machine, agents[n], in, r[in->a][n]);
+    }
 }
 
 bool jox_holds_for_nobody(const double *values, uint32_t count) {

@@ -88,7 +88,8 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 }
 
 static bool is_condition(JoxOp op) {
-    return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS;
+    return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
+           op != JOX_OP_QUEUED;
 }
 
 /* Writes what an instruction leaves in its register, which has `value` for the agent. */

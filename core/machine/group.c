@@ -58,6 +58,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->heard);
     jox_free(s->everywhere);
     jox_free(s->place_people);
+    jox_free(s->place_queue);
     jox_free(s->marks);
     jox_free(s->registers);
     jox_free(s->odd);
@@ -143,6 +144,13 @@ static void rank_queues(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
     uint32_t count = 0, *list = s->list;
+    if (run->place_count > s->place_capacity) {
+        s->place_capacity = run->place_count + 16;
+        s->place_people = jox_realloc(s->place_people, s->place_capacity, sizeof(uint32_t));
+        s->place_queue = jox_realloc(s->place_queue, s->place_capacity, sizeof(uint32_t));
+    }
+    if (run->place_count)
+        memset(s->place_queue, 0, run->place_count * sizeof *s->place_queue);
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
         int16_t target = jox_queue_target(&run->set->items[batch->machine]->states[batch->state]);
@@ -153,6 +161,8 @@ static void rank_queues(JoxMachineRun *run) {
                 a->queue_at[i] = s->queue[i];
                 a->queued[i] = run->tick;
             }
+            if (s->queue[i] >= 0)
+                s->place_queue[s->queue[i]]++;
             list[count++] = i;
         }
     }
@@ -196,10 +206,6 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
 /* Marks the places whose people some expression asks for. */
 static void mark_asked(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
-    if (run->place_count > s->place_capacity) {
-        s->place_capacity = run->place_count + 16;
-        s->place_people = jox_realloc(s->place_people, s->place_capacity, sizeof(uint32_t));
-    }
     for (uint32_t p = 0; p < run->place_count; p++)
         s->place_people[p] = UINT32_MAX;
     for (uint32_t m = 0; m < run->set->count; m++) {

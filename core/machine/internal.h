@@ -48,6 +48,7 @@ typedef struct JoxMachineScratch {
     uint64_t *marks; /* a bit per id */
     uint32_t mark_capacity;
     uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */
+    uint32_t *place_queue;  /* per place: who stand in its queue */
     uint32_t place_capacity;
     JoxRegisters *registers; /* one set per worker */
     JoxOdd *odd;             /* the first that each worker met */

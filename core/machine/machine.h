@@ -72,8 +72,9 @@ typedef enum JoxNow {
    HAS: the agent holds target, a body. HEARD: another agent within perception, and within a metres,
    gave the signal `name` in the last step. NEIGHBOURS: how many of them are what target asks for.
    THEIRS: what the agent that target is remembers as `name`, if its machine makes that public; else
-   0. SHUT: a gate at place stands, and the agent sees it. Whom a wall hides is not seen, heard or
-   touched. */
+   0. SHUT: a gate at place stands, and the agent sees it. QUEUED: how many
+   stand in the queue `place`. OPEN: the gates called `name` are open. Whom a wall hides is not
+   seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -82,7 +83,8 @@ typedef enum JoxNow {
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
     X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
-    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)
+    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)                             \
+    X(QUEUED) X(OPEN)
 /* clang-format on */
 
 typedef enum JoxOp {
@@ -278,7 +280,8 @@ typedef enum {
     JOX_NAME_SIGNALLED = 2,
     JOX_NAME_HEARD = 4,
     JOX_NAME_MACHINE = 8,
-    JOX_NAME_MEMORY = 16
+    JOX_NAME_MEMORY = 16,
+    JOX_NAME_GATE = 32
 } JoxNameUse;
 typedef struct JoxName {
     char *text;

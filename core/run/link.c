@@ -15,6 +15,14 @@ static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
     return -1;
 }
 
+const char *jox_run_made(const JoxSceneSpec *spec, const char *path) {
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++)
+            if (spec->groups[g].mix[m].text && !strcmp(spec->groups[g].mix[m].behaviour, path))
+                return spec->groups[g].mix[m].text;
+    return NULL;
+}
+
 int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     JoxMachineRun *machines = &scene->world->machines;
     int32_t known = find_machine(machines, path);
@@ -25,7 +33,9 @@ int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagno
                        "a scene has at most %d behaviours", JOX_MOST_MACHINES);
         return -1;
     }
-    JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
+    const char *made = jox_run_made(scene->spec, path);
+    JoxMachine *machine = jox_lua_load_text(scene->lua, path, made, made ? strlen(made) : 0,
+                                            &scene->scope, diagnostics);
     return machine ? (int32_t)jox_machines_add(machines, machine) : -1;
 }
 

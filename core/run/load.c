@@ -71,6 +71,7 @@ static void add_places(JoScene *scene) {
                               .tag_count = scene->world->model.tag_count,
                               .groups = scene->scope_groups,
                               .group_count = spec->group_count,
+                              .walls = &scene->world->model.all_walls,
                               .complete = true,
                               .mods = scene->mods->items,
                               .mod_count = scene->mods->count};

@@ -53,6 +53,9 @@ bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
         const JoxGroup *group = &spec->groups[g];
         check_names(scene, group, group->set, group->set_count, false, diagnostics);
         check_names(scene, group, group->memory, group->memory_count, true, diagnostics);
+        for (uint32_t p = 0; p < group->profile_count; p++)
+            check_names(scene, group, group->profiles[p].set, group->profiles[p].set_count, false,
+                        diagnostics);
     }
     for (uint32_t s = 0; s < spec->source_count; s++)
         check_names(scene, &spec->groups[spec->sources[s].like], spec->sources[s].memory,

@@ -107,8 +107,9 @@ static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMach
 static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
     JoScene *scene = r->scene;
     const char *path = batch->changes[c].path;
-    JoxLoaded *loaded =
-        jox_lua_prepare(scene->lua, path, NULL, 0, &scene->scope, &batch->diagnostics);
+    const char *made = jox_run_made(scene->spec, path);
+    JoxLoaded *loaded = jox_lua_prepare(scene->lua, path, made, made ? strlen(made) : 0,
+                                        &scene->scope, &batch->diagnostics);
     uint32_t count;
     char *const *tried = jox_loaded_tried(loaded, &count);
     for (uint32_t f = 0; f < count; f++)

@@ -132,7 +132,9 @@ static bool take_groups(Rescene *r) {
                                is->positions ? is->count : 0) ||
                   !same_starts(was, is);
         for (uint32_t m = 0; m < is->mix_count && m < was->mix_count; m++)
-            counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0;
+            counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0 ||
+                      !is->mix[m].text != !was->mix[m].text ||
+                      (is->mix[m].text && strcmp(was->mix[m].text, is->mix[m].text) != 0);
         for (uint32_t s = 0; s < is->set_count; s++) {
             const JoxGroupValue *set = &is->set[s], *before = NULL;
             for (uint32_t o = 0; o < was->set_count; o++)

@@ -100,6 +100,8 @@ bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
                        uint32_t count, JoxDiagnostics *diagnostics);
 /* Index of the machine of a file, loaded where it is not there yet; -1 with diagnostics. */
+/* The text of a behaviour that was made of a journey, by its path; NULL: it is a file. */
+const char *jox_run_made(const JoxSceneSpec *spec, const char *path);
 int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
 /* Finds the machines that states of machine become; false with diagnostics. */
 bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);

@@ -7,7 +7,7 @@
 
 enum { LONGEST_NAME = 60 };
 
-static void check_wall(const JoxReader *r, const JoxYaml *name) {
+void jox_load_wall(const JoxReader *r, const JoxYaml *name) {
     const JoxWalls *walls = &r->load->scene->walls;
     const char *names[256];
     uint32_t count = 0;
@@ -62,7 +62,7 @@ void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     if (event->kind == JOX_EVENT_THROW)
         check_body(r, node);
     else if (event->kind != JOX_EVENT_SIGNAL)
-        check_wall(r, node);
+        jox_load_wall(r, node);
     else if (!*node->text || strlen(node->text) > LONGEST_NAME)
         jox_scene_error(r, node, "bad-event", NULL, "a signal's name has from 1 to %d bytes",
                         LONGEST_NAME);

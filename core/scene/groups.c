@@ -79,10 +79,13 @@ void jox_key_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
 bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxGroup *group = item;
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
-    (void)good;
-    if (!one == !mix)
+    const JoxYaml *journey = jox_yaml_get(map, "journey");
+    const size_t errors = r->diagnostics->errors;
+    if (!one + !mix + !journey != 2)
         jox_scene_error(r, map, "missing-key", "behaviour: walker.lua",
-                        "a group needs a behaviour or a mix of them");
+                        "a group needs one of a behaviour, a mix of them and a journey");
+    else if (journey && good && errors == 0)
+        jox_load_journey(r, map, group);
     jox_load_positions(r, map, group);
     return true; /* a wrong one is known by its name */
 }

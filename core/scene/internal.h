@@ -89,7 +89,17 @@ void jox_load_positions(const JoxReader *reader, const JoxYaml *map, JoxGroup *g
 /* Those of a group that have starts: the first of them stand there. */
 void jox_load_starts(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
 
+/* journeys.c: a duration, the queues and the gate of a step; the behaviour of a group's journey,
+   which takes its place. */
+JoxKeyRead jox_key_duration, jox_key_queues, jox_key_gate;
+JoxOwnerFinish jox_finish_step;
+void jox_load_journey(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
+
+/* events.c: reports a name that no wall has. */
+void jox_load_wall(const JoxReader *reader, const JoxYaml *name);
+
 /* sources.c, events.c, probes.c */
+JoxKeyRead jox_key_times, jox_key_curve;
 JoxOwnerFinish jox_finish_source, jox_finish_sink, jox_finish_event, jox_finish_probe;
 JoxKeyRead jox_key_event_name;
 JoxKeyRead jox_key_true, jox_key_states, jox_key_groups;

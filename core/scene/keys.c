@@ -219,6 +219,12 @@ static const JoxKey KEYS[] = {
      .meaning = "a Lua file: beside the scene, in ../behaviours or of the installed ones"},
     {"group", "mix", VALUES, "", 0, 0, "", READ(jox_key_mix), .of = "weight*",
      .meaning = "several behaviours, each with its share"},
+    {"group", "journey", LIST, "", 0, 0, "", ITEMS(JoxGroup, journey, journey_count), .of = "step[1]",
+     .example = "journey: [{to: hall, wait: 5}, {exit: door}]", LATER("behaviours are loaded at the start"),
+     .meaning = "in place of a behaviour: what people do one thing after another"},
+    {"group", "profiles", TABLE, "", 0, 0, "", ITEMS(JoxGroup, profiles, profile_count), .of = "profile*",
+     .example = "profiles: {adult: {share: 0.9}, child: {share: 0.1, set: {radius: 0.15}}}",
+     .meaning = "kinds of people, each with its share; each person is of one of them"},
     {"group", "count", WHOLE, "", 0, 1000000, "", TO(JoxGroup, count), .meaning = "how many agents at the start; 0 where sources bring them"},
     {"group", "density", NUMBER, "1/m2", 0.001, 20, "", ASIDE(fill.density), .meaning = "in place of count"},
     {"group", "at", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_points, JoxGroup, positions, count), .of = "xy[1]",
@@ -243,9 +249,33 @@ static const JoxKey KEYS[] = {
     {"group", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxGroup, memory, memory_count), .of = "draw*",
      .meaning = "what they remember at the start"},
 
-    {"source", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSource, place, place), .meaning = "place where agents appear, but no set"},
+    {"profile", "share", NUMBER, "", 1e-6, 1e6, "1", TO(JoxProfile, share), .meaning = "weight among the profiles of the group"},
+    {"profile", "set", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxProfile, set, set_count), .of = "value*",
+     .meaning = "values in place of those that the group sets"},
+
+    {"step", "to", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, to, to),
+     .meaning = "place to walk to, by whatever way gets there soonest; of a set, to the member that is reached soonest. To wait in a polygon, people spread over it"},
+    {"step", "queue", NAMES, "", 0, 0, "", READ(jox_key_queues),
+     .meaning = "queues, in one of which to stand: the one that seems to take least time, the way there included, as each judges it within 2 s"},
+    {"step", "service", TEXT, "", 0, 0, "", READ_TO(jox_key_duration, JoxJourneyStep, service, service), .of = "draw", .example = "service: uniform(2, 4)",
+     .meaning = "at the head of the queue, in s: a number or a distribution"},
+    {"step", "wait", TEXT, "", 0, 0, "", READ_TO(jox_key_duration, JoxJourneyStep, wait, wait), .of = "draw", .example = "wait: 5 s",
+     .meaning = "how long to stand, in s: a number or a distribution"},
+    {"step", "until", TEXT, "", 0, 0, "", TO(JoxJourneyStep, until), .meaning = "stands until this signal is given, by an event or by somebody near"},
+    {"step", "open", TEXT, "", 0, 0, "", READ_TO(jox_key_gate, JoxJourneyStep, gate, gate), .meaning = "stands until the walls of this name are open"},
+    {"step", "exit", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, exit, exit), .meaning = "place to walk to and to leave by"},
+    {"step", "share", NUMBER, "", 0, 1, "1", TO(JoxJourneyStep, share), .meaning = "of people who do this step; the others go on to the next"},
+
+    {"source", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSource, place, place), .meaning = "place where agents appear; of a set each at one of its members"},
     {"source", "like", TEXT, "", 0, 0, "!", READ_TO(jox_key_group, JoxAgentSource, like, like), .meaning = "group that they belong to"},
     {"source", "rate", NUMBER, "1/s", 0, 1000, "0", TO(JoxAgentSource, rate), .meaning = "agents a second"},
+    {"source", "people", WHOLE, "", 0, 100000, "0", TO(JoxAgentSource, people),
+     .meaning = "agents at once, at each of the times that `every` and `times` give; 1 where it is not given"},
+    {"source", "every", NUMBER, "s", 0.01, 1e6, "", TO(JoxAgentSource, every), .meaning = "from one such time to the next, beginning with `from`"},
+    {"source", "times", LIST, "s", 0, 1e6, "", READ(jox_key_times), .of = "quantity[1]", .example = "times: [10 s, 75 s, 3 min]",
+     .meaning = "a timetable: other such times"},
+    {"source", "curve", LIST, "", 0, 0, "", READ(jox_key_curve), .of = "quantity[2][2]", .example = "curve: [[0, 0], [60, 2], [300, 0]]",
+     .meaning = "[s, agents a second] at each of some times, straight between them, 0 before and after"},
     {"source", "keep", WHOLE, "", 0, 1000000, "0", TO(JoxAgentSource, keep),
      .meaning = "tops the group up to this number, once a second"},
     {"source", "from", NUMBER, "s", 0, 1e9, "0", TO(JoxAgentSource, from), .meaning = "nobody comes before"},
@@ -370,6 +400,12 @@ static const JoxOwner OWNERS[] = {
      "some places (`in`), `at` given points, or coming in as a recording has them (`starts`).",
      .size = sizeof(JoxGroup), .name_at = AT(JoxGroup, name),
      .place_at = AT(JoxGroup, position), .finish = jox_finish_group},
+    {"profile", "profile", "Children, people with luggage, wheelchairs: what differs between the people of one group.",
+     .size = sizeof(JoxProfile), .name_at = AT(JoxProfile, name), .place_at = AT(JoxProfile, position)},
+    {"step", "Journeys", "`journey` of a group is a list of steps. What a step has is done in the order of this table, and people "
+     "walk by the walking law. Who has done the last step stays, unless it is an `exit`. The states that people are in are called after "
+     "the steps, as `3 Queue at gate_1`; `jostle run SCENE --trace 0` shows them.",
+     .size = sizeof(JoxJourneyStep), .place_at = AT(JoxJourneyStep, position), .finish = jox_finish_step},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait.",
      .size = sizeof(JoxAgentSource), .place_at = AT(JoxAgentSource, position),
      .finish = jox_finish_source},
@@ -400,10 +436,10 @@ static const JoxOwner OWNERS[] = {
 
 const JoxAlternative jox_scene_alternatives[] = {
     {"body", "mass|density", JOX_AT_MOST_ONE},
-    {"group", "behaviour|mix", JOX_EXACTLY_ONE},
+    {"group", "behaviour|mix|journey", JOX_EXACTLY_ONE},
     {"group", "count|density", JOX_AT_MOST_ONE},
     {"group", "count|density|at|starts", JOX_AT_LEAST_ONE},
-    {"source", "rate|keep", JOX_AT_LEAST_ONE},
+    {"source", "rate|keep|every|times|curve", JOX_AT_LEAST_ONE},
 };
 const size_t jox_scene_alternative_count =
     sizeof jox_scene_alternatives / sizeof *jox_scene_alternatives;

@@ -1,6 +1,10 @@
 /* Sources and sinks of a scene. */
+#include <math.h>
+
 #include "base/assert.h"
 #include "scene/internal.h"
+
+enum { MOST_TIMES = 10000 };
 
 /* The point opposite on the circle is that of agents who stand on it at the start. */
 static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxGroup *group) {
@@ -15,20 +19,77 @@ static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxGr
         }
 }
 
+/* A list of times, s. */
+void jox_key_times(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxAgentSource *source = item;
+    if (!node)
+        return;
+    if (node->kind != JOX_YAML_LIST || node->count < 1 || node->count > MOST_TIMES) {
+        jox_scene_error(r, node, "bad-type", key->example, "%s are a list of 1 to %d times",
+                        key->name, MOST_TIMES);
+        return;
+    }
+    source->times = jox_arena_take(r->arena, node->count, sizeof *source->times);
+    for (uint32_t t = 0; t < node->count; t++) {
+        double time;
+        if (!jox_read_number(r, node->items[t], "s", &time))
+            continue;
+        if (time >= key->least && time <= key->greatest)
+            source->times[source->time_count++] = time;
+        else
+            jox_scene_error(r, node->items[t], "out-of-range", NULL, "this must be %g to %g s",
+                            key->least, key->greatest);
+    }
+}
+
+/* [s, 1/s] in order of time. */
+void jox_key_curve(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxAgentSource *source = item;
+    if (!node)
+        return;
+    if (node->kind != JOX_YAML_LIST || node->count < 2 || node->count > MOST_TIMES) {
+        jox_scene_error(r, node, "bad-type", key->example,
+                        "%s is a list of 2 to %d of [s, agents a second]", key->name, MOST_TIMES);
+        return;
+    }
+    source->curve = jox_arena_take(r->arena, 2 * (size_t)node->count, sizeof *source->curve);
+    for (uint32_t k = 0; k < node->count; k++) {
+        const JoxYaml *row = node->items[k];
+        double *out = source->curve + 2 * source->curve_count;
+        if (row->kind != JOX_YAML_LIST || row->count != 2) {
+            jox_scene_error(r, row, "bad-type", key->example, "this must be [s, agents a second]");
+            continue;
+        }
+        if (!jox_read_number(r, row->items[0], "s", &out[0]) ||
+            !jox_read_number(r, row->items[1], "1/s", &out[1]))
+            continue;
+        const bool later = source->curve_count == 0 ? out[0] >= 0.0 : out[0] > out[-2];
+        if (!later || !(out[0] <= 1e6) || !(out[1] >= 0.0 && out[1] <= 1000.0))
+            jox_scene_error(r, row, "out-of-range", key->example,
+                            "times rise, from 0 to 1e6 s, and rates are from 0 to 1000 1/s");
+        else
+            source->curve_count++;
+    }
+}
+
 bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxAgentSource *source = item;
     const JoxSceneSpec *s = r->load->scene;
     (void)good;
-    if (source->rate == 0 && source->keep == 0)
+    source->every = isfinite(source->every) ? source->every : 0.0;
+    if (source->people > 0 && source->every == 0.0 && !jox_yaml_get(map, "times"))
+        jox_scene_error(r, jox_yaml_get(map, "people"), "bad-value", "every: 2 min",
+                        "people come at times: give `every` or `times`");
+    if (source->people == 0 && (source->every > 0.0 || source->time_count > 0))
+        source->people = 1;
+    if (source->rate == 0 && source->keep == 0 && source->people == 0 &&
+        !jox_yaml_get(map, "curve") && !jox_yaml_get(map, "times"))
         jox_scene_error(r, map, "missing-key", "rate: 2, or keep: 1000",
-                        "a source needs a rate or a number to keep");
+                        "a source needs a rate, a number to keep, times or a curve");
     /* -1: there is none of the name */
     if ((int32_t)source->place < 0 || (int32_t)source->like < 0)
         return false;
     JOX_ASSERT(source->place < s->place_count && source->like < s->group_count);
-    if (s->places[source->place].kind == JOX_PLACE_SET)
-        jox_scene_error(r, jox_yaml_get(map, "at"), "bad-place", NULL,
-                        "a source cannot be at a set");
     refuse_antipode(r, jox_yaml_get(map, "like"), &s->groups[source->like]);
     return true;
 }

@@ -34,6 +34,20 @@ static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32
     return jox_world_machine(world, group->mix[group->mix_count - 1].behaviour);
 }
 
+/* Which profile of a group an agent has; NULL where it has none. */
+static const JoxProfile *pick_profile(const JoWorld *world, const JoxGroup *group, uint32_t id) {
+    double sum = 0.0;
+    for (uint32_t p = 0; p < group->profile_count; p++)
+        sum += group->profiles[p].share;
+    double u = sum * jox_random_unit(world->model.def.seed, id, 0, JOX_DRAW_PROFILE, 0);
+    for (uint32_t p = 0; p < group->profile_count; p++) {
+        if (u < group->profiles[p].share || p + 1 == group->profile_count)
+            return &group->profiles[p];
+        u -= group->profiles[p].share;
+    }
+    return NULL;
+}
+
 static int32_t add_point(JoWorld *world, JoxV2 at) {
     JOX_ASSERT(world->model.place_count < world->model.place_capacity);
     JoxPlace *place = &world->model.places[world->model.place_count];
@@ -58,6 +72,7 @@ enum { MOST_PLACES = 16 };
 typedef struct Overrides {
     const JoxDist *own[JOX_MOST_GIVEN], *memory[JOX_MOST_GIVEN];
     JoxDist places[MOST_PLACES];
+    uint32_t place_count;
 } Overrides;
 
 static uint32_t least(uint32_t slots) {
@@ -72,25 +87,33 @@ static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachi
                 o->memory[k] = &memory[s].dist;
 }
 
-static void override(JoWorld *world, const JoxGroup *group, const JoxGroupValue *memory,
-                     uint32_t memory_count, const JoxMachine *machine, JoxV2 at, Overrides *o) {
-    uint32_t places = 0;
-    const uint32_t own = least(machine->own_count), remembered = least(machine->memory_count);
-    memset(o->own, 0, own * sizeof *o->own);
-    memset(o->memory, 0, remembered * sizeof *o->memory);
-    for (uint32_t s = 0; s < group->set_count; s++)
-        for (uint32_t k = 0; k < own; k++) {
-            const JoxGroupValue *set = &group->set[s];
+static void give(JoWorld *world, const JoxGroup *group, const JoxGroupValue *values, uint32_t count,
+                 const JoxMachine *machine, JoxV2 at, Overrides *o) {
+    for (uint32_t s = 0; s < count; s++)
+        for (uint32_t k = 0; k < least(machine->own_count); k++) {
+            const JoxGroupValue *set = &values[s];
             if (strcmp(machine->own[k].name, set->name) != 0)
                 continue;
             o->own[k] = &set->dist;
-            if (set->kind != JOX_SET_NUMBER && places < MOST_PLACES) {
+            if (set->kind != JOX_SET_NUMBER && o->place_count < MOST_PLACES) {
                 int32_t place =
                     set->kind == JOX_SET_PLACE ? set->place : add_antipode(world, group, at);
-                o->places[places] = jox_dist_constant(place);
-                o->own[k] = &o->places[places++];
+                o->places[o->place_count] = jox_dist_constant(place);
+                o->own[k] = &o->places[o->place_count++];
             }
         }
+}
+
+static void override(JoWorld *world, const JoxGroup *group, const JoxProfile *profile,
+                     const JoxGroupValue *memory, uint32_t memory_count, const JoxMachine *machine,
+                     JoxV2 at, Overrides *o) {
+    const uint32_t own = least(machine->own_count), remembered = least(machine->memory_count);
+    o->place_count = 0;
+    memset(o->own, 0, own * sizeof *o->own);
+    memset(o->memory, 0, remembered * sizeof *o->memory);
+    give(world, group, group->set, group->set_count, machine, at, o);
+    if (profile)
+        give(world, group, profile->set, profile->set_count, machine, at, o);
     remember(group->memory, group->memory_count, machine, o);
     remember(memory, memory_count, machine, o); /* a source's, where it gives some */
 }
@@ -140,7 +163,8 @@ static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupV
     uint32_t index = pick_machine(world, group, a->id[i]);
     JOX_ASSERT(index < world->model.machines.count);
     Overrides set;
-    override(world, group, memory, memory_count, world->model.machines.items[index], at, &set);
+    override(world, group, pick_profile(world, group, a->id[i]), memory, memory_count,
+             world->model.machines.items[index], at, &set);
     world->machines.tick = (uint32_t)world->state.tick;
     world->machines.places = world->model.places;
     world->machines.place_count = world->model.place_count;
@@ -157,8 +181,7 @@ uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at) {
 /* ---- sources ---- */
 
 /* A point of a place, drawn for a source. */
-static JoxV2 draw_point(const JoWorld *world, uint32_t source, uint32_t n) {
-    const JoxPlace *place = &world->model.places[world->model.sources[source].place];
+static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, uint32_t source, uint32_t n) {
     JoxV2 low = place->centre, high = place->centre;
     if (place->kind != JOX_PLACE_POINT)
         jox_bounds(place->points, place->count, &low, &high);
@@ -229,13 +252,39 @@ static Room room_at(const JoxPlace *place, const JoxAgents *a) {
     return room;
 }
 
+/* Area below a curve from its beginning to a time: how many have come by it. */
+static double below_curve(const JoxAgentSource *source, double time) {
+    double sum = 0.0;
+    for (uint32_t k = 0; k + 1 < source->curve_count; k++) {
+        const double *a = source->curve + 2 * k, *b = a + 2;
+        const double end = time < b[0] ? time : b[0];
+        if (end <= a[0])
+            break;
+        const double rate = a[1] + (b[1] - a[1]) * (end - a[0]) / (b[0] - a[0]);
+        sum += 0.5 * (a[1] + rate) * (end - a[0]);
+    }
+    return sum;
+}
+
+/* How many a source has been due to make by a time. */
+static double due_until(const JoxAgentSource *source, double time) {
+    static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded steps */
+    const double since = time - source->from;
+    double due = source->rate * since;
+    if (source->every > 0.0)
+        due += source->people * (floor((since + NEARLY) / source->every) + 1.0);
+    for (uint32_t t = 0; t < source->time_count; t++)
+        due += source->times[t] <= time + NEARLY ? source->people : 0;
+    return floor(due + below_curve(source, time) + NEARLY);
+}
+
 /* How many agents a source is due to make now. A kept number is topped up once a second. */
 static uint32_t due_now(JoWorld *world, uint32_t s) {
     const JoxAgentSource *source = &world->model.sources[s];
     double time = (double)world->state.tick * world->model.def.dt;
     if (time < source->from || time >= source->until)
         return 0;
-    double due = floor(source->rate * (time - source->from)) - world->state.population.made[s];
+    double due = due_until(source, time) - world->state.population.made[s];
     uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
     if (source->keep > 0 && world->state.tick % second == 0) {
         uint32_t present = 0;
@@ -246,24 +295,37 @@ static uint32_t due_now(JoWorld *world, uint32_t s) {
     return due <= 0.0 ? 0 : due > AT_ONCE ? AT_ONCE : (uint32_t)due;
 }
 
+/* By which place of a set the n-th of a step comes in; the source's own where that is no set. */
+static const JoxPlace *pick_door(const JoWorld *world, uint32_t s, uint32_t n) {
+    const JoxPlace *place = &world->model.places[world->model.sources[s].place];
+    if (place->kind != JOX_PLACE_SET)
+        return place;
+    const double u = jox_random_unit(world->model.def.seed, s, world->state.tick, JOX_DRAW_DOOR, n);
+    return &world->model.places[place->members[(uint32_t)(u * place->member_count)]];
+}
+
 void jox_world_sources(JoWorld *world) {
     for (uint32_t s = 0; s < world->model.source_count; s++) {
         const JoxAgentSource *source = &world->model.sources[s];
         const JoxGroup *group = &world->model.groups[source->like];
         const uint32_t due = due_now(world, s);
-        if (due == 0)
-            continue;
         const JoxAgents *a = &world->state.agents;
-        Room room = room_at(&world->model.places[source->place], a);
-        uint32_t n = 0;
-        for (; n < due && room.covered < FULL * room.area; n++) {
-            uint32_t i = spawn(world, source->like, draw_point(world, s, n),
+        Room room = {0};
+        uint32_t made = 0;
+        for (uint32_t n = 0; n < due; n++) {
+            const JoxPlace *door = pick_door(world, s, n);
+            if (room.place != door)
+                room = room_at(door, a);
+            if (room.covered >= FULL * room.area)
+                continue;
+            uint32_t i = spawn(world, source->like, draw_point(world, door, s, n),
                                source->memory_count ? source->memory : group->memory,
                                source->memory_count ? source->memory_count : group->memory_count);
             take_room(&room, a, i);
+            made++;
         }
-        if (source->rate > 0)
-            world->state.population.made[s] += n;
+        if (source->rate > 0 || source->people > 0 || source->curve_count > 0)
+            world->state.population.made[s] += made;
     }
 }
 
@@ -359,7 +421,7 @@ void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t g
     }
     for (uint32_t s = 0; anew && s < source_count; s++)
         if (time > sources[s].from)
-            p->made[s] = floor(sources[s].rate * (time - sources[s].from));
+            p->made[s] = due_until(&sources[s], time);
     model->groups = groups;
     model->group_count = group_count;
     model->sources = sources;

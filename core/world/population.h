@@ -24,8 +24,30 @@ typedef struct JoxGroupValue {
 typedef struct JoxGroupMix {
     char *behaviour; /* the path as found on disk */
     double weight;   /* share; the weights of a group sum to 1 */
+    char *text;      /* of a journey, for which there is no file; NULL: it is read */
     JoxPosition position;
 } JoxGroupMix;
+
+/* A kind of people in a group, who get values of their own. */
+typedef struct JoxProfile {
+    char *name;
+    double share; /* weight among those of the group */
+    JoxGroupValue *set;
+    uint32_t set_count;
+    JoxPosition position;
+} JoxProfile;
+
+/* A stage of a journey: what there is of it is done in this order. Indices of places, -1: none. */
+typedef struct JoxJourneyStep {
+    double share;     /* of people who do it, 0 to 1 */
+    int32_t to, exit; /* where they walk; where they leave */
+    uint32_t *queues; /* one of which they stand in: the one that takes them least time */
+    uint32_t queue_count;
+    char *service, *wait, *until,
+        *gate;     /* as a behaviour has it: s, s; a signal; a gate; or NULL */
+    double served; /* s: about how long a service takes */
+    JoxPosition position;
+} JoxJourneyStep;
 
 /* When and where somebody comes in, and how: m/s, NAN where that is not given. */
 typedef struct JoxStart {
@@ -57,11 +79,20 @@ typedef struct JoxGroup {
     uint32_t set_count;
     JoxGroupValue *memory; /* initial memory; numbers only */
     uint32_t memory_count;
+    JoxProfile *profiles;
+    uint32_t profile_count;
+    JoxJourneyStep *journey; /* what its behaviour was made of; NULL: it has one of its own */
+    uint32_t journey_count;
 } JoxGroup;
 
 typedef struct JoxAgentSource {
     uint32_t place;
-    double rate;           /* agents a second; 0: none by rate */
+    double rate;     /* agents a second; 0: none by rate */
+    double every;    /* s from one time to the next, the first being `from`; 0: no */
+    double *times;   /* s, others */
+    double *curve;   /* times, s, each with a rate, 1/s: straight between them, 0 beyond */
+    uint32_t people; /* at each of the times */
+    uint32_t time_count, curve_count;
     uint32_t keep;         /* tops the group up to so many; 0: no */
     uint32_t like;         /* index of the group that they belong to */
     JoxGroupValue *memory; /* in place of the group's, where given */

@@ -236,6 +236,11 @@ function heard(a1, a2) end
 ---@return jostle.Condition
 function shut(a1) end
 
+--- `open(gate)`: the walls of this name are open, wherever they are: all know it, as of a door that is announced
+---@param a1 string
+---@return jostle.Condition
+function open(a1) end
+
 --- `density(place)` in 1/m2: people per square metre in a place; of a point, line or queue: within 2 m
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
@@ -245,6 +250,11 @@ function density(a1) end
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
 function count(a1) end
+
+--- `queued(queue)`: people who steer in a queue, on their way to their place in it too
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Number
+function queued(a1) end
 
 --- `distance(target)` in m: to the target, 0 in a place; infinite where there is none
 ---@param a1 string|jostle.Target|jostle.Number

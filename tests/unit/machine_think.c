@@ -58,7 +58,8 @@ static JoxTransition *add_transition(JoxMachine *m, uint16_t from, uint16_t to, 
 
 static int16_t add_place_target(JoxMachine *m, int32_t place) {
     m->targets = jox_realloc(m->targets, m->target_count + 1, sizeof *m->targets);
-    m->targets[m->target_count] = (JoxTarget){JOX_TARGET_PLACE, place, jox_strdup("place")};
+    m->targets[m->target_count] =
+        (JoxTarget){.kind = JOX_TARGET_PLACE, .arg = place, .name = jox_strdup("place")};
     return (int16_t)m->target_count++;
 }
 
@@ -405,7 +406,7 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
     JoxMachine *m = new_machine(1);
     m->states[0].kick_at = add_place_target(m, 0);
     m->targets = jox_realloc(m->targets, 2, sizeof *m->targets);
-    m->targets[1] = (JoxTarget){JOX_TARGET_NEAREST, 4, jox_strdup("ball")};
+    m->targets[1] = (JoxTarget){.kind = JOX_TARGET_NEAREST, .arg = 4, .name = jox_strdup("ball")};
     m->target_count = 2;
     m->states[0].kick = 1;
     m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0};

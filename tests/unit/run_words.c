@@ -25,6 +25,7 @@ static const char YARD[] =
     "  far: {point: [18, 18], radius: 1}\n"
     "  ends: {set: [post, far]}\n"
     "  row: {queue: [[15, 10], [15, 5]], spacing: 0.6}\n"
+    "walls: [{line: [[19, 19], [20, 19]], name: gate}]\n"
     "bodies:\n"
     "  - {shape: {sphere: {radius: 0.11}}, mass: 0.4, at: [11.6, 9, 0.11], tags: [ball]}\n"
     "groups:\n"

@@ -18,7 +18,9 @@ typedef enum {
     JOX_DRAW_MIX,      /* which behaviour of a mix */
     JOX_DRAW_TURN,     /* how far a shoulder is turned */
     JOX_DRAW_GAP,      /* a walker's time gap */
-    JOX_DRAW_WANDER    /* which way one who wanders turns */
+    JOX_DRAW_WANDER,   /* which way one who wanders turns */
+    JOX_DRAW_PROFILE,  /* which profile of a group */
+    JOX_DRAW_DOOR      /* by which place of a set somebody comes in */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */

@@ -22,8 +22,8 @@ JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
     JoxNode *node = jox_alloc(1, sizeof *node);
     node->kind = kind;
     node->hook = LUA_NOREF;
-    node->term.target = -1;
-    node->term.hook = -1;
+    if (kind == JOX_NODE_STEER)
+        node->term.target = node->term.hook = -1;
     JOX_RESERVE(script->nodes, script->node_capacity, script->node_count + 1);
     script->nodes[script->node_count++] = node;
     lua_Debug debug;

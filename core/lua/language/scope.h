@@ -4,6 +4,7 @@
 
 #include "base/format/mod.h"
 #include "geom/place.h"
+#include "geom/walls.h"
 #include "lua/vm/limits.h"
 
 /* All behaviours of a run, and the limits they work within (NULL: the defaults). */
@@ -24,6 +25,7 @@ typedef struct JoxScope {
     uint32_t tag_count;
     const JoxScopeGroup *groups; /* the index is the group's number */
     uint32_t group_count;
+    const JoxWalls *walls; /* those with names are gates */
     bool complete;
     const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */
     uint32_t mod_count;

@@ -82,11 +82,13 @@ struct JoxNode {
     const char *name; /* own, memory or target name; interned with the VM */
     JoxTargetKind target_kind;
     int32_t target_arg;
-    JoxNodeWhose whose; /* whom of those it means */
     JoxNode *a, *b, *c; /* inputs */
     JoxNode *target, *place;
-    JoxDist dist;
-    JoxSteerTerm term; /* one term; its target and weight are nodes here */
+    union {
+        JoxDist dist;       /* of a distribution */
+        JoxSteerTerm term;  /* of a steering: one term; its target and weight are nodes here */
+        JoxNodeWhose whose; /* of a target: whom of those it means */
+    };
     JoxNode *weight;
     JoxNode *next;    /* further terms of a sum */
     int32_t compiled; /* expression of the machine that it was compiled to, plus 1; 0: not yet */

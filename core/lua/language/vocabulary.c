@@ -48,11 +48,16 @@ const JoxWord jox_words[] = {
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within half a metre of it, is closed, and the agent sees that: within "
      "perception, with no other wall before it", "shut \"mid\""},
+    {"open", "w", CONDITION, JOX_OP_OPEN, 0, "open(gate)", "",
+     "the walls of this name are open, wherever they are: all know it, as of a door that is announced",
+     "open \"gate\""},
     /* numbers */
     {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
      "people per square metre in a place; of a point, line or queue: within 2 m", "density \"yard\""},
     {"count", "p", NUMBER, JOX_OP_PLACE_COUNT, 0, "count(place)", "", "people in a place",
      "count \"yard\""},
+    {"queued", "p", NUMBER, JOX_OP_QUEUED, 0, "queued(queue)", "",
+     "people who steer in a queue, on their way to their place in it too", "queued \"row\""},
     {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
      "to the target, 0 in a place; infinite where there is none", "distance \"post\""},
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",

@@ -7,7 +7,8 @@
 #include "lua/language/script.h"
 
 /* What a word's arguments are, a letter each: p place, t target (a place by name, or a target
-   value), n number (expression), d plain number, g tag, s name. '?' before a letter: may be left
+   value), n number (expression), d plain number, g tag, s name, w the name of
+   walls. '?' before a letter: may be left
    out. NULL: a word that is no call; "*": reads its arguments itself. */
 typedef struct JoxWord {
     const char *name, *takes;

@@ -89,6 +89,25 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     return node;
 }
 
+/* Whether the scene has walls of the name; false with an error pushed. */
+static bool gate_exists(lua_State *L, int index) {
+    const JoxScope *scope = jox_script_of(L)->scope;
+    const char *name = lua_tostring(L, index), *names[256];
+    size_t count = 0;
+    for (uint32_t r = 0; scope->walls && r < scope->walls->ring_count && count < 256; r++)
+        if (scope->walls->rings[r].name)
+            names[count++] = scope->walls->rings[r].name;
+    for (size_t n = 0; n < count; n++)
+        if (strcmp(names[n], name) == 0)
+            return true;
+    if (!scope->complete || count == 256)
+        return true;
+    char hint[96];
+    jox_word_error(L, name, "unknown-wall", jox_did_you_mean(name, names, count, hint),
+                   "the scene has no walls named '%s'", name);
+    return false;
+}
+
 static const JoxWord *find_word(const char *name) {
     for (size_t i = 0; i < jox_word_count; i++)
         if (strcmp(jox_words[i].name, name) == 0)
@@ -103,9 +122,13 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     static const struct {
         char letter;
         const char *what;
-    } WANTED[] = {{'p', "a place"},  {'t', "a target or the name of a place"},
-                  {'n', "a number"}, {'d', "a plain number"},
-                  {'g', "a tag"},    {'s', "a name"}};
+    } WANTED[] = {{'p', "a place"},
+                  {'t', "a target or the name of a place"},
+                  {'n', "a number"},
+                  {'d', "a plain number"},
+                  {'g', "a tag"},
+                  {'s', "a name"},
+                  {'w', "the name of walls"}};
     JoxNode *node = jox_node_get(L, index);
     if (node && node->kind == JOX_NODE_ERROR) {
         jox_node_push(L, JOX_NODE_ERROR);
@@ -124,7 +147,10 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         result = jox_node_number(L, index);
     if (letter == 'g')
         return tag_argument(L, word, index);
-    if (letter == 's' && lua_type(L, index) == LUA_TSTRING && lua_rawlen(L, index) <= 60) {
+    if (letter == 'w' && lua_type(L, index) == LUA_TSTRING && !gate_exists(L, index))
+        return NULL;
+    if ((letter == 's' || letter == 'w') && lua_type(L, index) == LUA_TSTRING &&
+        lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* carries the name alone */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
     }
@@ -178,7 +204,7 @@ static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
             node->place = arguments[i];
         else if (*letter == 't')
             node->target = arguments[i];
-        else if (*letter == 's')
+        else if (*letter == 's' || *letter == 'w')
             node->name = arguments[i]->name;
         else if (*letter == 'g')
             node->target = arguments[i];

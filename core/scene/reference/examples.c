@@ -145,6 +145,39 @@ const JoxExample jox_scene_examples[] = {
     {"group", OPENING
      "include: tawaf.yaml\n"
      "groups: {pilgrims: {count: 300, memory: {laps: 'choose(0, 3, 6)', touched: true}}}\n"},
+    {"profile", OPENING
+     "places: {hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}, exit: {point: [25, 5], radius: 1}}\n"
+     "groups:\n"
+     "  travellers:\n"
+     "    behaviour: walker.lua\n"
+     "    count: 20\n"
+     "    in: hall\n"
+     "    set: {goal: exit}\n"
+     "    profiles:\n"
+     "      alone: {share: 6}\n"
+     "      child: {share: 1, set: {radius: 0.15, mass: 30, speed: 'normal(1, 0.1, 0.7, 1.3)'}}\n"
+     "      luggage: {share: 2, set: {radius: 0.3, mass: 95, speed: 'normal(1.1, 0.15, 0.6, 1.5)'}}\n"
+     "      wheelchair: {share: 0.5, set: {radius: 0.35, mass: 110, speed: 0.9}}\n"},
+    {"step", OPENING
+     "places:\n"
+     "  hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}\n"
+     "  gate_1: {queue: [[22, 3], [16, 3]]}\n"
+     "  gate_2: {queue: [[22, 7], [16, 7]]}\n"
+     "  kiosk: {point: [10, 1]}\n"
+     "  platform: {polygon: [[24, 0], [30, 0], [30, 10], [24, 10]]}\n"
+     "  train: {polygon: [[31, 0], [34, 0], [34, 10], [31, 10]]}\n"
+     "walls: [{line: [[30.5, 0], [30.5, 10]], name: doors}]\n"
+     "groups:\n"
+     "  passengers:\n"
+     "    count: 20\n"
+     "    in: hall\n"
+     "    journey:\n"
+     "      - {until: go}\n"
+     "      - {to: kiosk, wait: 'uniform(2, 5)', share: 0.3}\n"
+     "      - {queue: [gate_1, gate_2], service: 'uniform(1, 3)'}\n"
+     "      - {to: platform, open: doors}\n"
+     "      - {exit: train}\n"
+     "events: [{at: 1, signal: go}, {at: 40, open: doors}]\n"},
     {"source", OPENING
      "include: tawaf.yaml\n"
      "groups: {pilgrims: {count: 300}}\n"

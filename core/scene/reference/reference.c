@@ -53,6 +53,9 @@ static void type_name(const JoxKey *key, JoxText *out) {
         {"weight*", "map: Lua file to weight"},
         {"xy[3]*", "map: name to list of [x, y]"},
         {"xyz[4]", "list of [x, y, z]"},
+        {"draw", "number or distribution"},
+        {"quantity[1]", "list of numbers"},
+        {"quantity[2][2]", "list of [s, 1/s]"},
         {"start[1]", "list of [s, x, y] or [s, x, y, vx, vy]"},
         {"xy[2][2]", "two lists of [x, y]"},
         {"quantity**", "map: mod to map of values"}};

@@ -1,0 +1,16 @@
+-- Stands before a stage as near as it gets; at a "surge" presses towards it for some seconds. What stands in the way,
+-- as a barrier does, is pushed too.
+return machine {
+  name = "fan", version = 1, start = "Watch",
+  own = { stage = "stage" },
+  defaults = { speed = normal(0.5, 0.1, 0.3, 0.8), perception = 2, horizon = 0.6, radius = 0.2 },
+
+  states = {
+    Watch = { steer = seek(own.stage), face = own.stage,
+      { to = "Surge", when = heard "surge" } },
+
+    Surge = { steer = seek(own.stage), speed = 1.2, face = own.stage, horizon = 0.2,
+      push = 140, push_toward = own.stage, lasts = uniform(2, 5), colour = "vermilion",
+      { to = "Watch", when = lasted } },
+  },
+}

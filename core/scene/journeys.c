@@ -1,0 +1,364 @@
+/* Journeys: what the people of a group do one thing after another, in the scene's own words. A
+   behaviour is made of them, in Lua, which is loaded as one that somebody wrote. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/text.h"
+#include "geom/polygon.h"
+#include "scene/internal.h"
+
+enum { MOST_STEPS = 50, MOST_QUEUES = 16, LONGEST_NAME = 60 };
+
+/* ---- the steps as they are written ---- */
+
+/* A duration: a number of seconds, with its unit or without, or a distribution; as Lua has it. */
+void jox_key_duration(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxJourneyStep *step = item;
+    double seconds;
+    JoxDist dist;
+    if (!node)
+        return;
+    if (node->kind != JOX_YAML_SCALAR || !jox_read_dist(r, node, &dist)) {
+        if (!jox_read_number(r, node, "s", &seconds))
+            return;
+        dist = jox_dist_constant(seconds);
+    }
+    if (dist.kind == JOX_DIST_CONSTANT && !(dist.a >= 0.0 && dist.a <= 1e6)) {
+        jox_scene_error(r, node, "out-of-range", NULL, "%s must be from 0 to 1e6 s", key->name);
+        return;
+    }
+    JoxText text = {0};
+    jox_dist_print(&dist, &text);
+    *JOX_MEMBER(char *, item, key->offset) = jox_arena_text(r->arena, text.data);
+    jox_text_free(&text);
+    if (!strcmp(key->name, "service"))
+        step->served = fabs(jox_dist_middle(&dist));
+}
+
+void jox_key_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxJourneyStep *step = item;
+    const JoxYaml *const *names;
+    const uint32_t count = node ? jox_read_names(r, node, &names) : 0;
+    (void)key;
+    step->queues = jox_arena_take(r->arena, (size_t)count + 1, sizeof *step->queues);
+    if (count > MOST_QUEUES)
+        jox_scene_error(r, node, "too-many", NULL, "people choose among %d queues at most",
+                        MOST_QUEUES);
+    for (uint32_t n = 0; n < count && n < MOST_QUEUES; n++) {
+        const int32_t place = jox_load_place(r, names[n]);
+        if (place < 0)
+            continue;
+        if (r->load->scene->places[place].kind != JOX_PLACE_QUEUE)
+            jox_scene_error(r, names[n], "bad-place", "gate: {queue: [[0, 0], [0, 5]]}",
+                            "'%.60s' is no queue", names[n]->text);
+        step->queues[step->queue_count++] = (uint32_t)place;
+    }
+}
+
+/* The name of walls that an event opens. */
+void jox_key_gate(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    if (!node)
+        return;
+    if (node->kind != JOX_YAML_SCALAR) {
+        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
+        return;
+    }
+    jox_load_wall(r, node);
+    *JOX_MEMBER(char *, item, key->offset) = jox_arena_text(r->arena, node->text);
+}
+
+bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    JoxJourneyStep *step = item;
+    const bool any = jox_yaml_get(map, "to") || jox_yaml_get(map, "exit") ||
+                     jox_yaml_get(map, "queue") || jox_yaml_get(map, "wait") ||
+                     jox_yaml_get(map, "until") || jox_yaml_get(map, "open");
+    if (!any)
+        jox_scene_error(r, map, "missing-key", "{to: hall}, {queue: [gate]} or {exit: door}",
+                        "a step has one of to, queue, wait, until, open and exit");
+    if (jox_yaml_get(map, "service") && !jox_yaml_get(map, "queue"))
+        jox_scene_error(r, jox_yaml_get(map, "service"), "bad-value", NULL,
+                        "service belongs to a queue");
+    if (step->until && (strlen(step->until) > LONGEST_NAME || strpbrk(step->until, "\"\\\n")))
+        jox_scene_error(r, jox_yaml_get(map, "until"), "bad-value", NULL,
+                        "a signal's name has up to %d letters, and no quotes", LONGEST_NAME);
+    if (!isfinite(step->share))
+        step->share = 1.0;
+    return good && any;
+}
+
+/* ---- the behaviour that they make ---- */
+
+typedef struct Journey {
+    const JoxReader *reader;
+    const JoxGroup *group;
+    JoxText text;
+} Journey;
+
+static const char *place_name(const Journey *j, int32_t place) {
+    return j->reader->load->scene->places[place].name;
+}
+
+static JoxPlaceKind kind_of(const Journey *j, int32_t place) {
+    return j->reader->load->scene->places[place].kind;
+}
+
+/* What people do in a part of a step, and about what: names of states are unique by the step. */
+static const char *const PARTS[] = {"Walk to",   "Look round", "Choose", "Go to",      "Queue at",
+                                    "Served at", "Wait",       "Until",  "Until open", "Leave by"};
+typedef enum { WALK, LOOK, CHOOSE, APPROACH, QUEUE, SERVED, WAIT, UNTIL, OPEN, LEAVE } Part;
+
+static void state_name(const Journey *j, uint32_t step, Part part, uint32_t queue, char out[256]) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    const char *what = part == WALK || part == LOOK     ? place_name(j, s->to)
+                       : part == LEAVE                  ? place_name(j, s->exit)
+                       : part == UNTIL                  ? s->until
+                       : part == OPEN                   ? s->gate
+                       : part == WAIT || part == CHOOSE ? ""
+                                                        : place_name(j, (int32_t)s->queues[queue]);
+    snprintf(out, 256, "%u %s%s%.60s", step + 1, PARTS[part], *what ? " " : "", what);
+}
+
+/* The parts that a step has, in their order; of a queue only the choice. */
+static uint32_t parts_of(const Journey *j, uint32_t step, Part parts[8]) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    uint32_t count = 0;
+    if (s->to >= 0)
+        parts[count++] = WALK;
+    if (s->to >= 0 && kind_of(j, s->to) == JOX_PLACE_POLYGON && (s->wait || s->until || s->gate))
+        parts[count++] = LOOK;
+    if (s->queue_count)
+        parts[count++] = CHOOSE;
+    if (s->wait)
+        parts[count++] = WAIT;
+    if (s->until)
+        parts[count++] = UNTIL;
+    if (s->gate)
+        parts[count++] = OPEN;
+    if (s->exit >= 0)
+        parts[count++] = LEAVE;
+    JOX_ASSERT(count > 0);
+    return count;
+}
+
+/* The transitions out of a part of a step: to its next one, or to the steps that follow, of which
+   some are done by a share of people alone. */
+static void lead_on(Journey *j, uint32_t step, Part part, const char *when) {
+    Part parts[8];
+    char name[256];
+    const uint32_t count = parts_of(j, step, parts);
+    for (uint32_t k = 0; k + 1 < count; k++)
+        if (parts[k] == part) {
+            state_name(j, step, parts[k + 1], 0, name);
+            jox_text_printf(&j->text, "\n      { to = \"%s\", when = %s },", name, when);
+            return;
+        }
+    for (uint32_t next = step + 1; next < j->group->journey_count; next++) {
+        const JoxJourneyStep *s = &j->group->journey[next];
+        parts_of(j, next, parts);
+        state_name(j, next, parts[0], 0, name);
+        jox_text_printf(&j->text, "\n      { to = \"%s\", when = %s", name, when);
+        if (s->share < 1.0)
+            jox_text_printf(&j->text, ", chance = %.9g", s->share);
+        jox_text_add(&j->text, " },");
+        if (s->share >= 1.0)
+            return;
+    }
+    jox_text_printf(&j->text, "\n      { to = \"Stay\", when = %s },", when);
+}
+
+/* When somebody has come to a place: into it, or to within reach of what has no inside. */
+static void arrived(const Journey *j, int32_t place, char out[256]) {
+    const JoxPlaceKind kind = kind_of(j, place);
+    const bool thin = kind == JOX_PLACE_LINE || kind == JOX_PLACE_QUEUE;
+    snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"", place_name(j, place));
+}
+
+static void begin_state(Journey *j, uint32_t step, Part part, uint32_t queue) {
+    char name[256];
+    state_name(j, step, part, queue, name);
+    jox_text_printf(&j->text, "    [\"%s\"] = {", name);
+}
+
+static void end_state(Journey *j) {
+    jox_text_add(&j->text, " },\n");
+}
+
+static void walk(Journey *j, int32_t place) {
+    jox_text_printf(&j->text,
+                    " steer = field \"%s\", push = crowd.nudge, push_when = crowd.held_up,",
+                    place_name(j, place));
+}
+
+/* The choice of a queue: as long as its people take, and the way there, as one judges it. */
+static void cost(Journey *j, uint32_t step, uint32_t queue) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    const char *name = place_name(j, (int32_t)s->queues[queue]);
+    jox_text_printf(&j->text, "%.9g * queued \"%s\" + distance(\"%s\") / own.speed + own.whim_%u",
+                    s->served > 0.5 ? s->served : 0.5, name, name, queue + 1);
+}
+
+static void queues(Journey *j, uint32_t step) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    char name[256], when[256];
+    begin_state(j, step, CHOOSE, 0);
+    for (uint32_t q = 0; q < s->queue_count; q++) {
+        state_name(j, step, APPROACH, q, name);
+        jox_text_printf(&j->text, "\n      { to = \"%s\"", name);
+        for (uint32_t o = q + 1; o < s->queue_count; o++) { /* those before were not better */
+            jox_text_add(&j->text, o == q + 1 ? ", when = (" : "\n          & (");
+            cost(j, step, q);
+            jox_text_add(&j->text, "):at_most(");
+            cost(j, step, o);
+            jox_text_add(&j->text, ")");
+        }
+        jox_text_add(&j->text, " },");
+    }
+    end_state(j);
+    for (uint32_t q = 0; q < s->queue_count; q++) {
+        const char *queue = place_name(j, (int32_t)s->queues[q]);
+        begin_state(j, step, APPROACH, q);
+        walk(j, (int32_t)s->queues[q]);
+        state_name(j, step, QUEUE, q, name);
+        jox_text_printf(&j->text, "\n      { to = \"%s\", when = near(\"%s\", 2) },", name, queue);
+        end_state(j);
+        begin_state(j, step, QUEUE, q);
+        state_name(j, step, SERVED, q, name);
+        jox_text_printf(&j->text,
+                        " steer = queue \"%s\",\n      { to = \"%s\", when = first_in \"%s\" & "
+                        "near(\"%s\", 0.5) },",
+                        queue, name, queue, queue);
+        end_state(j);
+        begin_state(j, step, SERVED, q); /* who is served heads the queue: the next waits behind */
+        jox_text_printf(&j->text, " steer = queue \"%s\", lasts = %s,", queue,
+                        s->service ? s->service : "0");
+        snprintf(when, sizeof when, "lasted");
+        lead_on(j, step, CHOOSE, when);
+        end_state(j);
+    }
+}
+
+/* People spread over an area before they stand: each goes to a spot that is drawn once, as far as
+   it gets. */
+static void look(Journey *j, int32_t place, char when[256]) {
+    const JoxPlace *area = &j->reader->load->scene->places[place];
+    JoxV2 low, high;
+    jox_bounds(area->points, area->count, &low, &high);
+    jox_text_printf(
+        &j->text,
+        " lasts = 60,\n      steer = drift(%.9g + %.9g * own.spot_u - now.x, %.9g + %.9g * "
+        "own.spot_v - now.y),",
+        (double)low.x, (double)(high.x - low.x), (double)low.y, (double)(high.y - low.y));
+    snprintf(when, 256, "lasted | stuck(3) | now.speed:below(0.15) & after(1) | ~inside \"%.100s\"",
+             area->name);
+}
+
+static void write_part(Journey *j, uint32_t step, Part part) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    char when[384];
+    if (part == CHOOSE) {
+        queues(j, step);
+        return;
+    }
+    begin_state(j, step, part, 0);
+    switch (part) {
+    case WALK:
+        walk(j, s->to);
+        arrived(j, s->to, when);
+        snprintf(when + strlen(when), sizeof when - strlen(when),
+                 " | near(\"%.80s\", 2.5) & stuck(3)", place_name(j, s->to)); /* others are there */
+        break;
+    case LOOK:
+        look(j, s->to, when);
+        break;
+    case WAIT:
+        jox_text_printf(&j->text, " steer = hold, lasts = %s,", s->wait);
+        snprintf(when, sizeof when, "lasted");
+        break;
+    case UNTIL:
+        jox_text_add(&j->text, " steer = hold,");
+        snprintf(when, sizeof when, "heard \"%.100s\"", s->until);
+        break;
+    case OPEN:
+        jox_text_add(&j->text, " steer = hold,");
+        snprintf(when, sizeof when, "open \"%.100s\"", s->gate);
+        break;
+    default:
+        walk(j, s->exit);
+        arrived(j, s->exit, when);
+        jox_text_printf(&j->text, "\n      { to = \"Gone\", when = %s },", when);
+        end_state(j);
+        return;
+    }
+    lead_on(j, step, part, when);
+    end_state(j);
+}
+
+/* Each queue of a choice is judged with an error of a person's own, s. */
+static void write_head(Journey *j) {
+    uint32_t most = 0;
+    for (uint32_t s = 0; s < j->group->journey_count; s++)
+        if (j->group->journey[s].queue_count > most)
+            most = j->group->journey[s].queue_count;
+    jox_text_printf(&j->text,
+                    "-- Made of the journey of group '%s'.\nlocal crowd = require \"crowd\"\n\n"
+                    "return machine {\n  name = \"%s\", version = 1, start = \"Begin\",\n"
+                    "  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = "
+                    "crowd.time_gap, perception = 3, radius = 0.19 },\n",
+                    j->group->name, j->group->name);
+    jox_text_add(&j->text, "  own = { spot_u = uniform(0, 1), spot_v = uniform(0, 1)");
+    for (uint32_t q = 0; q < most; q++)
+        jox_text_printf(&j->text, ", whim_%u = uniform(0, 2)", q + 1);
+    jox_text_add(&j->text, " },\n");
+    jox_text_add(&j->text, "  states = {\n");
+}
+
+void jox_load_journey(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+    Journey j = {.reader = r, .group = group};
+    Part parts[8];
+    JoxText path = {0};
+    if (group->journey_count == 0 || group->journey_count > MOST_STEPS) {
+        jox_scene_error(r, jox_yaml_get(map, "journey"), "too-many", "journey: [{exit: door}]",
+                        "a journey has 1 to %d steps", MOST_STEPS);
+        return;
+    }
+    for (uint32_t s = 0; s + 1 < group->journey_count; s++)
+        if (group->journey[s].exit >= 0 && group->journey[s].share >= 1.0)
+            jox_scene_error(r, jox_yaml_get(map, "journey"), "bad-value",
+                            "Let the exit be the last step, or give it a share",
+                            "nobody gets to step %u, as all leave by an exit before", s + 2);
+    write_head(&j);
+    jox_text_add(&j.text, "    Begin = {");
+    for (uint32_t next = 0; next < group->journey_count; next++) {
+        char name[256];
+        parts_of(&j, next, parts);
+        state_name(&j, next, parts[0], 0, name);
+        jox_text_printf(&j.text, "\n      { to = \"%s\"", name);
+        if (group->journey[next].share < 1.0)
+            jox_text_printf(&j.text, ", chance = %.9g", group->journey[next].share);
+        jox_text_add(&j.text, " },");
+        if (group->journey[next].share >= 1.0)
+            break;
+    }
+    end_state(&j);
+    for (uint32_t s = 0; s < group->journey_count; s++) {
+        const uint32_t count = parts_of(&j, s, parts);
+        for (uint32_t k = 0; k < count; k++)
+            write_part(&j, s, parts[k]);
+    }
+    if (strstr(j.text.data, "to = \"Stay\""))
+        jox_text_add(&j.text, "    Stay = { steer = hold },\n");
+    if (strstr(j.text.data, "to = \"Gone\""))
+        jox_text_add(&j.text, "    Gone = { removes = true },\n");
+    jox_text_add(&j.text, "  },\n}\n");
+    jox_text_printf(&path, "%s/%s.lua", r->load->scene->path, group->name);
+    group->mix = jox_arena_take(r->arena, 1, sizeof *group->mix);
+    *group->mix = (JoxGroupMix){.weight = 1,
+                                .position = group->position,
+                                .behaviour = jox_arena_text(r->arena, path.data),
+                                .text = jox_arena_text(r->arena, j.text.data)};
+    group->mix_count = 1;
+    jox_text_free(&j.text);
+    jox_text_free(&path);
+}
