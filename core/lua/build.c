@@ -145,49 +145,6 @@ static void read_renamed(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* States that nothing leads to: a warning, in a patch an error, for there it is a misspelt name. */
-static void judge_states(JoxBuild *b) {
-    const JoxMachine *m = b->machine;
-    for (uint32_t s = 0; s < m->state_count; s++) {
-        bool reached = s == m->start;
-        for (uint32_t o = 0; o < m->state_count; o++)
-            for (uint32_t t = 0; t < m->states[o].transition_count; t++)
-                reached |= o != s && m->states[o].transitions[t].to == s;
-        if (reached)
-            continue;
-        char path[256], hint[96];
-        const char *names[64], *near = NULL;
-        size_t count = 0;
-        jox_read_join(path, "states", m->states[s].name);
-        const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
-        bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
-        for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
-            if (o != s)
-                names[count++] = m->states[o].name;
-        near = jox_did_you_mean(m->states[s].name, names, count, hint);
-        jox_diag_add(b->script->diagnostics, near ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
-                     jox_read_at(b, path), "unreachable-state", near, NULL, NULL,
-                     "nothing leads to state '%s'", m->states[s].name);
-    }
-}
-
-/* Warns of states that no transition leaves: agents would stay in them for ever. */
-static void warn_dead_ends(JoxBuild *b) {
-    const JoxMachine *m = b->machine;
-    for (uint32_t s = 0; s < m->state_count && m->state_count > 1; s++) {
-        const JoxState *state = &m->states[s];
-        bool stands = state->steer_count == 1 && state->steer[0].kind == JOX_STEER_HOLD;
-        char path[256];
-        jox_read_join(path, "states", state->name);
-        if (state->transition_count == 0 && !state->removes && !state->become && !stands)
-            jox_diag_add(
-                b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), "no-way-out",
-                "Add a transition, or `removes = true`; a state with `steer = hold` may be "
-                "the end",
-                NULL, NULL, "no transition leads out of state '%s'", state->name);
-    }
-}
-
 void jox_build(JoxScript *script, const JoxSource *source) {
     lua_State *L = script->vm.L;
     JoxBuild build = {.script = script, .source = source};
@@ -231,8 +188,6 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     jox_read_counts(&build, table, "", -1);
     jox_read_public(&build, table);
     read_renamed(&build, table);
-    if (script->diagnostics->errors == errors) {
-        judge_states(&build);
-        warn_dead_ends(&build);
-    }
+    if (script->diagnostics->errors == errors)
+        jox_lint(&build);
 }

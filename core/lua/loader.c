@@ -11,15 +11,21 @@
 static void report_failure(JoxScript *script, const char *why, int line) {
     JoxSource *source = script->vm.sources[script->vm.failed_source];
     JoxPosition position = {source->path, line, 0, 0};
-    const char *near = strstr(why, " near '");
+    const char *near = strstr(why, " near '"), *hint = NULL;
+    char missing[112];
     if (near) {
         char name[64];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(near + 7, "'"), near + 7);
         const JoxToken *t = jox_source_find(source, line, name);
         if (t)
             position = (JoxPosition){source->path, line, t->column, t->end_column};
+        const bool item = strncmp(why, "'}' expected", 12) == 0;
+        if (item && t && (t->kind == JOX_TOKEN_NAME || *name == '{' || *name == '[')) {
+            snprintf(missing, sizeof missing, "Is a comma missing before '%s'?", name);
+            hint = missing;
+        }
     }
-    jox_diag_error(script->diagnostics, position, "lua-error", NULL, "%s", why);
+    jox_diag_error(script->diagnostics, position, "lua-error", hint, "%s", why);
 }
 
 /* What a function remembers outside memory would be lost at a reload, and run apart at a resume.

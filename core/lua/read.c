@@ -16,6 +16,15 @@ static void unknown_key(JoxBuild *b, const char *path, const char *key, const ch
     char full[256], hint[160];
     snprintf(full, sizeof full, "%s%s%s", path, *path ? "." : "", key);
     const char *near = jox_suggest(key, known, count);
+    const bool transition = !strcmp(key, "transitions") || !strcmp(key, "to") ||
+                            !strcmp(key, "when") || !strcmp(key, "chance");
+    if (transition && !strncmp(path, "states.", 7) && !strchr(path + 7, '.')) {
+        jox_build_error(b, jox_read_at(b, full), "unknown-key",
+                        "Transitions are items of the state's table: { to = \"Next\", when = "
+                        "after(5) }",
+                        "a state has no key '%s'", key);
+        return;
+    }
     if (near)
         snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
     jox_build_error(b, jox_read_at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'",
@@ -136,8 +145,12 @@ JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *i
         if (value.index < 0)
             value.kind = JOX_VALUE_UNSET;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
-        jox_build_error(b, position, "bad-value", "Give a number, a distribution or an expression",
-                        "%s must be a number, not %s", info->name,
+        const char *text = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+        char hint[96] = "Give a number, a distribution or an expression";
+        if (*text >= '0' && *text <= '9')
+            snprintf(hint, sizeof hint, "Numbers stand without quotes and units%s%s: %s = 1.4",
+                     *info->unit ? ", in " : "", info->unit, info->name);
+        jox_build_error(b, position, "bad-value", hint, "%s must be a number, not %s", info->name,
                         node ? "this value" : luaL_typename(L, -1));
     }
     lua_pop(L, 1);
@@ -172,14 +185,19 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     if (node && node->kind == JOX_NODE_CONDITION) {
         expression = jox_build_expression(b, node, jox_read_at(b, path));
     } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_ERROR)) {
-        const char *hint = type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
-                                                  ":above, ... and join with & | ~"
-                           : node ? "A number becomes a condition by :above, :below, :at_least, "
-                                    ":at_most or :is"
-                                  : NULL;
+        const char *hint =
+            type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
+                                   ":above, ... and join with & | ~"
+            : !node              ? NULL
+            : node->kind == JOX_NODE_STEER
+                ? "Steering belongs to `steer`; that one is there is near(goal, 1), or "
+                  "inside(goal)"
+            : node->kind == JOX_NODE_TARGET
+                ? "Ask something of it: sees(target), near(target, metres)"
+                : "A number becomes a condition by :above, :below, :at_least, "
+                  ":at_most or :is";
         jox_build_error(b, jox_read_at(b, path), "bad-condition", hint,
-                        "this must be a condition, not %s",
-                        node ? "a number" : lua_typename(L, type));
+                        "this must be a condition, not %s", jox_node_kind(L, -1));
     }
     lua_pop(L, 1);
     return expression;

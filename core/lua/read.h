@@ -44,6 +44,8 @@ void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *
                       double *every);
 /* kick, take, throw and become of a state. */
 void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
+/* lint.c: warns of what of a whole machine is of no use. */
+void jox_lint(JoxBuild *build);
 /* declare.c: reads `own` and `public` of the machine's table at `index`. */
 void jox_read_own(JoxBuild *build, int index);
 void jox_read_public(JoxBuild *build, int index);

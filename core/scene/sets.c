@@ -47,6 +47,19 @@ static bool read_level(const JoxYaml *value, JoxGroupValue *set) {
     return true;
 }
 
+/* A parameter's number with its unit: mass: 70 kg, speed: 5 km/h. */
+static bool read_quantity(const JoxReader *r, const JoxYaml *value, JoxGroupValue *set) {
+    const int parameter = jox_parameter_find(set->name);
+    double number;
+    if (parameter < 0 || value->kind != JOX_YAML_SCALAR || !looks_numeric(value->text) ||
+        value->text[strcspn(value->text, " ")] == 0)
+        return false;
+    set->dist = jox_dist_constant(0.0);
+    if (jox_read_number(r, value, jox_parameters[parameter].unit, &number))
+        set->dist = jox_dist_constant(number);
+    return true;
+}
+
 /* One value of a map; false with an error. */
 static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only,
                      JoxGroupValue *set) {
@@ -56,8 +69,8 @@ static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only
                 (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
     if (flag)
         set->dist = jox_dist_constant(!strcmp(value->text, "true"));
-    else if (read_level(value, set))
-        return true;
+    else if (read_level(value, set) || read_quantity(r, value, set))
+        return r->diagnostics->errors == errors;
     else if (jox_read_dist(r, value, &set->dist))
         return r->diagnostics->errors == errors; /* else a malformed distribution */
     else if (numbers_only || value->kind != JOX_YAML_SCALAR ||

@@ -37,6 +37,17 @@ static const char *absent(const char *name) {
     return NULL;
 }
 
+/* Whether something of the scene has the name. */
+static bool is_named(const JoxScope *scope, const char *name) {
+    for (uint32_t p = 0; p < scope->place_count; p++)
+        if (strcmp(scope->places[p].name, name) == 0)
+            return true;
+    for (uint32_t t = 0; t < scope->tag_count; t++)
+        if (strcmp(scope->tags[t], name) == 0)
+            return true;
+    return false;
+}
+
 static int env_index(lua_State *L) {
     JOX_ASSERT(lua_istable(L, lua_upvalueindex(1)));
     JoxScript *script = jox_script_of(L);
@@ -64,8 +75,14 @@ static int env_index(lua_State *L) {
         snprintf(hint, sizeof hint, "%s", absent(name));
     else if (near)
         snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+    else if (is_named(script->scope, name))
+        snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
+                 name);
     else
-        snprintf(hint, sizeof hint, "Words and locals are all that a behaviour can use");
+        snprintf(
+            hint, sizeof hint,
+            "Words and locals are all that a behaviour can use; names of places and tags stand "
+            "in quotes");
     return jox_word_error(L, name, "unknown-word", hint, "unknown word '%s'", name);
 }
 
