@@ -11,7 +11,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum { LAST_SECONDS = 5 }; /* of processor time, for who works to say why it ends */
+enum {
+    LAST_SECONDS = 5, /* of processor time, for who works to say why it ends */
+    FEW_FILES = 64
+};
 
 /* ---- files: Landlock, whose calls the C library does not have ---- */
 
@@ -96,10 +99,12 @@ static bool limit(int what, rlim_t most, rlim_t spare) {
 
 bool jox_confine(const JoxConfines *confines) {
     const JoxConfining can = jox_confine_can();
+    const unsigned files = confines->files || confines->works ? confines->files : FEW_FILES;
     const bool good = limit(RLIMIT_CORE, 0, 0) &&
                       (!confines->seconds ||
                        limit(RLIMIT_CPU, confines->seconds, confines->works ? LAST_SECONDS : 0)) &&
-                      (confines->works || limit(RLIMIT_NOFILE, 64, 0)) &&
+                      (!files || limit(RLIMIT_NOFILE, files, 0)) &&
+                      (!confines->file_size || limit(RLIMIT_FSIZE, confines->file_size, 0)) &&
                       (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory, 0)) &&
                       prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
                       (!can.files || confine_files(confines));

@@ -9,7 +9,9 @@
 typedef struct JoxConfines {
     const char *const *folders; /* with all below them, or files: may be read, if they are there */
     size_t folder_count;
-    size_t memory; /* bytes that it may take besides what it has; 0: any */
+    size_t memory;    /* bytes that it may take besides what it has; 0: any */
+    size_t file_size; /* bytes of a file that it writes; 0: any */
+    unsigned files;   /* that it has open at a time; 0: any of who works, else 64 */
     /* Of processor time; 0: any. Then it is ended; who works is told by SIGXCPU, and ended a little
        later. */
     unsigned seconds;

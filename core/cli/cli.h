@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/format/path.h"
 #include "base/overlay.h"
 #include "base/text.h"
 #include "jostle_tools.h"
@@ -107,7 +108,10 @@ void cli_free(const CliCommand *command, void *options, CliList *plain);
    their number in cli_signal the first time. */
 void cli_catch_signals(bool has_files);
 extern volatile int cli_signal;
-/* The exit status of a command that a signal ended: 128 and its number, as shells have it. */
+/* As the first of them, by another one; false where the command has no files to finish. */
+bool cli_end_soon(int number);
+/* The exit status of a command that a signal ended: 128 and its number, as shells have it;
+   JO_FAILED where it took all of its processor time. */
 int cli_interrupted(int status);
 
 /* Whether all that was printed has been written to standard output. If not, the program ends with
@@ -166,6 +170,68 @@ int cli_failed(const CliCommand *command, const JoError *error, bool sent);
    sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
 int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files, JoError *error);
 
+/* ---- files of others, read in a confined child ---- */
+
+/* What goes through pipes: a head, then so many bytes of a name and of a text. */
+typedef enum CliSent {
+    CLI_FILE,    /* its path, and its text */
+    CLI_MESSAGE, /* for people */
+    CLI_LOADED,  /* the end, and the two below: */
+    CLI_REFUSED,
+    CLI_OUT_OF_MEMORY,
+    CLI_ENDED, /* of the keeper: at which file, and why */
+    CLI_WHOLE, /* to the keeper: the scene is to be read; behaviours by their paths, in the text; */
+    CLI_EDITED,
+    CLI_STOP, /* what is under way is no longer wanted */
+    CLI_SENT_COUNT
+} CliSent;
+typedef struct CliHead {
+    uint32_t kind;
+    uint64_t name, text;
+} CliHead;
+
+/* False where nobody reads any more. */
+bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t length);
+
+/* Where it comes from; zero-initialise but for `stop`. */
+typedef struct CliSource {
+    int from, stop;    /* reading ends, too, once `stop` can be read; -1: it never can */
+    double until;      /* s of the monotonic clock, when it ends, too; 0: never */
+    size_t taken;      /* bytes; there is a limit */
+    const char *fault; /* why it was given up before its end; NULL: it was not */
+} CliSource;
+typedef struct CliGot {
+    char name[JOX_LONGEST_PATH];
+    char *text; /* with a zero byte behind it */
+    size_t length;
+} CliGot;
+/* A CliSent, with what came; -1 at the end, and for what is none. */
+int cli_get(CliSource *source, CliGot *got);
+void cli_got_free(CliGot *got);
+
+/* What a child is to read, and what it did. */
+typedef struct CliVetted {
+    const JoSceneDef *def;       /* the scene, unless */
+    const JoVetting *edited;     /* files of it were edited, or NULL; then */
+    JoScene *scene;              /* it is there as it was, dry */
+    int stop;                    /* as of CliSource */
+    JoxOverlay *files;           /* that it read, sealed at the end */
+    JoxText said, why;           /* messages; why it was ended, */
+    char file[JOX_LONGEST_PATH]; /* and where */
+} CliVetted;
+/* CLI_LOADED, CLI_REFUSED, -1 where the child was ended, or -2 where there is no process for it. */
+int cli_read_confined(CliVetted *what);
+
+/* Another process, begun while this one has a single thread, that has files read in children of its
+   own while the scene runs: at first of the scene that was loaded from `files`. NULL: it could not
+   begin, which was said. */
+typedef struct CliKeeper CliKeeper;
+CliKeeper *cli_keeper_begin(const CliCommand *command, const JoSceneDef *def,
+                            const JoxOverlay *files);
+/* NULL of NULL. */
+const JoVetter *cli_keeper_vetter(const CliKeeper *keeper);
+void cli_keeper_end(CliKeeper *keeper);
+
 /* The file of a scene: what is given, or, of a name alone such as "office", the first there is of
    NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle. To be freed. */
 char *cli_scene(const char *given);
@@ -178,9 +244,9 @@ typedef struct CliPaths {
     size_t count, capacity;
 } CliPaths;
 typedef struct CliReach {
-    CliPaths reads, writes; /* besides what libraries of the system and mods need */
-    size_t memory;          /* bytes, and below seconds of processor time; 0: any */
-    unsigned seconds;
+    CliPaths reads, writes;   /* besides what libraries of the system and mods need */
+    size_t memory, file_size; /* bytes, and below seconds of processor time; 0: any */
+    unsigned seconds, files;
     bool works, programs, serves; /* as of JoxConfines */
     const char *program;          /* the same; or NULL */
 } CliReach;
@@ -201,7 +267,9 @@ void cli_reach_settings(CliReach *reach);
 bool cli_confine(CliReach *reach);
 /* Of commands that read and do not simulate for long: what they may take. */
 #define CLI_READING .memory = (size_t)4 << 30, .seconds = 300
-/* As cli_confine, of a whole command; nothing where the user trusts the files. */
+/* As cli_confine, of a whole command; nothing where the user trusts the files. Without limits of
+   its own it may take three quarters of the machine's memory, a day of each of its processors,
+   files of 256 GB, and 1,024 of them at a time. */
 void cli_confine_work(CliReach *reach, bool trusted);
 
 /* Appends `length` bytes as lines of 80 columns; the first begins at column `at`, the others with

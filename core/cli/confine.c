@@ -25,6 +25,8 @@ static const char *const SYSTEM[] = {"/usr",
                                      JOX_DATADIR,
                                      "/proc/self",
                                      "/sys/devices/system"};
+enum { DAY = 86400, MOST_FILES = 1024 };
+static const size_t LARGEST_FILE = (size_t)256 << 30;
 static const char *const ALWAYS_WRITTEN[] = {"/dev/null", "/dev/stdout", "/dev/stderr"};
 
 static void put(CliPaths *paths, char *path) {
@@ -141,6 +143,8 @@ bool cli_confine(CliReach *reach) {
                                    .outputs = (const char *const *)reach->writes.items,
                                    .output_count = reach->writes.count,
                                    .memory = reach->memory,
+                                   .file_size = reach->file_size,
+                                   .files = reach->files,
                                    .seconds = reach->seconds,
                                    .works = reach->works,
                                    .programs = reach->programs,
@@ -156,17 +160,30 @@ bool cli_confine(CliReach *reach) {
 
 static char late[160]; /* what is said then */
 
-/* The processor time of the command is over. */
+/* The processor time of the command is over, but for a few seconds to finish its files in. */
 static void tell_late(int number) {
-    (void)number;
+    signal(number, SIG_IGN); /* it comes again each second */
     const ssize_t written = write(2, late, strlen(late));
     (void)written;
-    _exit(JO_FAILED);
+    if (!cli_end_soon(number))
+        _exit(JO_FAILED);
+}
+
+/* Of commands that simulate, draw or serve for long: enough for all work, and the machine stays of
+   use to others. */
+static void limit_work(CliReach *reach) {
+    const size_t memory = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
+    const long processors = sysconf(_SC_NPROCESSORS_CONF);
+    reach->memory = reach->memory ? reach->memory : memory / 4 * 3;
+    reach->seconds = reach->seconds ? reach->seconds : DAY * (unsigned)processors;
+    reach->file_size = reach->file_size ? reach->file_size : LARGEST_FILE;
+    reach->files = reach->files ? reach->files : MOST_FILES;
 }
 
 void cli_confine_work(CliReach *reach, bool trusted) {
     reach->works = true;
-    if (!trusted && reach->seconds) {
+    limit_work(reach);
+    if (!trusted) {
         snprintf(late, sizeof late,
                  "jostle: the command took the processor time that it may, %u s or what the system "
                  "left; with --trusted there is no limit\n",

@@ -17,8 +17,9 @@ typedef struct Run {
     bool view, of_scene, has_seconds, has_steps, has_wait, watch, no_watch, has_trace, quiet,
         profile;
     bool no_half, trusted;
-    JoxOverlay files; /* what was vetted */
-    bool troubled;    /* it went on to its end, but not as it was written */
+    JoxOverlay files;  /* what was vetted */
+    CliKeeper *keeper; /* has edited files vetted; or NULL */
+    bool troubled;     /* it went on to its end, but not as it was written */
 } Run;
 
 static bool read_isa(void *options, const char *text, char why[160]) {
@@ -76,7 +77,7 @@ static const CliOption OPTIONS[] = {
      "the scene is one's own: it is read at once. Else a process that has no network, writes "
      "nothing and reads the scene's folder, ../behaviours, ../scripts and mods alone reads it "
      "first, and it is "
-     "loaded from what that one read",
+     "loaded from what that one read; so is what is edited while it runs",
      CLI_TO(Run, trusted)},
     {"watch", NULL, "reload behaviours and the scene when their files change",
      "where the output is a terminal", CLI_TO(Run, watch)},
@@ -159,6 +160,7 @@ static int simulate(Run *run, char **summary) {
     double dt = jo_scene_stats(scene).dt;
     double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
     uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
+    jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
     bool ok = (!run->record || jo_scene_record(scene, run->record, run->record_every, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
               (!run->data || jo_scene_data(scene, run->data, &error)) &&
@@ -209,6 +211,7 @@ static int show(Run *run, char **summary) {
     JoError error = {0};
     live->scene = run->def;
     live->watch = !run->no_watch;
+    live->vetter = cli_keeper_vetter(run->keeper);
     live->record = run->record;
     live->record_every = run->record_every;
     live->log_input = run->log;
@@ -299,6 +302,9 @@ static int begin(Run *run) {
     int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files, NULL);
     if (status != JO_OK)
         return status;
+    if (!run->trusted && (run->watch || run->view) &&
+        !(run->keeper = cli_keeper_begin(&cli_run, &run->def, &run->files)))
+        return JO_FAILED;
     cli_catch_signals(run->view);
     status = run->view    ? show(run, &summary)
              : run->seeds ? simulate_seeds(run, &summary)
@@ -329,6 +335,7 @@ static int run_scene(int argc, char **argv) {
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
         status = why ? cli_misused(&cli_run, why) : begin(&run);
     }
+    cli_keeper_end(run.keeper);
     jox_overlay_free(&run.files);
     jox_free(path);
     cli_free(&cli_run, &run, &plain);

@@ -19,6 +19,13 @@ static void take(int number) {
     cli_signal = number;
 }
 
+bool cli_end_soon(int number) {
+    if (cli_signal || !holds)
+        return false;
+    cli_signal = number;
+    return true;
+}
+
 void cli_catch_signals(bool has_files) {
     const struct sigaction action = {.sa_handler = take}; /* calls that wait are interrupted */
     holds = has_files;
@@ -27,7 +34,9 @@ void cli_catch_signals(bool has_files) {
 }
 
 int cli_interrupted(int status) {
-    return cli_signal && status == JO_OK ? STATUS + cli_signal : status;
+    return !cli_signal || status != JO_OK ? status
+           : cli_signal == SIGXCPU        ? JO_FAILED
+                                          : STATUS + cli_signal;
 }
 
 int cli_output_errno;

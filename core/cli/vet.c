@@ -1,6 +1,7 @@
-/* Scenes of others are read first by a child that could do no harm if they took it over, and are
+/* Files of others are read first by a child that could do no harm if they took it over, and are
    loaded from what it read. */
 #include <errno.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,91 +9,68 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include "base/format/path.h"
 #include "base/mem.h"
 #include "base/text.h"
 #include "cli/cli.h"
 
-enum { SECONDS = 20 };
+enum { SECONDS = 20 };               /* of processor time */
+static const double LONGEST = 600.0; /* s that a child is waited for: it may sleep */
 static const size_t MEMORY = (size_t)2 << 30, LARGEST = (size_t)512 << 20;
 
-/* What the child sends: a head, then so many bytes of a name and of a text. */
-typedef enum Kind { READ_FILE, MESSAGE, LOADED, REFUSED, OUT_OF_MEMORY } Kind;
-typedef struct Head {
-    uint32_t kind;
-    uint64_t name, text;
-} Head;
+/* ---- what goes through the pipe ---- */
 
-/* ---- the child ---- */
-
-typedef struct Child {
-    int out;
-} Child;
-
-static void put(const Child *child, const void *bytes, size_t count) {
-    for (const char *at = bytes; count > 0;) {
-        const ssize_t done = write(child->out, at, count);
-        if (done < 0 && errno != EINTR)
-            _exit(JO_FAILED);
-        at += done > 0 ? done : 0;
-        count -= done > 0 ? (size_t)done : 0;
+bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t length) {
+    const CliHead head = {.kind = kind, .name = strlen(name), .text = length};
+    const struct {
+        const void *bytes;
+        size_t count;
+    } parts[] = {{&head, sizeof head}, {name, head.name}, {text, length}};
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
+        size_t count = parts[p].count;
+        for (const char *at = parts[p].bytes; count > 0;) {
+            const ssize_t done = write(out, at, count);
+            if (done < 0 && errno != EINTR)
+                return false;
+            at += done > 0 ? done : 0;
+            count -= done > 0 ? (size_t)done : 0;
+        }
     }
+    return true;
 }
 
-static void send_it(const Child *child, Kind kind, const char *name, const char *text,
-                    size_t length) {
-    const Head head = {.kind = kind, .name = strlen(name), .text = length};
-    put(child, &head, sizeof head);
-    put(child, name, head.name);
-    put(child, text, length);
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void send_file(void *context, const char *path, const char *text, size_t length) {
-    send_it(context, READ_FILE, path, text, length);
+/* Whether there is more to read, or the end, before it is to stop. */
+static bool await(CliSource *source) {
+    while (!source->fault) {
+        const double left = source->until > 0.0 ? source->until - now() : 1e6;
+        struct pollfd fds[2] = {{.fd = source->from, .events = POLLIN},
+                                {.fd = source->stop, .events = POLLIN}};
+        const int ready = poll(fds, source->stop >= 0 ? 2 : 1, left > 0.0 ? (int)(left * 1e3) : 0);
+        if (source->stop >= 0 && ready > 0 && fds[1].revents)
+            source->fault = "is no longer wanted";
+        else if (ready > 0)
+            return true;
+        else if (ready == 0 && left <= 0.0)
+            source->fault = "takes longer than it may";
+        else if (ready < 0 && errno != EINTR)
+            source->fault = strerror(errno);
+    }
+    return false;
 }
 
-static void send_message(void *context, const char *text) {
-    send_it(context, MESSAGE, "", text, strlen(text));
-}
-
-/* Reads and compiles, and says what it read; does not return. */
-static void read_it(const JoSceneDef *given, int out) {
-    Child child = {out};
-    JoError error = {0};
-    JoSceneDef def = *given;
-    def.threads = 1;
-    def.dry = true;
-    def.message = send_message;
-    def.message_context = &child;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
-    CliReach reach = {.memory = MEMORY, .seconds = SECONDS};
-    cli_reach_def(&reach, &def);
-    cli_confine(&reach);
-    const JoxOverlay overlay = {.told = send_file, .context = &child};
-    jox_overlay_use(&overlay);
-    JoScene *scene = jo_scene_load(&def, &error);
-    const Kind end = scene ? LOADED : error.code == JO_FAILED ? OUT_OF_MEMORY : REFUSED;
-    send_it(&child, end, "", "", 0);
-    _exit(JO_OK); /* nothing of the program's that it shares with the child is ended twice */
-}
-
-/* ---- the parent ---- */
-
-typedef struct Parent {
-    const CliCommand *command;
-    const char *scene;
-    JoxOverlay *files;
-    JoxText said;
-    size_t taken; /* bytes */
-} Parent;
-
-static bool get(int from, void *bytes, size_t count) {
+static bool get(CliSource *source, void *bytes, size_t count) {
     for (char *at = bytes; count > 0;) {
-        const ssize_t done = read(from, at, count);
+        if (!await(source))
+            return false;
+        const ssize_t done = read(source->from, at, count);
         if (done == 0 || (done < 0 && errno != EINTR))
             return false;
         at += done > 0 ? done : 0;
@@ -101,27 +79,84 @@ static bool get(int from, void *bytes, size_t count) {
     return true;
 }
 
-/* Takes what the child sends up to its end, which is returned; -1 where it ends without. */
-static int receive(Parent *parent, int from) {
-    Head head;
-    while (get(from, &head, sizeof head)) {
-        if (head.kind > OUT_OF_MEMORY || head.name >= JOX_LONGEST_PATH || head.text > LARGEST ||
-            (parent->taken += head.name + head.text) > LARGEST)
-            return -1;
-        if (head.kind >= LOADED)
-            return (int)head.kind;
-        char *name = jox_alloc(head.name + 1, 1), *text = jox_alloc(head.text + 1, 1);
-        const bool whole = get(from, name, head.name) && get(from, text, head.text);
-        if (whole && head.kind == READ_FILE)
-            jox_overlay_put(parent->files, name, text, head.text);
-        else if (whole)
-            jox_text_append(&parent->said, text, head.text);
-        jox_free(name);
-        jox_free(text);
-        if (!whole)
-            return -1;
+int cli_get(CliSource *source, CliGot *got) {
+    CliHead head;
+    *got = (CliGot){0};
+    if (!get(source, &head, sizeof head))
+        return -1;
+    source->taken += head.name + head.text;
+    if (head.kind >= CLI_SENT_COUNT || head.name >= sizeof got->name || head.text > LARGEST ||
+        source->taken > LARGEST) {
+        source->fault = "reads more than it may";
+        return -1;
     }
+    got->text = jox_alloc(head.text + 1, 1);
+    got->length = head.text;
+    if (get(source, got->name, head.name) && get(source, got->text, head.text))
+        return (int)head.kind;
+    cli_got_free(got);
     return -1;
+}
+
+void cli_got_free(CliGot *got) {
+    jox_free(got->text);
+    got->text = NULL;
+}
+
+/* ---- the child ---- */
+
+static void send_file(void *context, const char *path, const char *text, size_t length) {
+    if (!cli_send(*(const int *)context, CLI_FILE, path, text, length))
+        _exit(JO_FAILED);
+}
+
+static void send_message(void *context, const char *text) {
+    if (!cli_send(*(const int *)context, CLI_MESSAGE, "", text, strlen(text)))
+        _exit(JO_FAILED);
+}
+
+/* Reads and compiles, and says what it read; does not return. */
+static void read_it(const CliVetted *what, int out) {
+    JoError error = {0};
+    JoSceneDef def = *what->def;
+    def.threads = 1;
+    def.dry = true;
+    def.message = send_message;
+    def.message_context = &out;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGINT, what->edited ? SIG_IGN : SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    CliReach reach = {.memory = MEMORY, .seconds = SECONDS};
+    cli_reach_def(&reach, &def);
+    cli_confine(&reach);
+    const JoxOverlay overlay = {.told = send_file, .context = &out};
+    jox_overlay_use(&overlay);
+    CliSent end = CLI_LOADED;
+    if (what->edited)
+        end = jo_scene_try(what->scene, what->edited) ? CLI_LOADED : CLI_OUT_OF_MEMORY;
+    else if (!jo_scene_load(&def, &error))
+        end = error.code == JO_FAILED ? CLI_OUT_OF_MEMORY : CLI_REFUSED;
+    cli_send(out, end, "", "", 0);
+    _exit(JO_OK); /* nothing of the program's that it shares with the child is ended twice */
+}
+
+/* ---- the parent ---- */
+
+/* Takes what the child sends up to its end, which is returned; -1 where it ends without. */
+static int receive(CliVetted *what, CliSource *source) {
+    for (;;) {
+        CliGot got;
+        const int kind = cli_get(source, &got);
+        if (kind == CLI_FILE)
+            jox_overlay_put(what->files, got.name, got.text, got.length);
+        else if (kind == CLI_MESSAGE)
+            jox_text_append(&what->said, got.text, got.length);
+        else if (kind > CLI_OUT_OF_MEMORY)
+            source->fault = "sends what it should not";
+        cli_got_free(&got);
+        if (kind != CLI_FILE && kind != CLI_MESSAGE)
+            return source->fault ? -1 : kind;
+    }
 }
 
 /* Seconds of processor time that the child has: this process may be held to fewer. */
@@ -138,28 +173,72 @@ static double used(const struct rusage *usage) {
 
 /* Says at which file the child ended, and why. A process ends by SIGKILL at its last second, too,
    which its times tell from a kill. */
-static int ended(const Parent *parent, int end, int status, const struct rusage *usage) {
-    const JoxOverlay *files = parent->files;
-    const char *file = files->count ? files->files[files->count - 1].path : parent->scene;
+static void say_ended(CliVetted *what, int end, int status, const struct rusage *usage,
+                      const char *fault) {
+    const JoxOverlay *files = what->files;
+    const char *file = files->count                           ? files->files[files->count - 1].path
+                       : what->edited && !what->edited->scene ? what->edited->behaviours[0]
+                                                              : what->def->path;
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     const bool late = used(usage) > 0.95 * allowed();
-    fprintf(stderr, "jostle %s: %s: error: reading this scene ", parent->command->name, file);
-    if (end == OUT_OF_MEMORY)
-        fprintf(stderr, "takes more memory than there is for it (%zu MB at most)\n", MEMORY >> 20);
+    JoxText *why = &what->why;
+    snprintf(what->file, sizeof what->file, "%s", file);
+    jox_text_printf(why, "reading this %s ", what->edited ? "file" : "scene");
+    if (end == CLI_OUT_OF_MEMORY)
+        jox_text_printf(why, "takes more memory than there is for it (%zu MB at most)",
+                        MEMORY >> 20);
+    else if (fault)
+        jox_text_add(why, fault);
     else if (number == SIGXCPU || (number == SIGKILL && late))
-        fprintf(stderr, "takes more processor time than it may (%g s)\n", allowed());
+        jox_text_printf(why, "takes more processor time than it may (%g s)", allowed());
     else if (number == SIGKILL)
-        fprintf(stderr,
-                "was ended from outside, as systems that run out of memory do (it had %ld MB)\n",
-                usage->ru_maxrss >> 10);
+        jox_text_printf(
+            why, "was ended from outside, as systems that run out of memory do (it had %ld MB)",
+            usage->ru_maxrss >> 10);
     else if (number == SIGSYS)
-        fputs("tried to start a program or to reach the network\n", stderr);
+        jox_text_add(why, "tried to start a program or to reach the network");
     else if (number)
-        fprintf(stderr, "broke the process that read it (%s); please report it\n",
-                strsignal(number));
+        jox_text_printf(why, "broke the process that read it (%s); please report it",
+                        strsignal(number));
     else
-        fprintf(stderr, "ended the process that read it; please report it\n");
-    return JO_INPUT;
+        jox_text_add(why, "ended the process that read it; please report it");
+}
+
+/* There is no child. */
+static int say_none(CliVetted *what) {
+    jox_text_printf(&what->why, "no process to read it in: %s", strerror(errno));
+    snprintf(what->file, sizeof what->file, "%s", what->def->path);
+    return -2;
+}
+
+int cli_read_confined(CliVetted *what) {
+    int ends[2], status = 0;
+    struct rusage usage = {0};
+    fflush(NULL);
+    what->files->sealed = true;
+    if (pipe(ends) != 0)
+        return say_none(what);
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        read_it(what, ends[1]);
+    }
+    const int why = errno;
+    CliSource source = {.from = ends[0], .stop = what->stop, .until = now() + LONGEST};
+    close(ends[1]);
+    const int end = child > 0 ? receive(what, &source) : -1;
+    close(ends[0]); /* a child that sends on ends by it */
+    errno = why;
+    if (child < 0)
+        return say_none(what);
+    if (source.fault)
+        kill(child, SIGKILL);
+    while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR)
+        continue;
+    if (end == CLI_LOADED || end == CLI_REFUSED)
+        return end;
+    say_ended(what, end, status, &usage, source.fault);
+    return -1;
 }
 
 /* What the child said; and how files are read that lie where it may not look. */
@@ -173,13 +252,6 @@ static void tell_refused(const CliCommand *command, const JoxText *said) {
                 command->name);
 }
 
-static int wait_for(pid_t child, struct rusage *usage) {
-    int status = 0;
-    while (wait4(child, &status, 0, usage) < 0 && errno == EINTR)
-        continue;
-    return status;
-}
-
 /* The first of what was said, but for what stands below it: the lines of the file. */
 static void put_first(const JoxText *said, JoError *error) {
     const char *text = said->data ? said->data : "see what was said above";
@@ -187,36 +259,18 @@ static void put_first(const JoxText *said, JoError *error) {
 }
 
 int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files, JoError *error) {
-    int ends[2];
-    Parent parent = {.command = command, .scene = def->path, .files = files};
-    fflush(NULL);
-    if (pipe(ends) != 0) {
-        fprintf(stderr, "jostle %s: %s\n", command->name, strerror(errno));
-        return JO_FAILED;
-    }
-    const pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        read_it(def, ends[1]);
-    }
-    close(ends[1]);
-    const int end = child > 0 ? receive(&parent, ends[0]) : -1;
-    close(ends[0]); /* a child that sends on ends by it */
-    struct rusage usage = {0};
-    const int status = child > 0 ? wait_for(child, &usage) : 0;
-    if (child < 0)
-        fprintf(stderr, "jostle %s: no process to read the scene in\n", command->name);
-    if (end == REFUSED && parent.said.data)
-        tell_refused(command, &parent.said);
-    files->sealed = true;
-    const int result = child < 0        ? JO_FAILED
-                       : end == LOADED  ? JO_OK
-                       : end == REFUSED ? JO_INPUT
-                                        : ended(&parent, end, status, &usage);
+    CliVetted what = {.def = def, .files = files, .stop = -1};
+    const int end = cli_read_confined(&what);
+    if (end == CLI_REFUSED && what.said.data)
+        tell_refused(command, &what.said);
+    else if (end < 0)
+        fprintf(stderr, "jostle %s: %s: error: %s\n", command->name, what.file, what.why.data);
+    const int result = end == CLI_LOADED ? JO_OK : end == -2 ? JO_FAILED : JO_INPUT;
     if (error && result != JO_OK) {
         error->code = (JoCode)result;
-        put_first(&parent.said, error);
+        put_first(end < 0 ? &what.why : &what.said, error);
     }
-    jox_text_free(&parent.said);
+    jox_text_free(&what.said);
+    jox_text_free(&what.why);
     return result;
 }

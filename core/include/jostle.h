@@ -225,7 +225,8 @@ typedef struct JoSceneDef {
                          order of Bullet's contacts changes by that */
     bool no_density;  /* densities are not sampled, which takes time, until a report asks for them:
                          "density_max" of the summary is null */
-    bool dry;         /* all is read and compiled, and nobody is placed: for jo_scene_free alone */
+    bool dry;         /* all is read and compiled, and nobody is placed: for jo_scene_free, and
+                         jo_scene_try, alone */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
     size_t text_length;
     uint32_t cookie;

@@ -44,6 +44,38 @@ JO_API bool jo_scene_page(const JoScene *scene, const JoScene *half, const char 
    missing). */
 JO_API bool jo_scene_data(JoScene *scene, const char *directory, JoError *error);
 
+/* ---- files of others --------------------------------------------------------------------- */
+
+/* Is told of a file that was read. */
+typedef void JoRead(void *context, const char *path, const char *text, size_t length);
+/* What is to be read of a scene that runs. */
+typedef struct JoVetting {
+    bool whole;                    /* all of it, as jo_scene_load does; else what was edited: */
+    const char *const *behaviours; /* paths of their files, */
+    size_t behaviour_count;
+    bool scene;   /* and whether the scene's own files were */
+    int stop;     /* a file descriptor that can be read when it is no longer wanted; -1: none */
+    JoRead *read; /* told of each file */
+    void *read_context;
+    char file[1024], why[240]; /* where it is refused: at which file, and what happened there */
+} JoVetting;
+/* Whoever has the files of others read before the program reads them itself: `vet` reads them in a
+   process that can do no harm, and returns once it has; what is wrong with their text is no reason
+   to refuse. False where that process was ended. It is called by the thread that loads, beside the
+   steps, and by the one that runs a live page; `trust` is how the user does without, for
+   messages. */
+typedef struct JoVetter {
+    bool (*vet)(void *context, JoVetting *what);
+    void *context;
+    const char *trust;
+} JoVetter;
+/* Before jo_scene_watch: files that are edited are loaded from what `vetter` had read of them; it
+   must outlive the scene. NULL: they are read at once. */
+JO_API void jo_scene_vet(JoScene *scene, const JoVetter *vetter);
+/* Of a scene that is `dry`: reads and compiles what was edited as the scene that runs would, and
+   takes nothing of it; false where memory ran out. For a vetter, in its process. */
+JO_API bool jo_scene_try(JoScene *scene, const JoVetting *what);
+
 /* ---- live pages -------------------------------------------------------------------------- */
 
 /* A scene on a live page: a browser on this machine shows it and lets people act on it. */
@@ -56,6 +88,7 @@ typedef struct JoViewDef {
     bool fast;                /* as fast as it can go, not in real time */
     double wait;              /* s that time stands still at most, until the first page is open */
     bool watch;               /* files that are edited are reloaded; on by default */
+    const JoVetter *vetter;   /* who reads them first, and the scene at a restart; NULL: nobody */
     double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
     const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
     double record_every;      /* s between its frames, as for jo_scene_record */

@@ -34,18 +34,41 @@ static bool begin(JoxScenePage *s, JoError *error) {
            (!def->watch || jo_scene_watch(s->scene, error));
 }
 
+static void keep_file(void *context, const char *path, const char *text, size_t length) {
+    jox_overlay_put(context, path, text, length);
+}
+
+/* The scene as it is now on the disk, from what its vetter had read of it. */
+static JoScene *load_again(JoxScenePage *s, JoError *error) {
+    const JoVetter *vetter = s->def->vetter;
+    JoxOverlay files = {.sealed = true};
+    JoVetting what = {.whole = true, .stop = -1, .read = keep_file, .read_context = &files};
+    JoScene *scene = NULL;
+    if (!vetter || vetter->vet(vetter->context, &what)) {
+        jox_overlay_use(vetter ? &files : NULL);
+        scene = jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+        jox_overlay_use(NULL);
+    } else {
+        jox_error(error, JO_INPUT, "%s: %s", what.file, what.why);
+    }
+    jox_overlay_free(&files);
+    return scene;
+}
+
 bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->scene_def.message = message;
     s->scene_def.message_context = s;
-    JoScene *next = jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
-    jox_overlay_use(
-        NULL); /* files may be there as they were vetted; once more they may have changed */
+    JoScene *next = s->scene
+                        ? load_again(s, error) /* the first time, from what the caller had read */
+                        : jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+    jox_overlay_use(NULL);
     if (!next)
         return false;
     JoError ending = {0};
     if (!jox_scene_page_end(s, &ending))
         jox_live_say(&s->page, JOX_VIEW_ALL, "error", ending.text);
     s->scene = next;
+    jo_scene_vet(next, s->def->vetter);
     s->failed = false;
     s->page.session.paused = s->failed = !begin(s, error);
     if (s->failed) {

@@ -3,8 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/format/path.h"
+#include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "run/reload_parts.h"
 
 void jox_batch_free(JoxBatch *batch) {
@@ -156,6 +159,73 @@ void jox_batch_compare(JoxReload *r, JoxChange *change) {
     pthread_mutex_unlock(&r->machines);
 }
 
+/* Machines, which grow by what others become, and the scene's own files. */
+static void load_parts(JoxReload *r, JoxBatch *batch) {
+    for (uint32_t c = 0; c < batch->count; c++)
+        load_change(r, batch, c);
+    if (batch->parts[JOX_PART_SCENE])
+        load_plan(r, batch);
+}
+
+/* What a vetter read. */
+typedef struct Vetted {
+    JoxOverlay files;
+    JoxWatch *watch;
+} Vetted;
+
+/* It may have changed once more since it was noticed. */
+static void keep_file(void *context, const char *path, const char *text, size_t length) {
+    Vetted *vetted = context;
+    jox_overlay_put(&vetted->files, path, text, length);
+    jox_watch_read(vetted->watch, path, text, length);
+}
+
+/* Has them read by the scene's vetter, and loads them from what it read. */
+static void load_vetted(JoxReload *r, JoxBatch *batch) {
+    const JoVetter *vetter = r->scene->vetter;
+    const char *paths[JOX_MOST_MACHINES];
+    Vetted vetted = {.files.sealed = true, .watch = r->watch};
+    JoVetting what = {.behaviours = paths,
+                      .behaviour_count = batch->count,
+                      .scene = batch->parts[JOX_PART_SCENE],
+                      .stop = r->stop,
+                      .read = keep_file,
+                      .read_context = &vetted};
+    for (uint32_t c = 0; c < batch->count; c++)
+        paths[c] = batch->changes[c].path;
+    if (vetter->vet(vetter->context, &what)) {
+        const JoxOverlay *before = jox_overlay_use(&vetted.files);
+        load_parts(r, batch);
+        jox_overlay_use(before);
+    } else {
+        batch->failed = true;
+        jox_diag_error(&batch->diagnostics, ((JoxPosition){what.file, 0, 0, 0}), "not-vetted",
+                       vetter->trust, "%s", what.why);
+    }
+    jox_overlay_free(&vetted.files);
+}
+
+void jo_scene_vet(JoScene *scene, const JoVetter *vetter) {
+    JOX_REQUIRE(scene && !scene->reload, );
+    scene->vetter = vetter;
+}
+
+bool jo_scene_try(JoScene *scene, const JoVetting *what) {
+    JOX_REQUIRE(scene && scene->def.dry && what, false);
+    JOX_GUARD (scene->heap, NULL)
+        return false;
+    const JoxMachineSet *set = &scene->world->model.machines;
+    JoxReload r = {.scene = scene, .stop = -1};
+    JoxBatch *batch = jox_alloc(1, sizeof *batch);
+    atomic_store(&r.machine_count, set->count);
+    batch->parts[JOX_PART_SCENE] = what->scene;
+    for (size_t b = 0; b < what->behaviour_count; b++) /* which need not be one of this scene */
+        add_change(batch, 0, what->behaviours[b]);
+    load_parts(&r, batch);
+    jox_batch_free(batch);
+    return true;
+}
+
 /* The next parts whose files have changed, loaded; NULL where there are none. */
 JoxBatch *jox_batch_prepare(JoxReload *r) {
     JoScene *scene = r->scene;
@@ -170,10 +240,10 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
         if (parts[m])
             add_change(batch, m, machines->set->items[m]->path);
-    for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
-        load_change(r, batch, c);
-    if (parts[JOX_PART_SCENE])
-        load_plan(r, batch);
+    if (r->watch && scene->vetter)
+        load_vetted(r, batch);
+    else
+        load_parts(r, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)

@@ -38,8 +38,9 @@ struct JoScene {
     JoMessage *message;
     void *message_context;
 
-    struct JoxReload *reload; /* NULL: files are not watched */
-    JoxDiagnosed *diagnosed;  /* NULL: nobody wants to know */
+    struct JoxReload *reload;      /* NULL: files are not watched */
+    const struct JoVetter *vetter; /* who reads edited files first; NULL: nobody */
+    JoxDiagnosed *diagnosed;       /* NULL: nobody wants to know */
     void *diagnosed_context;
     double swap_seconds; /* the longest that a swap has held a step up */
     JoSceneDef def;      /* as it was loaded, with copies of its texts */

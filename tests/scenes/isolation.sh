@@ -71,6 +71,7 @@ END
     timeout 20 "$program" view r.sqlite --port 8790 >page 2>&1 & pages=$!
     for _ in $(seq 100); do grep -q token page && break; sleep 0.1; done
     grep -q 'Seccomp:[[:space:]]*2' "/proc/$(pgrep -P $pages)/status"; verdict "a page of a recording is served by a confined process" $?
+    grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' "/proc/$(pgrep -P $pages)/limits" >out; [ "$(cat out)" = 4 ]; verdict "  which has its limits" $?
     kill $pages; wait $pages
 fi
 scene near.lua
@@ -83,6 +84,12 @@ if ! "$program" --version | grep -q "no Landlock"; then
         env -C inner "$program" resume deep/kept --quiet --for 3
     says "  unless its user trusts it" 0 "" env -C inner "$program" resume deep/kept --quiet --for 3 --trusted
 fi
+printf 'jostle: 1\nplaces: {p: {polygon: [[0, 0], [60, 0], [60, 60], [0, 60]]}}\ngroups: {g: {behaviour: near.lua, count: 1000, fill: grid, in: p}}\n' >inner/large.yaml
+cp behaviours/near.lua inner/
+says "a large run is kept, and recorded" 0 "" "$program" run inner/large.yaml --quiet --steps 40 --checkpoint 1 --checkpoint-dir inner/large --record inner/large.sqlite
+says "a run that goes on for too long says so" 1 "with --trusted there is no limit" prlimit --cpu=6 "$program" resume inner/large --quiet --for 1e6
+[ "$(sqlite3 inner/large.sqlite 'PRAGMA integrity_check')" = ok ] && [ "$(sqlite3 inner/large.sqlite 'SELECT max(frame) > 100 FROM trajectory_data')" = 1 ]
+verdict "  and leaves a recording that is whole" $?
 says "it goes on below the working folder" 0 "" "$program" resume inner/deep/kept --quiet --for 4
 says "confined, a recording is measured, its pictures drawn by gnuplot" 0 "" "$program" report r.sqlite --scene scenes/s.yaml --out new/report
 [ -s new/report/index.html ] && ls new/report/*.png >out; verdict "  into a folder that was not there" $?
@@ -121,3 +128,36 @@ scene near.lua
 vetted=$("$program" run scenes/s.yaml --quiet --steps 20 --summary - | grep '"hash"')
 trusted=$("$program" run scenes/s.yaml --quiet --steps 20 --summary - --trusted | grep '"hash"')
 [ -n "$vetted" ] && [ "$vetted" = "$trusted" ]; verdict "one hash, vetted or trusted" $?
+
+# ---- what is saved while a scene runs is read by such a process too, and the run goes on meanwhile ----
+await() { for _ in $(seq 300); do grep -qF -- "$1" said && return 0; sleep 0.1; done; head -5 said; return 1; } # TEXT
+begun() { for _ in $(seq 300); do pgrep -P $run >out && [ -s log ] && { sleep 0.5; return; }; sleep 0.1; done; head -5 said; }
+reader() { for _ in $(seq 100); do child=$(pgrep -P "$(pgrep -P $run)") && return 0; sleep 0.1; done; return 1; }
+echo "$rest" >behaviours/edited.lua
+scene edited.lua 'limits: {load_instructions: 1e9}
+'
+for kind in --watch --view=8791; do
+    echo "$rest" >behaviours/edited.lua
+    "$program" run scenes/s.yaml --quiet --for 1e6 $kind --log-input log >said 2>&1 & run=$!
+    begun
+    echo "while true do end $rest" >behaviours/edited.lua
+    reader && grep -q 'Seccomp:[[:space:]]*2' "/proc/$child/status"; verdict "$kind: a saved behaviour is read by a confined process" $?
+    kill -ABRT "$child"
+    await "edited.lua: reading this file broke the process that read it (Aborted)"; verdict "$kind:   whose end is told" $?
+    echo "-- good again
+$rest" >behaviours/edited.lua
+    await "version 2 is live"; verdict "$kind:   and what is saved then goes live" $?
+    grep -qF -- "-- good again" log; verdict "$kind:   from the bytes that were read" $?
+    echo "while true do end $rest" >behaviours/edited.lua
+    reader; began=$(date +%s%N); kill -INT $run; wait $run; status=$?
+    [ $(($(date +%s%N) - began)) -lt 8000000000 ] && { [ $status = 130 ] || [ $kind != --watch ]; }; verdict "$kind: who ends a run does not wait for what is read (status $status)" $?
+    sleep 0.2; [ ! -e "/proc/$child" ]; verdict "$kind:   and leaves no process behind" $?
+done
+if ! "$program" --version | grep -q "no Landlock"; then
+    echo "$rest" >behaviours/edited.lua
+    "$program" run scenes/s.yaml --quiet --for 1e6 --watch --log-input log >said 2>&1 & run=$!
+    begun
+    printf 'jostle: 1\nlimits: {load_instructions: 1e9}\nwalls: [{file: %s/elsewhere/plan.wkt}]\ngroups: {g: {behaviour: edited.lua, at: [[0, 0]]}}\n' "$PWD" >scenes/s.yaml
+    await "plan.wkt"; verdict "a saved scene does not read elsewhere" $?
+    kill -INT $run; wait $run
+fi

@@ -193,6 +193,40 @@ static int sends_datagrams(void) {
     return socket(AF_INET, SOCK_DGRAM, 0) >= 0 ? 0 : errno;
 }
 
+static int write_much(void) {
+    char path[256];
+    path_of("out/large", path);
+    const int file = open(path, O_WRONLY | O_CREAT, 0600);
+    signal(SIGXFSZ, SIG_IGN);
+    return file >= 0 && pwrite(file, "x", 1, 1 << 20) == 1 ? 0 : errno;
+}
+
+static int open_many(void) {
+    for (int i = 0; i < 40; i++)
+        if (dup(0) < 0)
+            return errno;
+    return 0;
+}
+
+/* Of a simulation, too: what one process can take of the machine. */
+static void who_works_has_limits(void **state) {
+    (void)state;
+    char out[256];
+    path_of("out", out);
+    const char *outputs[] = {out};
+    JoxConfines confines = {.works = true, .outputs = outputs, .output_count = 1};
+    assert_int_equal(confined_to(confines, write_much), 0);
+    assert_int_equal(confined_to(confines, open_many), 0);
+    confines.file_size = 1 << 20;
+    confines.files = 20;
+    confines.memory = (size_t)64 << 20;
+    assert_int_equal(confined_to(confines, write_much), EFBIG);
+    assert_int_equal(confined_to(confines, open_many), EMFILE);
+    assert_int_equal(confined_to(confines, take_memory), ENOMEM);
+    path_of("out/large", out);
+    assert_int_equal(unlink(out), 0);
+}
+
 static void who_works_writes_its_outputs_alone(void **state) {
     (void)state;
     if (!jox_confine_can().files || !jox_confine_can().calls)
@@ -351,6 +385,7 @@ int main(void) {
         cmocka_unit_test(it_writes_nothing),
         cmocka_unit_test(it_starts_nothing_and_has_no_network),
         cmocka_unit_test(its_memory_and_time_are_bounded),
+        cmocka_unit_test(who_works_has_limits),
         cmocka_unit_test(who_works_writes_its_outputs_alone),
         cmocka_unit_test(who_works_reaches_nobody),
         cmocka_unit_test(programs_are_confined_as_who_starts_them),

@@ -114,6 +114,17 @@ bool jox_watch_add(JoxWatch *watch, const char *path) {
     return true;
 }
 
+void jox_watch_read(JoxWatch *watch, const char *path, const char *text, size_t length) {
+    const size_t before = watch->count;
+    if (!jox_watch_add(watch, path))
+        return;
+    for (size_t i = 0; i < watch->count; i++)
+        if (strcmp(watch->files[i].path, path) == 0) {
+            jox_sha256_hex(text, length, watch->files[i].digest);
+            watch->files[i].moved |= i >= before; /* it may have changed before it was watched */
+        }
+}
+
 /* Folders come and go: a file whose own appears, or is another one now, is looked at. */
 static bool follow_folder(JoxWatch *watch, WatchedFile *file, const struct inotify_event *event) {
     bool appears = file->away && (event->mask & IN_ISDIR);

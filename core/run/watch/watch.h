@@ -13,6 +13,8 @@ JoxWatch *jox_watch_create(void);
 /* Watches a file by its path, there or not; its present content is the one already known. False
    with errno if its folder cannot be watched. */
 bool jox_watch_add(JoxWatch *watch, const char *path);
+/* What was read of a file, by whomever: it is watched, and the content already known is that. */
+void jox_watch_read(JoxWatch *watch, const char *path, const char *text, size_t length);
 /* Waits up to `seconds` for something to happen (or for the other file descriptor to be readable),
    then until the folders have been quiet for 30 ms. Calls `changed` for each watched file whose
    content differs from the one last known, with the time at which it was written (seconds since
