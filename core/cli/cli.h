@@ -159,6 +159,10 @@ int cli_misused(const CliCommand *command, const char *why);
 /* Whether a file can be written, found out before an hour of simulation; JO_FAILED with a message.
  */
 int cli_writable(const CliCommand *command, const char *path);
+/* Whether no two outputs are one file, and none is one that is read: of `inputs`, or `files`, which
+   may be NULL. JO_USAGE with a message. Of outputs NULL and "-" are none, of inputs NULL. */
+int cli_apart(const CliCommand *command, const char *const *outputs, size_t output_count,
+              const char *const *inputs, size_t input_count, const JoxOverlay *files);
 /* Writes text to a file, or to standard output for "-"; JO_FAILED with a message. */
 int cli_write(const CliCommand *command, const char *path, const char *text);
 /* Prints text to the FILE that `context` is: where jo_check and jo_test send theirs. */

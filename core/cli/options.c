@@ -229,6 +229,41 @@ int cli_writable(const CliCommand *command, const char *path) {
                                                     : not_written(command, path, strerror(errno));
 }
 
+/* Whether two paths lead to one file; of files that are to be made, whether they are written alike.
+ */
+static bool is_same(const char *a, const char *b) {
+    struct stat one, other;
+    const bool first = stat(a, &one) == 0, second = stat(b, &other) == 0;
+    if (first && second)
+        return S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+    return !first && !second && strcmp(a, b) == 0;
+}
+
+static int not_apart(const CliCommand *command, const char *path, const char *why) {
+    fprintf(stderr, "jostle %s: '%s' %s; write to another file\n", command->name, path, why);
+    return JO_USAGE;
+}
+
+int cli_apart(const CliCommand *command, const char *const *outputs, size_t output_count,
+              const char *const *inputs, size_t input_count, const JoxOverlay *files) {
+    static const char READ[] = "is read for this, and would be replaced";
+    for (size_t o = 0; o < output_count; o++) {
+        const char *path = outputs[o];
+        if (!path || !strcmp(path, "-"))
+            continue;
+        for (size_t i = 0; i < input_count; i++)
+            if (inputs[i] && is_same(path, inputs[i]))
+                return not_apart(command, path, READ);
+        for (size_t f = 0; files && f < files->count; f++)
+            if (is_same(path, files->files[f].path))
+                return not_apart(command, path, READ);
+        for (size_t b = 0; b < o; b++)
+            if (outputs[b] && is_same(path, outputs[b]))
+                return not_apart(command, path, "is to be written twice");
+    }
+    return JO_OK;
+}
+
 int cli_write(const CliCommand *command, const char *path, const char *text) {
     JoError error = {0};
     if (!strcmp(path, "-")) {

@@ -41,6 +41,9 @@ static int measure(const Wanted *wanted) {
     JoError error = {0};
     if (!wanted->def.directory && !wanted->summary)
         return cli_misused(&cli_report, "nothing is asked for: give --out DIR, or --summary FILE");
+    const char *inputs[] = {wanted->def.recording, wanted->def.scene};
+    if (cli_apart(&cli_report, &wanted->summary, 1, inputs, 2, NULL) != JO_OK)
+        return JO_USAGE;
     confine(wanted);
     if (cli_is_sweep(wanted->def.recording)) {
         if (wanted->summary || wanted->def.scene || !wanted->def.directory)

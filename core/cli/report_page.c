@@ -1,6 +1,12 @@
-/* The page of a run's report, with the same run at half the step beside it. */
+/* The page of a run's report, with the same run at half the step beside it; and that of runs with
+   many seeds, which a sweep's file keeps. */
+#include <errno.h>
 #include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
 
+#include "base/file.h"
+#include "base/mem.h"
 #include "cli/cli.h"
 #include "jostle_tools.h"
 
@@ -45,4 +51,52 @@ int cli_report_page(const CliCommand *command, const CliReportPage *page) {
     const bool ok = jo_scene_page(page->scene, half, why, page->folder, &written);
     jo_scene_free(half);
     return ok ? JO_OK : cli_failed(command, &written, false);
+}
+
+/* ---- runs with many seeds ---- */
+
+bool cli_is_sweep(const char *path) {
+    enum { AT = 68 }; /* of the number of who wrote an SQLite file */
+    unsigned char head[AT + 4] = {0};
+    FILE *file = jox_file_open(path, "rb"); /* no pipe, which would be waited for */
+    const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
+    if (file)
+        jox_file_close(file);
+    return got == sizeof head && !memcmp(head, "SQLite format 3", 16) &&
+           !memcmp(head + AT, "JSwp", 4);
+}
+
+bool cli_make_folder(const CliCommand *command, const char *path) {
+    char *folder = jox_strdup(path);
+    bool good = true;
+    for (char *at = folder + 1; good && *folder; at++) {
+        const char was = *at;
+        if (was && was != '/')
+            continue;
+        *at = 0;
+        good = mkdir(folder, 0777) == 0 || errno == EEXIST;
+        if (!good)
+            fprintf(stderr, "jostle %s: cannot make the folder '%s': %s\n", command->name, folder,
+                    strerror(errno));
+        *at = was;
+        if (!was)
+            break;
+    }
+    jox_free(folder);
+    return good;
+}
+
+int cli_runs_page(const CliCommand *command, const char *runs, const char *folder, bool quiet) {
+    JoCompareDef def = jo_default_compare_def();
+    JoError error = {0};
+    def.sides = &runs;
+    def.side_count = 1;
+    def.out = folder;
+    char *text = jo_compare(&def, NULL, &error);
+    if (!text)
+        return cli_failed(command, &error, false);
+    if (!quiet)
+        fprintf(stderr, "%s\nreport: %s/index.html\nruns: %s\n", text, folder, runs);
+    jo_free(text);
+    return JO_OK;
 }

@@ -300,6 +300,10 @@ static int begin(Run *run) {
         return JO_FAILED;
     cli_catch_signals(false);
     int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files, NULL);
+    const char *outputs[] = {run->record, run->log, run->summary};
+    const char *inputs[] = {run->def.path, run->def.input_log};
+    if (status == JO_OK)
+        status = cli_apart(&cli_run, outputs, 3, inputs, 2, &run->files);
     if (status != JO_OK)
         return status;
     if (!run->trusted && (run->watch || run->view) &&

@@ -218,7 +218,9 @@ static int run(int argc, char **argv) {
         sweep.def.only = (uint32_t)sweep.only;
         if (!sweep.merge)
             sweep.def.scene.path = path = cli_scene(plain.items[0]);
-        status = why           ? cli_misused(&cli_sweep, why)
+        const char *outputs[] = {sweep.def.out, sweep.csv}, *inputs[] = {path};
+        status = why ? cli_misused(&cli_sweep, why)
+                 : cli_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
                  : sweep.merge ? merge(&sweep, &plain)
                  : sweep.list  ? list(&sweep)
                                : run_all(&sweep);

@@ -109,6 +109,8 @@ typedef struct JoxMachineSet {
     char **names; /* number -> name, shared by all machines; only grows */
     uint32_t name_count;
     size_t name_capacity;
+    uint32_t *name_table; /* by hash, in a table with gaps: a name's number and one, or 0 */
+    size_t name_room;     /* a power of two */
 } JoxMachineSet;
 
 /* State: what a step leaves to the next, besides the agents' columns. Zero-initialise. */

@@ -3,17 +3,42 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/hash.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
+/* Where a name is in the table, or the gap where it would be. */
+static size_t place_of(const JoxMachineSet *set, const char *name) {
+    JoxHash hash = jox_hash_begin();
+    jox_hash_add(&hash, name, strlen(name));
+    size_t at = jox_hash_end(&hash) & (set->name_room - 1);
+    while (set->name_table[at] && strcmp(set->names[set->name_table[at] - 1], name) != 0)
+        at = (at + 1) & (set->name_room - 1);
+    return at;
+}
+
+/* Twice as many gaps as names at least. */
+static void widen_table(JoxMachineSet *set) {
+    if (3 * (size_t)set->name_count < set->name_room)
+        return;
+    jox_free(set->name_table);
+    set->name_table = NULL;
+    set->name_room = set->name_room ? 2 * set->name_room : 64;
+    set->name_table = jox_alloc(set->name_room, sizeof *set->name_table);
+    for (uint32_t n = 0; n < set->name_count; n++)
+        set->name_table[place_of(set, set->names[n])] = n + 1;
+}
+
 uint32_t jox_machines_name(JoxMachineRun *run, const char *name) {
     JoxMachineSet *set = run->set;
-    for (uint32_t n = 0; n < set->name_count; n++)
-        if (strcmp(set->names[n], name) == 0)
-            return n;
+    widen_table(set);
+    const size_t at = place_of(set, name);
+    if (set->name_table[at])
+        return set->name_table[at] - 1;
     JOX_RESERVE(set->names, set->name_capacity, set->name_count + 1);
     set->names[set->name_count] = jox_strdup(name);
-    return set->name_count++;
+    set->name_table[at] = ++set->name_count;
+    return set->name_count - 1;
 }
 
 void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name) {

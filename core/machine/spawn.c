@@ -182,6 +182,7 @@ void jox_machines_free(JoxMachineRun *run) {
     for (uint32_t n = 0; n < set->name_count; n++)
         jox_free(set->names[n]);
     jox_free(set->names);
+    jox_free(set->name_table);
     void *const owned[] = {state->called,     state->announced,   state->pending,    state->edits,
                            run->taken,        run->kicks,         run->grips,        run->push_on,
                            run->push_nearest, run->push_toward_x, run->push_toward_y};

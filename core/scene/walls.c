@@ -11,7 +11,10 @@
 #include "scene/internal.h"
 #include "scene/walls/wall_file.h"
 
-enum { LARGEST_FILE = 64 << 20 };
+enum {
+    LARGEST_FILE = 64 << 20,
+    LONGEST = 2000000 /* m, of all walls: what they bear is kept for each metre */
+};
 
 /* A file that a mod names lies beside the mod's own. */
 static bool is_allowed(const JoxLoad *l, const JoxYaml *name, const char *path) {
@@ -85,6 +88,16 @@ void jox_key_wall_file(const JoxReader *r, const JoxKey *key, const JoxYaml *nod
         ((JoxLoadWall *)item)->file = node;
 }
 
+/* m: of the walls from a ring on. */
+static double length_from(const JoxWalls *walls, uint32_t first) {
+    double length = 0.0;
+    const uint32_t begin = first < walls->ring_count ? walls->rings[first].first : walls->count;
+    for (uint32_t v = begin; v < walls->count; v++)
+        length += jox_length(
+            jox_sub(walls->vertices[walls->vertices[v].next].point, walls->vertices[v].point));
+    return length;
+}
+
 static void add_wall(const JoxReader *r, const JoxYaml *map) {
     JoxWalls *walls = &r->load->scene->walls;
     const uint32_t first = walls->ring_count;
@@ -110,7 +123,17 @@ void jox_key_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *list, v
     (void)item;
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(r, list, "bad-type", NULL, "%s is a list", key->name);
-    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++)
+    const JoxWalls *walls = &r->load->scene->walls;
+    double length = 0.0;
+    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
+        const uint32_t first = walls->ring_count;
         add_wall(r, list->items[i]);
+        length += length_from(walls, first);
+        if (length > LONGEST) {
+            jox_scene_error(r, list->items[i], "too-large", "A length may be in millimetres: unit",
+                            "with this one, walls are over %d km long", LONGEST / 1000);
+            break;
+        }
+    }
     r->load->walls_wrong = r->diagnostics->errors > errors;
 }

@@ -1,5 +1,7 @@
-/* Checks of whole parts of a world, which builds with assertions call before and after each step.
- */
+/* Checks of whole parts of a world, which builds with assertions call before and after each step,
+   and all builds for a state that was read. */
+#include <math.h>
+
 #include "base/assert.h"
 #include "world/world.h"
 
@@ -8,37 +10,101 @@ static bool names_one(int32_t index, uint32_t count) {
     return index == -1 || (index >= 0 && (uint32_t)index < count);
 }
 
-static void check_machine(const JoWorld *w, uint32_t i) {
+/* What does not hold, as it is written here. */
+#define MUST(condition)                                                                            \
+    do {                                                                                           \
+        if (!(condition))                                                                          \
+            return #condition;                                                                     \
+    } while (0)
+
+static const char *machine_fault(const JoWorld *w, uint32_t i) {
     const JoxAgents *a = &w->state.agents;
     if (a->machine[i] == JOX_NO_MACHINE)
-        return;
-    JOX_ASSERT(a->machine[i] < w->model.machines.count);
-    JOX_ASSERT(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
-    JOX_ASSERT(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
+        return NULL;
+    MUST(a->machine[i] < w->model.machines.count);
+    MUST(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
+    MUST(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
+    return NULL;
+}
+
+static const char *agents_fault(const JoWorld *w) {
+    const JoxAgents *a = &w->state.agents;
+    const uint32_t bodies = jox_bodies_rows(w->state.bodies);
+    MUST(a->count <= a->capacity && a->count <= a->next_id);
+    MUST(a->count + a->free_count == a->slot_count);
+    for (uint32_t r = 0; r < a->count; r++) {
+        const uint32_t i = a->by_rank[r];
+        MUST(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
+        MUST(a->id[i] < a->next_id);
+        MUST(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
+        MUST(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
+        MUST(a->slot_generation[a->slot[i]] > 0);
+        MUST(!a->removed[i]);
+        MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
+        MUST(names_one(a->goal[i], w->model.place_count));
+        MUST(names_one(a->bound[i], w->model.place_count));
+        MUST(names_one(a->queue_at[i], w->model.place_count));
+        MUST(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
+        MUST(names_one(a->struck[i], bodies));
+        MUST(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
+        MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
+        const char *fault = machine_fault(w, i);
+        if (fault)
+            return fault;
+    }
+    return NULL;
 }
 
 void jox_world_agents_check(const JoWorld *w) {
+    const char *fault = agents_fault(w);
+    if (fault)
+        jox_assert_failed(fault, __FILE__, __LINE__);
+}
+
+static bool all_finite(const float *column, uint32_t count) {
+    bool good = true;
+    for (uint32_t i = 0; i < count; i++)
+        good &= isfinite(column[i]) != 0;
+    return good;
+}
+
+static bool all_within(const float *column, uint32_t count, float most) {
+    bool good = true;
+    for (uint32_t i = 0; i < count; i++)
+        good &= fabsf(column[i]) <= most;
+    return good;
+}
+
+/* Numbers that the guard, or what wrote them, keeps in bounds. */
+static const char *numbers_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
-    const uint32_t bodies = jox_bodies_rows(w->state.bodies);
-    JOX_ASSERT(a->count <= a->capacity && a->count <= a->next_id);
-    JOX_ASSERT(a->count + a->free_count == a->slot_count);
-    for (uint32_t r = 0; r < a->count; r++) {
-        const uint32_t i = a->by_rank[r];
-        JOX_ASSERT(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
-        JOX_ASSERT(a->id[i] < a->next_id);
-        JOX_ASSERT(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
-        JOX_ASSERT(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
-        JOX_ASSERT(a->slot_generation[a->slot[i]] > 0);
-        JOX_ASSERT(!a->removed[i]);
-        JOX_ASSERT(a->group[i] == 0 || a->group[i] < w->model.group_count);
-        JOX_ASSERT(names_one(a->goal[i], w->model.place_count));
-        JOX_ASSERT(names_one(a->queue_at[i], w->model.place_count));
-        JOX_ASSERT(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
-        JOX_ASSERT(names_one(a->struck[i], bodies));
-        JOX_ASSERT(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
-        JOX_ASSERT(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
-        check_machine(w, i);
-    }
+    const uint32_t n = a->count;
+    const float *const positions[] = {a->x, a->y, a->prev_x, a->prev_y, a->still_x, a->still_y};
+    const float *const others[] = {
+        a->vx,      a->vy,      a->pref_x,   a->pref_y,   a->next_x,      a->next_y,
+        a->eager,   a->still,   a->ext_x,    a->ext_y,    a->inferred_x,  a->inferred_y,
+        a->force_x, a->force_y, a->course_x, a->course_y, a->compression, a->load};
+    for (size_t c = 0; c < sizeof positions / sizeof *positions; c++)
+        MUST(all_within(positions[c], n, JOX_WORLD_FARTHEST));
+    for (size_t c = 0; c < sizeof others / sizeof *others; c++)
+        MUST(all_finite(others[c], n));
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        MUST(all_finite(a->param[p], n));
+    for (uint32_t i = 0; i < n; i++)
+        MUST(!isnan(a->lasts[i]));
+    for (uint32_t s = 0; s < w->model.source_count; s++)
+        MUST(w->state.population.made[s] >= 0.0 && w->state.population.made[s] < 1e9);
+    for (uint32_t g = 0; g < w->model.group_count; g++)
+        MUST(w->state.population.party_left[g] == 0 ||
+             w->state.population.party_left[g] < w->model.groups[g].party);
+    for (uint32_t g = 0; g < w->state.drags.grab_count; g++)
+        MUST(w->state.drags.grabs[g].row < jox_bodies_rows(w->state.bodies));
+    return NULL;
+}
+
+const char *jox_world_fault(const JoWorld *w) {
+    const char *fault = agents_fault(w);
+    return fault ? fault : numbers_fault(w);
 }
 
 static void check_walls(const JoxWalls *walls) {

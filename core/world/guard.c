@@ -8,7 +8,6 @@
 #include "base/assert.h"
 #include "world/world.h"
 
-static const float FARTHEST = 10000.0f; /* m: floats still resolve a millimetre there */
 enum { MOST_TOLD = 5 };
 
 /* X(what, column, rest): numbers of agents, and what they are where nothing is known. Causes before
@@ -46,7 +45,7 @@ static void list_columns(JoxAgents *a, Column out[COLUMN_COUNT]) {
     Column *next = out;
 #define LIST(what, column, rest) *next++ = (Column){what, a->column, rest, INFINITY};
     COLUMNS(LIST)
-    next[-2].most = next[-1].most = FARTHEST; /* of the position */
+    next[-2].most = next[-1].most = JOX_WORLD_FARTHEST; /* of the position */
     JOX_ASSERT(next == out + COLUMN_COUNT);
 }
 
@@ -74,7 +73,7 @@ static uint32_t bits_of(float number) {
 static bool may_be_wrong(const JoxAgents *a, uint32_t begin, uint32_t end) {
     enum { BLOCK = 64 };
     const uint32_t exponent = 0x7f800000u, one = 0x00800000u, magnitude = 0x7fffffffu;
-    const uint32_t most = bits_of(FARTHEST);
+    const uint32_t most = bits_of(JOX_WORLD_FARTHEST);
     uint32_t signs = 0;
 #define PLUS(what, column, rest) +a->column[i]
 #define LOOK(i)                                                                                    \
@@ -166,7 +165,8 @@ static void blame(const JoWorld *w, const Column *column, JoxText *out) {
 /* Back to where it was before the substep, at rest. False where nobody knows where that was. */
 static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
     JoxAgents *a = &w->state.agents;
-    const bool known = fabsf(a->prev_x[i]) <= FARTHEST && fabsf(a->prev_y[i]) <= FARTHEST;
+    const bool known =
+        fabsf(a->prev_x[i]) <= JOX_WORLD_FARTHEST && fabsf(a->prev_y[i]) <= JOX_WORLD_FARTHEST;
     if (!known)
         a->prev_x[i] = a->prev_y[i] = 0.0f;
     for (int c = 0; c < COLUMN_COUNT; c++)

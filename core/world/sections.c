@@ -131,6 +131,11 @@ static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
         jox_error(error, JO_INPUT, "the state cannot be restored: %s", s.wrong);
         return false;
     }
+    const char *fault = jox_world_fault(w);
+    if (fault) {
+        jox_error(error, JO_INPUT, "the state cannot be restored: it is none of a run (%s)", fault);
+        return false;
+    }
     w->scratch.gone.count = 0;
     w->failure[0] = 0;
     jox_world_forget(w);

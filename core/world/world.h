@@ -194,12 +194,17 @@ bool jox_world_step(JoWorld *world);
 bool jox_world_guard(JoWorld *world);
 /* The same of a body that the last stage found, and has dealt with. */
 void jox_world_lose_body(JoWorld *world, const JoxBodyGone *gone);
+#define JOX_WORLD_FARTHEST                                                                         \
+    10000.0f /* m, from the origin: floats still resolve a millimetre there */
 /* Takes out those who are listed. */
 void jox_world_take_lost(JoWorld *world);
 /* For JOX_CHECK, between steps: ids, ranks, slots and indices of the agents agree with each other
    and with the model; places, groups, sources and sinks name things that there are; what people
    want, inspect and drag is listed once each, and figures add up. */
 void jox_world_agents_check(const JoWorld *world);
+/* What of this, or of the bounds of people's numbers, does not hold between two steps, as the code
+   has it; NULL: all of it holds. */
+const char *jox_world_fault(const JoWorld *world);
 void jox_world_model_check(const JoWorld *world);
 void jox_world_lists_check(const JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX; and the handle of the one at an index. */

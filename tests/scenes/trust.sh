@@ -79,3 +79,27 @@ kill -TERM $pid; wait $pid
 delete" ]
 verdict "SIGTERM: status 143; recording, figures and summary are whole" $?
 [ -z "$(find . -name '*.part')" ]; verdict "nothing is left half written" $?
+
+# ---- outputs in place of inputs, of each other, and of what a link leads to ----
+printf 'jostle: 1\ngroups: {g: {behaviour: own.lua, at: [[0, 0]]}}\n' >mine.yaml
+echo 'return machine { name = "m", start = "S", states = { S = { steer = hold } } }' >own.lua
+cp mine.yaml mine.kept; cp own.lua own.kept
+says "an input log over the scene" 2 "'mine.yaml' is read for this" "$program" run mine.yaml --quiet --steps 2 --log-input mine.yaml
+says "a summary over a behaviour" 2 "'./own.lua' is read for this" "$program" run mine.yaml --quiet --steps 2 --summary ./own.lua
+says "a summary over a log" 2 "'one' is to be written twice" "$program" run mine.yaml --quiet --steps 2 --log-input one --summary one
+says "a table of a sweep over its scene" 2 "'mine.yaml' is read for this" "$program" sweep mine.yaml --steps 2 --out many.sqlite --csv mine.yaml
+cmp -s mine.yaml mine.kept && cmp -s own.lua own.kept && [ ! -e one ]; verdict "  which are left as they are" $?
+"$program" run mine.yaml --quiet --steps 4 --record mine.sqlite; verdict "a run is recorded" $?
+says "a summary over the recording that it is of" 2 "'mine.sqlite' is read for this" "$program" report mine.sqlite --summary mine.sqlite
+[ "$(sqlite3 mine.sqlite 'PRAGMA integrity_check')" = ok ]; verdict "  which is left as it is" $?
+echo kept >elsewhere.txt; ln -s elsewhere.txt sum.json.part
+says "a link where a file is written until it is whole" 1 "sum.json" "$program" run mine.yaml --quiet --steps 2 --summary sum.json
+[ "$(cat elsewhere.txt)" = kept ]; verdict "  is not followed" $?
+mkfifo pipe2.sqlite
+says "a pipe in place of a recording or of a sweep's file" 3 "it is no regular file" "$program" report pipe2.sqlite --out page
+
+# ---- scenes that would take all memory or time ----
+{ echo 'jostle: 1'; echo 'walls:'; for i in $(seq 300); do echo "  - {line: [[$i, -9000], [$i.5, 9000]]}"; done; echo "$group"; } >s.yaml
+says "walls that are too long in all" 3 "walls are over 2000 km long" "$program" run s.yaml --quiet --steps 2
+{ echo 'jostle: 1'; echo "$group"; echo 'events:'; seq -f '  - {at: 1, signal: s%.0f}' 60000; } >s.yaml
+says "very many signals" 0 "" "$program" run s.yaml --quiet --steps 2

@@ -352,6 +352,35 @@ static void what_does_not_fit_is_refused(void **state) {
     jox_text_free(&damaged);
 }
 
+/* Of good form, with checksums that are right, and yet of no run: it would be read as an index. */
+static void what_is_no_state_of_a_run_is_refused(void **state) {
+    (void)state;
+    JoScene *scene = town();
+    JoxAgents *a = &scene->world->state.agents;
+    JoxText odd = {0};
+    step(scene, 20);
+#define REFUSED(variable, value)                                                                   \
+    do {                                                                                           \
+        const __typeof__(variable) was = (variable);                                               \
+        (variable) = (value);                                                                      \
+        snapshot(scene, &odd);                                                                     \
+        (variable) = was;                                                                          \
+        expect_refused(scene, &odd, "it is none of a run");                                        \
+    } while (0)
+    REFUSED(a->group[3], 7);
+    REFUSED(a->goal[3], 9999);
+    REFUSED(a->bound[3], -2);
+    REFUSED(a->queue_at[3], INT32_MAX);
+    REFUSED(a->kicked[3], 5);
+    REFUSED(a->x[3], 1e30f);
+    REFUSED(a->y[3], NAN);
+    REFUSED(a->vx[3], INFINITY);
+    REFUSED(a->param[JOX_PARAM_radius][3], -1.0f);
+    REFUSED(a->param[JOX_PARAM_perception][3], NAN);
+    jox_text_free(&odd);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_restored_world_goes_on_to_the_bit),
@@ -360,6 +389,7 @@ int main(void) {
         cmocka_unit_test(each_cell_is_hashed),
         cmocka_unit_test(scratch_may_be_forgotten_at_every_step),
         cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(what_is_no_state_of_a_run_is_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
