@@ -42,6 +42,8 @@ static void restrict_it(sqlite3 *db) {
     sqlite3_exec(db, "PRAGMA temp_store = MEMORY", NULL, NULL, NULL);
     sqlite3_limit(db, SQLITE_LIMIT_LENGTH, LONGEST);
     sqlite3_limit(db, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
+    /* What is sorted stays in memory: who is confined may write no other file. */
+    sqlite3_exec(db, "PRAGMA temp_store=MEMORY", NULL, NULL, NULL);
 }
 
 bool jox_database_open(const char *path, sqlite3 **db) {

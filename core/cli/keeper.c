@@ -57,36 +57,47 @@ static void answer(const Kept *kept, int end, const CliVetted *what) {
              end >= 0 ? "" : why->data, end >= 0 ? 0 : why->length);
 }
 
-static void read_whole(Kept *kept, CliVetted *what) {
-    const int end = cli_read_confined(what);
-    answer(kept, end, what);
-    if (end != CLI_LOADED)
-        return;
-    JoxOverlay before = kept->files;
-    kept->files = *what->files;
-    *what->files = before;
-    jo_scene_free(kept->scene);
-    kept->scene = NULL;
+static void end_vetted(CliVetted *what) {
+    jox_overlay_free(what->files);
+    jox_text_free(&what->said);
+    jox_text_free(&what->why);
+}
+
+static void read_whole(Kept *kept) {
+    JoxOverlay fresh = {0};
+    CliVetted what = {.def = kept->def, .stop = kept->socket, .files = &fresh};
+    const int end = cli_read_confined(&what);
+    answer(kept, end, &what);
+    if (end == CLI_LOADED) {
+        const JoxOverlay before = kept->files;
+        kept->files = fresh;
+        fresh = before;
+        jo_scene_free(kept->scene);
+        kept->scene = NULL;
+    }
+    end_vetted(&what);
 }
 
 /* `text`: the behaviours' paths, each with a zero byte; `name`: whether the scene was edited, too.
  */
-static void read_edited(Kept *kept, CliVetted *what, const CliGot *asked) {
+static void read_edited(Kept *kept, const CliGot *asked) {
     const char *paths[1000];
+    JoxOverlay fresh = {0};
     JoVetting edited = {.behaviours = paths, .scene = *asked->name, .stop = -1};
     for (size_t at = 0; at < asked->length && edited.behaviour_count < 1000;
          at += strlen(asked->text + at) + 1)
         paths[edited.behaviour_count++] = asked->text + at;
     if (!kept->scene)
         load(kept);
-    what->scene = kept->scene;
-    what->edited = &edited;
-    if (kept->scene) {
-        answer(kept, cli_read_confined(what), what);
-    } else {
-        jox_text_add(&what->why, "the scene as it was cannot be read once more");
-        answer(kept, -1, what);
-    }
+    CliVetted what = {.def = kept->def,
+                      .edited = &edited,
+                      .scene = kept->scene,
+                      .stop = kept->socket,
+                      .files = &fresh};
+    if (!kept->scene)
+        jox_text_add(&what.why, "the scene as it was cannot be read once more");
+    answer(kept, kept->scene ? cli_read_confined(&what) : -1, &what);
+    end_vetted(&what);
 }
 
 /* Does what it is asked for until nobody asks any more; does not return. */
@@ -110,16 +121,11 @@ static void keep(int socket, const JoSceneDef *def, const JoxOverlay *files) {
         kind = cli_get(&source, &asked);
         if (kind < 0)
             _exit(JO_OK);
-        JoxOverlay fresh = {0};
-        CliVetted what = {.def = def, .stop = socket, .files = &fresh};
         if (kind == CLI_WHOLE)
-            read_whole(&kept, &what);
+            read_whole(&kept);
         else if (kind == CLI_EDITED)
-            read_edited(&kept, &what, &asked);
+            read_edited(&kept, &asked);
         cli_got_free(&asked); /* CLI_STOP comes too late */
-        jox_overlay_free(&fresh);
-        jox_text_free(&what.said);
-        jox_text_free(&what.why);
     }
 }
 

@@ -93,6 +93,11 @@ verdict "  and leaves a recording that is whole" $?
 says "it goes on below the working folder" 0 "" "$program" resume inner/deep/kept --quiet --for 4
 says "confined, a recording is measured, its pictures drawn by gnuplot" 0 "" "$program" report r.sqlite --scene scenes/s.yaml --out new/report
 [ -s new/report/index.html ] && ls new/report/*.png >out; verdict "  into a folder that was not there" $?
+sqlite3 unsorted.sqlite "CREATE TABLE metadata(key TEXT, value TEXT); INSERT INTO metadata VALUES('version', '2'), ('fps', '10');
+    CREATE TABLE trajectory_data(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL, ori_x REAL, ori_y REAL);
+    WITH RECURSIVE n(k) AS (SELECT 0 UNION ALL SELECT k + 1 FROM n WHERE k < 79999)
+    INSERT INTO trajectory_data SELECT 400 - k % 400, k / 400, k / 400 % 20, k / 400 / 20, 1, 0 FROM n"
+says "a long recording without an index is put in order" 0 "" "$program" report unsorted.sqlite --summary sorted.json
 says "a recording is drawn" 0 "" "$program" render r.sqlite --out new/one.svg --quiet
 says "a scene is drawn" 0 "" "$program" render scenes/s.yaml --at 1 --out two.svg --quiet
 says "a mod is listed" 0 "" "$program" mod list scenes/s.yaml
