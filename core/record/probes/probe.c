@@ -158,7 +158,13 @@ void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width
         float ratio = jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f);
         *height = (int)((float)*width * ratio);
     }
-    p->calls->plot(&p->def, p->state, walls, commands);
+    if (p->last != INT64_MIN || !(p->def.from > 0.0)) {
+        p->calls->plot(&p->def, p->state, walls, commands);
+        return;
+    }
+    char why[80];
+    snprintf(why, sizeof why, "it measures from %.6g s on: the run ended before", p->def.from);
+    jox_plot_nothing(commands, why);
 }
 
 /* ---- shared by the kinds ---- */
