@@ -59,9 +59,16 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 /* Points of a ring as they were given, from its first vertex on, and whether the last is joined to
    the first. A closed line is two rings, of which *twin says that the next repeats this one. */
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin);
-/* Ends of the part of a line that walls leave about its middle, in the line's direction; all of it
-   where they stand in the middle. */
-void jox_walls_clear(const JoxWalls *walls, const JoxV2 line[2], JoxV2 ends[2]);
+/* What walls leave of a line, in its direction: the part about its middle, and others between two
+   walls, as the gates of a line of gates, if they are 0.25 m wide. What lies beyond the walls at
+   its ends is left out; where walls leave nothing it is all of the line. */
+enum { JOX_WALL_OPENINGS = 64 }; /* at most */
+typedef struct JoxWallOpenings {
+    JoxV2 ends[JOX_WALL_OPENINGS][2];
+    uint32_t count; /* at least one */
+    float width;    /* m, of all */
+} JoxWallOpenings;
+void jox_walls_openings(const JoxWalls *walls, const JoxV2 line[2], JoxWallOpenings *out);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

@@ -1,6 +1,7 @@
 #include "picture/html.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -60,11 +61,22 @@ void jox_html_end(FILE *out) {
     fputs("</html>\n", out);
 }
 
+/* Four digits, but all before the point; what is very small or great by a power of ten. */
 void jox_html_number(FILE *out, double value) {
-    if (isfinite(value))
-        fprintf(out, fabs(value) < 1e6 && value == floor(value) ? "%.0f" : "%.4g", value);
-    else
+    char text[40];
+    const double size = fabs(value);
+    if (!isfinite(value)) {
         fputs("&ndash;", out);
+        return;
+    }
+    const bool whole = size < 1e6 && value == floor(value);
+    snprintf(text, sizeof text, whole || (size >= 1e3 && size < 1e6) ? "%.0f" : "%.4g", value);
+    const char *power = strchr(text, 'e');
+    if (power)
+        fprintf(out, "%.*s&nbsp;&times;&nbsp;10<sup>%s%d</sup>", (int)(power - text), text,
+                power[1] == '-' ? "&minus;" : "", abs(atoi(power + 1)));
+    else
+        fputs(text, out);
 }
 
 static void element(FILE *out, const char *name, const char *text) {

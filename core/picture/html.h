@@ -17,7 +17,7 @@ void jox_html_text(FILE *out, const char *text);
 void jox_html_argument(FILE *out, const char *argument);
 /* The path of a link, by jox_quote_url. */
 void jox_html_link(FILE *out, const char *path);
-/* %.4g; a dash where it is not finite. */
+/* Four digits, or all before the point; a dash where it is not finite. */
 void jox_html_number(FILE *out, double value);
 /* <h2> and <p>, escaped. */
 void jox_html_heading(FILE *out, const char *text);

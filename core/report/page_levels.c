@@ -80,10 +80,11 @@ static void put_lines(FILE *out, const JoxSubject *s) {
     }
     jox_html_paragraph(
         out,
-        "What lies of a line between walls about its middle is measured. Of the ten seconds "
+        "What walls leave of a line is measured, of a line of gates all of them. Of the ten "
+        "seconds "
         "before each moment; nothing is known of the first ten. Density is "
         "that of the people within 2 m of the line on the side that most come from; those "
-        "who wait are the people in sight of its middle within 10 m there. Levels are "
+        "who wait are the people in sight of an opening's middle within 10 m there. Levels are "
         "Fruin's for walkways, by flow, but E or F where the area before the line is that of E "
         "or F, since a small flow may mean that nobody can move; the seconds are those at A / "
         "B / C / D / E / F.");

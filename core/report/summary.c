@@ -157,8 +157,8 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         const double given = (double)jox_length(jox_sub(line->given[1], line->given[0]));
         jox_text_printf(&text, "%s%.60s (%.2f m wide", text.length ? " " : "", line->name,
                         line->width);
-        if (line->width < 0.9 * given) /* a line of gates is measured at its middle alone */
-            jox_text_printf(&text, ": what walls leave of its %.2f m about the middle", given);
+        if (line->width < 0.9 * given)
+            jox_text_printf(&text, ": what walls leave of its %.2f m", given);
         jox_text_add(&text, "): ");
         jox_text_noun(&text, (uint64_t)line->forward + line->back, "passage");
         jox_text_printf(&text, ", at most %.2f per m and s", line->flow_most);
@@ -178,6 +178,40 @@ static void put_lines(FILE *out, const JoxSubject *s) {
 
 /* ---- levels of service ---- */
 
+/* s: at levels E and F. */
+static double crowded_of(const JoxDangerArea *area) {
+    return area->level_s[JOX_LEVELS - 2] + area->level_s[JOX_LEVELS - 1];
+}
+
+/* Areas that were at E or F, those of the longest time first. */
+static void say_areas(const JoxDanger *d, JoxText *out) {
+    enum { MOST = 4 };
+    uint32_t crowded = 0, told = 0;
+    double before = INFINITY;
+    for (uint32_t a = 0; a < d->areas.count; a++)
+        crowded += crowded_of(&d->areas.items[a]) > 0.0;
+    while (told < crowded && told < MOST) {
+        double next = 0.0;
+        for (uint32_t a = 0; a < d->areas.count; a++)
+            if (crowded_of(&d->areas.items[a]) < before)
+                next = fmax(next, crowded_of(&d->areas.items[a]));
+        for (uint32_t a = 0; a < d->areas.count && told < MOST; a++) {
+            const JoxDangerArea *area = &d->areas.items[a];
+            if (crowded_of(area) != next)
+                continue;
+            told++;
+            jox_text_printf(out,
+                            " %.60s was at E or F for %.1f s, with at most %.2g per m\xc2\xb2 "
+                            "about each of its people, at %.1f s.",
+                            area->name, next, (double)area->most, area->most_time);
+        }
+        before = next;
+    }
+    if (crowded > told)
+        jox_text_printf(out, " So %s %u more, for less long; they are in the table.",
+                        crowded - told == 1 ? "was" : "were", crowded - told);
+}
+
 static void put_levels(FILE *out, const JoxSubject *s) {
     const JoxDanger *d = s->danger;
     double all = 0.0, crowded = 0.0;
@@ -191,15 +225,7 @@ static void put_levels(FILE *out, const JoxSubject *s) {
                     "Of all the time that people spent here, %.1f %% was at Fruin's levels E "
                     "and F for queues (more than %.1f people per m\xc2\xb2).",
                     100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
-    for (uint32_t a = 0; a < d->areas.count; a++) {
-        const JoxDangerArea *area = &d->areas.items[a];
-        const double seconds = area->level_s[JOX_LEVELS - 2] + area->level_s[JOX_LEVELS - 1];
-        if (seconds > 0.0)
-            jox_text_printf(&text,
-                            " %.60s was at E or F for %.1f s, with at most %.2g per m\xc2\xb2 "
-                            "about each of its people, at %.1f s.",
-                            area->name, seconds, (double)area->most, area->most_time);
-    }
+    say_areas(d, &text);
     put(out, "Levels of service.", &text);
 }
 

@@ -186,6 +186,9 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
 
 /* What was found, and how much that is. */
 static void print(const JoxDiagnostics *all, JoxText *out) {
+    size_t notes = 0;
+    for (size_t d = 0; d < all->count; d++)
+        notes += all->items[d].severity == JOX_SEVERITY_NOTE;
     jox_diag_print(all, out);
     if (all->errors || all->warnings)
         jox_text_noun(out, all->errors, "error");
@@ -194,6 +197,10 @@ static void print(const JoxDiagnostics *all, JoxText *out) {
     if (all->warnings) {
         jox_text_add(out, ", ");
         jox_text_noun(out, all->warnings, "warning");
+    }
+    if (notes) {
+        jox_text_add(out, ", ");
+        jox_text_noun(out, notes, "note");
     }
     jox_text_add(out, "\n");
 }

@@ -27,6 +27,7 @@ expect "0 agents" 3 "0 agents" "$JOSTLE" run scenes/circle.yaml --set groups.cro
 expect "unwritable recording" 1 "cannot record" "$JOSTLE" run scenes/running-through.yaml --quiet --record /proc/x/y
 expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.yaml --quiet --report /proc/x/y
 expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
+expect "notes are counted" 0 "nothing wrong, " "$JOSTLE" check scenes/opening-300.yaml
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "  with the condition's words and their values" 0 "when after(own.alarm 5) is true" "$JOSTLE" run scenes/evacuation.yaml --quiet --trace 9 --for 6
 expect "  as it is written" 0 " > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 2 --for 30

@@ -256,6 +256,42 @@ static void what_is_not_known_is_null(void **state) {
     jox_danger_free(danger);
 }
 
+/* Gates of 1 m between blocks of 1 m, from wall to wall; the line begins and ends beyond these. */
+static void a_line_of_gates_is_measured_at_all_of_them(void **state) {
+    (void)state;
+    const JoxV2 line[2] = {{10, 14}, {10, 5}}, inner[2] = {{10, 12.5f}, {10, 6.5f}};
+    const JoxV2 room[4] = {{5, 6}, {15, 6}, {15, 13}, {5, 13}};
+    JoxWallOpenings openings;
+    JoxWalls walls = {0};
+    jox_walls_add_polyline(&walls, room, 4, true, INFINITY);
+    for (int b = 0; b < 3; b++) {
+        const float low = 7.0f + 2.0f * (float)b;
+        const JoxV2 block[4] = {{9, low}, {11, low}, {11, low + 1}, {9, low + 1}};
+        jox_walls_add_solid(&walls, block, 4, INFINITY);
+    }
+    jox_walls_openings(&walls, line, &openings);
+    assert_int_equal(openings.count, 4); /* 6 to 7, 8 to 9, 10 to 11, 12 to 13 */
+    assert_true(fabsf(openings.width - 4.0f) < 0.1f);
+    assert_true(fabsf(openings.ends[0][0].y - 13.0f) < 0.02f);
+    assert_true(fabsf(openings.ends[3][1].y - 6.0f) < 0.02f);
+    /* What is cut off at an end may lead anywhere. */
+    jox_walls_openings(&walls, inner, &openings);
+    assert_int_equal(openings.count, 2);
+    /* A door that is shut is none; of a line in one opening all is about its middle. */
+    const JoxV2 door[2] = {{10, 8.95f}, {10, 8.05f}}, shut[2] = {{10, 9}, {10, 8}};
+    jox_walls_openings(&walls, door, &openings);
+    assert_int_equal(openings.count, 1);
+    assert_true(fabsf(openings.width - 0.9f) < 0.02f);
+    jox_walls_add_polyline(&walls, shut, 2, false, INFINITY);
+    jox_walls_openings(&walls, line, &openings);
+    assert_int_equal(openings.count, 3);
+    /* A block that is the line's own place: all of it, as nothing is left. */
+    const JoxV2 within[2] = {{10, 9.9f}, {10, 9.1f}};
+    jox_walls_openings(&walls, within, &openings);
+    assert_true(openings.count == 1 && fabsf(openings.width - 0.8f) < 1e-5f);
+    jox_walls_free(&walls);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_have_fruins_edges),
@@ -263,6 +299,7 @@ int main(void) {
         cmocka_unit_test(stepping_back_is_no_passage),
         cmocka_unit_test(congestion_is_more_coming_than_going),
         cmocka_unit_test(walls_cut_lines),
+        cmocka_unit_test(a_line_of_gates_is_measured_at_all_of_them),
         cmocka_unit_test(people_have_levels),
         cmocka_unit_test(rails_bend_at_4500_newtons),
         cmocka_unit_test(what_is_not_known_is_null),

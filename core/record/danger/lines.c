@@ -111,13 +111,22 @@ static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
     return false;
 }
 
-/* The line is what walls leave of it. */
-static void clear(JoxDangerLine *line, const JoxWalls *walls) {
-    JoxV2 ends[2];
-    jox_walls_clear(walls, line->given, ends);
-    line->a = ends[0];
-    line->b = ends[1];
-    line->width = (double)jox_length(jox_sub(line->b, line->a));
+/* The line is what walls leave of it, from the first of its openings to the last. */
+static void clear(JoxDangerLine *line, const JoxWalls *walls, JoxWallOpenings *openings) {
+    jox_walls_openings(walls, line->given, openings);
+    line->a = openings->ends[0][0];
+    line->b = openings->ends[openings->count - 1][1];
+    line->width = (double)openings->width;
+}
+
+/* Whether the middle of any of its openings is in sight. */
+static bool is_seen(const JoxWalls *walls, const JoxWallOpenings *openings, JoxV2 from) {
+    for (uint32_t o = 0; o < openings->count; o++) {
+        const JoxV2 *ends = openings->ends[o];
+        if (!is_hidden(walls, jox_scale(jox_add(ends[0], ends[1]), 0.5f), from))
+            return true;
+    }
+    return false;
 }
 
 static float distance(const JoxDangerLine *line, JoxV2 point) {
@@ -127,16 +136,15 @@ static float distance(const JoxDangerLine *line, JoxV2 point) {
 }
 
 /* Who waits on either side, and the densities there. */
-static void look(const JoxDangerLine *line, const JoxFrame *frame, const float *density,
-                 uint32_t waiting[2], double mean[2]) {
-    const JoxV2 middle = jox_scale(jox_add(line->a, line->b), 0.5f);
+static void look(const JoxDangerLine *line, const JoxWallOpenings *openings, const JoxFrame *frame,
+                 const float *density, uint32_t waiting[2], double mean[2]) {
     double sum[2] = {0.0, 0.0};
     uint32_t near[2] = {0, 0};
     waiting[0] = waiting[1] = 0;
     for (uint32_t i = 0; i < frame->count; i++) {
         const JoxV2 at = {frame->x[i], frame->y[i]};
         const float away = distance(line, at);
-        if (away > FAR || is_hidden(frame->walls, middle, at))
+        if (away > FAR || !is_seen(frame->walls, openings, at))
             continue;
         const int side = jox_det(jox_sub(line->b, line->a), jox_sub(at, line->a)) > 0.0f;
         waiting[side]++;
@@ -186,7 +194,8 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
                    double duration) {
     uint32_t forward, back;
     double mean[2];
-    clear(line, frame->walls);
+    JoxWallOpenings openings;
+    clear(line, frame->walls, &openings);
     JoxDangerLineRow row = {.time = frame->time,
                             .width = line->width,
                             .forward = line->forward,
@@ -195,7 +204,7 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
                             .gain = NAN,
                             .level = -1};
     passed(line, frame->time - WINDOW, &forward, &back);
-    look(line, frame, density, row.waiting, mean);
+    look(line, &openings, frame, density, row.waiting, mean);
     /* Where most come from: of late, else so far, else where more people are. */
     int from = (forward > back) - (forward < back);
     if (from == 0)

@@ -1,13 +1,14 @@
 /* Lines that people pass, such as doors: flow, level of service, stop-and-go and congestion. What
-   lies of a line about its middle between walls is measured; its length is the clear width. Read at
-   each sample of danger, of what happened in the ten seconds before:
+   walls leave of a line is measured: about its middle, and between two walls, as of a line of
+   gates; the length of all of it is the clear width. Read at each sample of danger, of what
+   happened in the ten seconds before:
 
    - flow: people who passed, either way, per second and metre of the clear width; who stepped back
      within the time did not pass
    - density before the line, on the side that most came from: the mean, over the people there
    within 2 m, of the density where they stand, which is that of the map of danger
    - gain, 1/s, inflow less outflow of the queue: how much the number of people grew who are in
-   sight of the line's middle within 10 m of it on that side
+   sight of the middle of one of the openings within 10 m of it on that side
 
    Stop-and-go: the flow is below 0.8 per m s while the density before the line is 3.5 per m2 or
    more. Congestion: that density, and a gain of more than 1.5 per s. */

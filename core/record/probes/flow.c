@@ -54,9 +54,9 @@ void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, con
     JoxStretch stretch;
     double time;
     uint32_t had = f->latest_capacity;
-    JoxV2 ends[2];
-    jox_walls_clear(frame->walls, line, ends);
-    f->width = (double)jox_length(jox_sub(ends[1], ends[0]));
+    JoxWallOpenings openings;
+    jox_walls_openings(frame->walls, line, &openings);
+    f->width = (double)openings.width;
     jox_track_reserve(&f->track, frame);
     JOX_RESERVE(f->latest, f->latest_capacity, frame->keys);
     for (uint32_t k = had; k < f->latest_capacity; k++)
