@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/mem.h"
 #include "simd/pause.h"
+#include "task/processors.h"
 #include "task/thread.h"
 
 enum { MOST_THREADS = 64 };
@@ -44,6 +45,7 @@ struct JoxPool {
     atomic_bool starved; /* memory ran out in a chunk of this round */
     atomic_bool quit;
     bool begun;
+    double spin; /* s: waits at most, before they sleep */
     Pace pace;
     JoxHeap *heap; /* of the caller */
     uint32_t count, grain, chunks;
@@ -81,9 +83,10 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
 /* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a
    thread takes 50 us and more where processors are virtual. Bounded in time, as a pause takes from
    10 to 150 cycles. */
-static const double SPIN = 300e-6; /* s */
+static const double SPIN = 300e-6;       /* s */
+static const double SPIN_CROWDED = 3e-6; /* s, where there are more threads than processors */
 typedef struct Spin {
-    double until; /* s */
+    double most, until; /* s */
     unsigned turns;
 } Spin;
 
@@ -94,13 +97,13 @@ static bool spin(Spin *wait) {
         return true;
     const double now = jox_clock_wall();
     if (wait->until <= 0.0)
-        wait->until = now + SPIN;
+        wait->until = now + wait->most;
     return now < wait->until;
 }
 
 /* Waits for a round that is not the last one seen. */
 static unsigned await_round(JoxPool *pool, unsigned seen) {
-    Spin wait = {0};
+    Spin wait = {.most = pool->spin};
     do {
         const unsigned round = atomic_load(&pool->round);
         if (round != seen)
@@ -153,6 +156,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
     pthread_cond_init(&pool->done, NULL);
     pool->threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
     pool->running = 1;
+    pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
     pool->pace = (Pace){.left = SOON, .interval = SOON};
     return jox_hold(pool, release_pool);
 }
@@ -184,7 +188,7 @@ static void start_round(JoxPool *pool, uint32_t wanted) {
 /* Nobody enters any more; returns when nobody is inside. */
 static void shut(JoxPool *pool) {
     atomic_fetch_and(&pool->gate, ~OPEN);
-    for (Spin wait = {0}; atomic_load(&pool->gate) > 0 && spin(&wait);)
+    for (Spin wait = {.most = pool->spin}; atomic_load(&pool->gate) > 0 && spin(&wait);)
         continue;
     if (atomic_load(&pool->gate) == 0)
         return;

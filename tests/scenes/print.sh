@@ -1,6 +1,6 @@
 # The page of a report on paper: chromium prints it, poppler reads what was printed.
 . tests/scenes/lib.sh
-"$JOSTLE" run scenes/evacuation.yaml --for 50 --quiet --no-half-step --report "$work/page" >/dev/null 2>&1
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --report "$work/page" >/dev/null 2>&1
 verdict "a run with a report" $?
 timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --no-pdf-header-footer --print-to-pdf="$work/page.pdf" "file://$work/page/index.html" >/dev/null 2>&1
 pages=$(pdfinfo "$work/page.pdf" | sed -n 's/^Pages: *//p')

@@ -126,8 +126,10 @@ static void the_table_is_whole(void **state) {
         const JoxKey *key = &jox_scene_format.keys[k];
         bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
                      key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
-        if (!is_owner(key->owner, strlen(key->owner)) || holds != (key->of != NULL) ||
-            !key->meaning || !*key->meaning || !key->standard || !key->unit)
+        const bool drawn = key->of && !strcmp(key->of, "draw"); /* one value may be drawn, too */
+        if (!is_owner(key->owner, strlen(key->owner)) || (holds && !key->of) ||
+            (!holds && key->of && !drawn) || !key->meaning || !*key->meaning || !key->standard ||
+            !key->unit)
             fail_msg("the row %s.%s", key->owner, key->name);
         for (size_t other = 0; other < k; other++)
             if (!strcmp(jox_scene_format.keys[other].owner, key->owner))

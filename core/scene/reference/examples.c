@@ -178,6 +178,21 @@ const JoxExample jox_scene_examples[] = {
      "      - {to: platform, open: doors}\n"
      "      - {exit: train}\n"
      "events: [{at: 1, signal: go}, {at: 40, open: doors}]\n"},
+    {"group", OPENING
+     "places: {hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}, exit: {point: [25, 5], radius: 1}}\n"
+     "groups:\n"
+     "  visitors:\n"
+     "    count: 20\n"
+     "    in: hall\n"
+     "    profiles: {alone: {share: 3}, luggage: {share: 1, set: {radius: 0.3, mass: 95}}}\n"
+     "    journey: [{exit: exit}]\n"},
+    {"source", OPENING
+     "places: {street: {point: [1, 5], radius: 1}, hall: {polygon: [[5, 0], [20, 0], [20, 10], [5, 10]]}, exit: {point: [25, 5], radius: 1}}\n"
+     "groups: {visitors: {count: 10, in: hall, journey: [{exit: exit}]}}\n"
+     "sources:\n"
+     "  - {at: street, like: visitors, every: 90, people: 15}\n"
+     "  - {at: street, like: visitors, times: [10, 12.5, 30]}\n"
+     "  - {at: street, like: visitors, curve: [[0, 0.2], [60, 1.5], [120, 0]]}\n"},
     {"source", OPENING
      "include: tawaf.yaml\n"
      "groups: {pilgrims: {count: 300}}\n"
