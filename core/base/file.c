@@ -227,3 +227,14 @@ char **jox_folder_names(const char *path, bool hidden) {
     jox_sort_texts((const char **)names, count);
     return names;
 }
+
+bool jox_file_send(int descriptor, const void *bytes, size_t length) {
+    for (const char *at = bytes; length > 0;) {
+        const ssize_t done = write(descriptor, at, length);
+        if (done < 0 && errno != EINTR)
+            return false;
+        at += done > 0 ? done : 0;
+        length -= done > 0 ? (size_t)done : 0;
+    }
+    return true;
+}

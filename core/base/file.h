@@ -3,6 +3,7 @@
 #define JOX_BASE_FILE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 /* As fopen, of modes that read, write or append; but nothing is waited for: a pipe that nobody
@@ -18,6 +19,8 @@ int jox_file_drop(FILE *file);
 int jox_file_close(FILE *file);
 /* Claims a folder for one run: NULL with errno EBUSY where another has it. Until it is closed. */
 FILE *jox_folder_claim(const char *path);
+/* Writes all bytes to a descriptor, of a pipe for instance; false with errno. */
+bool jox_file_send(int descriptor, const void *bytes, size_t length);
 /* What the errno of a file that was not opened, or not read, means. */
 const char *jox_file_why(int number);
 

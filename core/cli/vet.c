@@ -9,9 +9,10 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/text.h"
 #include "cli/cli.h"
@@ -24,33 +25,14 @@ static const size_t MEMORY = (size_t)2 << 30, LARGEST = (size_t)512 << 20;
 
 bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t length) {
     const CliHead head = {.kind = kind, .name = strlen(name), .text = length};
-    const struct {
-        const void *bytes;
-        size_t count;
-    } parts[] = {{&head, sizeof head}, {name, head.name}, {text, length}};
-    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) {
-        size_t count = parts[p].count;
-        for (const char *at = parts[p].bytes; count > 0;) {
-            const ssize_t done = write(out, at, count);
-            if (done < 0 && errno != EINTR)
-                return false;
-            at += done > 0 ? done : 0;
-            count -= done > 0 ? (size_t)done : 0;
-        }
-    }
-    return true;
-}
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return jox_file_send(out, &head, sizeof head) && jox_file_send(out, name, head.name) &&
+           jox_file_send(out, text, length);
 }
 
 /* Whether there is more to read, or the end, before it is to stop. */
 static bool await(CliSource *source) {
     while (!source->fault) {
-        const double left = source->until > 0.0 ? source->until - now() : 1e6;
+        const double left = source->until > 0.0 ? source->until - jox_clock_wall() : 1e6;
         struct pollfd fds[2] = {{.fd = source->from, .events = POLLIN},
                                 {.fd = source->stop, .events = POLLIN}};
         const int ready = poll(fds, source->stop >= 0 ? 2 : 1, left > 0.0 ? (int)(left * 1e3) : 0);
@@ -224,7 +206,7 @@ int cli_read_confined(CliVetted *what) {
         read_it(what, ends[1]);
     }
     const int why = errno;
-    CliSource source = {.from = ends[0], .stop = what->stop, .until = now() + LONGEST};
+    CliSource source = {.from = ends[0], .stop = what->stop, .until = jox_clock_wall() + LONGEST};
     close(ends[1]);
     const int end = child > 0 ? receive(what, &source) : -1;
     close(ends[0]); /* a child that sends on ends by it */

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/mem.h"
 
 enum { WAIT_MS = 20, WAITS = 10, OUT_OF_MEMORY = 99 };
@@ -73,17 +74,6 @@ uint32_t jox_children_count(const JoxChildren *c) {
     return c->count;
 }
 
-static bool put(int file, const char *data, size_t length) {
-    while (length > 0) {
-        const ssize_t done = write(file, data, length);
-        if (done < 0 && errno != EINTR)
-            return false;
-        data += done > 0 ? done : 0;
-        length -= done > 0 ? (size_t)done : 0;
-    }
-    return true;
-}
-
 /* Does not return. */
 static void work_on(const Child *child, pid_t parent, JoxChildWork *work, void *context) {
     JoxRecovery recovery;
@@ -102,7 +92,7 @@ static void work_on(const Child *child, pid_t parent, JoxChildWork *work, void *
     if (setjmp(recovery.jump) != 0)
         _exit(OUT_OF_MEMORY);
     work(context, child->job, &result);
-    const bool good = put(child->result, result.data, result.length);
+    const bool good = jox_file_send(child->result, result.data, result.length);
     _exit(good ? 0 : 1); /* nothing that it shares with the parent is ended twice */
 }
 

@@ -156,7 +156,6 @@ JoxPool *jox_pool_create(uint32_t threads) {
     pthread_cond_init(&pool->done, NULL);
     pool->threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
     pool->running = 1;
-    pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
     pool->pace = (Pace){.left = SOON, .interval = SOON};
     return jox_hold(pool, release_pool);
 }
@@ -164,6 +163,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
 /* Fewer threads give the same results. */
 static void begin(JoxPool *pool) {
     pool->begun = true;
+    pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
     for (uint32_t i = 1; i < pool->threads; i++) {
         pool->worker[i] = (struct Worker){pool, i};
         if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))

@@ -295,35 +295,45 @@ static uint32_t due_now(JoWorld *world, uint32_t s) {
     return due <= 0.0 ? 0 : due > AT_ONCE ? AT_ONCE : (uint32_t)due;
 }
 
-/* By which place of a set the n-th of a step comes in; the source's own where that is no set. */
-static const JoxPlace *pick_door(const JoWorld *world, uint32_t s, uint32_t n) {
-    const JoxPlace *place = &world->model.places[world->model.sources[s].place];
-    if (place->kind != JOX_PLACE_SET)
-        return place;
+/* By which member of a set the n-th of a step comes in; 0 where the source's place is no set. */
+static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint32_t n) {
+    if (doors == 1)
+        return 0;
     const double u = jox_random_unit(world->model.def.seed, s, world->state.tick, JOX_DRAW_DOOR, n);
-    return &world->model.places[place->members[(uint32_t)(u * place->member_count)]];
+    return (uint32_t)(u * doors);
+}
+
+/* Of those who are due, who comes in by one of the doors while it has room: how many. */
+static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t number,
+                          uint32_t due) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    const JoxGroup *group = &world->model.groups[source->like];
+    const JoxPlace *place = &world->model.places[source->place];
+    const JoxPlace *door =
+        place->kind == JOX_PLACE_SET ? &world->model.places[place->members[number]] : place;
+    Room room = room_at(door, &world->state.agents);
+    uint32_t made = 0;
+    for (uint32_t n = 0; n < due && room.covered < FULL * room.area; n++) {
+        if (pick_door(world, s, doors, n) != number)
+            continue;
+        const uint32_t i = spawn(world, source->like, draw_point(world, door, s, n),
+                                 source->memory_count ? source->memory : group->memory,
+                                 source->memory_count ? source->memory_count : group->memory_count);
+        take_room(&room, &world->state.agents, i);
+        made++;
+    }
+    return made;
 }
 
 void jox_world_sources(JoWorld *world) {
     for (uint32_t s = 0; s < world->model.source_count; s++) {
         const JoxAgentSource *source = &world->model.sources[s];
-        const JoxGroup *group = &world->model.groups[source->like];
+        const JoxPlace *place = &world->model.places[source->place];
+        const uint32_t doors = place->kind == JOX_PLACE_SET ? place->member_count : 1;
         const uint32_t due = due_now(world, s);
-        const JoxAgents *a = &world->state.agents;
-        Room room = {0};
         uint32_t made = 0;
-        for (uint32_t n = 0; n < due; n++) {
-            const JoxPlace *door = pick_door(world, s, n);
-            if (room.place != door)
-                room = room_at(door, a);
-            if (room.covered >= FULL * room.area)
-                continue;
-            uint32_t i = spawn(world, source->like, draw_point(world, door, s, n),
-                               source->memory_count ? source->memory : group->memory,
-                               source->memory_count ? source->memory_count : group->memory_count);
-            take_room(&room, a, i);
-            made++;
-        }
+        for (uint32_t door = 0; due > 0 && door < doors; door++)
+            made += fill_door(world, s, doors, door, due);
         if (source->rate > 0 || source->people > 0 || source->curve_count > 0)
             world->state.population.made[s] += made;
     }

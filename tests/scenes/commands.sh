@@ -1,12 +1,5 @@
 # The commands as a user calls them: exit statuses, errors, reload, seeds, limits of scripts.
 . tests/scenes/lib.sh
-expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 expect "help" 0 "usage: jostle" "$JOSTLE" --help
 expect "run --help" 0 "--threads" "$JOSTLE" run --help
 expect "version" 0 "jostle 0." "$JOSTLE" --version

@@ -3,13 +3,6 @@
 . tests/scenes/lib.sh
 root=$PWD
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
-expect() { # NAME STATUS TEXT COMMAND...
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 # json NAME EXPRESSION...: what Python makes of the JSON, as d
 json() { python3 -c "import json, sys, math; d = json.load(open('$1')); print($2)"; }
 cd "$work" || exit 1

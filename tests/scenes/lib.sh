@@ -38,3 +38,11 @@ outlined() {
     [ $differs = 0 ] || head -20 "$work/differences"
     verdict "$1" $differs
 }
+# NAME STATUS TEXT COMMAND...: the exit status, and a text in what it writes, which is left in $work/out.
+expect() {
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
+}

@@ -1,12 +1,5 @@
 # `jostle render`: pictures, frames and videos of scenes and recordings; errors with a way out.
 . tests/scenes/lib.sh
-expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 render() { "$JOSTLE" render "$@" --quiet; }
 people() { grep -c '<circle id="p' "$1"; } # in an SVG file
 size() { # of a PNG file, from its head

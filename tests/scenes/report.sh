@@ -1,12 +1,5 @@
 # `jostle report`, and probes of a run: the same figures, files where they are asked for, errors with a way out.
 . tests/scenes/lib.sh
-expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 # of FILE PROBE FIGURE
 of() { sed -n "s/^  \"$2\": {.*\"$3\": \([^,}]*\).*/\1/p" "$1"; }
 

@@ -1,12 +1,5 @@
 # `jostle reproduce`: what is in a band and what is not, what is wrong with a claim, what is run and what is reused.
 . tests/scenes/lib.sh
-expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -8 "$work/out"; fi
-}
 says() { if grep -qF -- "$2" "$work/out"; then echo "ok $1"; else echo "not ok $1: nothing says '$2'"; head -8 "$work/out"; fi; }
 mkdir -p "$work/claims"
 cat >"$work/walk.yaml" <<'SCENE'

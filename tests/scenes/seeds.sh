@@ -1,13 +1,6 @@
 # The page of many seeds: its sections, its sentences and tables against the runs that it is of, runs that failed, and files
 # that are gone on with.
 . tests/scenes/lib.sh
-expect() { # NAME STATUS TEXT COMMAND...
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 page=$work/page
 what=(scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --report "$page")
 expect "seeds with a report" 0 "report: $page/index.html" "$JOSTLE" run "${what[@]}" --seeds 3 --for 45

@@ -2,13 +2,6 @@
 # refuses others; the same by GNU parallel; `run --seeds` is the same mechanism.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
-expect() { # NAME STATUS TEXT COMMAND...
-    local name=$1 status=$2 text=$3; shift 3
-    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
-    local got=$?
-    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
-        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
-}
 mkdir -p "$work/project/scenes" "$work/project/behaviours"
 cp scenes/evacuation.yaml "$work/project/scenes/rooms.yaml"
 cp behaviours/*.lua "$work/project/behaviours/"

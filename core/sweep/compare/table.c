@@ -50,6 +50,16 @@ static void put_advice(const JoxDifference *d, JoxText *out) {
         jox_text_add(out, "; more than a million seeds would have to tell it");
 }
 
+/* What a figure is, with its unit; what is longer than its column has a line of its own. */
+static void put_words(const JoxCompared *figure, JoxText *out) {
+    char words[240];
+    snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
+             figure->words.unit);
+    jox_text_printf(out, "%-*s", WORDS, words);
+    if (strlen(words) >= WORDS)
+        jox_text_printf(out, "\n%*s", WORDS, "");
+}
+
 static bool is_told(const JoxComparison *c, const JoxCompared *f) {
     return f->varies && (c->def->all || f->words.is_key);
 }
@@ -64,12 +74,7 @@ static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
         const JoxDifference *d = &figure->sides[s];
         if (!is_told(c, figure) || (!d->base.count && !d->other.count))
             continue;
-        char words[240];
-        snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
-                 figure->words.unit);
-        jox_text_printf(out, "%-*s", WORDS, words);
-        if (strlen(words) >= WORDS)
-            jox_text_printf(out, "\n%*s", WORDS, "");
+        put_words(figure, out);
         put_number(out, d->base.mean, NUMBER, false);
         put_number(out, d->other.mean, NUMBER, false);
         put_number(out, d->effect.difference, NUMBER, true);
@@ -133,12 +138,7 @@ static void put_alone(const JoxComparison *c, JoxText *out) {
         const double values[] = {s.median, s.p5, s.p95, s.most};
         if (!s.runs || !(c->def->all || (figure->words.is_key && (figure->varies || s.most != 0))))
             continue;
-        char words[240];
-        snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
-                 figure->words.unit);
-        jox_text_printf(out, "%-*s", WORDS, words);
-        if (strlen(words) >= WORDS)
-            jox_text_printf(out, "\n%*s", WORDS, "");
+        put_words(figure, out);
         for (size_t v = 0; v < sizeof values / sizeof *values; v++)
             put_number(out, values[v], NUMBER, false);
         jox_text_printf(out, "  %u run%s\n", s.runs, s.runs == 1 ? "" : "s");
