@@ -120,16 +120,17 @@ FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION))
 
-# The two commands of the README. Both first install what is missing.
+# The two commands of the README. Both first install what is missing, and build on all processors.
+AT_ONCE = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 run:
 	@.ci/setup run
-	@$(MAKE) --no-print-directory all
+	@$(MAKE) --no-print-directory $(AT_ONCE) $(B)/jostle
 	$(B)/jostle run scenes/tawaf.yaml --for $(DURATION) --report build/out/tawaf --summary build/out/tawaf.json
 	@echo "See it live, and act on it:  $(B)/jostle run scenes/tawaf.yaml --view"
 DURATION ?= 60
 test:
 	@.ci/setup test
-	@$(MAKE) --no-print-directory all tests-built
+	@$(MAKE) --no-print-directory $(AT_ONCE) all tests-built
 	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install page
 # Pictures and clips of shipped scenes, as the live page draws them: of those that SCENES names, or all.
 gallery:
