@@ -1,12 +1,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/text.h"
 #include "cli/cli.h"
+
+typedef enum Kind { SCENE, SWEEP, RECORDING, FOLDER } Kind;
 
 typedef struct Compare {
     JoCompareDef def;
@@ -17,9 +21,11 @@ typedef struct Compare {
     uint32_t jobs;
     JoxOverlay files; /* of the scene that is run */
     bool has_seconds, quiet, trusted;
-    char **sides; /* files, of scenes those that keep their runs */
+    char **sides;   /* files, of scenes those that keep their runs */
+    char **folders; /* of recordings that are runs of one side, or NULL */
+    Kind *kinds;
     char **summaries;
-    size_t count;
+    size_t count, capacity, folder_capacity, kind_capacity;
 } Compare;
 
 static bool read_unit(void *options, const char *text, char why[160]) {
@@ -66,13 +72,61 @@ static const CliOption OPTIONS[] = {
 
 /* ---- what a side is ---- */
 
-typedef enum Kind { SCENE, SWEEP, RECORDING } Kind;
-
 static Kind kind_of(const char *path) {
     const char *dot = strrchr(path, '.');
+    struct stat status;
+    if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
+        return FOLDER;
     if (access(path, R_OK) != 0 || (dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"))))
         return SCENE;
     return cli_is_sweep(path) ? SWEEP : RECORDING;
+}
+
+static void add_side(Compare *compare, Kind kind, char *path, const char *folder) {
+    const size_t n = compare->count++;
+    JOX_RESERVE(compare->sides, compare->capacity, n + 1);
+    JOX_RESERVE(compare->folders, compare->folder_capacity, n + 1);
+    JOX_RESERVE(compare->kinds, compare->kind_capacity, n + 1);
+    compare->sides[n] = path;
+    compare->folders[n] = folder ? jox_strdup(folder) : NULL;
+    compare->kinds[n] = kind;
+}
+
+static bool is_named_as_recording(const char *name) {
+    static const char *const endings[] = {".sqlite", ".txt", ".csv"};
+    const char *dot = strrchr(name, '.');
+    for (size_t e = 0; dot && e < sizeof endings / sizeof *endings; e++)
+        if (strcmp(dot, endings[e]) == 0)
+            return true;
+    return false;
+}
+
+/* The recordings in a folder are the runs of one side. */
+static int add_folder(Compare *compare, const char *given) {
+    JoxText folder = {0};
+    size_t length = strlen(given);
+    while (length > 1 && given[length - 1] == '/')
+        length--;
+    jox_text_append(&folder, given, length);
+    const size_t before = compare->count;
+    char **names = jox_folder_names(folder.data, false);
+    for (char **name = names; name && *name; name++) {
+        JoxText path = {0};
+        jox_text_printf(&path, "%s/%s", folder.data, *name);
+        if (is_named_as_recording(*name) && kind_of(path.data) == RECORDING)
+            add_side(compare, RECORDING, path.data, folder.data);
+        else
+            jox_text_free(&path);
+    }
+    jox_free(names);
+    jox_text_free(&folder);
+    if (compare->count > before)
+        return JO_OK;
+    fprintf(stderr,
+            "jostle compare: the folder '%s' has no recordings: files .sqlite, .txt or .csv, each "
+            "of which is a run of one side\n",
+            given);
+    return JO_INPUT;
 }
 
 static bool vet(void *context, const JoSceneDef *scene, JoError *error) {
@@ -112,20 +166,24 @@ static int run_scene(Compare *compare, const char *given, char **out) {
 }
 
 /* Scenes are run first, each in files that keep its runs. */
-static int run_scenes(Compare *compare, const CliList *plain, Kind *kinds) {
+static int find_sides(Compare *compare, const CliList *plain) {
     int status = JO_OK;
-    compare->count = plain->count;
-    compare->sides = jox_alloc(plain->count, sizeof *compare->sides);
     for (size_t s = 0; s < plain->count && status == JO_OK && !cli_signal; s++) {
-        kinds[s] = kind_of(plain->items[s]);
-        if (kinds[s] != SCENE)
-            compare->sides[s] = jox_strdup(plain->items[s]);
+        const char *given = plain->items[s];
+        const Kind kind = kind_of(given);
+        char *path = NULL;
+        if (kind == FOLDER)
+            status = add_folder(compare, given);
+        else if (kind != SCENE)
+            add_side(compare, kind, jox_strdup(given), NULL);
         else if (!compare->def.out)
             status = cli_misused(&cli_compare, "--out DIR says where the runs of scenes are kept");
         else if (!cli_make_folder(&cli_compare, compare->def.out))
             status = JO_FAILED;
+        else if ((status = run_scene(compare, given, &path)) == JO_OK)
+            add_side(compare, kind, path, NULL);
         else
-            status = run_scene(compare, plain->items[s], &compare->sides[s]);
+            jox_free(path);
     }
     return status;
 }
@@ -142,12 +200,12 @@ static void confine(const Compare *compare) {
     cli_confine_work(&reach, compare->trusted);
 }
 
-static int measure_recordings(Compare *compare, const Kind *kinds) {
+static int measure_recordings(Compare *compare) {
     compare->summaries = jox_alloc(compare->count, sizeof *compare->summaries);
     for (size_t s = 0; s < compare->count; s++) {
         JoReportDef report = jo_default_report_def();
         JoError error = {0};
-        if (kinds[s] != RECORDING)
+        if (compare->kinds[s] != RECORDING)
             continue;
         report.recording = compare->sides[s];
         report.scene = compare->scene;
@@ -165,6 +223,7 @@ static int compare_sides(Compare *compare) {
     char *json = NULL;
     compare->def.sides = (const char *const *)compare->sides;
     compare->def.side_count = compare->count;
+    compare->def.folders = (const char *const *)compare->folders;
     compare->def.summaries = (const char *const *)compare->summaries;
     char *text = jo_compare(&compare->def, compare->json ? &json : NULL, &error);
     if (!text)
@@ -181,17 +240,15 @@ static int compare_sides(Compare *compare) {
 }
 
 static int compare(Compare *c, const CliList *plain) {
-    Kind *kinds = jox_alloc(plain->count, sizeof *kinds);
     cli_catch_signals(true);
-    int status = run_scenes(c, plain, kinds);
+    int status = find_sides(c, plain);
     cli_catch_signals(false);
     if (status == JO_OK && !cli_signal) {
         confine(c);
-        status = measure_recordings(c, kinds);
+        status = measure_recordings(c);
         if (status == JO_OK)
             status = compare_sides(c);
     }
-    jox_free(kinds);
     return cli_signal ? cli_interrupted(JO_OK) : status;
 }
 
@@ -208,9 +265,12 @@ static int run(int argc, char **argv) {
     }
     for (size_t s = 0; s < c.count; s++) {
         jox_free(c.sides[s]);
+        jox_free(c.folders[s]);
         jo_free(c.summaries ? c.summaries[s] : NULL);
     }
     jox_free(c.sides);
+    jox_free(c.folders);
+    jox_free(c.kinds);
     jox_free(c.summaries);
     cli_free(&cli_compare, &c, &plain);
     return status;
@@ -222,7 +282,8 @@ const CliCommand cli_compare = {
     .usage = "SIDE SIDE... [options]",
     .about =
         "A side is a file of `jostle sweep`, of which each variant is one, a scene, which is run "
-        "with --seeds first, or a recording. Each figure of each side is compared with that of the "
+        "with --seeds first, a recording, or a folder of recordings, which are its runs. Each "
+        "figure of each side is compared with that of the "
         "first: the difference of the means, and an interval that holds the true one with a "
         "probability of 95 %. Runs of the same seed are compared in pairs. Where the runs do not "
         "tell two sides apart, that is said, and about how many seeds would.\n"

@@ -256,6 +256,9 @@ typedef struct JoCompareDef {
     size_t side_count;
     /* NULL, or for each of `sides` NULL or, of a recording, what jo_report says of it. */
     const char *const *summaries;
+    /* NULL, or for each of `sides` NULL or what several recordings, one after the other, have in
+       common, as the folder that they lie in: they are the runs of one side, which it names. */
+    const char *const *folders;
     double fps, unit;          /* of recordings, as for jo_report; 0: as they say */
     const char *const *labels; /* what sides are called, in their order; of the rest by what tells
                                   them apart */

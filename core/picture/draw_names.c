@@ -28,25 +28,48 @@ static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
     return true;
 }
 
-/* Writes a name at a point of the plan, or beside it where another is; where all is taken, it is
-   left out. */
-static void name(JoxDrawing *d, JoxV2 at, const char *text, bool bold) {
-    static const JoxV2 tries[] = {{0, 0}, {0, -1.3f}, {0, 1.3f}, {0, -2.6f}, {0, 2.6f}};
-    float size = 12 * d->unit;
+/* From a point to the box of a name beside it. */
+static void lead(JoxDrawing *d, JoxV2 from, JoxV2 low, JoxV2 high, JoxInk ink) {
+    const JoxV2 to = {jox_clampf(from.x, low.x, high.x), jox_clampf(from.y, low.y, high.y)};
+    const JoxStyle style = {.line = jox_ink_with(ink, 0.7f), .width = 0.8f * d->unit};
+    jox_canvas_open(d->canvas, NULL, "lead", style);
+    jox_canvas_line(d->canvas, (const JoxV2[]){from, to}, 2, false, NULL);
+    jox_canvas_close(d->canvas);
+}
+
+/* Writes a name at a point of the plan, or where another is above or below it, or farther off in
+   any direction with a line to the point; where all is taken, it is left out. */
+static void name(JoxDrawing *d, JoxV2 at, const char *text, bool bold, JoxInk ink) {
+    static const JoxV2 sides[] = {{1, 0},       {-1, 0},       {0.8f, -0.6f}, {-0.8f, -0.6f},
+                                  {0.8f, 0.6f}, {-0.8f, 0.6f}, {0, -1},       {0, 1}};
+    enum { SIDES = sizeof sides / sizeof *sides, NEAR = 3, RINGS = 5 };
+    const float size = 12 * d->unit;
     char fit[128];
     jox_draw_fit(fit, sizeof fit, text, size, bold, 240 * d->unit);
-    float half = 0.5f * jox_draw_width(fit, size, bold) + 2 * d->unit;
-    JoxV2 on = jox_draw_at(d, at);
-    if (on.x < d->low.x || on.x > d->high.x || on.y < d->low.y || on.y > d->high.y)
+    const float half = 0.5f * jox_draw_width(fit, size, bold) + 2 * d->unit;
+    const JoxV2 point = jox_draw_at(d, at);
+    if (point.x < d->low.x || point.x > d->high.x || point.y < d->low.y || point.y > d->high.y)
         return;
     /* Names at an edge move inwards. */
-    on.x = jox_clampf(on.x, jox_minf(d->low.x + half, d->high.x - half), d->high.x - half);
-    on.y = jox_clampf(on.y, d->low.y + size, d->high.y - size);
-    for (size_t t = 0; t < sizeof tries / sizeof *tries; t++) {
-        JoxV2 here = {on.x, on.y + tries[t].y * size};
-        if (!take(d, jox_v2(here.x - half, here.y - 0.6f * size),
-                  jox_v2(here.x + half, here.y + 0.6f * size)))
+    const JoxV2 on = {
+        jox_clampf(point.x, jox_minf(d->low.x + half, d->high.x - half), d->high.x - half),
+        jox_clampf(point.y, d->low.y + size, d->high.y - size)};
+    for (int t = 0; t < NEAR + RINGS * SIDES; t++) {
+        JoxV2 here = on;
+        if (t < NEAR) {
+            here.y += (float)((t == 2) - (t == 1)) * 1.3f * size;
+        } else {
+            const JoxV2 side = sides[(t - NEAR) % SIDES];
+            const float away = (1.6f + 1.4f * (float)((t - NEAR) / SIDES)) * size;
+            here.x += side.x * away + (float)((side.x > 0) - (side.x < 0)) * half;
+            here.y += side.y * away;
+        }
+        const JoxV2 low = {here.x - half, here.y - 0.6f * size},
+                    high = {here.x + half, here.y + 0.6f * size};
+        if (!take(d, low, high))
             continue;
+        if (t >= NEAR)
+            lead(d, point, low, high, ink);
         jox_canvas_text(d->canvas, jox_v2(here.x, here.y + 0.35f * size), size, JOX_ANCHOR_MIDDLE,
                         bold, fit);
         return;
@@ -121,7 +144,8 @@ void jox_draw_names(JoxDrawing *d) {
     bool closed;
     for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
         if (p->walls->rings[r].name && jox_draw_ring_points(p->walls, r, &closed))
-            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name, false);
+            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name, false,
+                 jox_ink_gate);
     jox_canvas_close(d->canvas);
     for (int exits = 1; exits >= 0; exits--) { /* of what is near another, exits keep theirs */
         style.fill = exits ? jox_ink_exit : (JoxInk){0x24, 0x45, 0x69, 1};
@@ -129,7 +153,7 @@ void jox_draw_names(JoxDrawing *d) {
         for (uint32_t i = 0; i < p->place_count; i++) {
             const JoxPlace *place = &p->places[i];
             if (place->count && place->name && jox_draw_is_exit(p, place->name) == exits)
-                name(d, name_at(d, place), place->name, exits);
+                name(d, name_at(d, place), place->name, exits, style.fill);
         }
         jox_canvas_close(d->canvas);
     }
@@ -137,7 +161,7 @@ void jox_draw_names(JoxDrawing *d) {
     jox_canvas_open(d->canvas, NULL, "probes", style);
     for (uint32_t i = 0; i < p->probe_count; i++)
         if (p->probes[i].count)
-            name(d, probe_name_at(d, &p->probes[i]), p->probes[i].name, false);
+            name(d, probe_name_at(d, &p->probes[i]), p->probes[i].name, false, jox_ink_probe);
     jox_canvas_close(d->canvas);
     jox_canvas_close(d->canvas);
 }

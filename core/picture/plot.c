@@ -2,11 +2,13 @@
 #include "base/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/format/quote.h"
 #include "picture/palette.h"
@@ -50,8 +52,9 @@ bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
     return good;
 }
 
-/* The child that runs gnuplot on a script of the folder, inside it; -1 if there is none. */
-static pid_t spawn(const char *folder, const char *script) {
+/* The child that runs gnuplot on a script of the folder, inside it, with its standard error to
+   `errors`; -1 if there is none. */
+static pid_t spawn(const char *folder, const char *script, int errors) {
     char command[] = "gnuplot", usual[] = "-d"; /* -d: ~/.gnuplot is not read */
     JoxText path = {0};
     posix_spawn_file_actions_t actions;
@@ -61,6 +64,7 @@ static pid_t spawn(const char *folder, const char *script) {
     jox_text_printf(&path, "./%s", script); /* nor does a name become an option */
     char *arguments[] = {command, usual, path.data, NULL};
     if (posix_spawn_file_actions_addchdir_np(&actions, folder) != 0 ||
+        posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO) != 0 ||
         posix_spawnp(&child, command, &actions, NULL, arguments, environ) != 0)
         child = -1;
     posix_spawn_file_actions_destroy(&actions);
@@ -68,15 +72,40 @@ static pid_t spawn(const char *folder, const char *script) {
     return child;
 }
 
+/* The end of what is written to a pipe until it is closed: the reason stands last. */
+static void read_last(int pipe, char *last, size_t size) {
+    char bytes[512];
+    size_t kept = 0;
+    ssize_t got;
+    while ((got = read(pipe, bytes, sizeof bytes)) > 0 || (got < 0 && errno == EINTR))
+        for (ssize_t b = 0; b < got; b++) {
+            if (kept == size - 1)
+                memmove(last, last + 1, --kept);
+            last[kept++] = bytes[b] == '\n' ? ' ' : bytes[b];
+        }
+    while (kept && last[kept - 1] == ' ')
+        kept--;
+    last[kept] = '\0';
+}
+
+/* What gnuplot says is told only where it fails: it warns of curves without points, too. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
-    pid_t child = spawn(folder, script), ended;
-    int status = 0;
+    int errors[2], status = 0;
+    char why[300] = "";
+    pid_t child = -1, ended;
+    if (pipe2(errors, O_CLOEXEC) == 0) {
+        child = spawn(folder, script, errors[1]);
+        close(errors[1]);
+        read_last(errors[0], why, sizeof why);
+        close(errors[0]);
+    }
     do
         ended = child > 0 ? waitpid(child, &status, 0) : -1;
     while (ended < 0 && child > 0 && errno == EINTR);
     if (ended >= 0 && status == 0)
         return true;
-    jox_text_printf(error, "gnuplot could not draw %s/%s (is gnuplot installed?)", folder, script);
+    jox_text_printf(error, "gnuplot could not draw %s/%s%s%s", folder, script,
+                    *why ? ": " : " (is gnuplot installed?)", why);
     return false;
 }
 

@@ -101,6 +101,20 @@ static void say_standing(const JoScene *scene, JoxText *out) {
     }
 }
 
+/* Flows are counted in one direction: a line whose ends were given the other way round. */
+static void say_probes(const JoScene *scene, JoxText *out) {
+    const JoxProbe *probe;
+    for (uint32_t n = 0; (probe = jox_run_probe(scene, n)); n++) {
+        const uint32_t against = jox_probe_against(probe);
+        if (against == 0)
+            continue;
+        jox_text_printf(out, " The line of probe %.100s was crossed ", jox_probe_def(probe)->name);
+        jox_text_noun(out, against, "time|times");
+        jox_text_add(out, ", always against the direction that it counts: give its points in the "
+                          "other order.");
+    }
+}
+
 char *jo_scene_closing(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     JOX_GUARD (NULL, NULL)
@@ -113,6 +127,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_states(scene, &text);
     say_events(scene, &text);
     say_standing(scene, &text);
+    say_probes(scene, &text);
     if (scene->warnings) {
         jox_text_add(&text, " ");
         jox_text_noun(&text, scene->warnings, "warning was given|warnings were given");

@@ -126,6 +126,16 @@ printf 'jostle: 1\ntitle: Shut\nduration: 45\nplaces: {lane: {polygon: [[0.5, 0.
 sed 's/GATE/, name: gate/' "$work/lane.yaml" >"$work/gate.yaml"; sed 's/GATE//; s/\[11, 0\], \[0, 0\]/[11, 1], [11, 0], [0, 0]/' "$work/lane.yaml" >"$work/shut.yaml"
 expect "a crowd that stands still is told, with where" 0 "people who want to get on have stood still for 30 s, most of them about (9." "$JOSTLE" run "$work/gate.yaml"
 grep -q "A crowd of .* people stood still from" <(tr '\n' ' ' <"$work/out") && grep -q "14 people are inside: Walk 14" <(tr '\n' ' ' <"$work/out") && ! grep -q "cannot reach" "$work/out"; verdict "and again at the end; a gate is a way" $?
+cat >"$work/turned.yaml" <<'END'
+jostle: 1
+places: {here: {point: [0, 0], radius: 2}, there: {point: [8, 0], radius: 1}}
+groups: {people: {count: 3, in: here, journey: [{exit: there}]}}
+probes: {line: {flow: [[4, 4], [4, -4]]}, other: {flow: [[4, -4], [4, 4]]}}
+END
+"$JOSTLE" run "$work/turned.yaml" --for 12 --report "$work/turned" --quiet >"$work/out" 2>&1
+[ "$(wc -l <"$work/out")" = 1 ]; verdict "a quiet run says where its report is, and nothing of gnuplot's" $?
+"$JOSTLE" run "$work/turned.yaml" --for 12 2>&1 | tr '\n' ' ' >"$work/out"
+grep -qE "line of probe (line|other) was crossed 3 times, always against the direction" "$work/out" && [ "$(grep -o 'always against' "$work/out" | wc -l)" = 1 ]; verdict "a flow that is crossed from the wrong side alone is told of" $?
 expect "a goal to which no way leads is told" 0 "warning: 14 people cannot reach street: no way leads there from" "$JOSTLE" run "$work/shut.yaml" --for 6
 grep -q "1 warning was given" <(tr '\n' ' ' <"$work/out"); verdict "as a warning" $?
 sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/three.yaml"

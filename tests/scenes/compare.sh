@@ -43,7 +43,7 @@ expect "another base" 0 "less halls: count=90:" "$program" compare halls.sqlite 
 # ---- the page ----
 for file in index.html compare.plt effects.svg curve-1.svg plan-1.svg plan-2.svg; do [ -s "page/$file" ]; verdict "  the page's $file" $?; done
 grep -q '<div class=summary>' page/index.html && grep -q 'greatest density of any place and time' page/index.html; verdict "figures are told in words" $?
-grep -q 'the seeds are too few\|The seeds are too few' page/index.html; verdict "  what the seeds do not tell too" $?
+grep -q 'the runs are too few' page/index.html; verdict "  what the seeds do not tell too" $?
 for id in walls field; do grep -q "id=\"$id\"" page/plan-2.svg; verdict "  a plan has $id" $?; done
 
 # ---- scenes and recordings ----
@@ -53,6 +53,16 @@ expect "  and their folder has to be named" 2 "where the runs of scenes are kept
 for n in 1 2; do "$program" run "$scene" --quiet --seed $n --for 4 --record "r$n.sqlite"; done
 expect "recordings have no interval" 0 "one run: not known how sure" "$program" compare r1.sqlite r2.sqlite --scene "$scene" --out recordings
 [ -s recordings/curve-1.svg ] && [ -s recordings/plan-2.svg ]; verdict "  but curves and plans" $?
+mkdir before after
+for n in 1 2 3; do
+    "$program" run "$scene" --quiet --seed $n --for 4 --record "before/$n.sqlite"
+    "$program" run "$scene" --quiet --seed $n --for 4 --record "after/$n.sqlite" --set groups.hall.count=40
+done
+expect "a folder of recordings is a side" 0 "3 recordings" "$program" compare before after/ --scene "$scene" --out folders --json folders.json
+[ "$(json folders.json '[s["runs"] for s in d["sides"]], d["figures"]["people"]["sides"][1]["verdict"], d["figures"]["people"]["sides"][1]["method"]')" = "[3, 3] differs Welch's t of 3 and 3 runs" ]; verdict "  whose runs give an interval" $?
+[ -s folders/curve-1.svg ] && [ -s folders/plan-2.svg ]; verdict "  and curves with bands" $?
+mkdir nothing
+expect "a folder without any" 3 "has no recordings" "$program" compare before nothing
 "$program" sweep "$scene" --seeds 1 --for 4 --out one.sqlite --quiet
 expect "one run has none either" 0 "one run: not known how sure" "$program" compare one.sqlite r2.sqlite --scene "$scene"
 

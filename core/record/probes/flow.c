@@ -122,6 +122,11 @@ uint32_t jox_flow_passages(const void *state) {
     return ((const Flow *)state)->standing;
 }
 
+uint32_t jox_flow_against(const void *state) {
+    const Flow *f = state;
+    return f->forward ? 0 : f->back;
+}
+
 /* Times of the passages that stand, ascending; to be freed. */
 static double *passages(const Flow *f, size_t *count) {
     double *times = jox_alloc(f->count + 1, sizeof *times);

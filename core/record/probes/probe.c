@@ -116,6 +116,10 @@ uint32_t jox_probe_passages(const JoxProbe *p) {
     return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
 }
 
+uint32_t jox_probe_against(const JoxProbe *p) {
+    return p->def.kind == JOX_PROBE_FLOW ? jox_flow_against(p->state) : 0;
+}
+
 void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     JoxFigures figures = jox_probe_figures(p);
     jox_json_object(json, key);

@@ -37,6 +37,8 @@ void jox_probe_sections(JoxProbe *probe, JoxSections *sections);
 JoxFigures jox_probe_figures(const JoxProbe *probe);
 /* Passages of a flow that stand so far; 0 of other kinds. */
 uint32_t jox_probe_passages(const JoxProbe *probe);
+/* Of a flow that nobody has passed along its direction: how often it was crossed against it. */
+uint32_t jox_probe_against(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxJson *json, const char *key);
 /* Writes the table: a first line with names and units in brackets, then rows. */

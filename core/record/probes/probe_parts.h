@@ -43,6 +43,8 @@ JOX_PROBES(X)
 
 /* probe_flow.c: passages that stand so far, of a flow's state. */
 uint32_t jox_flow_passages(const void *state);
+/* How often it was crossed against its direction; 0 where anybody crossed it along that. */
+uint32_t jox_flow_against(const void *state);
 /* When the middle 60 % of them were made, s; false of fewer than two. */
 bool jox_flow_middle(const void *state, double *from, double *to);
 /* A flow within another probe: its state, and a frame of it. */

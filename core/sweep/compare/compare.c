@@ -117,10 +117,17 @@ static bool find_base(JoxComparison *c, JoError *error) {
 
 static bool load(JoxComparison *c, JoError *error) {
     const JoCompareDef *def = c->def;
-    for (size_t s = 0; s < def->side_count; s++) {
-        const char *summary = def->summaries ? def->summaries[s] : NULL;
-        if (!(summary ? jox_sides_add_recording(&c->sides, def->sides[s], summary, def, error)
-                      : jox_sides_add_sweep(&c->sides, def->sides[s], error)))
+    for (size_t s = 0, end; s < def->side_count; s = end) {
+        end = s + 1;
+        const char *folder = def->folders ? def->folders[s] : NULL;
+        while (folder && end < def->side_count && def->folders[end] &&
+               strcmp(def->folders[end], folder) == 0)
+            end++;
+        if (!(def->summaries && def->summaries[s]
+                  ? jox_sides_add_recordings(&c->sides, folder ? folder : def->sides[s],
+                                             def->sides + s, def->summaries + s,
+                                             (uint32_t)(end - s), def, error)
+                  : jox_sides_add_sweep(&c->sides, def->sides[s], error)))
             return false;
     }
     uint32_t runs = 0;

@@ -59,7 +59,7 @@ typedef struct JoxSide {
     uint64_t *seeds;     /* of its runs, ascending */
     uint32_t runs;       /* with figures, that went as they were written */
     uint32_t left_out;   /* that failed, or did not go as they were written */
-    bool recorded;       /* one recording: no seeds */
+    bool recorded;       /* its runs are recordings: no seeds */
     JoxSideRun *all;     /* ascending by seed, those left out too; of recordings none */
     uint32_t all_count;
     size_t all_capacity;
@@ -84,12 +84,19 @@ typedef struct JoxSides {
 
 /* side_sweep.c: adds each variant of a sweep's file. False with `error`. */
 bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error);
-/* recording.c: adds a recording, of which `summary` is what jo_report says. */
-bool jox_sides_add_recording(JoxSides *sides, const char *path, const char *summary,
-                             const JoCompareDef *def, JoError *error);
+/* recording.c: adds recordings as the runs of one side; of each, `summaries` has what jo_report
+   says. */
+bool jox_sides_add_recordings(JoxSides *sides, const char *source, const char *const *paths,
+                              const char *const *summaries, uint32_t count, const JoCompareDef *def,
+                              JoError *error);
 /* side_fields.c: those of a variant. */
 bool jox_side_read_fields(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                           JoError *error);
+/* Adds the field of one run, of greatest densities or of mean ones; `cells` are floats by row, NAN
+   where nobody can walk. False where the side has one on another grid. After the last of `count`
+   runs means are made of sums. */
+bool jox_side_add_field(JoxSide *side, bool greatest, const JoxSweepField *grid, const void *cells);
+void jox_side_end_fields(JoxSide *side, bool greatest, uint32_t count);
 /* side.c */
 JoxSide *jox_sides_add(JoxSides *sides, const char *source);
 void jox_sides_free(JoxSides *sides);
@@ -97,6 +104,10 @@ void jox_sides_free(JoxSides *sides);
 JoxSideFigure *jox_side_figure(JoxSide *side, const char *name);
 /* The same that is NULL where there is none. */
 const JoxSideFigure *jox_side_find(const JoxSide *side, const char *name);
+/* Adds a curve; and to it the mean and the spread of the runs' values at a time, s, which it sorts.
+ */
+JoxSideCurve *jox_side_curve(JoxSide *side, const char *name, const char *unit);
+void jox_side_point(JoxSideCurve *curve, double time, double *values, size_t count);
 
 /* plans.c: what a side's plan and maps are drawn of; false where it has no plan. To be ended even
    then. */

@@ -50,7 +50,7 @@ static void put_item(FILE *out, JoxText *text) {
     jox_text_free(text);
 }
 
-/* What differs, and for what the seeds are too few. */
+/* What differs, and for what the runs are too few. */
 static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     enum { MOST = 8 };
     const bool has_spread = c->sides.items[s].runs > 1 && c->sides.items[c->base].runs > 1;
@@ -87,7 +87,7 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
         put_item(out, &text);
     if (thin.length) {
         jox_text_printf(&text,
-                        "the seeds are too few to tell these apart, for which it would take "
+                        "the runs are too few to tell these apart, for which it would take "
                         "so many of each: %s",
                         thin.data);
         put_item(out, &text);
@@ -144,7 +144,7 @@ static void put_sides(FILE *out, const JoxComparison *c) {
         const JoxSide *side = &c->sides.items[s];
         char seeds[64] = "";
         if (side->recorded)
-            snprintf(seeds, sizeof seeds, "a recording");
+            snprintf(seeds, sizeof seeds, side->runs == 1 ? "a recording" : "recordings");
         else if (side->runs)
             snprintf(seeds, sizeof seeds, "%llu to %llu", (unsigned long long)side->seeds[0],
                      (unsigned long long)side->seeds[side->runs - 1]);
@@ -171,7 +171,8 @@ static void put_verdict(FILE *out, const JoxDifference *d) {
     char text[160];
     snprintf(text, sizeof text, "%s%s", verdict, d->adjusted ? " *" : "");
     if (!strcmp(verdict, "not told apart") && d->runs)
-        snprintf(text, sizeof text, "%s; %zu seeds would", verdict, d->runs);
+        snprintf(text, sizeof text, "%s; %zu %s would", verdict, d->runs,
+                 d->effect.pairs ? "seeds" : "runs of each");
     fputs(strcmp(verdict, "differs") == 0 ? "<td><b>" : "<td>", out);
     jox_html_text(out, text);
     fputs(strcmp(verdict, "differs") == 0 ? "</b>" : "", out);
@@ -246,17 +247,18 @@ static void put_methods(FILE *out, const JoxComparison *c) {
         jox_compare_method(c, &c->figures[most].sides[s], method, sizeof method);
         jox_text_printf(&text, "Intervals of %s: %s. ", c->sides.items[s].name, method);
     }
-    jox_text_printf(&text,
-                    "An interval holds the true difference with a probability of %.0f %%; where it "
-                    "holds 0, the runs do not tell the sides apart. The seeds that would are those "
-                    "of which an effect of the size that was seen is found with a probability of "
-                    "80 %%. A figure of a run alone, as a greatest value, may well differ by "
-                    "chance: of %u figures compared, one in %.0f does so. Those with * differ with "
-                    "Holm's correction for their number, too.%s",
-                    100 * c->def->share, c->tested, 1 / (1 - c->def->share),
-                    jox_compare_is_thin(c) ? " Of fewer than five runs the spread itself is hardly "
-                                             "known, and so is the number of seeds that it takes."
-                                           : "");
+    jox_text_printf(
+        &text,
+        "An interval holds the true difference with a probability of %.0f %%; where it "
+        "holds 0, the runs do not tell the sides apart. The numbers of runs that would are "
+        "those of which an effect of the size that was seen is found with a probability of "
+        "80 %%. A figure of a run alone, as a greatest value, may well differ by "
+        "chance: of %u figures compared, one in %.0f does so. Those with * differ with "
+        "Holm's correction for their number, too.%s",
+        100 * c->def->share, c->tested, 1 / (1 - c->def->share),
+        jox_compare_is_thin(c) ? " Of fewer than five runs the spread itself is hardly "
+                                 "known, and so is the number of runs that it takes."
+                               : "");
     jox_html_paragraph(out, text.data);
     jox_text_free(&text);
 }

@@ -80,3 +80,23 @@ JoxSideFigure *jox_side_figure(JoxSide *side, const char *name) {
         figure->values[r] = NAN;
     return figure;
 }
+
+JoxSideCurve *jox_side_curve(JoxSide *side, const char *name, const char *unit) {
+    JOX_RESERVE(side->curves, side->curve_capacity, side->curve_count + 1);
+    side->curves[side->curve_count] =
+        (JoxSideCurve){.name = jox_strdup(name ? name : ""), .unit = jox_strdup(unit ? unit : "")};
+    return &side->curves[side->curve_count++];
+}
+
+void jox_side_point(JoxSideCurve *curve, double time, double *values, size_t count) {
+    const JoxMoments m = jox_moments(values, count);
+    JOX_RESERVE(curve->points, curve->capacity, curve->count + 1);
+    curve->points[curve->count++] =
+        (struct JoxSidePoint){.time = time,
+                              .mean = m.mean,
+                              .low = jox_quantile(values, count, 0.05),
+                              .high = jox_quantile(values, count, 0.95),
+                              .median = jox_quantile(values, count, 0.5),
+                              .least = jox_quantile(values, count, 0.0),
+                              .most = jox_quantile(values, count, 1.0)};
+}

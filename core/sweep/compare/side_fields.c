@@ -38,20 +38,16 @@ static float *values_on(JoxSide *side, JoxSideFieldKind kind, const JoxSweepFiel
                : NULL;
 }
 
-/* Adds the run of the present row; false where it has no such field. */
-static bool add_run(JoxSide *side, sqlite3_stmt *s, bool greatest) {
-    JoxSweepField grid;
-    const char *cells = sqlite3_column_blob(s, 5);
-    if (!cells || !read_grid(s, &grid))
-        return false;
-    float *sum = values_on(side, greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN, &grid);
+bool jox_side_add_field(JoxSide *side, bool greatest, const JoxSweepField *grid,
+                        const void *cells) {
+    float *sum = values_on(side, greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN, grid);
     if (!sum)
         return false;
-    float *worst = greatest ? values_on(side, JOX_FIELD_WORST, &grid) : NULL;
-    float *often = greatest ? values_on(side, JOX_FIELD_OFTEN, &grid) : NULL;
-    for (size_t k = 0; k < (size_t)grid.columns * grid.rows; k++) {
+    float *worst = greatest ? values_on(side, JOX_FIELD_WORST, grid) : NULL;
+    float *often = greatest ? values_on(side, JOX_FIELD_OFTEN, grid) : NULL;
+    for (size_t k = 0; k < (size_t)grid->columns * grid->rows; k++) {
         float value;
-        memcpy(&value, cells + sizeof value * k, sizeof value);
+        memcpy(&value, (const char *)cells + sizeof value * k, sizeof value);
         sum[k] += value; /* NAN where nobody can walk */
         if (!greatest)
             continue;
@@ -61,9 +57,24 @@ static bool add_run(JoxSide *side, sqlite3_stmt *s, bool greatest) {
     return true;
 }
 
+/* Adds the run of the present row; false where it has no such field. */
+static bool add_run(JoxSide *side, sqlite3_stmt *s, bool greatest) {
+    JoxSweepField grid;
+    const void *cells = sqlite3_column_blob(s, 5);
+    return cells && read_grid(s, &grid) && jox_side_add_field(side, greatest, &grid, cells);
+}
+
 static void scale(JoxSweepField *f, float by) {
     for (size_t k = 0; f->values && k < (size_t)f->columns * f->rows; k++)
         f->values[k] *= by;
+}
+
+void jox_side_end_fields(JoxSide *side, bool greatest, uint32_t count) {
+    if (!count)
+        return;
+    scale(&side->fields[greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN], 1.0f / (float)count);
+    if (greatest)
+        scale(&side->fields[JOX_FIELD_OFTEN], 100.0f / (float)count);
 }
 
 static bool read(const JoxSweepStore *store, int64_t variant, JoxSide *side, bool greatest,
@@ -82,11 +93,7 @@ static bool read(const JoxSweepStore *store, int64_t variant, JoxSide *side, boo
     sqlite3_bind_text(s, 2, greatest ? "greatest density" : "mean density", -1, SQLITE_STATIC);
     while ((code = sqlite3_step(s)) == SQLITE_ROW)
         count += add_run(side, s, greatest);
-    if (count) {
-        scale(&side->fields[greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN], 1.0f / (float)count);
-        if (greatest)
-            scale(&side->fields[JOX_FIELD_OFTEN], 100.0f / (float)count);
-    }
+    jox_side_end_fields(side, greatest, count);
     const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
     sqlite3_finalize(s);
     return good;

@@ -101,22 +101,7 @@ static void add_moment(JoxSide *side, JoxSideCurve *curve, double time, double *
         values[count++] = 0;
     if (count == 0 || 2 * count < side->runs)
         return;
-    const JoxMoments m = jox_moments(values, count);
-    JOX_RESERVE(curve->points, curve->capacity, curve->count + 1);
-    curve->points[curve->count++] =
-        (struct JoxSidePoint){.time = time,
-                              .mean = m.mean,
-                              .low = jox_quantile(values, count, 0.05),
-                              .high = jox_quantile(values, count, 0.95),
-                              .median = jox_quantile(values, count, 0.5),
-                              .least = jox_quantile(values, count, 0.0),
-                              .most = jox_quantile(values, count, 1.0)};
-}
-
-static JoxSideCurve *add_curve(JoxSide *side, char *name, char *unit) {
-    JOX_RESERVE(side->curves, side->curve_capacity, side->curve_count + 1);
-    side->curves[side->curve_count] = (JoxSideCurve){.name = name, .unit = unit};
-    return &side->curves[side->curve_count++];
+    jox_side_point(curve, time, values, count);
 }
 
 static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *side,
@@ -142,7 +127,8 @@ static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *si
             time = now;
         }
         if (number != last)
-            curve = add_curve(side, text_of(s, 3), text_of(s, 4));
+            curve = jox_side_curve(side, (const char *)sqlite3_column_text(s, 3),
+                                   (const char *)sqlite3_column_text(s, 4));
         last = number;
         if (sqlite3_column_type(s, 2) != SQLITE_NULL && count < side->runs)
             values[count++] = sqlite3_column_double(s, 2);

@@ -23,8 +23,10 @@ static void put_sides(const JoxComparison *c, JoxText *out) {
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
         jox_text_printf(out, "%2u  %s: ", s + 1, side->name);
-        if (side->recorded)
+        if (side->recorded && side->runs == 1)
             jox_text_add(out, "one recording");
+        else if (side->recorded)
+            jox_text_printf(out, "%u recordings", side->runs);
         else
             jox_text_printf(out, "%u run%s", side->runs, side->runs == 1 ? "" : "s");
         if (side->runs && !side->recorded)
@@ -45,9 +47,10 @@ static void put_advice(const JoxDifference *d, JoxText *out) {
     if (!isfinite(e->low) || e->low > 0 || e->high < 0 || (e->low == 0 && e->high == 0))
         return;
     if (d->runs > have)
-        jox_text_printf(out, "; about %zu seeds would tell a difference of this size", d->runs);
+        jox_text_printf(out, "; about %zu %s would tell a difference of this size", d->runs,
+                        e->pairs ? "seeds" : "runs of each");
     else if (e->difference != 0 && d->runs == 0)
-        jox_text_add(out, "; more than a million seeds would have to tell it");
+        jox_text_add(out, "; more than a million runs would have to tell it");
 }
 
 /* What a figure is, with its unit; what is longer than its column has a line of its own. */
@@ -99,7 +102,7 @@ static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
         jox_text_add(out, "  no figure differs in any run\n");
     jox_text_printf(out, "%u of %u figures differ", differ, told);
     if (thin)
-        jox_text_printf(out, "; of %u the seeds are too few to say so or not", thin);
+        jox_text_printf(out, "; of %u the runs are too few to say so or not", thin);
     jox_text_add(out, "\n");
 }
 
@@ -122,7 +125,7 @@ static void put_methods(const JoxComparison *c, JoxText *out) {
     if (jox_compare_is_thin(c))
         jox_text_add(out,
                      "Of fewer than five runs the spread itself is hardly known, and so is the "
-                     "number of seeds that it takes.\n");
+                     "number of runs that it takes.\n");
 }
 
 /* ---- one side alone ---- */
