@@ -2,29 +2,35 @@
 
     gallery.py OUT [SCENE...]    scenes by name; without: all of the folder scenes
 
-Time is stepped by hand, so that a clip runs in real time however slowly it is drawn. A scene that fails is named, and the
-others go on; then the status is 1. Needs ffmpeg."""
+The page shows all that OUT holds. Time is stepped by hand, so that a clip runs in real time however slowly it is drawn. Two
+browsers work side by side, as a scene is stepped by one processor and drawn by another. A scene that fails is named, and
+the others go on; then the status is 1. Needs ffmpeg."""
 import base64
 import glob
 import html
+import json
 import os
+import queue
 import resource
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 
 from harness import ROOT, Browser, Failure, Session
 from selenium.common.exceptions import WebDriverException
 
 PICTURE, CLIP = (960, 600), (480, 300)  # pixels: clips are small, as the processor may have to draw them
 FRAMES, RATE = 24, 8  # of a clip; a second
+BROWSERS = 2
 # s before the picture, where the first one shows little
 BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 9, "circle": 14, "two-bottlenecks": 30, "evacuation": 16, "counterflow": 40,
-          "running-through": 3, "bottleneck": 15, "arena": 10, "station": 8, "san-fermin": 20}
+          "running-through": 3, "push-row": 2, "bottleneck": 15, "arena": 10, "station": 8, "san-fermin": 20}
 OTHERWISE = 8  # s
 
 PREPARE = """
-document.querySelectorAll('#bar, #tools, #panel, #legend, #replay, .messages, .hint').forEach((n) => n.hidden = true);
+document.querySelectorAll('#bar, #menu, #panel, #legend, #replay, .messages, .hint').forEach((n) => n.hidden = true);
 document.body.style.display = 'block';
 document.querySelector('main').style.height = '100vh';
 page.loop = () => {}; // only what is shot is drawn
@@ -47,23 +53,31 @@ class Shown:
     def __init__(self, browser, name):
         self.browser = browser
         self.session = Session("run", os.path.join("scenes", f"{name}.yaml"), "--view")
-        self.session.pause()
-        browser.open(self.session)
-        browser.wait("return page.bar.paused", "no pause")
-        browser.run(PREPARE)
-        self.size(*PICTURE)
-        self.dt, self.title, self.about = browser.run("return [page.scene.dt, page.scene.title, page.scene.about]")
+        try:
+            self.session.pause()
+            browser.open(self.session, people=False)
+            browser.wait("return page.bar.paused", "no pause")
+            browser.run(PREPARE)
+            self.size(*PICTURE)
+            self.dt, self.title, self.about, until = browser.run("return [page.scene.dt, page.scene.title, page.scene.about, page.scene.duration]")
+            self.steps = int(until / self.dt)  # of the whole scene
+        except BaseException:
+            self.session.stop()
+            raise
 
     def size(self, wide, high):
         self.browser.size(wide, high)
         self.browser.wait("return innerWidth === arguments[0] && page.view.wide === innerWidth", "the window keeps its size", wide)
         self.browser.run("page.view.goHome()")
 
-    def advance(self, seconds):
-        steps = max(1, round(seconds / self.dt))
+    def advance(self, seconds, least=0):
+        """Steps so many seconds on, but for `least` s before the scene's end."""
         tick = self.browser.run("return page.crowd.next.tick")
+        steps = min(max(1, round(seconds / self.dt)), self.steps - round(least / self.dt) - tick)
+        if steps <= 0:
+            return
         self.browser.run("page.connection.send({do: 'step', n: arguments[0]})", steps)
-        self.browser.wait("return page.crowd.next.tick >= arguments[0]", "the steps were not made", tick + steps, patience=600)
+        self.browser.wait("return page.crowd.next.tick >= arguments[0]", "the steps were not made", tick + steps, patience=300)
 
     def shoot(self, path):
         with open(path, "wb") as file:
@@ -71,10 +85,10 @@ class Shown:
 
 
 def show(browser, name, out):
-    """Makes OUT/NAME.jpg and OUT/NAME.webm; returns its title and what it shows."""
+    """Makes OUT/NAME.jpg, OUT/NAME.webm, and OUT/NAME.json with its title and what it shows."""
     shown = Shown(browser, name)
     try:
-        shown.advance(BEFORE.get(name, OTHERWISE))
+        shown.advance(BEFORE.get(name, OTHERWISE), least=FRAMES / RATE)
         shown.shoot(os.path.join(out, f"{name}.jpg"))
         with tempfile.TemporaryDirectory() as folder:
             shown.size(*CLIP)
@@ -85,40 +99,62 @@ def show(browser, name, out):
                             "-c:v", "libvpx-vp9", "-cpu-used", "6", "-crf", "36", "-b:v", "0", "-pix_fmt", "yuv420p", os.path.join(out, f"{name}.webm")], check=True)
     finally:
         shown.session.stop()
-    return shown.title, shown.about
+    with open(os.path.join(out, f"{name}.json"), "w", encoding="utf-8") as file:
+        json.dump({"title": shown.title, "about": shown.about}, file)
 
 
-def write_page(out, shown):
-    items = "".join(f"<figure><video src='{name}.webm' poster='{name}.jpg' controls muted loop preload='none'></video>"
-                    f"<figcaption><b>{html.escape(title)}</b> {html.escape(about)} <code>jostle run {name} --view</code></figcaption></figure>"
-                    for name, (title, about) in shown.items())
+def write_page(out):
+    """OUT/index.html, of all scenes that OUT holds; returns how many there are."""
+    items = []
+    for path in sorted(glob.glob(os.path.join(out, "*.json"))):
+        name = os.path.basename(path)[:-5]
+        with open(path, encoding="utf-8") as file:
+            told = json.load(file)
+        items.append(f"<figure><video src='{name}.webm' poster='{name}.jpg' controls muted loop preload='none'></video>"
+                     f"<figcaption><b>{html.escape(told['title'])}</b> {html.escape(told['about'])} <code>jostle run {name} --view</code></figcaption></figure>")
     with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
-        file.write("<!DOCTYPE html><html lang='en'><meta charset='utf-8'><title>Jostle: gallery</title><style>"
-                   ":root{color-scheme:light dark}body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(22rem,1fr))}"
-                   "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;border-radius:.5rem}code{display:block;opacity:.75}</style>"
-                   f"<h1>Jostle: gallery</h1>{items}</html>\n")
+        file.write("<!DOCTYPE html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'><title>Jostle: gallery</title><style>"
+                   ":root{color-scheme:light dark}body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(min(22rem,100%),1fr))}"
+                   "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;aspect-ratio:8/5;border-radius:.5rem}code{display:block;opacity:.75}</style>"
+                   f"<h1>Jostle: gallery</h1>{''.join(items)}</html>\n")
+    return len(items)
+
+
+def work(names, out, failed):
+    """Takes scenes from the queue until it is empty."""
+    browser = Browser()
+    try:
+        while True:
+            name, begun = names.get_nowait(), time.monotonic()
+            try:
+                show(browser, name, out)
+                print(f"{name}: {time.monotonic() - begun:.0f} s", flush=True)
+            except (Failure, WebDriverException, OSError, subprocess.CalledProcessError) as error:
+                failed.append(name)
+                print(f"{name} failed: {str(error).splitlines()[0]}", flush=True)
+    except queue.Empty:
+        pass
+    finally:
+        browser.close()
 
 
 def main():
-    out, names = os.path.abspath(sys.argv[1]), sys.argv[2:]
-    names = names or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
+    out, chosen = os.path.abspath(sys.argv[1]), sys.argv[2:]
+    chosen = chosen or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
     os.makedirs(out, exist_ok=True)
-    browser, shown, failed = Browser(), {}, []
-    try:
-        for done, name in enumerate(names, 1):
-            try:
-                shown[name] = show(browser, name, out)
-                write_page(out, shown)
-                print(f"{done} of {len(names)}: {name}", flush=True)
-            except (Failure, WebDriverException, OSError, subprocess.CalledProcessError) as error:
-                failed.append(name)
-                print(f"{done} of {len(names)}: {name} failed: {str(error).splitlines()[0]}", flush=True)
-    finally:
-        browser.close()
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    print(f"{os.path.join(out, 'index.html')}: {len(shown)} scenes in {(used.ru_utime + used.ru_stime) / 60:.0f} minutes of processor time")
-    if failed:
-        sys.exit(f"without {', '.join(failed)}")
+    names, failed, begun = queue.Queue(), [], time.monotonic()
+    for name in chosen:
+        names.put(name)
+    workers = [threading.Thread(target=work, args=(names, out, failed)) for _ in range(min(BROWSERS, len(chosen)))]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    left, count, used = names.qsize(), write_page(out), resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{os.path.join(out, 'index.html')}: {count} scenes; {len(chosen)} made in {(time.monotonic() - begun) / 60:.1f} minutes, "
+          f"{(used.ru_utime + used.ru_stime) / 60:.0f} of a processor")
+    if failed or left:
+        sys.exit(f"without {', '.join(failed + [names.get() for _ in range(left)])}")
 
 
 main()

@@ -106,11 +106,13 @@ class Browser:
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
 
-    def open(self, session):
+    def open(self, session, people=True):
+        """Opens the page of a session, and waits for its first frame: with somebody in it, where `people`."""
         self.driver.get("about:blank")  # the page before would try the new server, with its old token
         self.driver.get_log("browser")
         self.driver.get(session.address)
-        self.wait("return window.page && page.scene && page.crowd.next && page.crowd.next.slots > 0", "no frame reached the page")
+        self.wait("return window.page && page.scene && page.crowd.next && page.crowd.next.slots >= arguments[0]",
+                  "no frame reached the page", int(people))
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)

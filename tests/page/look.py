@@ -37,8 +37,11 @@ def join(host, port, token):
 
 
 def leave(there):
-    """Says so, as browsers do: a frame that closes, under a mask of zeros."""
+    """Says so, as browsers do: a frame that closes, under a mask of zeros. What was sent is read to its end:
+    a socket that is closed with something unread is reset, and takes with it what the server has not read."""
     there.sendall(b"\x88\x80" + bytes(4))
+    while there.recv(1 << 16):
+        pass
     there.close()
 
 

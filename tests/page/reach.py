@@ -18,6 +18,7 @@ def keyboard(browser):
     browser.find("body").send_keys(" ")
     for tab in ("machine", "parameters", "act"):
         browser.find(f"#tab-{tab}").click()
+        browser.run("page.strip.open(arguments[0])", tab == "act")
         wanted = browser.run(USABLE)
         expect(len(wanted) > 15, f"only {len(wanted)} controls")
         nameless = browser.run("""return arguments[0].filter((n) => !(n.getAttribute('aria-label') || n.textContent.trim()
@@ -33,6 +34,10 @@ def keyboard(browser):
         expect(not missed, f"not reached: {missed[:2]}")
         unseen = browser.run("return window.unseen")
         expect(not unseen, f"the focus is not seen on {unseen[:2]}")
+    expect(browser.run("return page.strip.menu.contains(document.querySelector('[title^=Seed]')) && window.reached.has(document.querySelector('[title^=Seed]'))"),
+           "the menu is not reached")
+    browser.find("[title^=Seed]").send_keys(Keys.ESCAPE)
+    expect(browser.run("return page.strip.menu.hidden && document.activeElement.id === 'more'"), "Escape does not close the menu")
     # The crowd without a pointer: Enter at the middle of the picture chooses a person.
     browser.run("""const at = page.crowd.position([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)), 1);
         const t = page.view.orbit.target; page.view.moveBy(at[0] - t.x, at[1] - t.y);
@@ -62,7 +67,7 @@ return out;
 
 @served("run", "scenes/office.yaml", "--view")
 def enlarged(browser):
-    """enlarged to 200 % nothing overlaps or is cut, in light and in dark"""
+    """enlarged to 200 % nothing overlaps or is cut, in light and in dark, and most of the window is the picture"""
     browser.find("body").send_keys(" ")  # that the browser has time for layouts
     for wide, high, ratio, dark, name in ((1280, 800, 1, True, "dark"), (1024, 640, 1, False, "small"), (640, 400, 2, False, "zoom-200"), (400, 640, 2, True, "narrow")):
         browser.size(wide, high, ratio)
@@ -72,8 +77,13 @@ def enlarged(browser):
             time.sleep(0.2)
             wrong = browser.run(OVERLAPS, browser.run(USABLE))
             expect(not wrong, f"at {wide} x {high}, {tab}: {wrong[:2]}")
-        high_enough = browser.run("return document.getElementById('stage').clientHeight")
-        expect(high_enough >= 200, f"the picture is only {high_enough} pixels high")
+        share = browser.run("return document.getElementById('stage').clientHeight / innerHeight")
+        expect(share >= (0.75 if wide >= 1024 else 0.6), f"at {wide} x {high} the picture has only {100 * share:.0f} % of the height")
+        if browser.find("#more").is_displayed():
+            browser.find("#more").click()
+            wrong = browser.run(OVERLAPS, browser.run(USABLE.replace("document.", "document.getElementById('menu').")))
+            expect(not wrong, f"at {wide} x {high}, in the menu: {wrong[:2]}")
+            browser.find("#more").click()
         browser.run("window.scrollTo(0, 0)")
         time.sleep(0.5)
         browser.picture(name)
@@ -89,7 +99,7 @@ def reconnects(browser):
         browser.wait("return page.connection.socket !== window.first && page.connection.socket.readyState === 1", "no new connection")
         tick = browser.run("return page.crowd.next.tick")
         browser.wait("return page.crowd.next.tick > arguments[0] + 3", "no frames after the new connection", tick)
-        expect("connected" == browser.find("#link").text, "it does not say that it is connected")
+        expect("connected" == browser.find("#link").get_attribute("textContent"), "it does not say that it is connected")
     finally:
         session.stop()
     browser.wait("return /lost/.test(document.getElementById('messages').textContent)", "the page does not say that the program is gone")

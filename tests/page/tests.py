@@ -80,7 +80,9 @@ def pauses(browser):
     browser.wait("return page.crowd.next.tick > arguments[0]", "time does not go on", stopped + 3)
     Select(browser.find("#time select")).select_by_value("4")
     browser.wait("return page.charts.dense.times.length > 2 && page.bar.speed.value === '4'", "no speed")
-    seed = browser.find("#time input")
+    Select(browser.find("#time select")).select_by_value("1")  # that the beginning after the restart lasts
+    browser.find("#more").click()
+    seed = browser.find("#menu input")
     seed.clear()
     seed.send_keys("7")
     browser.button("Restart").click()

@@ -3,7 +3,8 @@ import { ActPage } from "./panels/act.js";
 import { AgentPage, announce } from "./panels/agent.js";
 import { ChartsPage } from "./panels/charts.js";
 import { Connection } from "./net/connection.js";
-import { bindKeys, Figures, TimeBar, ToolBar } from "./controls/controls.js";
+import { Bar } from "./controls/bar.js";
+import { bindKeys, Figures, TimeBar, ToolBar, WORDS } from "./controls/controls.js";
 import { Crowd, FLAG, NOBODY, readField } from "./net/crowd.js";
 import { byId, el, say, typing } from "./dom.js";
 import { Help, Meter } from "./panels/help.js";
@@ -57,8 +58,8 @@ class Page {
             state: (state) => this.link(state),
         });
         const send = (command) => this.connection.send(command) || this.messages.say("Not connected: that was not sent.", "warning");
-        this.bar = new TimeBar(send);
-        this.figures = new Figures();
+        this.strip = new Bar(WORDS);
+        this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
         this.player = new Player({ view: this.view, connection: this.connection });
         this.tools = new Tools(byId("picture"), {
@@ -71,7 +72,8 @@ class Page {
             top: () => this.top(), home: () => this.view.goHome(), follow: () => this.follow(),
             picture: () => savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"),
             names: () => this.names(), help: () => this.help.toggle(),
-        });
+        }, this.strip);
+        this.figures = new Figures(this.strip);
         this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
         this.panel = new Panel(() => this.charts?.draw());
         const pages = this.panel.pages;
@@ -131,6 +133,7 @@ class Page {
     escape() {
         if (this.player.on) this.act.play(false);
         else if (this.tools.gesture) this.tools.cancel();
+        else if (this.strip.close()) return true;
         else if (!this.help.node.hidden) this.help.toggle(false);
         else if (this.view.tool !== "select") this.tool("select");
         else this.inspect(null);
@@ -147,6 +150,7 @@ class Page {
         const node = byId("link");
         node.dataset.state = state;
         say(node, LINKS[state]);
+        node.title = LINKS[state];
         this.messages?.stand("link", state === "lost" ? LOST[Number(this.connection?.attempt > 4)] : "");
         if (state === "open") this.again();
     }
@@ -177,6 +181,7 @@ class Page {
         const first = !this.scene;
         this.scene = scene;
         say(byId("title"), scene.title || scene.file || "Jostle");
+        byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
         for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
         this.panel.offer("agent", this.slot !== null);

@@ -1,24 +1,32 @@
-// The bars: time, figures, tools, view. Keys of the whole page.
+// What stands in the bar: time, tools, view, figures. Keys of the whole page.
 import { byId, clock, el, figure, fill, say } from "../dom.js";
+import { iconButton, iconLabel } from "./bar.js";
+import { icon } from "./icons.js";
 import { COLOURS, FIELDS } from "../draw/palette.js";
 import { TOOLS } from "./tools.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
+// Which go into the menu first where the bar is too narrow: the highest.
+export const WORDS = 10.5; // that rank's turn: buttons lose their words
+const RANK = { top: 1, speed: 2, time: 3, home: 4, colour: 5, field: 6, names: 7, follow: 8, picture: 9, help: 10, counts: 11, restart: 12 };
+
 /** Pause, step, speed, restart and seed. `send` takes commands. */
 export class TimeBar {
-    constructor(send) {
+    constructor(send, bar) {
         this.send = send;
-        this.paused = false;
-        this.pause = el("button", { type: "button", onclick: () => this.toggle(), className: "main" }, "Pause");
-        this.step = el("button", { type: "button", title: "One step (.)", onclick: () => this.stepOnce() }, "Step");
+        this.bar = bar;
+        this.paused = null;
+        this.pause = el("button", { type: "button", onclick: () => this.toggle(), className: "main iconed" });
+        this.step = iconButton("step", "Step", "One step (.)", () => this.stepOnce());
         this.speed = el("select", { onchange: () => send({ do: "speed", factor: Number(this.speed.value) }) },
             SPEEDS.map((s) => el("option", { value: String(s), selected: s === 1 }, `${s} ×`)));
         this.seed = el("input", { type: "number", min: 0, step: 1, title: "Seed of the next start" });
-        this.restart = el("button", { type: "button", title: "Start again with this seed", onclick: () => this.again() }, "Restart");
-        fill(byId("time"), this.pause, this.step, el("label", {}, el("span", { className: "faint" }, "Speed"), this.speed));
-        this.live = [el("label", {}, el("span", { className: "faint" }, "Seed"), this.seed), this.restart];
-        byId("time").append(...this.live);
+        this.restart = iconButton("restart", "Restart", "Start again with this seed", () => this.again());
+        bar.add(byId("time"), [this.pause, this.step]);
+        bar.add(byId("time"), el("label", { title: "Speed" }, el("span", { className: "words" }, "Speed"), this.speed), RANK.speed);
+        this.live = bar.add(byId("time"), [el("label", {}, el("span", { className: "faint" }, "Seed"), this.seed), this.restart], RANK.restart);
+        this.show(false);
     }
 
     set(scene) {
@@ -44,8 +52,9 @@ export class TimeBar {
     }
 
     show(paused) {
+        if (paused === this.paused) return;
         this.paused = paused;
-        say(this.pause, paused ? "Play" : "Pause");
+        fill(this.pause, icon(paused ? "play" : "pause"), el("span", { className: "words" }, paused ? "Play" : "Pause"));
         this.pause.title = paused ? "Go on (Space)" : "Stop the time (Space)";
     }
 
@@ -61,10 +70,12 @@ export class TimeBar {
 
 /** Time, pace against real time, numbers of agents and bodies. */
 export class Figures {
-    constructor() {
+    constructor(bar) {
         this.parts = {};
-        const pairs = [["time", "Time"], ["rate", "Pace"], ["agents", "Agents"], ["bodies", "Bodies"]];
-        fill(byId("figures"), pairs.map(([key, name]) => el("div", {}, el("dt", {}, name), (this.parts[key] = el("dd", {}, "–")))));
+        const list = (pairs) => el("dl", { className: "figures" }, pairs.map(([key, name]) =>
+            el("div", {}, el("dt", {}, name), (this.parts[key] = el("dd", { className: key }, "–")))));
+        bar.add(byId("figures"), list([["time", "Time"]]), RANK.time);
+        bar.add(byId("figures"), list([["rate", "Pace"], ["agents", "Agents"], ["bodies", "Bodies"]]), RANK.counts);
     }
 
     take(status) {
@@ -77,23 +88,21 @@ export class Figures {
 
 /** Tools and what is shown. `page`: {tool(name), colour(by), field(of), top(), home(), follow(), picture(), names(), help()} */
 export class ToolBar {
-    constructor(page) {
+    constructor(page, bar) {
         this.page = page;
-        this.bar = byId("tools");
+        this.bar = bar;
         this.tools = {};
-        this.choice = el("div", { className: "group", role: "group", "aria-label": "Tool" });
+        this.choice = byId("tools");
         this.colour = this.select(COLOURS, "state", (by) => page.colour(by));
         this.field = this.select(FIELDS, "none", (of) => page.field(of));
-        this.top = this.button("From above", "Look straight down (T)", () => page.top(), true);
-        this.follow = this.button("Follow", "Follow the chosen person (F)", () => page.follow(), true);
-        this.names = this.button("Names", "Names of places and gates (N)", () => page.names(), true);
-        const view = el("div", { className: "group", role: "group", "aria-label": "View" }, this.top, this.follow,
-            this.button("Whole scene", "Everything in sight (H)", () => page.home()), this.names,
-            this.button("Picture", "Save what is seen as a PNG (P)", () => page.picture()),
-            this.button("?", "Keys, and how long drawing takes", () => page.help()));
-        fill(this.bar, this.choice, el("label", {}, el("span", { className: "faint" }, "Colour by"), this.colour),
-            el("label", {}, el("span", { className: "faint" }, "Floor"), this.field), view);
-        this.bar.querySelector("button:last-child").setAttribute("aria-label", "Keys and measurements");
+        this.top = iconButton("top", "From above", "Look straight down (T)", () => page.top(), true);
+        this.follow = iconButton("follow", "Follow", "Follow the chosen person (F)", () => page.follow(), true);
+        this.names = iconButton("names", "Names", "Names of places and gates (N)", () => page.names(), true);
+        const home = iconButton("home", "Whole scene", "The whole scene (H)", () => page.home());
+        const picture = iconButton("picture", "Picture", "Save what is seen as a PNG (P)", () => page.picture());
+        const help = iconButton("help", "Keys", "Keys, and how long drawing takes (?)", () => page.help());
+        const colour = iconLabel("colour", "Colour by", this.colour), field = iconLabel("floor", "Floor", this.field);
+        for (const [rank, node] of Object.entries({ colour, field, top: this.top, follow: this.follow, home, names: this.names, picture, help })) bar.add(byId("show"), node, RANK[rank]);
     }
 
     select(choices, chosen, change) {
@@ -102,16 +111,15 @@ export class ToolBar {
         return node;
     }
 
-    button(text, title, onclick, toggles = false) {
-        return el("button", { type: "button", title, onclick, "aria-pressed": toggles ? "false" : null }, text);
-    }
-
     set(scene) {
         const offered = ["select", ...["throw", "drag", "push"].filter((name) => scene.tools?.[name])];
-        this.tools = Object.fromEntries(offered.map((name) => [name, this.button(
-            TOOLS[name].name, `${TOOLS[name].hint} (${TOOLS[name].key})`, () => this.page.tool(name), true)]));
-        fill(this.choice, Object.values(this.tools));
-        this.choice.hidden = offered.length === 1;
+        if (offered.join() !== Object.keys(this.tools).join()) {
+            this.tools = Object.fromEntries(offered.map((name) => [name,
+                iconButton(name, TOOLS[name].name, `${TOOLS[name].hint} (${TOOLS[name].key})`, () => this.page.tool(name), true)]));
+            fill(this.choice, Object.values(this.tools));
+            this.choice.hidden = offered.length === 1;
+        }
+        this.bar.fold();
     }
 
     show(tool) {

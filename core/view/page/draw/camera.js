@@ -7,6 +7,7 @@ const FILL = 0.94; // of the window
 const RELUCTANCE = 0.1; // share of the score that a turn of 90 degrees from the south costs
 const STEEP = [48, 0.01]; // degrees from which on people are seen from above, and what each costs of the score
 const EVEN = 0.7; // how much it counts that what is far is not much smaller: power of the distances' ratio
+const NARROW = 1; // width by height of a window, below which the eye of a scene's own camera steps back
 const TALL = 1.8; // m, the height that has to be in sight
 
 /** The corners of a box [[x0, y0], [x1, y1]], on the floor and at the height of heads, m. */
@@ -40,7 +41,10 @@ function standOf(points, { right, up, ahead }, tangents) {
     return new THREE.Vector3().addScaledVector(right, sides[0].at).addScaledVector(up, sides[1].at).addScaledVector(ahead, back);
 }
 
-/** The share of the window that the floor's corners span, and how much smaller what is far is. */
+/**
+ * How well a window is filled: the share of it that the floor covers, times the share that the box around
+ * the floor spans (so that long scenes are seen along a diagonal), less where what is far is much smaller.
+ */
 function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
     let area = 0, nearest = Infinity, farthest = 0;
     const floor = points.filter((p) => p.z === 0).map((p) => {
@@ -54,7 +58,8 @@ function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
         area += (x * ny - nx * y) / 8; // the window is 2 by 2
     });
     const steep = STEEP[1] * Math.max(0, rise * (180 / Math.PI) - STEEP[0]);
-    return Math.abs(area) * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
+    const [low, high] = boxOf(floor, 0), span = ((high[0] - low[0]) * (high[1] - low[1])) / 4;
+    return Math.abs(area) * span * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
 }
 
 /**
@@ -76,6 +81,15 @@ export function fitBox(box, fieldOfView, aspect) {
     return { at: best.at, look };
 }
 
+/**
+ * The eye of a camera that a scene gives, {at, look} as [x, y, z], m: where it says, and farther back on its
+ * line of sight where the window is narrow, so that as much is seen across.
+ */
+export function standAt({ at, look }, aspect) {
+    const target = new THREE.Vector3(...look), back = Math.max(1, NARROW / aspect);
+    return { at: new THREE.Vector3(...at).sub(target).multiplyScalar(back).add(target), look: target };
+}
+
 /** The box around points [x, y], m, grown where it is less than `least` m wide; null without points. */
 export function boxOf(points, least = 2) {
     if (points.length === 0) return null;
@@ -95,20 +109,27 @@ export function boxOf(points, least = 2) {
 }
 
 const LARGER = 8; // times the area of a crowd without walls that the crowd and where it goes may take
+const NEAR = 0.2; // of the size of what is walled or crowded: how far from it places are in sight
+
+/** Points around a place, m. */
+function extentOf({ kind, points = [], radius = 0 }) {
+    return kind === "point" ? points.flatMap(([x, y]) => [[x - radius, y - radius], [x + radius, y + radius]]) : points;
+}
 
 /**
- * The box that a picture of a scene has to show: walls and people, and of places those that lie
- * near them; far ones (where people go once they are out) are left out, but not those to which a
+ * The box that a picture of a scene has to show: walls and people, and of places what lies
+ * near them; what is far (where people go once they are out) is left out, but not those to which a
  * crowd walks that nothing encloses. `people`: [x, y] of each.
  */
 export function sceneBox(scene, people) {
-    const places = (scene.places ?? []).filter((p) => p.kind !== "set").map((p) => p.points ?? []);
+    const places = (scene.places ?? []).filter((p) => p.kind !== "set").map(extentOf);
     const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...people]);
     if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
     const all = boxOf([...core, ...places.flat()]), area = ([[x0, y0], [x1, y1]]) => (x1 - x0) * (y1 - y0);
     if (!scene.walls?.length && area(all) <= LARGER * area(core)) return all;
-    const wide = core[1][0] - core[0][0], deep = core[1][1] - core[0][1], margin = 0.2 * Math.max(wide, deep, 10);
-    const near = places.filter((points) => points.length && points.every(([x, y]) => x > core[0][0] - margin && x < core[1][0] + margin
-        && y > core[0][1] - margin && y < core[1][1] + margin)).flat();
+    const margin = NEAR * Math.max(core[1][0] - core[0][0], core[1][1] - core[0][1], 10);
+    const low = core[0].map((v) => v - margin), high = core[1].map((v) => v + margin);
+    const inside = (p) => p.every((v, k) => v > low[k] && v < high[k]);
+    const near = places.filter((points) => points.some(inside)).flat().map((p) => p.map((v, k) => Math.min(high[k], Math.max(low[k], v))));
     return boxOf([...core, ...near]);
 }

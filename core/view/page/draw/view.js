@@ -2,7 +2,7 @@
 import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
 import * as THREE from "/three/build/three.module.js";
 import { Bodies } from "./bodies.js";
-import { fitBox, sceneBox } from "./camera.js";
+import { fitBox, sceneBox, standAt } from "./camera.js";
 import { Ground } from "./ground.js";
 import { COLOURS, table } from "./palette.js";
 import { People } from "./people.js";
@@ -92,7 +92,7 @@ export class View {
             this.known = name;
             this.shown = scene;
             this.home = scene.camera;
-            this.handled = this.peopled = false;
+            this.peopled = false;
             this.goHome();
         }
         this.dirty = true;
@@ -101,15 +101,16 @@ export class View {
     /** Where the scene's camera is, or where everything fills the window. */
     goHome() {
         if (!this.shown) return;
+        this.handled = false;
         const box = sceneBox(this.shown, this.crowd.everybody());
         const [[x0, y0], [x1, y1]] = box, wide = x1 - x0, deep = y1 - y0;
-        const fitted = this.home ? { at: new THREE.Vector3(...this.home.at), look: new THREE.Vector3(...this.home.look) }
-            : fitBox(box, FIELD_OF_VIEW, this.wide / this.high);
+        const aspect = this.wide / this.high;
+        const fitted = this.home ? standAt(this.home, aspect) : fitBox(box, FIELD_OF_VIEW, aspect);
         this.ground.inside(box);
         this.orbit.target.copy(fitted.look);
         this.perspective.position.copy(fitted.at);
         this.orbit.maxDistance = this.slide.maxDistance = 8 * Math.max(4, wide, deep);
-        this.lookDown(new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0), Math.max(4, 1.1 * Math.max(wide / (this.wide / this.high), deep)));
+        this.lookDown(new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0), Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
         this.flat.zoom = 1;
         this.dirty = true;
         this.orbit.update();
@@ -121,7 +122,7 @@ export class View {
         if (size) this.flatSize = size;
         this.slide.target.set(at.x, at.y, 0);
         this.flat.position.set(at.x, at.y, 1000);
-        this.resize();
+        this.frameFlat();
     }
 
     /** From above, or back; both look at the same spot. */
@@ -145,6 +146,7 @@ export class View {
 
     /** Moves the eye and what it looks at, m. */
     moveBy(dx, dy) {
+        this.handled = true;
         for (const v of [this.camera.position, this.controls.target]) {
             v.x += dx;
             v.y += dy;
@@ -155,6 +157,7 @@ export class View {
 
     /** Turns around the target (rad), climbs (rad) and nears (factor). */
     turnBy(turn, climb, nearer) {
+        this.handled = true;
         if (this.top) {
             this.flat.zoom *= nearer;
             this.flat.updateProjectionMatrix();
@@ -187,6 +190,7 @@ export class View {
         this.dirty = true;
     }
 
+    /** Takes the size of the window; who has not moved the eye goes on seeing the whole scene. */
     resize() {
         const box = this.canvas.parentElement.getBoundingClientRect();
         const wide = Math.max(1, Math.round(box.width)), high = Math.max(1, Math.round(box.height));
@@ -197,13 +201,19 @@ export class View {
         this.renderer.setSize(wide, high, false);
         this.perspective.aspect = wide / high;
         this.perspective.updateProjectionMatrix();
+        this.frameFlat();
+        if (this.peopled && !this.handled) this.goHome();
+        this.dirty = true;
+    }
+
+    /** The window of the view from above, m. */
+    frameFlat() {
         const half = (this.flatSize ?? 10) / 2;
-        this.flat.left = (-half * wide) / high;
+        this.flat.left = (-half * this.wide) / this.high;
         this.flat.right = -this.flat.left;
         this.flat.top = half;
         this.flat.bottom = -half;
         this.flat.updateProjectionMatrix();
-        this.dirty = true;
     }
 
     /** Takes the newest frame of the crowd; `kind` as Crowd.take says. */
