@@ -25,8 +25,10 @@ PICTURE, CLIP = (960, 600), (480, 300)  # pixels: clips are small, as the proces
 FRAMES, RATE = 24, 8  # of a clip; a second
 BROWSERS = 2
 # s before the picture, where the first one shows little
-BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 9, "circle": 14, "two-bottlenecks": 30, "evacuation": 16, "counterflow": 40,
-          "running-through": 3, "push-row": 2, "bottleneck": 15, "arena": 10, "station": 8, "san-fermin": 20}
+BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 14, "wall-heavy": 14, "wall-tight": 14, "circle": 30, "two-bottlenecks": 30,
+          "evacuation": 16, "counterflow": 40, "running-through": 3, "push-row": 2, "bottleneck": 15, "arena": 10, "san-fermin": 20,
+          "metro": 70, "dodgeball": 3, "premovement": 40, "premovement-many": 30, "gates": 12, "exit-lost": 12, "rimea-10": 5,
+          "rimea-15": 30, "rimea-15-straight": 30, "rimea-07": 30, "outbreak": 30, "station": 20, "tour": 12}
 OTHERWISE = 8  # s
 
 PREPARE = """
@@ -89,6 +91,7 @@ def show(browser, name, out):
     shown = Shown(browser, name)
     try:
         shown.advance(BEFORE.get(name, OTHERWISE), least=FRAMES / RATE)
+        browser.run("page.view.goHome()")  # fits who is there now
         shown.shoot(os.path.join(out, f"{name}.jpg"))
         with tempfile.TemporaryDirectory() as folder:
             shown.size(*CLIP)

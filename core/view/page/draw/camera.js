@@ -9,9 +9,10 @@ const STEEP = [48, 0.01]; // degrees from which on people are seen from above, a
 const EVEN = 0.7; // how much it counts that what is far is not much smaller: power of the distances' ratio
 const NARROW = 1; // width by height of a window, below which the eye of a scene's own camera steps back
 const TALL = 1.8; // m, the height that has to be in sight
+const TALLEST = 3; // m, up to which that is the height of walls
 
-/** The corners of a box [[x0, y0], [x1, y1]], on the floor and at the height of heads, m. */
-export function cornersOf([[x0, y0], [x1, y1]], high = TALL) {
+/** The corners of a box [[x0, y0], [x1, y1]], on the floor and `high` above it, m. */
+function cornersOf([[x0, y0], [x1, y1]], high) {
     return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].flatMap(([x, y]) => [new THREE.Vector3(x, y, 0), new THREE.Vector3(x, y, high)]);
 }
 
@@ -62,13 +63,18 @@ function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
     return Math.abs(area) * span * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
 }
 
+/** The height that has to be in sight in a scene: of heads, and of walls, m. */
+export function heightOf(scene) {
+    return Math.min(TALLEST, Math.max(TALL, ...(scene.walls ?? []).map((wall) => wall.height || 0)));
+}
+
 /**
- * An eye that has a box of the floor in sight, m, and shows most of it: {at, look}. `fieldOfView` is
- * the window's height in degrees, `aspect` its width by its height.
+ * An eye that has a box of the floor and `tall` m above it in sight, and shows most of it: {at, look}.
+ * `fieldOfView` is the window's height in degrees, `aspect` its width by its height.
  */
-export function fitBox(box, fieldOfView, aspect) {
+export function fitBox(box, tall, fieldOfView, aspect) {
     const high = FILL * Math.tan((fieldOfView / 2) * (Math.PI / 180)), tangents = [high * aspect, high];
-    const points = cornersOf(box);
+    const points = cornersOf(box, tall);
     let best = null;
     for (const turn of TURNS.map((t) => (t * Math.PI) / 180)) {
         for (const rise of RISES.map((r) => (r * Math.PI) / 180)) {
@@ -109,7 +115,7 @@ export function boxOf(points, least = 2) {
 }
 
 const LARGER = 8; // times the area of a crowd without walls that the crowd and where it goes may take
-const NEAR = 0.2; // of the size of what is walled or crowded: how far from it places are in sight
+const NEAR = 0.4; // of the size of what is walled or crowded: how far from it places are in sight
 
 /** Points around a place, m. */
 function extentOf({ kind, points = [], radius = 0 }) {
@@ -127,7 +133,7 @@ export function sceneBox(scene, people) {
     if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
     const all = boxOf([...core, ...places.flat()]), area = ([[x0, y0], [x1, y1]]) => (x1 - x0) * (y1 - y0);
     if (!scene.walls?.length && area(all) <= LARGER * area(core)) return all;
-    const margin = NEAR * Math.max(core[1][0] - core[0][0], core[1][1] - core[0][1], 10);
+    const margin = NEAR * Math.max(Math.sqrt(area(core)), 10);
     const low = core[0].map((v) => v - margin), high = core[1].map((v) => v + margin);
     const inside = (p) => p.every((v, k) => v > low[k] && v < high[k]);
     const near = places.filter((points) => points.some(inside)).flat().map((p) => p.map((v, k) => Math.min(high[k], Math.max(low[k], v))));

@@ -2,7 +2,7 @@
 import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
 import * as THREE from "/three/build/three.module.js";
 import { Bodies } from "./bodies.js";
-import { fitBox, sceneBox, standAt } from "./camera.js";
+import { fitBox, heightOf, sceneBox, standAt } from "./camera.js";
 import { Ground } from "./ground.js";
 import { COLOURS, table } from "./palette.js";
 import { People } from "./people.js";
@@ -105,7 +105,7 @@ export class View {
         const box = sceneBox(this.shown, this.crowd.everybody());
         const [[x0, y0], [x1, y1]] = box, wide = x1 - x0, deep = y1 - y0;
         const aspect = this.wide / this.high;
-        const fitted = this.home ? standAt(this.home, aspect) : fitBox(box, FIELD_OF_VIEW, aspect);
+        const fitted = this.home ? standAt(this.home, aspect) : fitBox(box, heightOf(this.shown), FIELD_OF_VIEW, aspect);
         this.ground.inside(box);
         this.orbit.target.copy(fitted.look);
         this.perspective.position.copy(fitted.at);
