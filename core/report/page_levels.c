@@ -5,6 +5,9 @@
 #include "record/danger/danger_parts.h"
 #include "report/page_parts.h"
 
+static const float NOTHING =
+    0.05f; /* N: what is left of a mean over a second after the last touch */
+
 /* Fruin's levels: of everybody; by area and time; of lines by flow and area. */
 static void put_queues(FILE *out, const JoxDanger *danger) {
     double all = 0.0;
@@ -130,7 +133,8 @@ static void put_walls(FILE *out, const JoxSubject *s) {
              "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
              JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
-    jox_html_table(out, "from|to|>now|>greatest|>greatest, per metre|>when|>over 4500 N|>first");
+    jox_html_table(out,
+                   "from|to|>at the end|>greatest|>greatest, per metre|>when|>over 4500 N|>first");
     uint32_t order[JOX_PAGE_SHOWN],
         shown = jox_page_most_of(danger, walls->count, most_of_piece, order);
     for (uint32_t k = 0; k < shown; k++) {
@@ -138,7 +142,7 @@ static void put_walls(FILE *out, const JoxSubject *s) {
         jox_html_row(out);
         fprintf(out, "<td>(%.2f,&nbsp;%.2f)<td>(%.2f,&nbsp;%.2f)", (double)piece->from.x,
                 (double)piece->from.y, (double)piece->to.x, (double)piece->to.y);
-        jox_html_cell_number(out, (double)piece->load, "N");
+        jox_html_cell_number(out, piece->load < NOTHING ? 0 : (double)piece->load, "N");
         jox_html_cell_number(out, (double)piece->most, "N");
         jox_html_cell_number(out, jox_danger_piece_line_load(piece), "N/m");
         jox_html_cell_number(out, piece->most_time, "s");
