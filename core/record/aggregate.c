@@ -29,7 +29,7 @@ static const struct {
     {"transitions.*", JOX_SUMMARY_FIGURE},  {"regions.*", JOX_SUMMARY_FIGURE},
     {"events.*", JOX_SUMMARY_FIGURE},       {"bonds.*", JOX_SUMMARY_FIGURE},
     {"exchange.*", JOX_SUMMARY_FIGURE},     {"danger.*", JOX_SUMMARY_FIGURE},
-    {"probes.*", JOX_SUMMARY_FIGURE},
+    {"probes.*", JOX_SUMMARY_FIGURE},       {"tally.*", JOX_SUMMARY_FIGURE},
 };
 
 JoxSummaryKind jox_summary_kind(const char *path) {

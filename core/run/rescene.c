@@ -183,6 +183,8 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     }
     if (jox_scene_differs(r.old, r.new, "events"))
         note(groups ? &r.done : &r.later, "events");
+    if (jox_scene_differs(r.old, r.new, "tally"))
+        note(groups ? &r.done : &r.later, "tally");
     jox_scene_later(r.old, r.new, &r.later);
     clock_gettime(CLOCK_REALTIME, &t);
     double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;

@@ -224,5 +224,11 @@ void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
 /* Adds ,"probes": {...} to a summary. */
 void jox_run_add_probes(const JoScene *scene, JoxJson *json);
+/* tally.c: a tally now, NAN where nobody has what is taken; adds ,"tally": {...} to a summary; the
+   sentence of the last lines; warns of names that no behaviour has. */
+double jox_run_tally(const JoScene *scene, const JoxTally *tally);
+void jox_run_add_tally(const JoScene *scene, JoxJson *json);
+void jox_run_say_tally(const JoScene *scene, JoxText *out);
+void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics);
 
 #endif

@@ -102,3 +102,14 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
     JOX_ASSERT(event->every >= 0.0);
     return true;
 }
+
+/* ---- tallies ---- */
+
+bool jox_finish_tally(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    const JoxTally *tally = item;
+    const JoxYaml *take = jox_yaml_get(map, "take");
+    if (good && take && !tally->memory)
+        jox_scene_error(r, take, "bad-value", "memory: hits",
+                        "a tally takes the values of a `memory`; without one it counts agents");
+    return true;
+}

@@ -100,7 +100,8 @@ void jox_load_wall(const JoxReader *reader, const JoxYaml *name);
 
 /* sources.c, events.c, probes.c */
 JoxKeyRead jox_key_times, jox_key_curve;
-JoxOwnerFinish jox_finish_source, jox_finish_sink, jox_finish_event, jox_finish_probe;
+JoxOwnerFinish jox_finish_source, jox_finish_sink, jox_finish_event, jox_finish_probe,
+    jox_finish_tally;
 JoxKeyRead jox_key_event_name;
 JoxKeyRead jox_key_true, jox_key_states, jox_key_groups;
 

@@ -105,6 +105,7 @@ static const JoxKey KEYS[] = {
      .meaning = "group whose first agent a person drives"},
     {"scene", "probes", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, probes, probe_count), .example = "probes: {door: {flow: [[0, 0], [1, 0]]}}", .of = "probe*", LATER("they measure from the start on"), .meaning = "what is measured"},
     {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .example = "events: [{at: 20, open: gate}]", .of = "event[]", .meaning = "what happens at given times"},
+    {"scene", "tally", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, tallies, tally_count), .example = "tally: {red: {memory: hits, group: blue}}", .of = "tally*", .meaning = "scores that the last lines of a run tell"},
 
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
@@ -285,6 +286,11 @@ static const JoxKey KEYS[] = {
 
     {"sink", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSink, place, place), .meaning = "place; agents that come in are removed"},
     {"sink", "group", TEXT, "", 0, 0, "", READ_TO(jox_key_group, JoxAgentSink, group, group), .meaning = "only agents of this group"},
+    {"tally", "memory", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxTally, memory, memory), .meaning = "name of a memory of behaviours whose values are taken together"},
+    {"tally", "state", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxTally, state, state), .meaning = "only agents in the state of this name"},
+    {"tally", "group", TEXT, "", 0, 0, "", READ_TO(jox_key_group, JoxTally, group, group), .meaning = "only agents of this group"},
+    {"tally", "take", TEXT, "", 0, 0, "sum", TO(JoxTally, take), .choices = "sum|mean|least|greatest", .meaning = "what is made of the values of `memory`"},
+    {"tally", "unit", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxTally, unit, unit), .meaning = "what stands behind the number: s, points"},
 
 #define X(kind, name, form, options, example_, meaning_) \
     {"probe", #name, PROBE_##form(name), KIND(JOX_PROBE_##kind), .meaning = meaning_},
@@ -426,6 +432,10 @@ static const JoxOwner OWNERS[] = {
      "same time are done in the order of the list.",
      .size = sizeof(JoxEvent), .kind = AT(JoxEvent, kind), .wrong_kind = "bad-event", .hint = "{at: 20, open: gate}",
      .finish = jox_finish_event},
+    {"tally", "Tallies", "`tally` maps names to what is counted of the agents that are there: how many they are, or what they remember. "
+     "It stands in the summary under `tally`, and in a sweep and a comparison as a figure. The last lines of a run tell it; of several that "
+     "take the same with the same unit, the greatest is ahead.",
+     .size = sizeof(JoxTally), .name_at = AT(JoxTally, name), .place_at = AT(JoxTally, position), .finish = jox_finish_tally},
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes it, and chooses "
      "its settings, by `mods: {calm: {patience: 60}}`.",
      .size = sizeof(JoxMod)},

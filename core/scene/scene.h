@@ -69,6 +69,22 @@ typedef struct JoxSceneView {
     uint32_t colour, field; /* which of the keys' choices, in their order */
 } JoxSceneView;
 
+/* What is counted of the agents: a score, or who is out. */
+typedef enum JoxTallyTake {
+    JOX_TALLY_SUM,
+    JOX_TALLY_MEAN,
+    JOX_TALLY_LEAST,
+    JOX_TALLY_GREATEST
+} JoxTallyTake;
+typedef struct JoxTally {
+    char *name;
+    JoxPosition position; /* of the name */
+    char *memory, *state; /* of that memory, or in that state; NULL: any */
+    int32_t group;        /* -1: everyone */
+    uint32_t take;        /* JoxTallyTake, of memory */
+    char *unit;           /* NULL: none */
+} JoxTally;
+
 /* What a script may use. */
 typedef struct JoxSceneLimits {
     double instructions, step_instructions; /* of a call, of all calls in a step */
@@ -105,6 +121,8 @@ typedef struct JoxSceneSpec {
     uint32_t probe_count;
     JoxEvent *events;
     uint32_t event_count;
+    JoxTally *tallies;
+    uint32_t tally_count;
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */
     bool forces, literal;

@@ -68,3 +68,36 @@ sed 's/signal: alarm}/signal: alarms}/' $gates >"$work/deaf.yaml"
 "$JOSTLE" check "$work/deaf.yaml" 2>&1 | grep -qF "hears the signal 'alarms'. Did you mean 'alarm'?"
 verdict "a signal that nobody hears" $?
 exit 0
+
+# Tallies: of memory, of states, of groups; told at the end, in the summary, and of a name that nobody has.
+cat >"$work/tally.yaml" <<'END'
+jostle: 1
+duration: 4
+places: {yard: {polygon: [[-4, -4], [4, -4], [4, 4], [-4, 4]]}}
+groups:
+  one: {behaviour: counter.lua, in: yard, count: 3}
+  two: {behaviour: counter.lua, in: yard, count: 2}
+tally:
+  ones: {memory: steps, group: one, unit: points}
+  twos: {memory: steps, group: two, unit: points}
+END
+cat >"$work/counter.lua" <<'END'
+local mine = memory { steps = 0 }
+return machine { name = "counter", version = 1, start = "A", states = {
+  A = { steer = hold, lasts = 0.98, set = { steps = mine.steps + 1 }, { to = "B", when = lasted } },
+  B = { steer = hold, { to = "A", when = always } } } }
+END
+"$JOSTLE" run "$work/tally.yaml" --summary "$work/tally.json" >"$work/out" 2>&1
+ones=$(count ones "$work/tally.json") twos=$(count twos "$work/tally.json")
+between "a memory is summed over a group" "$ones" 9 15
+[ $((2 * ones)) = $((3 * twos)) ] && tr '\n' ' ' <"$work/out" | grep -q "ones $ones points, twos $twos points: ones is ahead."; verdict "and who is ahead is told" $?
+sed -i '/ones:/,$d' "$work/tally.yaml"
+cat >>"$work/tally.yaml" <<'END'
+  there: {group: two}
+  in B: {state: B}
+  most: {memory: steps, take: greatest}
+  gone: {memory: stepped}
+END
+"$JOSTLE" run "$work/tally.yaml" >"$work/out" 2>&1
+tr '\n' ' ' <"$work/out" | grep -qE "there 2, in B [0-5], most [345], gone 0\."; verdict "agents are counted, and the greatest is taken" $?
+grep -q "no behaviour of the scene has a memory 'stepped'. Did you mean 'steps'?" "$work/out"; verdict "a memory that there is not is told of" $?

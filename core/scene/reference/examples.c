@@ -32,7 +32,14 @@ const JoxExample jox_scene_examples[] = {
      "sources: [{at: door, like: standing, rate: 0.5}]\n"
      "sinks: [{at: goal}]\n"
      "probes: {moved: {displacement: true}}\n"
-     "events: [{at: 5, signal: go}]\n"},
+     "events: [{at: 5, signal: go}]\n"
+     "tally: {here: {group: standing}}\n"},
+    {"tally", OPENING
+     "tally:\n"
+     "  worst: {memory: hits, group: blue, take: greatest, unit: hits}\n"
+     "  hit now: {state: Hit}\n"
+     "places: {half: {polygon: [[0, -4], [8, -4], [8, 4], [0, 4]]}}\n"
+     "groups: {blue: {behaviour: dodgeball.lua, at: [[2, 2]], set: {court: half}}}\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
      STANDER},

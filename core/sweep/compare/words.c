@@ -26,6 +26,7 @@ static const struct {
     {"danger.pressure_max", "greatest crowd pressure", "1/s2", true},
     {"danger.dose_max", "greatest dose of load", "", true},
     {"stood_longest.s", "longest that anybody stood who wanted to get on", "s", true},
+    {"tally.*", "tally of %s", "", true},
     {"probes.*.flow", "flow through %s", "1/s", true},
     {"probes.*.mean", "mean of %s", "", true},
     {"probes.*.median", "median of %s", "", true},

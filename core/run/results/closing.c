@@ -126,6 +126,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_people(scene, &text);
     say_states(scene, &text);
     say_events(scene, &text);
+    jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     say_probes(scene, &text);
     if (scene->warnings) {

@@ -308,6 +308,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_danger(&json, scene);
     add_lua(&json, scene);
     jox_run_add_probes(scene, &json);
+    jox_run_add_tally(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
     /* Without how often functions failed: what they did to the crowd, or did not. */
     jox_json_format(&json, "hash_without_hooks", "%016llx",

@@ -1,0 +1,149 @@
+/* Tallies: what is counted of the agents that are there, as a score. */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "run/run.h"
+
+/* The slot of a memory; -1 where the machine has none of that name. */
+static int32_t slot_of(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; s < machine->memory_count; s++)
+        if (strcmp(machine->memory[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
+static bool has_state(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (strcmp(machine->states[s].name, name) == 0)
+            return true;
+    return false;
+}
+
+double jox_run_tally(const JoScene *scene, const JoxTally *tally) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachineSet *set = scene->world->machines.set;
+    double sum = 0, least = INFINITY, greatest = -INFINITY;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxMachine *machine =
+            a->machine[i] == JOX_NO_MACHINE ? NULL : set->items[a->machine[i]];
+        if (tally->group >= 0 && a->group[i] != tally->group)
+            continue;
+        if (tally->state &&
+            (!machine || strcmp(machine->states[a->state[i]].name, tally->state) != 0))
+            continue;
+        const int32_t slot = machine && tally->memory ? slot_of(machine, tally->memory) : -1;
+        if (tally->memory && slot < 0)
+            continue;
+        const double value = tally->memory ? a->memory[(size_t)i * a->memory_stride + slot] : 1;
+        count++;
+        sum += value;
+        least = fmin(least, value);
+        greatest = fmax(greatest, value);
+    }
+    if (tally->take == JOX_TALLY_SUM)
+        return sum;
+    if (count == 0)
+        return NAN;
+    return tally->take == JOX_TALLY_MEAN    ? sum / count
+           : tally->take == JOX_TALLY_LEAST ? least
+                                            : greatest;
+}
+
+void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
+    const JoxSceneSpec *spec = scene->spec;
+    if (spec->tally_count == 0)
+        return;
+    jox_json_object(json, "tally");
+    for (uint32_t t = 0; t < spec->tally_count; t++)
+        jox_json_number(json, spec->tallies[t].name, jox_run_tally(scene, &spec->tallies[t]));
+    jox_json_end(json);
+}
+
+/* Whether two tell of the same thing, so that the greater one is ahead. */
+static bool are_rivals(const JoxTally *a, const JoxTally *b) {
+    const char *texts[][2] = {{a->memory, b->memory}, {a->state, b->state}, {a->unit, b->unit}};
+    for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
+        if (!texts[t][0] != !texts[t][1] || (texts[t][0] && strcmp(texts[t][0], texts[t][1]) != 0))
+            return false;
+    return a->take == b->take && a->take != JOX_TALLY_LEAST && a->group != b->group;
+}
+
+static void say_ahead(const JoScene *scene, JoxText *out) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoxTally *ahead = NULL;
+    double most = -INFINITY;
+    bool equal = false;
+    for (uint32_t t = 0; t < spec->tally_count; t++) {
+        const JoxTally *tally = &spec->tallies[t];
+        const double value = jox_run_tally(scene, tally);
+        if (!isfinite(value) || (t && !are_rivals(tally, &spec->tallies[0])))
+            return;
+        equal = value == most || (equal && value < most);
+        if (value > most) {
+            ahead = tally;
+            most = value;
+        }
+    }
+    if (spec->tally_count < 2)
+        return;
+    if (equal)
+        jox_text_add(out, ": nobody is ahead");
+    else
+        jox_text_printf(out, ": %.60s is ahead", ahead->name);
+}
+
+void jox_run_say_tally(const JoScene *scene, JoxText *out) {
+    const JoxSceneSpec *spec = scene->spec;
+    for (uint32_t t = 0; t < spec->tally_count; t++) {
+        const JoxTally *tally = &spec->tallies[t];
+        const double value = jox_run_tally(scene, tally);
+        jox_text_printf(out, "%s%.60s ", t ? ", " : " ", tally->name);
+        if (isfinite(value))
+            jox_text_printf(out, "%.4g%s%.20s", value, tally->unit ? " " : "",
+                            tally->unit ? tally->unit : "");
+        else
+            jox_text_add(out, "none");
+    }
+    if (spec->tally_count) {
+        say_ahead(scene, out);
+        jox_text_add(out, ".");
+    }
+}
+
+/* Of a name that no behaviour of the scene has: a state, or a memory. */
+static void warn(const JoScene *scene, const JoxTally *tally, bool state,
+                 JoxDiagnostics *diagnostics) {
+    const JoxMachineSet *set = scene->world->machines.set;
+    const char *name = state ? tally->state : tally->memory, *names[64], *near;
+    char hint[160];
+    size_t count = 0;
+    for (uint32_t m = 0; m < set->count; m++) {
+        const JoxMachine *machine = set->items[m];
+        for (uint32_t s = 0; s < (state ? machine->state_count : machine->memory_count); s++)
+            if (count < sizeof names / sizeof *names)
+                names[count++] = state ? machine->states[s].name : machine->memory[s].name;
+    }
+    near = jox_suggest(name, names, count);
+    snprintf(hint, sizeof hint, "Did you mean '%.100s'?", near ? near : "");
+    jox_diag_warn(diagnostics, tally->position, state ? "unknown-state" : "unknown-memory",
+                  near ? hint : NULL, "no behaviour of the scene has a %s '%.60s'",
+                  state ? "state" : "memory", name);
+}
+
+void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxMachineSet *set = scene->world->machines.set;
+    for (uint32_t t = 0; t < scene->spec->tally_count; t++) {
+        const JoxTally *tally = &scene->spec->tallies[t];
+        bool memory = !tally->memory, state = !tally->state;
+        for (uint32_t m = 0; m < set->count; m++) {
+            memory = memory || slot_of(set->items[m], tally->memory) >= 0;
+            state = state || has_state(set->items[m], tally->state);
+        }
+        if (!memory)
+            warn(scene, tally, false, diagnostics);
+        if (!state)
+            warn(scene, tally, true, diagnostics);
+    }
+}
