@@ -144,6 +144,8 @@ static const struct Case {
     {"bounds: @[[0, 0], [0, 5]]\n" GROUP, "no-area", NULL},
     {"<<: @5\n" GROUP, "bad-merge", NULL},
     {"title: @]\n" GROUP, "bad-yaml", "Check indentation"},
+    {"places:\n@\there: {point: [0, 0]}\n" GROUP, "tab", "Indent by spaces"},
+    {"places:\n  here:\n  @\tpoint: [0, 0]\n" GROUP, "tab", "Indent by spaces"},
     {"title: a\n---\n@title: b\n", "bad-yaml", NULL},
     {"@[a, b]: 3\n" GROUP, "bad-key", NULL},
     {"include: @{a: b}\n" GROUP, "bad-type", "include: other.yaml"},

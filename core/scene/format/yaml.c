@@ -202,7 +202,8 @@ typedef struct Parse {
     JoxDiagnostics *diagnostics;
     yaml_parser_t parser;
     yaml_event_t events[DEEPEST + 3]; /* by depth; one that is not in use is all zero */
-    const char *path;
+    const char *path, *text;
+    size_t length; /* of the text */
     Anchor anchors[256];
     uint32_t anchor_count;
     uint64_t nodes; /* as if every alias were written out */
@@ -220,6 +221,16 @@ static void fail(Parse *p, JoxPosition at, const char *code, const char *text, c
     p->failed = true;
 }
 
+/* Whether a line is indented by a tab, of which YAML allows none there. */
+static bool is_tabbed(const Parse *p, size_t line) {
+    const char *at = p->text, *end = p->text + p->length;
+    for (; at < end && line > 0; at++)
+        line -= *at == '\n';
+    while (at < end && *at == ' ')
+        at++;
+    return at < end && *at == '\t';
+}
+
 static bool next_event(Parse *p, yaml_event_t *event) {
     if (yaml_parser_parse(&p->parser, event))
         return true;
@@ -227,8 +238,11 @@ static bool next_event(Parse *p, yaml_event_t *event) {
         jox_out_of_memory(0);
     yaml_mark_t at = p->parser.problem_mark;
     JoxPosition position = {p->path, (int)at.line + 1, (int)at.column + 1, (int)at.column + 2};
-    fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
-         "Check indentation and quotes");
+    if (is_tabbed(p, at.line))
+        fail(p, position, "tab", "this line is indented by a tab", "Indent by spaces");
+    else
+        fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
+             "Check indentation and quotes");
     return false;
 }
 
@@ -355,6 +369,8 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
     if (!yaml_parser_initialize(&p->parser))
         jox_out_of_memory(0);
     jox_hold(p, release_parse);
+    p->text = text;
+    p->length = length;
     yaml_parser_set_input_string(&p->parser, (const unsigned char *)text, length);
     yaml_event_t *event = &p->events[0];
     JoxYaml *root = NULL;
