@@ -118,7 +118,7 @@ FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.
 
 .PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
-all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION))
+all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
 # The two commands of the README. Both first install what is missing, and build on all processors.
 AT_ONCE = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
@@ -243,6 +243,12 @@ $(B)/lib$(1).so.$(VERSION): $(B)/$(1).o
 	$$(Q)$$(LINK) -shared -Wl,-soname,lib$(1).so.0 -Wl,--as-needed $$^ -o $$@ $$(LIBS_$(1))
 endef
 $(foreach l,$(LIBRARIES),$(eval $(call library,$(l))))
+# The module of Lua, for programs that are run by an interpreter of theirs: `require "jostle"`.
+$(B)/lua/jostle.so: scripts/lua/jostle.c $(B)/libjostle.a
+	@mkdir -p $(@D)
+	$(call say,LUA,$@)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $(@:.so=.o)
+	$(Q)$(LINK) -shared -Wl,--as-needed -Wl,--exclude-libs,ALL $(@:.so=.o) $(B)/libjostle.a -o $@ $(LIBS_jostle)
 # A unit test is a program of its own; $(B)/units is all of them in one, which is linked once: `units NAME...`
 # runs those, in the place of their main.
 $(B)/unit/%.o: tests/unit/%.c Makefile
@@ -301,15 +307,17 @@ install: install-built
 	    install -m 755 $(INSTALL_B)/lib$$l.so.$(VERSION) $(L)/ && \
 	    ln -sf lib$$l.so.$(VERSION) $(L)/lib$$l.so.0 && ln -sf lib$$l.so.0 $(L)/lib$$l.so || exit 1; done
 	install -m 644 $(HEADERS) $(D)/include/
+	install -d $(L)/lua/5.4
+	install -m 644 $(INSTALL_B)/lua/jostle.so $(L)/lua/5.4/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
 	$(foreach l,$(LIBRARIES),printf 'prefix=%s\nlibdir=%s\nName: %s\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -l%s\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' $(l) '$(VERSION)' $(l) '$(LIBS_$(l)) -lstdc++' > $(L)/pkgconfig/$(l).pc;)
 	install -d $(D)/share/jostle/page
 	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
-	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python
+	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python $(D)/share/jostle/scripts/lua
 uninstall:
 	rm -rf $(D)/share/jostle
-	rm -f $(D)/bin/jostle $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)
+	rm -f $(D)/bin/jostle $(L)/lua/5.4/jostle.so $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)
 	rm -f $(LIBRARIES:%=$(L)/pkgconfig/%.pc) $(D)/share/man/man1/jostle.1
 # build/out/jostle-VERSION.tar.gz: what is committed, the same bytes each time, and its sum.
 DIST := build/out/jostle-$(VERSION).tar.gz

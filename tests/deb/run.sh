@@ -9,7 +9,7 @@ verdict() { if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; failed=1;
 
 lintian --fail-on error,warning "$packages"/*.changes >"$dir/lintian" 2>&1
 verdict "lintian" $? ; head -20 "$dir/lintian"
-for name in jostle jostle-data libjostle0 libjostle-tools0 libjostle-dev python3-jostle jostle-doc; do
+for name in jostle jostle-data libjostle0 libjostle-tools0 libjostle-dev lua-jostle python3-jostle jostle-doc; do
     ls "$packages/$name"_*.deb >/dev/null 2>&1; verdict "the package $name" $?
 done
 
@@ -21,7 +21,7 @@ sources=
 for file in "$dir/sources.list" "$dir/debian.sources"; do [ -s "$file" ] && sources="$sources $file"; done
 . /etc/os-release
 # Into it: the packages, a scene of one's own, and a program to compile.
-mmdebstrap --quiet --mode=root --variant=apt --include=gcc,libc6-dev,pkg-config \
+mmdebstrap --quiet --mode=root --variant=apt --include=gcc,libc6-dev,pkg-config,lua5.4 \
     --customize-hook="mkdir -p \"\$1/packages\" && cp '$packages'/*.deb tests/install/embed.c \"\$1/packages\"" \
     --customize-hook='chroot "$1" sh -c "apt-get install -y -q --no-install-recommends /packages/*.deb"' \
     "$VERSION_CODENAME" "$root" $sources >"$dir/log" 2>&1
@@ -40,6 +40,8 @@ for _ in range(10): scene.step()
 assert len(scene[\"x\"]) == len(scene) > 0 and abs(scene.time - 0.5) < 1e-9
 "'
 verdict "the Python package" $? ; tail -3 "$dir/said"
-inside 'apt-get purge -y -q jostle python3-jostle libjostle-dev libjostle0 libjostle-tools0 jostle-data jostle-doc && ! ls -d /usr/share/jostle'
+inside 'cd /tmp && lua5.4 -e "print(require([[jostle]]).scene([[/usr/share/jostle/scenes/circle.yaml]]):step(10):time())"' && grep -q '^0.5' "$dir/said"
+verdict "the module of Lua" $? ; tail -3 "$dir/said"
+inside 'apt-get purge -y -q jostle lua-jostle python3-jostle libjostle-dev libjostle0 libjostle-tools0 jostle-data jostle-doc && ! ls -d /usr/share/jostle'
 verdict "they leave nothing behind" $? ; head -8 "$dir/said"
 exit $failed

@@ -1,0 +1,70 @@
+-- A program that uses the module as its users would; run by tests/scenes/lua_module.sh with a folder to write into.
+local jostle = require "jostle"
+local folder = arg[1]
+
+local function check(name, good) print((good and "ok " or "not ok ") .. name) end
+local function fails(name, text, ...)
+  local good, why = pcall(...)
+  check(name, not good and why:find(text, 1, true))
+  if good or not why:find(text, 1, true) then print(why) end
+end
+
+-- Steps, and what is read.
+local scene = jostle.scene("scenes/catch.yaml", { seed = 3, threads = 1 })
+check("a scene is loaded", scene:count() == 6 and scene:duration() == 60 and scene:time() == 0)
+scene:step():step(9):run(4.5)
+check("it is stepped to a time", math.abs(scene:time() - 5) < 1e-9)
+check("the hash is that of the program", scene:hash() == os.getenv "JOSTLE_HASH")
+local agents, x, ids = scene:agents(), scene:column "x", scene:column "id"
+local same = #agents == 6 and #x == 6
+for i = 1, 6 do
+  for k = 1, 6 do
+    if ids[k] == agents[i].id then same = same and math.abs(x[k] - agents[i].x) < 1e-9 end
+  end
+end
+check("columns and agents agree", same)
+check("an agent has a state", ({ Dodge = 1, Hit = 1, Fetch = 1, Aim = 1, Throw = 1 })[agents[1].state])
+local summary = scene:summary()
+check("figures are tables", summary.agents == 6 and summary.tally.red >= 0 and summary.seed == 3)
+
+-- Errors.
+fails("a column that there is not", "no column 'z'", scene.column, scene, "z")
+fails("an input that makes no sense", "no verb 'dance'", scene.input, scene, "dance 7")
+fails("an option that there is not", "no option 'sed'", jostle.scene, "scenes/catch.yaml", { sed = 1 })
+fails("an option of another type", "seed must be a number", jostle.scene, "scenes/catch.yaml", { seed = "a" })
+fails("a scene that there is not", "gone.yaml", jostle.scene, "gone.yaml")
+fails("a path that there is not", "Did you mean 'count'?", jostle.scene, "scenes/catch.yaml", { set = { ["groups.red.cout"] = 3 } })
+fails("another thing in place of a scene", "jostle.scene expected", scene.step, {})
+
+-- Values that are set; probes; gates; recordings; messages.
+local one = jostle.scene("scenes/circle.yaml", { set = { ["groups.crossing.count"] = 20 } })
+check("values are set", one:count() == 20)
+local text = [==[
+jostle: 1
+places: {here: {point: [0, 0], radius: 2}, there: {point: [9, 0], radius: 1}}
+walls: [{line: [[4, -3], [4, 3]], name: gate}]
+groups: {people: {count: 4, in: here, behaviour: talker.lua}}
+probes: {passed: {flow: [[5, 3], [5, -3]]}}
+]==]
+local file = io.open(folder .. "/module.yaml", "w"); file:write(text); file:close()
+file = io.open(folder .. "/talker.lua", "w")
+file:write [[return machine { name = "talker", version = 1, start = "Go", states = { Go = { steer = seek "there",
+  { to = "Stop", when = heard "stop" } }, Stop = { steer = hold, on_enter = function(me) print "halted" end } } }]]
+file:close()
+local said = {}
+local gate = jostle.scene(folder .. "/module.yaml", { message = function(t) said[#said + 1] = t end })
+gate:record(folder .. "/module.sqlite", 0.5):open("gate"):run(6):signal("stop"):run(1)
+check("a gate is opened, and passed", gate:probe("passed"):find "passed" or #gate:probe "passed" > 40)
+check("a signal is heard", gate:agents()[1].state == "Stop")
+check("what behaviours print is heard", table.concat(said):find "halted")
+fails("a probe that there is not", "no probe 'p'", gate.probe, gate, "p")
+gate:close()
+check("a recording is there", (io.open(folder .. "/module.sqlite", "rb") or { read = function() end }):read(6) == "SQLite")
+
+-- What is closed stays so; what is forgotten is collected.
+do local last <close> = jostle.scene("scenes/catch.yaml"); last:step() end
+for _ = 1, 20 do jostle.scene("scenes/catch.yaml"):step() end
+collectgarbage()
+scene:close()
+fails("a closed scene", "is closed", scene.step, scene)
+print "ok closed"
