@@ -1,7 +1,7 @@
 #!/bin/bash
 # A long run with all that goes on beside one: the Tawaf with people who come and leave, behaviours that are saved again
-# and again, a page that somebody looks at, the recorder, the input log and checkpoints. For JOSTLE_SOAK seconds in all,
-# with PEOPLE pilgrims. Then 1,000 reloads and 10,000 page connects (RELOADS, CONNECTS). Prints "ok NAME" or "not ok NAME",
+# and again, a page that somebody looks at, the recorder, the input log and checkpoints. For JOSTLE_SOAK seconds, in real
+# time, with PEOPLE pilgrims. Then 1,000 reloads and 10,000 page connects (RELOADS, CONNECTS). Prints "ok NAME" or "not ok NAME",
 # with the figures.
 cd "$(dirname "$0")/.." || exit 1
 . tests/scenes/lib.sh
@@ -50,33 +50,29 @@ judge() { # NAME: of the samples
             printf "%s %s: %d files open, then %d\n", fds[NR] <= fds[q + 1] ? "ok" : "not ok", name, fds[q + 1], fds[NR]
         }' "$work/$1/samples"
 }
-soak() { # NAME SECONDS: saves and samples until the time is over, then ends the run
-    local until=$((SECONDS + $2))
-    while [ $SECONDS -lt $until ] && save "$1" tawaf.lua; do
-        sample "$1"
-        sleep "${PAUSE:-1}"
-    done
-    kill -TERM $pid 2>/dev/null; wait; pid=
-    judge "$1"
-    local steps; steps=$(figure steps <"$work/$1/summary")
-    same_hash "$1: after $steps steps and $(live "$1") reloads the state is that of a run with nothing beside it" \
-        "$(figure hash <"$work/$1/summary")" "$(hash_of "$program" scenes/tawaf.yaml $sets --steps "$steps" --threads 1)"
-    echo "# $1: $(sed -n 's/^  "\(spawned\|removed\|people_lost\)": \([0-9]*\),/\2 \1/p' "$work/$1/summary" | tr '\n' ' ')"
-}
 address() { # NAME: of its page
     until grep -o 'http://[^ ]*' "$work/$1/said"; do sleep 0.1; done
 }
 
-plant page
-begin page "$work/page/scenes/tawaf.yaml" $sets --view --fast --for 1e6 --record "$work/page/r.sqlite" --record-every 5 \
-    --log-input "$work/page/log" --summary "$work/page/summary"
-page=$(address page)
+# ---- all at once, in real time ----
+plant all
+begin all "$work/all/scenes/tawaf.yaml" $sets --threads 1 --view --view-wait 0 --for 1e6 --record "$work/all/r.sqlite" --record-every 5 \
+    --log-input "$work/all/log" --checkpoint 60 --checkpoint-dir "$work/all/ck" --summary "$work/all/summary"
+page=$(address all)
 python3 tests/page/look.py "$page" >"$work/seen" 2>&1 &
-soak page $((seconds / 2))
+until=$((SECONDS + seconds))
+while [ $SECONDS -lt $until ] && save all tawaf.lua; do
+    sample all
+    sleep "${PAUSE:-1}"
+done
+kill -TERM $pid 2>/dev/null; wait; pid=
+judge all
 [ "$(cat "$work/seen")" -gt 100 ]
-verdict "page: it showed $(cat "$work/seen") frames" $?
+verdict "all: the page showed $(cat "$work/seen") frames" $?
+[ "$(sqlite3 "$work/all/r.sqlite" 'PRAGMA integrity_check')" = ok ]
+verdict "all: the recording is whole" $?
 # Who came in at the arrivals has gone round seven times, as the recording has it, when they leave.
-sqlite3 "$work/page/r.sqlite" "SELECT t.id, t.pos_x, t.pos_y, s.state FROM trajectory_data t JOIN jostle_state s ON s.number = t.state
+sqlite3 "$work/all/r.sqlite" "SELECT t.id, t.pos_x, t.pos_y, s.state FROM trajectory_data t JOIN jostle_state s ON s.number = t.state
     WHERE t.id >= $people ORDER BY t.id, t.frame" | awk -F'|' -v pi=3.14159265 '
     $1 != id {id = $1; turned = 0; begun = left = 0}
     left {next}
@@ -84,15 +80,16 @@ sqlite3 "$work/page/r.sqlite" "SELECT t.id, t.pos_x, t.pos_y, s.state FROM traje
     $4 != "Enter" {begun = 1}
     $4 == "Leave" {left = 1; people++; turns = turned / (2 * pi); sum += turns; bad += turns < 6.8 || turns > 7.2}
     {before = angle}
-    END {printf "%s page: %d people left after %.2f circuits in the mean, %d of them after more or less than seven\n", people && !bad ? "ok" : "not ok", people, people ? sum / people : 0, bad}'
+    END {printf "%s all: %d people left after %.2f circuits in the mean, %d of them after more or less than seven\n", people && !bad ? "ok" : "not ok", people, people ? sum / people : 0, bad}'
+steps=$(figure steps <"$work/all/summary")
+whole=$(figure hash <"$work/all/summary")
+"$program" resume "$work/all/ck" --quiet --for "$(awk -v n="$steps" 'BEGIN {print n * 0.05}')" --summary "$work/all/resumed"
+same_hash "all: its newest checkpoint goes on to the state at its end" "$whole" "$(figure hash <"$work/all/resumed")"
+same_hash "all: after $steps steps and $(live all) reloads the state is that of a run with nothing beside it" \
+    "$whole" "$(hash_of "$program" scenes/tawaf.yaml $sets --steps "$steps")"
+echo "# all: $(sed -n 's/^  "\(spawned\|removed\|people_lost\)": \([0-9]*\),/\2 \1/p' "$work/all/summary" | tr '\n' ' ')"
 
-plant saved
-begin saved "$work/saved/scenes/tawaf.yaml" $sets --quiet --watch --for 1e6 --record "$work/saved/r.sqlite" --record-every 5 \
-    --log-input "$work/saved/log" --checkpoint 30 --checkpoint-dir "$work/saved/ck" --summary "$work/saved/summary"
-soak saved $((seconds / 2))
-[ "$(sqlite3 "$work/saved/r.sqlite" 'PRAGMA integrity_check')" = ok ]
-verdict "saved: the recording is whole" $?
-
+# ---- many reloads and connects ----
 plant small
 begin small "$work/small/scenes/running-through.yaml" --view --for 1e6 --log-input "$work/small/log" --summary "$work/small/summary"
 page=$(address small)

@@ -89,7 +89,8 @@ static const CliOption OPTIONS[] = {
     {"view", "PORT",
      "show the run on a live page, in real time, and print the page's address: port 8730, or the "
      "next that is free. People can act on the run, pause, restart and inspect it. Files are "
-     "watched; --for, --record, --log-input, --input and --summary go with it. Who does not have "
+     "watched; --for, --record, --log-input, --input, --checkpoint and --summary go with it. Who "
+     "does not have "
      "the address's token is refused",
      CLI_TO(Run, live.port), .only_equals = true, CLI_GIVEN(Run, view), CLI_RANGE(1, 65535)},
     {"fast", NULL, "with --view: as fast as it can go", CLI_TO(Run, live.fast)},
@@ -145,6 +146,12 @@ static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, Jo
     return jo_scene_checkpoint(scene, run->folder, run->every, note, error);
 }
 
+/* Steps that it is to take. */
+static uint64_t last_step(const Run *run, const JoScene *scene) {
+    const double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
+    return run->has_steps ? run->steps : (uint64_t)(seconds / jo_scene_stats(scene).dt + 0.5);
+}
+
 /* Whether the summary can be written at the end; says why not. */
 static bool can_summarize(const Run *run) {
     return !run->summary || cli_writable(&cli_run, run->summary) == JO_OK;
@@ -157,9 +164,7 @@ static int simulate(Run *run, char **summary) {
     if (!scene)
         return complain(&error, true);
     cli_catch_signals(true);
-    double dt = jo_scene_stats(scene).dt;
-    double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
-    uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
+    const uint64_t steps = last_step(run, scene);
     jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
     bool ok = (!run->record || jo_scene_record(scene, run->record, run->record_every, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
@@ -174,7 +179,7 @@ static int simulate(Run *run, char **summary) {
     if (run->has_trace)
         jo_scene_trace(scene, (uint32_t)run->trace);
     if (!run->quiet)
-        jo_scene_show_progress(scene, (double)steps * dt);
+        jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
     for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
         ok = jo_scene_step(scene, &error);
     int status = cli_end(&cli_run, scene, ok, &error);
@@ -205,6 +210,12 @@ static int simulate(Run *run, char **summary) {
     return status;
 }
 
+/* A page's run, at its beginning and at each restart. */
+static bool begun(void *context, JoScene *scene, JoError *error) {
+    const Run *run = context;
+    return !run->folder || write_checkpoints(run, scene, last_step(run, scene), error);
+}
+
 /* On its live page, until it is interrupted. */
 static int show(Run *run, char **summary) {
     JoViewDef *live = &run->live;
@@ -217,6 +228,8 @@ static int show(Run *run, char **summary) {
     live->log_input = run->log;
     live->stop = &cli_signal;
     live->opened = cli_print_address;
+    live->begun = begun;
+    live->begun_context = run;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
     const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
@@ -277,8 +290,7 @@ static const char *misuse(const Run *run) {
            : run->seeds && run->has_steps && run->steps == 0 ? "--seeds goes with a step at least"
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
-           : run->folder && (run->seeds || run->view)
-               ? "--checkpoint cannot be combined with --seeds or --view"
+           : run->folder && run->seeds ? "--checkpoint cannot be combined with --seeds"
            : run->folder && !(is_noted(run->record) && is_noted(run->log) &&
                               is_noted(run->folder) && is_noted(run->report) && is_noted(run->data))
                ? "with --checkpoint, the paths of --record, --log-input, --report, --data and "

@@ -96,6 +96,10 @@ typedef struct JoViewDef {
     const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
     void *opened_context;
+    /* NULL, or called with the scene when it begins, and once more after each restart, for what
+       else is to be written of it, as jo_scene_checkpoint does. False with `error`: it stands. */
+    bool (*begun)(void *context, JoScene *scene, JoError *error);
+    void *begun_context;
     char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
     uint32_t cookie;
 } JoViewDef;

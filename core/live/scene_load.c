@@ -31,7 +31,8 @@ static bool begin(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&
            (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
-           (!def->watch || jo_scene_watch(s->scene, error));
+           (!def->watch || jo_scene_watch(s->scene, error)) &&
+           (!def->begun || def->begun(def->begun_context, s->scene, error));
 }
 
 static void keep_file(void *context, const char *path, const char *text, size_t length) {
