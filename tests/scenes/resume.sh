@@ -1,9 +1,8 @@
 # A run that goes on from a checkpoint is the run itself: in another process, with other threads and instructions, in the
-# same files, from the texts that the checkpoint holds; and one that was killed anywhere goes on from its newest one.
+# same files, from the texts that the checkpoint holds.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 export MALLOC_PERTURB_=165 # memory that is read before it is written differs from run to run
-kills=${JOSTLE_KILLS:-6}
 hash() { figure hash <"$1"; }
 
 # ---- the same hash at every end ----
@@ -62,26 +61,6 @@ cp "$work/live/log" "$work/live/until"; rm -f "$work/live/whole.json" "$work/liv
     end=$(awk -v t="$tick" 'BEGIN {print t + 5}') && cp until log && "$program" resume reloaded --quiet --for "$end" --summary rest.json &&
     "$program" run scene.yaml --quiet --for "$end" --input until --checkpoint 1e6 --checkpoint-dir none --summary whole.json) 2>"$work/err"
 same_hash "a behaviour that was reloaded goes on as it was then" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
-
-# ---- recordings, and kills ----
-contents() { sqlite3 "$1" 'PRAGMA integrity_check; SELECT * FROM trajectory_data ORDER BY frame, id; SELECT * FROM frame_data ORDER BY frame; SELECT * FROM jostle_body ORDER BY frame, id; SELECT * FROM metadata ORDER BY key' | sha256sum; }
-scene="$PWD/scenes/dodgeball.yaml"
-run() { exec "$program" run "$scene" --quiet --for 60 --record "$1/r.sqlite" --record-every 0.15 --log-input "$1/log" --checkpoint 6.4 --checkpoint-dir "$1/ck"; }
-mkdir -p "$work/whole"
-(run "$work/whole") 2>/dev/null; whole=$(contents "$work/whole/r.sqlite")
-good=0 resumed=0 kept=0
-for k in $(seq "$kills"); do
-    rm -rf "$work/killed"; mkdir -p "$work/killed"
-    (run "$work/killed") 2>/dev/null & pid=$!
-    sleep "0.$((RANDOM % 9))$((RANDOM % 10))"
-    kill -KILL $pid 2>/dev/null; wait $pid 2>/dev/null
-    if [ -s "$work/killed/r.sqlite" ] && [ "$(sqlite3 "$work/killed/r.sqlite" 'PRAGMA integrity_check' 2>/dev/null)" = ok ]; then kept=$((kept + 1)); fi
-    if ! ls "$work/killed/ck/"*.checkpoint >/dev/null 2>&1; then good=$((good + 1)); continue; fi
-    resumed=$((resumed + 1))
-    "$program" resume "$work/killed/ck" --quiet >"$work/err" 2>&1 && [ "$(contents "$work/killed/r.sqlite")" = "$whole" ] && good=$((good + 1))
-done 2>/dev/null
-[ $good = "$kills" ] && [ $kept -gt 0 ]
-verdict "of $kills runs that were killed, $resumed went on from a checkpoint to the recording of the whole run ($good good, $kept recordings there)" $?
 
 # ---- reports and data, with all that probes, maps and figures have collected ----
 # same_files NAME OPTION SCENE UNTIL END ARGS...: a run to END, and one to UNTIL that goes on to END from its last checkpoint
