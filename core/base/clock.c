@@ -15,3 +15,7 @@ double jox_clock_wall(void) {
 double jox_clock_cpu(void) {
     return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
+
+double jox_clock_thread(void) {
+    return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 #include "lua/loader.h"
@@ -133,12 +133,6 @@ static const char *read_result(lua_State *L, JoxHookKind kind, double result[2])
     return NULL;
 }
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
 bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxHookKind kind,
                   uint32_t agent, double result[2]) {
     JoxLua *lua = context;
@@ -148,7 +142,7 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
     JoxHook *hook = &script->hooks[number];
     lua_State *L = script->vm.L;
     bool timed = hook->calls++ % TIMED == 0;
-    double begun = timed ? now() : 0.0;
+    double begun = timed ? jox_clock_wall() : 0.0;
     script->machine = machine;
     script->agent = agent;
     script->draws = 0;
@@ -182,7 +176,7 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         good = false;
     }
     if (timed) {
-        hook->seconds += now() - begun;
+        hook->seconds += jox_clock_wall() - begun;
         hook->timed++;
     }
     if (!good)

@@ -24,8 +24,6 @@ typedef struct JoxTestRun {
 } JoxTestRun;
 
 JoxTestRun *jox_test_run_of(lua_State *L);
-/* Processor time of this thread, s. */
-double jox_test_clock(void);
 /* equal, near, truthy, fails */
 extern const luaL_Reg jox_test_assertions[];
 /* Adds the words of a test to the table on top of the stack. */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/mem.h"
 #include "luatest/history.h"
 
@@ -40,9 +41,9 @@ static void step(lua_State *L, Scene *t) {
     JoxTestRun *run = jox_test_run_of(L);
     const JoxTestDriver *driver = run->driver;
     JoxText why = {0};
-    double begun = jox_test_clock();
+    double begun = jox_clock_thread();
     bool good = driver->step(driver->context, t->scene, &why);
-    run->stepping += jox_test_clock() - begun;
+    run->stepping += jox_clock_thread() - begun;
     const JoxMachineRun *machines = machines_of(L, t);
     run->simulated += machines->dt;
     jox_test_history_note(&t->history, machines);

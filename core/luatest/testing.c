@@ -3,8 +3,8 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/mem.h"
 #include "luatest/internal.h"
 
@@ -37,7 +37,7 @@ static void run_one(JoxScript *script, JoxTestRun *run, JoxTest *test, JoxTestRe
     run->assertions = 0;
     run->simulated = run->stepping = 0.0;
     run->failures = 0;
-    double begun = jox_test_clock();
+    double begun = jox_clock_thread();
     lua_rawgeti(script->vm.L, LUA_REGISTRYINDEX, test->function);
     run->running = true;
     bool good = jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line);
@@ -55,7 +55,7 @@ static void run_one(JoxScript *script, JoxTestRun *run, JoxTest *test, JoxTestRe
                             .line = line ? line : test->line,
                             .passed = message.length == 0,
                             .simulated = run->simulated,
-                            .seconds = jox_test_clock() - begun};
+                            .seconds = jox_clock_thread() - begun};
     report(context, &result);
     jox_text_free(&message);
     lua_settop(script->vm.L, 0);

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "base/clock.h"
 #include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
@@ -41,12 +42,6 @@ struct JoxRecorder {
     double low_x, high_x, low_y, high_y, committed;
     uint64_t geometry;
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
 
 static bool run(JoxRecorder *r, const char *sql) {
     char *why = NULL;
@@ -142,7 +137,7 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
 }
 
 static bool commit(JoxRecorder *r) {
-    r->committed = now();
+    r->committed = jox_clock_wall();
     return write_bounds(r) && run(r, "COMMIT");
 }
 
@@ -163,7 +158,7 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
         if (!put(r, r->body))
             return false;
     }
-    return now() - r->committed < COMMITTED || commit(r);
+    return jox_clock_wall() - r->committed < COMMITTED || commit(r);
 }
 
 /* Waits until there is something to write. What has been written is not left uncommitted for longer
@@ -293,7 +288,7 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     r->low_x = r->low_y = INFINITY;
     r->high_x = r->high_y = -INFINITY;
     r->geometry = 1;
-    r->committed = now();
+    r->committed = jox_clock_wall();
     r->claimed = file;
     /* One thread at a time uses it: the writer, and the others once that has nothing to write. */
     const int how = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;

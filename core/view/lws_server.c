@@ -7,23 +7,17 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <arpa/inet.h>
 
+#include "base/clock.h"
 #include "base/mem.h"
 #include "task/thread.h"
 #include "view/access.h"
 #include "view/lws_server.h"
 
 enum { PATIENCE = 5, PING = 15, HANG_UP = 30, SEND_BUFFER = 128 << 10, MOST_CONNECTIONS = 512 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
 
 /* Sends what there is for a client until the socket is full; at most a few fragments at a time, so
    that each client has its turn. */
@@ -115,7 +109,7 @@ static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user,
             return -1;
         jox_serving_receive(view, client, in, length,
                             lws_is_final_fragment(wsi) && lws_remaining_packet_payload(wsi) == 0,
-                            !lws_frame_is_binary(wsi), now());
+                            !lws_frame_is_binary(wsi), jox_clock_wall());
         return client->bad ? -1 : 0;
     case LWS_CALLBACK_CLOSED:
         if (client)

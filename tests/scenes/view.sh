@@ -16,6 +16,7 @@ request() { # PORT PATH: the answer of a plain request
     exec 3<&- 3>&-
 }
 "$JOSTLE" run scenes/circle.yaml --view $page --view-wait 0 --summary "$work/summary" --log-input "$work/log" \
+    --checkpoint 0.05 --checkpoint-dir "$work/ck" \
     >"$work/said" 2>"$work/errors" </dev/null &
 pid=$!
 for _ in $(seq 200); do grep -q token "$work/said" && break; sleep 0.1; done
@@ -41,6 +42,9 @@ verdict "with its figures" $?
 hash=$(figure hash <"$work/summary")
 same_hash "a run without a page gives the same state" "$hash" \
     "$(hash_of "$JOSTLE" scenes/circle.yaml --steps "$(figure steps <"$work/summary")" --input "$work/log")"
+
+"$JOSTLE" resume "$work/ck" --quiet --for "$(awk -v n="$(figure steps <"$work/summary")" 'BEGIN {print n * 0.05}')" --summary "$work/rest" 2>"$work/errors"
+same_hash "and it goes on from its checkpoint" "$hash" "$(figure hash <"$work/rest")"
 
 kill -INT $waiting
 wait $waiting

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "lua/vm/vm.h"
 
@@ -77,13 +77,6 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     return result;
 }
 
-/* Seconds that this thread has computed: a busy machine must not make a load fail. */
-static double thread_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double load_seconds(const JoxVm *vm) {
     double share = (double)vm->group->limits.load_instructions / 20e6;
     return LOAD_SECONDS * SLOWER * (share > 1.0 ? share : 1.0);
@@ -95,7 +88,7 @@ static double load_seconds(const JoxVm *vm) {
 static void watch(JoxVm *vm, double weight, double most) {
     if (vm->untimed)
         return;
-    double now = thread_seconds();
+    double now = jox_clock_thread();
     double beyond = now - vm->watch_from - CALL_SECONDS * SLOWER -
                     (double)(vm->watch_left - vm->left) * STEP_SECONDS * SLOWER;
     beyond = beyond * weight < most ? beyond * weight : most;
@@ -108,7 +101,7 @@ static void watch(JoxVm *vm, double weight, double most) {
 
 static void begin_load(JoxVm *vm) {
     if (vm->deadline <= 0.0)
-        vm->deadline = thread_seconds() + load_seconds(vm);
+        vm->deadline = jox_clock_thread() + load_seconds(vm);
 }
 
 /* What is left of a source to be compiled. */
@@ -124,7 +117,7 @@ static const char *next_piece(lua_State *L, void *context, size_t *size) {
     enum { PIECE = 512 };
     Piece *p = context;
     const char *text = p->text;
-    if (thread_seconds() > p->vm->deadline)
+    if (jox_clock_thread() > p->vm->deadline)
         luaL_error(L, "it took too long to compile");
     *size = p->length < PIECE ? p->length : PIECE;
     p->text += *size;
@@ -163,12 +156,12 @@ static void count_hook(lua_State *L, lua_Debug *debug) {
     if (good)
         vm->left -= vm->interval;
     if (vm->loading) {
-        good = good && thread_seconds() < vm->deadline;
+        good = good && jox_clock_thread() < vm->deadline;
     } else if (vm->interval == CHECK_EVERY) {
         watch(vm, 1.0, 1e9);
         good = good && !vm->group->stalled[0];
     } else if (good) {
-        vm->watch_from = thread_seconds();
+        vm->watch_from = jox_clock_thread();
         vm->watch_left = vm->left;
     }
     if (!good)
@@ -185,7 +178,7 @@ void jox_vm_charge(lua_State *L, uint64_t steps) {
     if (!vm->running)
         return; /* the engine's own */
     bool late = vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&
-                thread_seconds() > vm->deadline; /* counts do not see keys that collide */
+                jox_clock_thread() > vm->deadline; /* counts do not see keys that collide */
     if (vm->over || vm->starved || late || vm->left <= steps)
         stop_long(L, 1);
     vm->left -= steps;
@@ -365,7 +358,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
     if (sampled) {
-        vm->watch_from = thread_seconds();
+        vm->watch_from = jox_clock_thread();
         vm->watch_left = vm->left;
     }
     vm->interval = vm->loading ? CHECK_EVERY : FIRST_CHECK;

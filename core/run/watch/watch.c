@@ -6,9 +6,9 @@
 #include <string.h>
 #include <sys/inotify.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/text.h"
@@ -30,12 +30,6 @@ struct JoxWatch {
     WatchedFile *files;
     size_t count, capacity;
 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
 
 static void digest_file(const char *path, char digest[65]) {
     size_t length;
@@ -165,7 +159,7 @@ static void read_events(JoxWatch *watch) {
             at += sizeof *event + event->len;
         }
         if (any)
-            watch->last_event = now();
+            watch->last_event = jox_clock_wall();
     }
 }
 
@@ -192,8 +186,8 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
                             {.fd = other, .events = POLLIN}};
     poll(fds, other >= 0 ? 2 : 1, (int)(seconds * 1e3));
     read_events(watch);
-    while (any_moved(watch) && now() - watch->last_event < QUIET) {
-        double left = QUIET - (now() - watch->last_event);
+    while (any_moved(watch) && jox_clock_wall() - watch->last_event < QUIET) {
+        double left = QUIET - (jox_clock_wall() - watch->last_event);
         poll(fds, 1, (int)(left * 1e3) + 1);
         read_events(watch);
     }
