@@ -97,15 +97,18 @@ static bool limit(int what, rlim_t most, rlim_t spare) {
     return setrlimit((__rlimit_resource_t)what, &(struct rlimit){most, last}) == 0;
 }
 
+bool jox_confine_limits(const JoxConfines *confines) {
+    const unsigned files = confines->files || confines->works ? confines->files : FEW_FILES;
+    return (!confines->seconds ||
+            limit(RLIMIT_CPU, confines->seconds, confines->works ? LAST_SECONDS : 0)) &&
+           (!files || limit(RLIMIT_NOFILE, files, 0)) &&
+           (!confines->file_size || limit(RLIMIT_FSIZE, confines->file_size, 0)) &&
+           (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory, 0));
+}
+
 bool jox_confine(const JoxConfines *confines) {
     const JoxConfining can = jox_confine_can();
-    const unsigned files = confines->files || confines->works ? confines->files : FEW_FILES;
-    const bool good = limit(RLIMIT_CORE, 0, 0) &&
-                      (!confines->seconds ||
-                       limit(RLIMIT_CPU, confines->seconds, confines->works ? LAST_SECONDS : 0)) &&
-                      (!files || limit(RLIMIT_NOFILE, files, 0)) &&
-                      (!confines->file_size || limit(RLIMIT_FSIZE, confines->file_size, 0)) &&
-                      (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory, 0)) &&
+    const bool good = limit(RLIMIT_CORE, 0, 0) && jox_confine_limits(confines) &&
                       prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
                       (!can.files || confine_files(confines));
     return good && (!can.calls || jox_confine_calls(confines));

@@ -38,4 +38,7 @@ JoxConfining jox_confine_can(void);
    What lies beneath an output may be made, changed and removed. */
 bool jox_confine(const JoxConfines *confines);
 
+/* Of these the limits alone: memory, processor time, sizes and numbers of files. */
+bool jox_confine_limits(const JoxConfines *confines);
+
 #endif

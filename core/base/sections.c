@@ -226,6 +226,17 @@ void jox_section(JoxSections *s, const char *name, void *cells, size_t size, siz
     jox_section_ordered(s, name, cells, size, count, NULL);
 }
 
+void jox_section_bools(JoxSections *s, const char *name, void *cells, size_t size, size_t count) {
+    jox_section(s, name, cells, size, count);
+    unsigned char *bytes = cells;
+    for (size_t k = 0; s->mode == JOX_SECTIONS_RESTORE && k < size * count; k++) {
+        if (bytes[k] <= 1)
+            continue;
+        jox_sections_fail(s, name, "a cell is neither true nor false");
+        bytes[k] = 0;
+    }
+}
+
 void jox_section_rows(JoxSections *s, const char *name, double *rows, size_t stride, size_t count,
                       const uint32_t *order) {
     if (s->mode != JOX_SECTIONS_HASH) {

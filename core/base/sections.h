@@ -77,6 +77,9 @@ void jox_sections_unhashed(JoxSections *sections, bool unhashed);
 
 /* `count` cells of `size` bytes each. `count` is the same in the state that is read back. */
 void jox_section(JoxSections *sections, const char *name, void *cells, size_t size, size_t count);
+/* Of booleans; restoring, bytes that are none are refused. */
+void jox_section_bools(JoxSections *sections, const char *name, void *cells, size_t size,
+                       size_t count);
 /* The same; cell k of the section is cells[order[k]]. Restoring, cell k becomes cells[k]. */
 void jox_section_ordered(JoxSections *sections, const char *name, void *cells, size_t size,
                          size_t count, const uint32_t *order);
@@ -96,7 +99,9 @@ void jox_section_model(JoxSections *sections, const char *name, uint64_t digest)
 
 /* A variable. */
 #define JOX_SECTION(sections, name, variable)                                                      \
-    jox_section((sections), (name), &(variable), sizeof(variable), 1)
+    _Generic((variable), bool                                                                      \
+             : jox_section_bools, default                                                          \
+             : jox_section)((sections), (name), &(variable), sizeof(variable), 1)
 /* A heap array with its count and capacity (of any unsigned type), as JOX_RESERVE grows it. */
 #define JOX_SECTION_ARRAY(sections, name, array, count, capacity)                                  \
     do {                                                                                           \

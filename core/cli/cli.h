@@ -275,6 +275,9 @@ bool cli_confine(CliReach *reach);
    its own it may take three quarters of the machine's memory, a day of each of its processors,
    files of 256 GB, and 1,024 of them at a time. */
 void cli_confine_work(CliReach *reach, bool trusted);
+/* Those limits alone, of commands that have scenes read by children; what these read is limited
+   further, and the processes that a command starts have its limits each. */
+void cli_limit_work(bool trusted);
 
 /* Appends `length` bytes as lines of 80 columns; the first begins at column `at`, the others with
    `indent` blanks. */

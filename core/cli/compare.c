@@ -240,6 +240,7 @@ static int compare_sides(Compare *compare) {
 }
 
 static int compare(Compare *c, const CliList *plain) {
+    cli_limit_work(c->trusted);
     cli_catch_signals(true);
     int status = find_sides(c, plain);
     cli_catch_signals(false);

@@ -180,16 +180,32 @@ static void limit_work(CliReach *reach) {
     reach->files = reach->files ? reach->files : MOST_FILES;
 }
 
+static void catch_late(const CliReach *reach) {
+    snprintf(late, sizeof late,
+             "jostle: the command took the processor time that it may, %u s or what the system "
+             "left; with --trusted there is no limit\n",
+             reach->seconds);
+    signal(SIGXCPU, tell_late);
+}
+
+void cli_limit_work(bool trusted) {
+    CliReach reach = {.works = true};
+    limit_work(&reach);
+    if (trusted)
+        return;
+    catch_late(&reach);
+    jox_confine_limits(&(JoxConfines){.memory = reach.memory,
+                                      .file_size = reach.file_size,
+                                      .files = reach.files,
+                                      .seconds = reach.seconds,
+                                      .works = true});
+}
+
 void cli_confine_work(CliReach *reach, bool trusted) {
     reach->works = true;
     limit_work(reach);
-    if (!trusted) {
-        snprintf(late, sizeof late,
-                 "jostle: the command took the processor time that it may, %u s or what the system "
-                 "left; with --trusted there is no limit\n",
-                 reach->seconds);
-        signal(SIGXCPU, tell_late);
-    }
+    if (!trusted)
+        catch_late(reach);
     if (trusted) {
         free_all(&reach->reads);
         free_all(&reach->writes);

@@ -1,3 +1,4 @@
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -321,6 +322,7 @@ static int begin(Run *run) {
     if (!run->trusted && (run->watch || run->view) &&
         !(run->keeper = cli_keeper_begin(&cli_run, &run->def, &run->files)))
         return JO_FAILED;
+    cli_limit_work(run->trusted);
     cli_catch_signals(run->view);
     status = run->view    ? show(run, &summary)
              : run->seeds ? simulate_seeds(run, &summary)
@@ -331,7 +333,7 @@ static int begin(Run *run) {
     }
     jo_free(summary);
     status = status == JO_OK && run->troubled ? JO_FAILED : status;
-    return run->view ? status : cli_interrupted(status);
+    return run->view && cli_signal != SIGXCPU ? status : cli_interrupted(status);
 }
 
 static int run_scene(int argc, char **argv) {

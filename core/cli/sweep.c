@@ -173,6 +173,7 @@ static int merge(const Sweep *sweep, const CliList *parts) {
 static int run_all(Sweep *sweep) {
     JoSweepCounts counts;
     JoError error = {0};
+    cli_limit_work(sweep->trusted);
     cli_catch_signals(true);
     sweep->def.stop = &cli_signal;
     sweep->def.vet = sweep->trusted ? NULL : vet;

@@ -88,6 +88,11 @@ printf 'jostle: 1\nplaces: {p: {polygon: [[0, 0], [60, 0], [60, 60], [0, 60]]}}\
 cp behaviours/near.lua inner/
 says "a large run is kept, and recorded" 0 "" "$program" run inner/large.yaml --quiet --steps 40 --checkpoint 1 --checkpoint-dir inner/large --record inner/large.sqlite
 says "a run that goes on for too long says so" 1 "with --trusted there is no limit" prlimit --cpu=6 "$program" resume inner/large --quiet --for 1e6
+says "  and one that begins anew" 1 "with --trusted there is no limit" prlimit --cpu=6 "$program" run inner/large.yaml --quiet --for 1e6
+"$program" run inner/large.yaml --quiet --for 1e6 2>/dev/null & runs=$!
+for _ in $(seq 100); do [ "$(grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' /proc/$runs/limits)" = 4 ] && break; sleep 0.1; done
+[ "$(grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' /proc/$runs/limits)" = 4 ]; verdict "  which has its other limits, too" $?
+kill $runs; wait $runs
 [ "$(sqlite3 inner/large.sqlite 'PRAGMA integrity_check')" = ok ] && [ "$(sqlite3 inner/large.sqlite 'SELECT max(frame) > 100 FROM trajectory_data')" = 1 ]
 verdict "  and leaves a recording that is whole" $?
 says "it goes on below the working folder" 0 "" "$program" resume inner/deep/kept --quiet --for 4

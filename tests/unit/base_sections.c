@@ -156,6 +156,21 @@ static void another_format_is_refused(void **state) {
     release(&a);
 }
 
+static void bytes_that_are_no_booleans_are_refused(void **state) {
+    (void)state;
+    JoxText text = {0};
+    unsigned char byte = 255;
+    bool read = false;
+    JoxSections s = jox_sections_save(&text);
+    jox_section(&s, "open", &byte, sizeof byte, 1);
+    assert_true(jox_sections_end(&s));
+    s = jox_sections_restore(text.data, text.length);
+    JOX_SECTION(&s, "open", read);
+    assert_false(jox_sections_end(&s));
+    assert_string_equal(s.wrong, "open: a cell is neither true nor false");
+    jox_text_free(&text);
+}
+
 typedef struct Flip {
     Thing *thing;
     uint64_t hash;
@@ -206,6 +221,7 @@ static void the_width_of_rows_is_not_hashed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(restores_what_was_saved),
+        cmocka_unit_test(bytes_that_are_no_booleans_are_refused),
         cmocka_unit_test(a_comparison_names_the_first_difference),
         cmocka_unit_test(damaged_buffers_are_refused),
         cmocka_unit_test(another_format_is_refused),

@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "record/fields/density_parts.h"
 
-enum { MOST_CELLS = 4000000, MOST_EDGE = 400 };
+enum { MOST_CELLS = 2000000, MOST_EDGE = 400 };
 
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) {
     JoxDensity *d = jox_alloc(1, sizeof *d);

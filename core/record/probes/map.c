@@ -207,7 +207,9 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Map *m = state;
     const JoxDensity *g = m->grid;
-    uint32_t skip = g->columns * g->rows > MOST_CELLS_DRAWN ? 2 : 1;
+    uint32_t skip = 1;
+    while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
+        skip++;
     double n = m->samples ? m->samples : 1.0;
     fputs("x [m],y [m],density [1/m2],speed [m/s],pressure [1/s2],compression [N/m],"
           "compression_most [N/m]\n",
