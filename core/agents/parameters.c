@@ -21,11 +21,18 @@ int jox_parameter_find(const char *name) {
     return -1;
 }
 
+/* Words for values of haste. */
+static const struct {
+    const char *word;
+    double value;
+} LEVELS[] = {{"calm", 0.0}, {"normal", 0.5}, {"keen", 1.0}};
+
+const char *jox_parameter_word(JoxParameter parameter, uint32_t n) {
+    return parameter == JOX_PARAM_haste && n < sizeof LEVELS / sizeof *LEVELS ? LEVELS[n].word
+                                                                              : NULL;
+}
+
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value) {
-    static const struct {
-        const char *word;
-        double value;
-    } LEVELS[] = {{"calm", 0.0}, {"normal", 0.5}, {"keen", 1.0}};
     for (size_t k = 0; parameter == JOX_PARAM_haste && k < sizeof LEVELS / sizeof *LEVELS; k++)
         if (strcmp(LEVELS[k].word, word) == 0) {
             *value = LEVELS[k].value;

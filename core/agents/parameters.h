@@ -49,6 +49,8 @@ extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
 int jox_parameter_find(const char *name);
 /* The value that a word stands for: haste is calm (0), normal (0.5) or keen (1). False: none. */
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);
+/* The n-th such word of a parameter, from 0; NULL behind the last. */
+const char *jox_parameter_word(JoxParameter parameter, uint32_t n);
 /* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
    value is first kept within [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);

@@ -22,3 +22,15 @@ END
     if grep -q '"Pass": 3' "$work/$name.json" 2>/dev/null; then echo "ok $name"; else
         echo "not ok $name"; cat "$work/log"; grep states "$work/$name.json"; fi
 done
+# Editors check scenes by the schema: what is shipped fits it.
+/usr/bin/python3 - >"$work/schema" 2>&1 <<'E'
+import glob, json, jsonschema, yaml
+check = jsonschema.Draft7Validator(json.load(open("scripts/scene.schema.json")))
+files = glob.glob("scenes/*.yaml")
+assert len(files) > 50
+for file in sorted(files):
+    for error in check.iter_errors(yaml.safe_load(open(file))):
+        print(file, list(error.path), error.message[:200])
+E
+[ ! -s "$work/schema" ]; verdict "every scene fits the schema" $?
+cat "$work/schema"

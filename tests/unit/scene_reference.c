@@ -255,6 +255,10 @@ static void schemas_say_what_the_table_says(void **state) {
                                "printed (core/paper.md); `yield` and `damping` then have no "
                                "effect; default physical\", \"default\": \"physical\", "
                                "\"enum\": [\"physical\", \"literal\"]}");
+    expect_property(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"enum\": [\"calm\", "
+                               "\"normal\", \"keen\"]}]}"); /* haste, and units of others */
+    expect_property(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"$ref\": "
+                               "\"#/definitions/unit_m_per_s\"}]}");
     expect_property(text.data,
                     "\"step\": {\"description\": \"time step, in s; 0.001 to 0.2, default 0.05\", "
                     "\"default\": 0.05, \"anyOf\": [{\"type\": \"number\", \"minimum\": 0.001, "

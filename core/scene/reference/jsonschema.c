@@ -96,6 +96,25 @@ static void vector(const JoxKey *key, int count, JoxJson *json) {
     jox_json_integer(json, "maxItems", count);
 }
 
+static bool has_units(const char *kind) {
+    for (size_t u = 0; u < jox_scene_unit_count; u++)
+        if (strcmp(jox_scene_units[u].kind, kind) == 0)
+            return true;
+    return false;
+}
+
+/* The words that stand for values of a parameter, if there are any. */
+static void levels(JoxParameter parameter, JoxJson *json) {
+    if (!jox_parameter_word(parameter, 0))
+        return;
+    jox_json_object(json, NULL);
+    jox_json_array(json, "enum");
+    for (uint32_t n = 0; jox_parameter_word(parameter, n); n++)
+        jox_json_string(json, NULL, jox_parameter_word(parameter, n));
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
 /* Values that a group sets: the parameters by name, else numbers, distributions and places. */
 static void parameters(JoxJson *json) {
     jox_json_object(json, "properties");
@@ -113,10 +132,30 @@ static void parameters(JoxJson *json) {
         jox_json_object(json, NULL);
         reference(json, "drawn", 5);
         jox_json_end(json);
+        if (has_units(info->unit)) {
+            JoxText unit = {0};
+            unit_name(info->unit, &unit);
+            jox_json_object(json, NULL);
+            reference(json, unit.data, (int)unit.length);
+            jox_json_end(json);
+            jox_text_free(&unit);
+        }
+        levels((JoxParameter)p, json);
         jox_json_end(json);
         jox_json_end(json);
     }
     jox_json_end(json);
+}
+
+/* Whether what is listed has names. */
+static bool has_names(const char *owner, size_t length) {
+    for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+        const JoxKey *key = &jox_scene_format.keys[k];
+        if (strlen(key->owner) == length && !strncmp(key->owner, owner, length) &&
+            !strcmp(key->name, "name"))
+            return true;
+    }
+    return false;
 }
 
 /* What `of` says of the key, from its last suffix to its base; `length` of it is read. */
@@ -136,7 +175,10 @@ static void contents(const JoxKey *key, size_t length, JoxJson *json) {
         size_t open = length - 1;
         while (of[open] != '[')
             open--;
-        type(json, "array");
+        if (has_names(of, open)) /* a map changes those that an included scene has */
+            one_of_types(json, (const char *const[]){"array", "object"});
+        else
+            type(json, "array");
         if (open + 2 < length)
             jox_json_integer(json, "minItems", strtol(of + open + 1, NULL, 10));
         jox_json_object(json, "items");
