@@ -371,7 +371,7 @@ class Page {
         if (this.following) this.keepUp(share);
         if (this.view.draw(begun, this.drawn)) {
             this.overlay.draw(share);
-            this.meter.add(performance.now() - begun);
+            this.meter.add(performance.now() - begun, this.view.called);
             this.drawn = begun;
         } else this.drawn = undefined;
         requestAnimationFrame(() => this.loop());

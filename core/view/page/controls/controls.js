@@ -118,8 +118,8 @@ export class ToolBar {
                 iconButton(name, TOOLS[name].name, `${TOOLS[name].hint} (${TOOLS[name].key})`, () => this.page.tool(name), true)]));
             fill(this.choice, Object.values(this.tools));
             this.choice.hidden = offered.length === 1;
+            this.bar.fold();
         }
-        this.bar.fold();
     }
 
     show(tool) {

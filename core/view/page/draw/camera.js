@@ -8,7 +8,8 @@ const RELUCTANCE = 0.1; // share of the score that a turn of 90 degrees from the
 const STEEP = [48, 0.01]; // degrees from which on people are seen from above, and what each costs of the score
 const EVEN = 0.7; // how much it counts that what is far is not much smaller: power of the distances' ratio
 const NARROW = 1; // width by height of a window, below which the eye of a scene's own camera steps back
-const TALL = 1.8; // m, the height that has to be in sight
+const TALL = 2.1; // m, the height that has to be in sight: of the tallest figures
+const WIDE = 0.4; // m, around where people stand
 const TALLEST = 3; // m, up to which that is the height of walls
 
 /** The corners of a box [[x0, y0], [x1, y1]], on the floor and `high` above it, m. */
@@ -129,7 +130,8 @@ function extentOf({ kind, points = [], radius = 0 }) {
  */
 export function sceneBox(scene, people) {
     const places = (scene.places ?? []).filter((p) => p.kind !== "set").map(extentOf);
-    const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...people]);
+    const figures = people.flatMap(([x, y]) => [[x - WIDE, y - WIDE], [x + WIDE, y + WIDE]]);
+    const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...figures]);
     if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
     const all = boxOf([...core, ...places.flat()]), area = ([[x0, y0], [x1, y1]]) => (x1 - x0) * (y1 - y0);
     if (!scene.walls?.length && area(all) <= LARGER * area(core)) return all;

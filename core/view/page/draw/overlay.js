@@ -24,6 +24,7 @@ export class Overlay {
         this.players = []; // slots
         this.sketch = null; // what a tool shows: function(pen, project)
         this.cross = false; // in the middle, for work by keys
+        this.blank = true; // nothing is on the canvas
     }
 
     set(scene) {
@@ -46,10 +47,14 @@ export class Overlay {
     resize() {
         this.canvas.width = Math.round(this.view.wide * this.view.ratio);
         this.canvas.height = Math.round(this.view.high * this.view.ratio);
+        this.blank = true;
     }
 
     draw(share) {
         const pen = this.pen, ratio = this.view.ratio;
+        const blank = !this.names && !this.pointer && this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross;
+        if (blank && this.blank) return; // even clearing costs, where the processor draws
+        this.blank = blank;
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, this.view.wide, this.view.high);
         pen.font = FONT;

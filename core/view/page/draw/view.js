@@ -35,6 +35,7 @@ export class View {
         this.colourBy("state");
         this.dirty = true;
         this.slow = 0;
+        this.called = 0; // ms, that the calls of the last picture took: where the processor draws, they wait for it
         this.useControls();
     }
 
@@ -249,7 +250,9 @@ export class View {
             this.people.uniforms.tall.value = Math.sqrt(Math.max(0, 1 - look.z * look.z));
             this.people.chooseNear(this.crowd, camera.position, pixels, this.top);
         }
+        const begun = performance.now();
         this.renderer.render(this.scene, camera);
+        this.called = performance.now() - begun;
         this.spare(now, drawn);
         return true;
     }

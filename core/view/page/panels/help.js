@@ -9,26 +9,29 @@ const KEYS = [
     ["Enter", "with the picture in focus: act at its middle"], ["Esc", "let go, close"], ["?", "this"],
 ];
 
-/** Times of the script part of pictures, in ms, over the last second. */
+/** Times of pictures, in ms, of the last 120: of the script, and of the graphics calls, which wait for whatever draws. */
 export class Meter {
     constructor() {
         this.spent = [];
+        this.calls = [];
         this.messages = 0; // ms spent on messages since the last picture
         this.pictures = 0;
     }
 
-    /** One picture took `ms` of script, with the messages before it. */
-    add(ms) {
-        this.spent.push(ms + this.messages);
+    /** One picture took `ms`, of which `calls` in graphics calls; the messages before it count as script. */
+    add(ms, calls) {
+        this.spent.push(ms - calls + this.messages);
+        this.calls.push(calls);
         this.messages = 0;
         this.pictures++;
         if (this.spent.length > 120) this.spent.shift();
+        if (this.calls.length > 120) this.calls.shift();
     }
 
-    /** {mean, most, median}, ms */
-    get() {
-        const sorted = [...this.spent].sort((a, b) => a - b), n = sorted.length;
-        return { mean: sorted.reduce((a, b) => a + b, 0) / (n || 1), most: sorted[n - 1] ?? 0, median: sorted[n >> 1] ?? 0 };
+    /** {median, high, most} of the script, and of the calls, ms; 90 % of pictures take at most `high`. */
+    get(times = this.spent) {
+        const sorted = [...times].sort((a, b) => a - b), at = (share) => sorted[Math.floor(share * (sorted.length - 1))] ?? 0;
+        return { median: at(0.5), high: at(0.9), most: at(1) };
     }
 }
 
@@ -37,8 +40,8 @@ export class Help {
     constructor(page) {
         this.page = page;
         this.node = byId("help");
-        this.parts = Object.fromEntries(["script", "draws", "pictures", "frames", "slots"].map((k) => [k, el("dd", {}, "–")]));
-        const names = { script: "script a picture", draws: "draw calls", pictures: "pictures a second", frames: "frames received", slots: "slots" };
+        this.parts = Object.fromEntries(["script", "calls", "draws", "pictures", "frames", "slots"].map((k) => [k, el("dd", {}, "–")]));
+        const names = { script: "script a picture", calls: "graphics calls", draws: "draw calls", pictures: "pictures a second", frames: "frames received", slots: "slots" };
         fill(this.node, el("h2", {}, "Keys"), el("dl", {}, KEYS.map(([key, text]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, text)])),
             el("h2", {}, "Measured"), el("dl", {}, Object.entries(this.parts).map(([k, dd]) => [el("dt", {}, names[k]), dd])));
         setInterval(() => this.measure(), 1000);
@@ -59,8 +62,9 @@ export class Help {
         this.frames = connection.frames;
         this.bytes = connection.bytes;
         if (this.node.hidden) return;
-        const t = meter.get();
-        say(this.parts.script, `${t.median.toFixed(1)} ms median, ${t.most.toFixed(1)} ms at most`);
+        const told = (t) => `${t.median.toFixed(1)} ms median, ${t.high.toFixed(1)} ms for 90 %`;
+        say(this.parts.script, told(meter.get()));
+        say(this.parts.calls, told(meter.get(meter.calls)));
         say(this.parts.draws, `${view.renderer.info.render.calls}, ${figure(view.renderer.info.render.triangles)} triangles`);
         say(this.parts.pictures, pictures.toFixed(0));
         say(this.parts.frames, `${frames.toFixed(0)} a second, ${(bytes / 1e6).toFixed(1)} MB/s`);
