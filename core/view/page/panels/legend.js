@@ -12,6 +12,8 @@ function ramp(calm = false) {
     return canvas;
 }
 
+const MANY = 8; // states, that are shown whether somebody is in them or not
+
 export class Legend {
     constructor() {
         this.node = byId("legend");
@@ -94,7 +96,9 @@ export class Legend {
             const k = at[state.machine] ?? 0;
             at[state.machine] = k + 1;
             const n = status.states?.[state.machine]?.[k];
-            if (this.counts[i]) say(this.counts[i], n === undefined ? "" : figure(n));
+            if (!this.counts[i]) return;
+            say(this.counts[i], n === undefined ? "" : figure(n));
+            this.counts[i].parentElement.hidden = this.counts.length > MANY && !n; // of many states, those that somebody is in
         });
     }
 }
