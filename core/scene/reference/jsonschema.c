@@ -6,6 +6,7 @@
 #include "agents/parameters.h"
 #include "base/format/json_writer.h"
 #include "scene/format/schema.h"
+#include "scene/reference/jsonschema_parts.h"
 #include "scene/scene.h"
 
 #define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
@@ -316,72 +317,6 @@ static void property(const JoxKey *key, JoxJson *json) {
     jox_json_end(json);
 }
 
-/* {"required": [...]} of one key, or of two. */
-static void requires(JoxJson *json, const char *one, const char *other) {
-    jox_json_object(json, NULL);
-    jox_json_array(json, "required");
-    jox_json_string(json, NULL, one);
-    if (other)
-        jox_json_string(json, NULL, other);
-    jox_json_end(json);
-    jox_json_end(json);
-}
-
-/* Which of the alternatives' keys are required. */
-static void alternative(const JoxAlternative *a, JoxJson *json) {
-    char one[64], other[64];
-    jox_json_object(json, NULL);
-    if (a->rule != JOX_AT_MOST_ONE) {
-        jox_json_array(json, a->rule == JOX_EXACTLY_ONE ? "oneOf" : "anyOf");
-        for (int i = 0; jox_choice_name(a->keys, i, one, sizeof one); i++)
-        requires(json, one, NULL);
-        jox_json_end(json);
-    } else {
-        jox_json_object(json, "not");
-        jox_json_array(json, "anyOf");
-        for (int i = 0; jox_choice_name(a->keys, i, one, sizeof one); i++)
-            for (int k = 0; k < i && jox_choice_name(a->keys, k, other, sizeof other); k++)
-        requires(json, other, one);
-        jox_json_end(json);
-        jox_json_end(json);
-    }
-    jox_json_end(json);
-}
-
-/* What must be there: the members "required" and "allOf". */
-static void demands(const char *owner, JoxJson *json) {
-    bool any = false;
-    for (size_t i = 0; i < jox_scene_format.key_count; i++) {
-        const JoxKey *key = &jox_scene_format.keys[i];
-        if (strcmp(key->owner, owner) != 0 || *key->standard != '!')
-            continue;
-        if (!any)
-            jox_json_array(json, "required");
-        any = true;
-        jox_json_string(json, NULL, key->name);
-    }
-    if (any)
-        jox_json_end(json);
-    JoxText kinds = {0};
-    jox_owner_kinds(&jox_scene_format, owner, &kinds);
-    any = kinds.length > 0;
-    if (any) {
-        jox_json_array(json, "allOf");
-        alternative(&(JoxAlternative){owner, kinds.data, JOX_EXACTLY_ONE}, json);
-    }
-    jox_text_free(&kinds);
-    for (size_t i = 0; i < jox_scene_alternative_count; i++) {
-        if (strcmp(jox_scene_alternatives[i].owner, owner) != 0)
-            continue;
-        if (!any)
-            jox_json_array(json, "allOf");
-        any = true;
-        alternative(&jox_scene_alternatives[i], json);
-    }
-    if (any)
-        jox_json_end(json);
-}
-
 /* Places and groups may come in part from another file: what they lack is looked at from the root.
  */
 static bool joined(const char *owner) {
@@ -392,7 +327,7 @@ static void object(const char *owner, JoxJson *json) {
     type(json, "object");
     jox_json_bool(json, "additionalProperties", false);
     if (!joined(owner))
-        demands(owner, json);
+        jox_schema_demands(owner, json);
     const int lines = json->lines;
     json->lines = json->depth + 1; /* a line for each property */
     jox_json_object(json, "properties");
@@ -457,34 +392,6 @@ static bool belongs(const char *owner, const char *root) {
     return strcmp(owner, root) != 0 && mod == !strcmp(root, "mod");
 }
 
-/* {"additionalProperties": {what the owner must have}} */
-static void demands_of_all(JoxJson *json, const char *key, const char *owner) {
-    jox_json_object(json, key);
-    jox_json_object(json, "additionalProperties");
-    demands(owner, json);
-    jox_json_end(json);
-    jox_json_end(json);
-}
-
-/* What a scene must have unless it is joined from several files. */
-static void demands_of_scene(JoxJson *json) {
-    jox_json_object(json, "if");
-    jox_json_array(json, "anyOf");
-    requires(json, "include", NULL);
-    requires(json, "patch", NULL);
-    jox_json_end(json);
-    jox_json_end(json);
-    jox_json_object(json, "then");
-    jox_json_end(json);
-    jox_json_object(json, "else");
-    demands("scene", json);
-    jox_json_object(json, "properties");
-    demands_of_all(json, "places", "place");
-    demands_of_all(json, "groups", "group");
-    jox_json_end(json);
-    jox_json_end(json);
-}
-
 void jox_scene_json_schema(const char *root_owner, JoxText *out) {
     bool scene = !strcmp(root_owner, "scene");
     JoxJson json = jox_json_begin(out, 1);
@@ -494,7 +401,7 @@ void jox_scene_json_schema(const char *root_owner, JoxText *out) {
                     scene ? "A scene of Jostle" : "The mod.yaml of a mod for Jostle");
     object(root_owner, &json);
     if (scene)
-        demands_of_scene(&json);
+        jox_schema_demands_of_scene(&json);
     json.lines = 2;
     jox_json_object(&json, "definitions");
     shared_definitions(&json);
