@@ -23,8 +23,9 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
 PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
 PATIENCE = 40  # s, for what should happen soon; much, as machines may be busy
-# Ten pictures a second: more would cost the processor, which draws them, and tell the tests nothing.
-SELDOM = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);"
+# Ten pictures a second: more would cost the processor, which draws them, and tell the tests nothing. While a picture is
+# saved the page draws hardly any: on a busy machine the browser would wait for its turn for minutes.
+SELDOM = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), window.between ?? 100);"
 
 
 class Failure(Exception):
@@ -144,12 +145,14 @@ class Browser:
 
     def picture(self, name):
         os.makedirs(PICTURES, exist_ok=True)
+        self.run("window.between = 2000")
         for attempt in range(3):  # software graphics on a busy machine may be late for one
             try:
                 self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
-                return
+                break
             except TimeoutException:
                 print(f"  the picture {name}.png is late ({attempt + 1})", file=sys.stderr)
+        self.run("window.between = 100")
 
     def close(self):
         self.driver.quit()

@@ -39,6 +39,7 @@ const JoxExample jox_scene_examples[] = {
      "  worst: {memory: hits, group: blue, take: greatest, unit: hits}\n"
      "  hit now: {state: Hit}\n"
      "places: {half: {polygon: [[0, -4], [8, -4], [8, 4], [0, 4]]}}\n"
+     "bodies: [{shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [5, 0, 0.1], tags: [ball]}]\n"
      "groups: {blue: {behaviour: dodgeball.lua, at: [[2, 2]], set: {court: half}}}\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"

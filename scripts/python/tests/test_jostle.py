@@ -174,7 +174,7 @@ def test_other_threads_run_while_it_steps(path):
 
     thread = threading.Thread(target=count)
     thread.start()
-    scene.run(5)
+    scene.run(30)
     done.set()
     thread.join()
     assert counted[0] > 10
