@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/format/path.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "base/text.h"
 #include "cli/cli.h"
@@ -122,11 +123,13 @@ static int add_folder(Compare *compare, const char *given) {
     jox_text_free(&folder);
     if (compare->count > before)
         return JO_OK;
-    fprintf(stderr,
-            "jostle compare: the folder '%s' has no recordings: files .sqlite, .txt or .csv, each "
-            "of which is a run of one side\n",
-            given);
-    return JO_INPUT;
+    JoError error = {0};
+    jox_error(
+        &error, JO_INPUT,
+        "the folder '%.300s' has no recordings: files .sqlite, .txt or .csv, each of which is "
+        "a run of one side",
+        given);
+    return cli_failed(&cli_compare, &error, false);
 }
 
 static bool vet(void *context, const JoSceneDef *scene, JoError *error) {

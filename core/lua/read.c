@@ -276,8 +276,5 @@ uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key
 }
 
 int32_t jox_read_memory(const JoxBuild *b, const char *name) {
-    for (uint32_t s = 0; s < b->machine->memory_count; s++)
-        if (*name && strcmp(b->machine->memory[s].name, name) == 0)
-            return (int32_t)s;
-    return -1;
+    return jox_machine_memory(b->machine, name);
 }

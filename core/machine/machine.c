@@ -12,6 +12,13 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
     return -1;
 }
 
+int32_t jox_machine_memory(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; *name && s < machine->memory_count; s++)
+        if (strcmp(machine->memory[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
 JoxState jox_state_blank(char *name) {
     return (JoxState){.name = name,
                       .lasts_expression = -1,

@@ -324,6 +324,8 @@ JoxState jox_state_blank(char *name);
 JoxTransition jox_transition_blank(char *id);
 /* Index of a state by name, or -1. */
 int jox_machine_state(const JoxMachine *machine, const char *name);
+/* Slot of its memory by name, or -1; slots without a name have none. */
+int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
 /* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */
 void jox_machine_free(JoxMachine *machine);
 

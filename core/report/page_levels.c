@@ -5,8 +5,8 @@
 #include "record/danger/danger_parts.h"
 #include "report/page_parts.h"
 
-static const float NOTHING =
-    0.05f; /* N: what is left of a mean over a second after the last touch */
+/* N: less is what is left, after the last touch, of a mean over a second. */
+static const float NOTHING = 0.05f;
 
 /* Fruin's levels: of everybody; by area and time; of lines by flow and area. */
 static void put_queues(FILE *out, const JoxDanger *danger) {

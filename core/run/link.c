@@ -224,6 +224,7 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
         if (diagnostics->count > before)
             attach(files, count, diagnostics);
     }
+    jox_run_check_tally(scene, diagnostics);
 }
 
 /* ---- what is measured of those whom it does not suit ---- */

@@ -160,11 +160,9 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0 && def->dry) {
         jox_run_check_names(scene, diagnostics);
-        jox_run_check_tally(scene, diagnostics);
     } else if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
-        jox_run_check_tally(scene, diagnostics);
         jox_run_check_step(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);

@@ -5,21 +5,6 @@
 #include "base/text.h"
 #include "run/run.h"
 
-/* The slot of a memory; -1 where the machine has none of that name. */
-static int32_t slot_of(const JoxMachine *machine, const char *name) {
-    for (uint32_t s = 0; s < machine->memory_count; s++)
-        if (strcmp(machine->memory[s].name, name) == 0)
-            return (int32_t)s;
-    return -1;
-}
-
-static bool has_state(const JoxMachine *machine, const char *name) {
-    for (uint32_t s = 0; s < machine->state_count; s++)
-        if (strcmp(machine->states[s].name, name) == 0)
-            return true;
-    return false;
-}
-
 double jox_run_tally(const JoScene *scene, const JoxTally *tally) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachineSet *set = scene->world->machines.set;
@@ -33,7 +18,8 @@ double jox_run_tally(const JoScene *scene, const JoxTally *tally) {
         if (tally->state &&
             (!machine || strcmp(machine->states[a->state[i]].name, tally->state) != 0))
             continue;
-        const int32_t slot = machine && tally->memory ? slot_of(machine, tally->memory) : -1;
+        const int32_t slot =
+            machine && tally->memory ? jox_machine_memory(machine, tally->memory) : -1;
         if (tally->memory && slot < 0)
             continue;
         const double value = tally->memory ? a->memory[(size_t)i * a->memory_stride + slot] : 1;
@@ -121,9 +107,11 @@ static void warn(const JoScene *scene, const JoxTally *tally, bool state,
     size_t count = 0;
     for (uint32_t m = 0; m < set->count; m++) {
         const JoxMachine *machine = set->items[m];
-        for (uint32_t s = 0; s < (state ? machine->state_count : machine->memory_count); s++)
-            if (count < sizeof names / sizeof *names)
-                names[count++] = state ? machine->states[s].name : machine->memory[s].name;
+        for (uint32_t s = 0; s < (state ? machine->state_count : machine->memory_count); s++) {
+            const char *known = state ? machine->states[s].name : machine->memory[s].name;
+            if (*known && count < sizeof names / sizeof *names)
+                names[count++] = known;
+        }
     }
     near = jox_suggest(name, names, count);
     snprintf(hint, sizeof hint, "Did you mean '%.100s'?", near ? near : "");
@@ -138,8 +126,8 @@ void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
         const JoxTally *tally = &scene->spec->tallies[t];
         bool memory = !tally->memory, state = !tally->state;
         for (uint32_t m = 0; m < set->count; m++) {
-            memory = memory || slot_of(set->items[m], tally->memory) >= 0;
-            state = state || has_state(set->items[m], tally->state);
+            memory = memory || jox_machine_memory(set->items[m], tally->memory) >= 0;
+            state = state || jox_machine_state(set->items[m], tally->state) >= 0;
         }
         if (!memory)
             warn(scene, tally, false, diagnostics);

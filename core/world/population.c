@@ -81,10 +81,11 @@ static uint32_t least(uint32_t slots) {
 
 static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachine *machine,
                      Overrides *o) {
-    for (uint32_t s = 0; s < count; s++)
-        for (uint32_t k = 0; k < least(machine->memory_count); k++)
-            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
-                o->memory[k] = &memory[s].dist;
+    for (uint32_t s = 0; s < count; s++) {
+        const int32_t slot = jox_machine_memory(machine, memory[s].name);
+        if (slot >= 0 && slot < JOX_MOST_GIVEN)
+            o->memory[slot] = &memory[s].dist;
+    }
 }
 
 static void give(JoWorld *world, const JoxGroup *group, const JoxGroupValue *values, uint32_t count,

@@ -121,7 +121,8 @@ static size_t read_list(lua_State *L, const char *items[MOST_SETS]) {
 static bool option(lua_State *L, const char *name, int type) {
     const int found = lua_getfield(L, 2, name);
     if (found != LUA_TNIL && found != type)
-        luaL_error(L, "%s must be a %s, not a %s", name, lua_typename(L, type), lua_typename(L, found));
+        luaL_error(L, "%s must be a %s, not a %s", name, lua_typename(L, type),
+                   lua_typename(L, found));
     return found == type;
 }
 

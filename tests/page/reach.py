@@ -106,7 +106,7 @@ def reconnects(browser):
     browser.picture("lost")
 
 
-@served("run", "scenes/office.yaml", "--view", "--no-watch")
+@served("run", "scenes/catch.yaml", "--view", "--no-watch", "--for", "600")  # whose people stay
 def hides_its_token(browser):
     """the token leaves the address bar; the page can be loaded again, and a second page opened"""
     connected = "return window.page && page.connection.socket.readyState === 1 && page.crowd.next && page.crowd.next.slots > 0"

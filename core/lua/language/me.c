@@ -15,13 +15,6 @@ typedef struct View {
     uint32_t run, index;
 } View;
 
-static int32_t memory_slot(const JoxMachine *m, const char *name) {
-    for (uint32_t s = 0; s < m->memory_count; s++)
-        if (*name && strcmp(m->memory[s].name, name) == 0)
-            return (int32_t)s;
-    return -1;
-}
-
 static double length(float x, float y) {
     return sqrt((double)x * x + (double)y * y);
 }
@@ -107,7 +100,7 @@ static int view_index(lua_State *L) {
     const JoxAgents *a = lua->machines->agents;
     if (lua->before_machine[i] != JOX_NO_MACHINE) {
         const JoxMachine *m = lua->machines->set->items[lua->before_machine[i]];
-        int32_t slot = memory_slot(m, name);
+        int32_t slot = jox_machine_memory(m, name);
         uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
         if (strcmp(name, "state") == 0)
             return lua_pushstring(L, m->states[state].name), 1;
@@ -123,7 +116,7 @@ static int view_index(lua_State *L) {
     /* One without a machine, whom a program moves, or with another machine. */
     bool lacks = lua->before_machine[i] == JOX_NO_MACHINE &&
                  (!strcmp(name, "state") || !strcmp(name, "machine"));
-    if (lacks || memory_slot(script->machine, name) >= 0)
+    if (lacks || jox_machine_memory(script->machine, name) >= 0)
         return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
 }
@@ -136,7 +129,7 @@ static int view_newindex(lua_State *L) {
     const JoxAgents *a = lua->machines->agents;
     const uint16_t machine = lua->before_machine[i];
     const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
-    int32_t slot = m ? memory_slot(m, name) : -1;
+    int32_t slot = m ? jox_machine_memory(m, name) : -1;
     if (slot < 0)
         return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
                           name);
@@ -206,7 +199,7 @@ static int me_index(lua_State *L) {
     const JoxMachineRun *machines = script->owner->machines;
     const JoxAgents *a = machines->agents;
     const JoxMachine *m = script->machine;
-    int32_t slot = memory_slot(m, name);
+    int32_t slot = jox_machine_memory(m, name);
     if (slot >= 0)
         return push_memory(L, &m->memory[slot],
                            a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
@@ -238,7 +231,7 @@ static int me_newindex(lua_State *L) {
     uint32_t i = check_me(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     JoxMachineRun *machines = script->owner->machines;
-    int32_t slot = memory_slot(script->machine, name);
+    int32_t slot = jox_machine_memory(script->machine, name);
     int parameter = jox_parameter_find(name);
     if (slot >= 0) {
         const JoxAgents *a = machines->agents;

@@ -111,12 +111,10 @@ bool jo_agent_memory(const JoWorld *world, JoAgent agent, const char *name, doub
     if (i == JOX_NO_INDEX || a->machine[i] == JOX_NO_MACHINE)
         return false;
     const JoxMachine *machine = world->model.machines.items[a->machine[i]];
-    for (uint32_t s = 0; s < machine->memory_count; s++)
-        if (*machine->memory[s].name && strcmp(machine->memory[s].name, name) == 0) {
-            *value = a->memory[(size_t)i * a->memory_stride + s];
-            return true;
-        }
-    return false;
+    const int32_t slot = jox_machine_memory(machine, name);
+    if (slot >= 0)
+        *value = a->memory[(size_t)i * a->memory_stride + (size_t)slot];
+    return slot >= 0;
 }
 
 bool jo_agent_parameter(const JoWorld *world, JoAgent agent, const char *name, double *value) {
