@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import following
 import reach
 import sight
 from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, write
@@ -430,6 +431,24 @@ def drive(browser, slot):
     return False
 
 
+def someone_else(browser):
+    """Whoever is chosen in a recording is gone where, after a jump in time, their slot is another's."""
+    parity = "return [...Array(page.crowd.next.slots).keys()].map((s) => (page.crowd.alive(s) ? page.crowd.next.bytes[8 * s + 7] & 1 : 2))"
+    jump = "page.replay.seek(arguments[0])"
+    for attempt in range(2):  # once to find a slot that is given anew, and once with it chosen
+        browser.run(jump, 11.5)
+        browser.wait("return page.crowd.next.time > 11", "no seek to 11.5 s")
+        late = browser.run(parity)
+        if attempt:
+            browser.run("page.inspect(arguments[0])", slot)
+        browser.run(jump, 8)
+        browser.wait("return Math.abs(page.crowd.next.time - 8) < 0.6", "no seek to 8 s")
+        given = [s for s, (a, b) in enumerate(zip(late, browser.run(parity))) if a + b == 1]
+        expect(given, "no slot is given anew")
+        slot = given[0]
+    expect(browser.run("return page.slot") is None, "somebody else is shown as the one who was chosen")
+
+
 def replays(browser):
     """a recording is played, stopped and looked through by its time bar"""
     folder = temporary_copy({})
@@ -451,6 +470,7 @@ def replays(browser):
         browser.run("page.inspect([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)))")
         browser.wait("return /state/.test(document.getElementById('page-agent').textContent)", "nothing is said of a person")
         browser.picture("replay")
+        someone_else(browser)
         bar.send_keys(Keys.PAGE_DOWN, Keys.ARROW_RIGHT)
         browser.wait("return page.crowd.next.time < 2.6", "the keys do not move the bar")
         # Charts after jumps: points in the order of time, those of before kept, and no line over what nobody saw.
@@ -474,7 +494,7 @@ def replays(browser):
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *reach.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

@@ -11,6 +11,7 @@ import { Help, Meter } from "./panels/help.js";
 import { Legend } from "./panels/legend.js";
 import { MachinePage } from "./panels/machine.js";
 import { Messages } from "./panels/messages.js";
+import { Follow } from "./draw/follow.js";
 import { describe, Overlay } from "./draw/overlay.js";
 import { COLOURS, FIELDS } from "./draw/palette.js";
 import { Panel } from "./panels/panel.js";
@@ -26,13 +27,13 @@ const LINKS = { connecting: "connecting", open: "connected", lost: "not connecte
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
 const PROTOCOL = 3; // of the messages, as the program counts it
-const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
 class Page {
     constructor() {
         this.crowd = new Crowd();
         this.view = new View(byId("picture"), this.crowd);
+        this.eye = new Follow(this.view);
         this.overlay = new Overlay(byId("overlay"), this.view, this.crowd);
         this.messages = new Messages();
         this.meter = new Meter();
@@ -239,6 +240,7 @@ class Page {
             const taken = this.crowd.take(buffer, performance.now());
             this.view.takeFrame(taken);
             this.legend.setMost(this.crowd.next.most);
+            if (taken === "new" && this.recorded()) this.noticeGone();
             this.findPlayers();
         } else if (kind === 2) {
             this.crowd.takePeople(buffer);
@@ -252,6 +254,12 @@ class Page {
             this.legend.setMost(scale, true);
             this.redraw();
         }
+    }
+
+    /** In a recording a slot is all that is known of who was chosen: once it is another's, they are gone. */
+    noticeGone() {
+        const { slot, crowd } = this;
+        if (slot !== null && (!crowd.alive(slot) || (crowd.another(slot) && !this.scene.periodic))) this.takePerson({ agent: null });
     }
 
     /** Slots of players, where the scene has any. */
@@ -327,8 +335,7 @@ class Page {
 
     follow(on = !this.following) {
         this.following = on && this.slot !== null;
-        const { view } = this, away = view.camera.position.distanceTo(view.controls.target);
-        if (this.following && !view.top && away > NEAR) view.turnBy(0, 0, away / NEAR);
+        if (this.following) this.eye.begin();
         if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
         this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
     }
@@ -368,21 +375,14 @@ class Page {
     loop() {
         const begun = performance.now();
         const share = this.crowd.share(begun);
-        if (this.following) this.keepUp(share);
+        const at = this.following ? this.crowd.position(this.slot, share) : null;
+        if (at) this.eye.keepUp(at, begun);
         if (this.view.draw(begun, this.drawn)) {
             this.overlay.draw(share);
             this.meter.add(performance.now() - begun, this.view.called);
             this.drawn = begun;
         } else this.drawn = undefined;
         requestAnimationFrame(() => this.loop());
-    }
-
-    /** The eye goes where the chosen person goes. */
-    keepUp(share) {
-        const at = this.slot === null ? null : this.crowd.position(this.slot, share);
-        if (!at) return;
-        const target = this.view.controls.target, dx = at[0] - target.x, dy = at[1] - target.y;
-        if (Math.hypot(dx, dy) > 1e-3) this.view.moveBy(dx, dy);
     }
 }
 

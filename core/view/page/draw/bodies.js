@@ -3,18 +3,23 @@ import * as THREE from "/three/build/three.module.js";
 import { ConvexBufferGeometry } from "/three/examples/jsm/geometries/ConvexGeometry.js";
 import { readPoses } from "../net/crowd.js";
 import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./shaders.js";
+import { meetsBox } from "./sightline.js";
 
 const EDGE = 30; // degrees between faces, from which their edge is drawn
 const ROW = 1024; // texels of the texture's rows: 256 bodies
 // Wood, cloth, metal and such, told apart by their lightness too.
 const TINTS = [0xb08a5b, 0x8fa3ad, 0xc9b79c, 0x7d8a6a, 0x9c6b5a, 0xd8cfc0];
 
-/** One part's geometry in its body's frame: sizes in m, `turn` a quaternion. */
+/** One part's geometry in its body's frame: sizes in m, `turn` a quaternion. It keeps the box about it, as it lies. */
 function makePart(part) {
-    const geometry = shapeOf(part).toNonIndexed();
-    const turn = part.turn ?? [0, 0, 0, 1];
-    geometry.applyMatrix(new THREE.Matrix4().compose(
-        new THREE.Vector3(...(part.at ?? [0, 0, 0])), new THREE.Quaternion(...turn), new THREE.Vector3(1, 1, 1)));
+    const geometry = shapeOf(part).toNonIndexed(), frame = new THREE.Matrix4().compose(
+        new THREE.Vector3(...(part.at ?? [0, 0, 0])), new THREE.Quaternion(...(part.turn ?? [0, 0, 0, 1])), new THREE.Vector3(1, 1, 1));
+    const box = new THREE.Box3().setFromBufferAttribute(geometry.attributes.position), middle = box.getCenter(new THREE.Vector3());
+    geometry.userData = {
+        into: new THREE.Matrix4().getInverse(frame.clone().multiply(new THREE.Matrix4().setPosition(middle))),
+        half: box.getSize(new THREE.Vector3()).multiplyScalar(0.5).toArray(),
+    };
+    geometry.applyMatrix(frame);
     return geometry;
 }
 
@@ -66,6 +71,7 @@ export class Bodies {
         const parts = list.map((body) => body.parts.map(makePart));
         const kinds = [...new Set(list.map(kindOf))];
         const tints = list.map((body) => new THREE.Color(TINTS[kinds.indexOf(kindOf(body)) % TINTS.length]));
+        this.boxes = parts.map((geometries) => geometries.map((g) => g.userData));
         this.radii = parts.map((geometries) => Math.max(0, ...geometries.map(reachOf)));
         this.group.add(this.shades(parts));
         const edges = parts.map((geometries) => geometries.map((g) => new THREE.EdgesGeometry(g, EDGE)));
@@ -133,6 +139,18 @@ export class Bodies {
         this.uniforms.poses.value = texture;
         this.uniforms.size.value.set(ROW, rows);
         this.known = count;
+    }
+
+    /** Whether a body stands between an eye [x, y, z] and a point; m. */
+    between(point, eye) {
+        const a = new THREE.Vector3(...point), b = new THREE.Vector3(...eye), line = new THREE.Line3(a, b), nearest = new THREE.Vector3();
+        return this.radii.some((radius, row) => {
+            const [x, y, z, , ...turn] = this.poses.subarray(16 * row + 8, 16 * row + 16), at = new THREE.Vector3(x, y, z);
+            if (line.closestPointToPoint(at, true, nearest).distanceTo(at) > radius) return false;
+            const back = new THREE.Quaternion(...turn).normalize().conjugate();
+            const [from, to] = [a, b].map((v) => v.clone().sub(at).applyQuaternion(back));
+            return this.boxes[row].some(({ into, half }) => meetsBox(...[from, to].map((v) => v.clone().applyMatrix4(into).toArray()), half));
+        });
     }
 
     /** Takes the poses of the last two frames. */

@@ -3,7 +3,8 @@ import * as THREE from "/three/build/three.module.js";
 import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
 import { bakeShade } from "./shade.js";
-import { FLOOR_FRAGMENT, FLOOR_VERTEX } from "./shaders.js";
+import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED } from "./shaders.js";
+import { meetsBlock } from "./sightline.js";
 import { Prism } from "./walls.js";
 
 const OPEN = 0.04; // m, drawn height of an open gate
@@ -86,7 +87,7 @@ export class Ground {
         const fixed = new Prism(this.beside);
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
         this.addPrism(fixed, this.colours.wall, this.colours.edge);
-        this.rings = fixed.rings;
+        this.fixed = fixed.blocks;
         const places = (scene.places ?? []).flatMap(placeLines);
         const regions = Object.values(scene.regions ?? {}).flatMap((points) => outline(points, true, 0.015));
         this.addLines(places, this.colours.place, 0.9);
@@ -105,6 +106,22 @@ export class Ground {
         this.seen.keep.value.set(x0, y0, x1, y1);
     }
 
+    /** Whether a wall, as it is drawn for an eye [x, y, z], stands between the eye and a point; m. */
+    between(point, eye) {
+        const [kx0, ky0, kx1, ky1] = this.seen.keep.value.toArray(), edge = this.seen.edge.value;
+        const low = [0, 1].map((k) => Math.min(point[k], eye[k])), high = [0, 1].map((k) => Math.max(point[k], eye[k]));
+        // As the walls' program has it.
+        const lowered = ({ middle: [mx, my], across: [ax, ay] }) => {
+            const way = ax * (mx - eye[0]) + ay * (my - eye[1]) < 0 ? -1 : 1, x = mx + way * ax, y = my + way * ay;
+            return x > kx0 + edge && y > ky0 + edge && x < kx1 - edge && y < ky1 - edge;
+        };
+        return (this.blocks ?? []).some((block) => {
+            const [from, to] = block.box;
+            if (to[0] < low[0] || to[1] < low[1] || from[0] > high[0] || from[1] > high[1]) return false;
+            return meetsBlock(point, eye, block.ring, lowered(block) ? Math.min(block.high, LOWERED) : block.high);
+        });
+    }
+
     /** Named walls: closed ones stand, open ones are a strip on the floor. */
     gates() {
         this.gateParts?.forEach((part) => this.drop(part));
@@ -113,14 +130,13 @@ export class Ground {
             if (wall.name) gates.wall(wall, this.open[wall.name] ? OPEN : wall.height || 2);
         }
         this.gateParts = this.addPrism(gates, GATE, GATE_EDGE);
+        this.blocks = [...this.fixed, ...gates.blocks];
         this.shade();
     }
 
     /** The shade about walls and closed gates, made anew where they are others. */
     shade() {
-        const closed = new Prism();
-        for (const wall of this.walls) if (wall.name && !this.open[wall.name]) closed.wall(wall, 1);
-        const rings = [...this.rings, ...closed.rings], same = JSON.stringify(rings);
+        const rings = this.blocks.filter((block) => block.high > OPEN).map((block) => block.ring), same = JSON.stringify(rings);
         if (same === this.shadeOf) return;
         this.shadeOf = same;
         this.uniforms.shade.value?.dispose();

@@ -288,6 +288,8 @@ void main() {
     gl_FragColor = vec4(colour * light * (0.8 + 0.2 * smoothstep(0.0, 0.5, high)), 1.0);
 }`;
 
+export const LOWERED = 0.35; // m, drawn height of walls that would hide something
+
 /** Walls: those that stand between the eye and the box `keep` are lowered. */
 export const WALL_VERTEX = `
 attribute vec2 middle, across; // of the wall's block; from its middle to beside it, m
@@ -296,12 +298,11 @@ uniform vec4 keep;         // x0, y0, x1, y1
 uniform float lowered, edge; // edge: m within that box
 varying vec3 facing;
 varying float high;
-const float LOW = 0.35; // m
 void main() {
     vec2 behind = middle + (dot(across, middle - eye.xy) < 0.0 ? -across : across);
     bool hides = all(greaterThan(behind, keep.xy + edge)) && all(lessThan(behind, keep.zw - edge));
     vec3 at = position;
-    if (hides && lowered > 0.5) at.z = min(at.z, LOW);
+    if (hides && lowered > 0.5) at.z = min(at.z, ${LOWERED});
     facing = normal;
     high = at.z;
     gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);

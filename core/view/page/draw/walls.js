@@ -1,6 +1,7 @@
 // Walls: upright blocks whose vertices know where the block's middle is and how far across it reaches,
 // by which the shader lowers those that stand before the crowd.
 import * as THREE from "/three/build/three.module.js";
+import { boxOf } from "./camera.js";
 import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
 
 const THIN = 0.12; // m, drawn thickness of walls that have none
@@ -27,7 +28,7 @@ export class Prism {
         this.beside = beside;
         this.faces = { position: [], normal: [], middle: [], across: [] };
         this.edges = { position: [], normal: [], middle: [], across: [] };
-        this.rings = []; // on which the blocks stand, counter-clockwise
+        this.blocks = []; // on rings that run counter-clockwise
     }
 
     add(part, points, normal) {
@@ -45,7 +46,7 @@ export class Prism {
         const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
         this.middle = [0, 1].map((k) => ring.reduce((sum, p) => sum + p[k], 0) / ring.length);
         this.across = landmark ? [FAR, FAR] : acrossOf(ring, this.middle, this.beside);
-        this.rings.push(ring);
+        this.blocks.push({ ring, high, middle: this.middle, across: this.across, box: boxOf(ring, 0) });
         ring.forEach((p, i) => {
             const q = ring[(i + 1) % ring.length], length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
             const a = [p[0], p[1]], b = [q[0], q[1]];

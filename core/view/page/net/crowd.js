@@ -88,13 +88,18 @@ export class Crowd {
         return this.next !== null && slot < this.next.slots && this.next.bytes[8 * slot + 5] !== NOBODY;
     }
 
+    /** Whether a slot's person was another one in the previous frame, or came round a periodic edge since. */
+    another(slot) {
+        const at = 8 * slot + 7, a = this.previous.bytes, b = this.next.bytes;
+        return at < Math.min(a.length, b.length) && ((a[at] ^ b[at]) & FLAG.parity) !== 0;
+    }
+
     /** Where a slot's person is at a share of the way, m; null where there is nobody. */
     position(slot, share) {
         if (!this.alive(slot)) return null;
         const b = this.next, a = this.previous;
         let x = b.x0 + b.sx * b.words[4 * slot], y = b.y0 + b.sy * b.words[4 * slot + 1];
-        if (share < 1 && slot < a.slots && a.bytes[8 * slot + 5] !== NOBODY
-            && !((a.bytes[8 * slot + 7] ^ b.bytes[8 * slot + 7]) & FLAG.parity)) {
+        if (share < 1 && slot < a.slots && a.bytes[8 * slot + 5] !== NOBODY && !this.another(slot)) {
             x = (1 - share) * (a.x0 + a.sx * a.words[4 * slot]) + share * x;
             y = (1 - share) * (a.y0 + a.sy * a.words[4 * slot + 1]) + share * y;
         }
