@@ -26,15 +26,18 @@ FRAMES, RATE = 24, 8  # of a clip; a second
 BROWSERS = 2
 # s before the picture, where the first one shows little
 BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 14, "wall-heavy": 14, "wall-tight": 14, "circle": 30, "two-bottlenecks": 30,
-          "evacuation": 16, "counterflow": 40, "running-through": 3, "push-row": 2, "bottleneck": 15, "arena": 10, "san-fermin": 20,
+          "evacuation": 16, "counterflow": 40, "running-through": 3, "hurried-polite": 3, "giving-way": 4, "push-row": 2, "bottleneck": 15, "arena": 10, "san-fermin": 20,
           "metro": 70, "dodgeball": 3, "premovement": 40, "premovement-many": 30, "gates": 12, "exit-lost": 12, "rimea-10": 5,
           "rimea-15": 30, "rimea-15-straight": 30, "rimea-07": 30, "outbreak": 30, "station": 20, "tour": 12}
 OTHERWISE = 8  # s
 
+# Clips play while the pointer or the focus is on them, or a finger was last.
+PLAY = "for (const v of document.querySelectorAll('video')) { v.onmouseenter = v.onfocus = () => v.play(); v.onmouseleave = v.onblur = () => v.pause(); }"
+
 PREPARE = """
 document.querySelectorAll('#bar, #menu, #panel, #legend, #replay, .messages, .hint').forEach((n) => n.hidden = true);
 document.body.style.display = 'block';
-document.querySelector('main').style.height = '100vh';
+document.getElementById('stage').style.cssText = 'position: fixed; inset: 0; height: auto';
 page.loop = () => {}; // only what is shot is drawn
 page.resize();
 """
@@ -69,7 +72,7 @@ class Shown:
 
     def size(self, wide, high):
         self.browser.size(wide, high)
-        self.browser.wait("return innerWidth === arguments[0] && page.view.wide === innerWidth", "the window keeps its size", wide)
+        self.browser.wait("return page.view.wide === arguments[0] && page.view.high === arguments[1]", "the picture keeps its size", wide, high)
         self.browser.run("page.view.goHome()")
 
     def advance(self, seconds, least=0):
@@ -113,13 +116,13 @@ def write_page(out):
         name = os.path.basename(path)[:-5]
         with open(path, encoding="utf-8") as file:
             told = json.load(file)
-        items.append(f"<figure><video src='{name}.webm' poster='{name}.jpg' controls muted loop preload='none'></video>"
+        items.append(f"<figure><video src='{name}.webm' poster='{name}.jpg' tabindex='0' aria-label='{html.escape(told['title'])}' muted loop playsinline preload='none'></video>"
                      f"<figcaption><b>{html.escape(told['title'])}</b> {html.escape(told['about'])} <code>jostle run {name} --view</code></figcaption></figure>")
     with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
         file.write("<!DOCTYPE html><html lang='en'><meta charset='utf-8'><meta name='viewport' content='width=device-width'><title>Jostle: gallery</title><style>"
                    ":root{color-scheme:light dark}body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(min(22rem,100%),1fr))}"
                    "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;aspect-ratio:8/5;border-radius:.5rem}code{display:block;opacity:.75}</style>"
-                   f"<h1>Jostle: gallery</h1>{''.join(items)}</html>\n")
+                   f"<h1>Jostle: gallery</h1>{''.join(items)}<script>{PLAY}</script></html>\n")
     return len(items)
 
 
