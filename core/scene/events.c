@@ -32,7 +32,7 @@ static bool is_static(const JoxBodyDef *def) {
            (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
 }
 
-static void check_body(const JoxReader *r, const JoxYaml *name) {
+static void check_body(const JoxReader *r, const JoxYaml *name, const char *done) {
     const char *names[256];
     uint32_t count = 0;
     for (uint32_t b = 0; b < r->load->scene->body_count; b++) {
@@ -40,7 +40,7 @@ static void check_body(const JoxReader *r, const JoxYaml *name) {
         if (def->name && strcmp(def->name, name->text) == 0) {
             if (is_static(def))
                 jox_scene_error(r, name, "bad-event", "Give it a mass above 0",
-                                "the body '%.60s' is static: it cannot be thrown", name->text);
+                                "the body '%.60s' is static: it cannot be %s", name->text, done);
             return;
         }
         if (def->name && count < 256)
@@ -52,6 +52,21 @@ static void check_body(const JoxReader *r, const JoxYaml *name) {
                     "there is no body named '%.60s'", name->text);
 }
 
+/* Whoever stands in a place, or a body. */
+static void check_pushed(const JoxReader *r, const JoxYaml *name, JoxEvent *event) {
+    const JoxSceneSpec *s = r->load->scene;
+    bool body = false;
+    event->place = jox_place_find(s->places, s->place_count, name->text);
+    for (uint32_t b = 0; b < s->body_count; b++)
+        body |= s->bodies[b].def.name && strcmp(s->bodies[b].def.name, name->text) == 0;
+    if (event->place < 0)
+        check_body(r, name, "pushed");
+    else if (body)
+        jox_scene_error(r, name, "bad-event", "Give one of them another name",
+                        "'%.60s' is a place and a body: it is not clear which is pushed",
+                        name->text);
+}
+
 /* What an event does something to, or the signal that it gives. */
 void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxEvent *event = item;
@@ -60,7 +75,9 @@ void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *no
         return;
     }
     if (event->kind == JOX_EVENT_THROW)
-        check_body(r, node);
+        check_body(r, node, "thrown");
+    else if (event->kind == JOX_EVENT_PUSH)
+        check_pushed(r, node, event);
     else if (event->kind != JOX_EVENT_SIGNAL)
         jox_load_wall(r, node);
     else if (!*node->text || strlen(node->text) > LONGEST_NAME)
@@ -84,6 +101,22 @@ static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxEvent *
                         "a throw needs a velocity, a spin or a point that it is from");
 }
 
+static void check_push(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
+    const JoxYaml *force = jox_yaml_get(map, "force"), *lasts = jox_yaml_get(map, "lasts");
+    if (event->kind != JOX_EVENT_PUSH) {
+        if (force || lasts)
+            jox_scene_error(r, force ? force : lasts, "bad-event", NULL, "%s belongs to a push",
+                            force ? "force" : "lasts");
+    } else if (!force || !lasts) {
+        jox_scene_error(r, map, "bad-event", "force: [200, 0], lasts: 3",
+                        "a push needs a force (N) and how long it lasts (s)");
+    } else if (event->every > 0.0 && event->lasts > event->every) {
+        jox_scene_error(r, lasts, "bad-event", NULL,
+                        "this push lasts longer (%g s) than until it comes again (%g s)",
+                        event->lasts, event->every);
+    }
+}
+
 bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxEvent *event = item;
     const JoxYaml *until = jox_yaml_get(map, "until");
@@ -93,6 +126,7 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
     event->placed = jox_yaml_get(map, "from") != NULL;
     event->every = isfinite(event->every) ? event->every : 0.0;
     check_throw(r, map, event);
+    check_push(r, map, event);
     if (until && !jox_yaml_get(map, "every"))
         jox_scene_error(r, until, "bad-event", "every: 5",
                         "until belongs to an event that is repeated");

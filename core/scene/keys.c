@@ -336,6 +336,9 @@ static const JoxKey KEYS[] = {
     {"event", "spin", POINT3, "rad/s", -100, 100, "", TO(JoxEvent, spin), .meaning = "of a throw: about the axes x, y and z"},
     {"event", "open", TEXT, "", 0, 0, "", READ(jox_key_event_name), KIND(JOX_EVENT_OPEN), .meaning = "takes the walls of this name away"},
     {"event", "close", TEXT, "", 0, 0, "", READ(jox_key_event_name), KIND(JOX_EVENT_CLOSE), .meaning = "puts them back; who stands there is moved out"},
+    {"event", "push", TEXT, "", 0, 0, "", READ(jox_key_event_name), KIND(JOX_EVENT_PUSH), .meaning = "whoever stands in the place of this name, or the body of this name"},
+    {"event", "force", POINT, "N", -1e4, 1e4, "", TO(JoxEvent, force), .meaning = "of a push: on each person, or on the body"},
+    {"event", "lasts", NUMBER, "s", 0.01, 1e4, "", TO(JoxEvent, lasts), .meaning = "of a push: for so long"},
     {"event", "signal", TEXT, "", 0, 0, "", READ(jox_key_event_name), KIND(JOX_EVENT_SIGNAL), .meaning = "everybody hears it, however far, as by `heard`"},
 
     {"mod", "name", TEXT, "", 0, 0, "!", TO(JoxMod, name), .meaning = "what others call it: lower-case letters, digits, - and _"},

@@ -48,6 +48,15 @@ static bool within(const char *what, const double v[3], double most, const char 
     return true;
 }
 
+static uint32_t find_body(const JoWorld *world, const char *name, JoxText *why) {
+    const uint32_t row = jox_bodies_find_name(world->state.bodies, name);
+    if (row == JOX_NO_BODY) {
+        const char *names[MOST_NAMES];
+        unknown("body", name, names, body_names(world, names), why);
+    }
+    return row;
+}
+
 bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
                      const double velocity[3], const double spin[3], JoxText *why) {
     static const double NONE[3] = {0.0, 0.0, 0.0};
@@ -55,12 +64,9 @@ bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
     if ((from && !within("from", from, FAR, "m", why)) ||
         !within("velocity", v, FASTEST, "m/s", why) || !within("spin", turn, FASTEST, "rad/s", why))
         return false;
-    uint32_t row = jox_bodies_find_name(world->state.bodies, body);
-    if (row == JOX_NO_BODY) {
-        const char *names[MOST_NAMES];
-        uint32_t count = body_names(world, names);
-        return unknown("body", body, names, count, why);
-    }
+    const uint32_t row = find_body(world, body, why);
+    if (row == JOX_NO_BODY)
+        return false;
     if (jox_world_throw(world, row, from, v, turn))
         return true;
     jox_text_printf(why, "the body '%.60s' is static: it cannot be thrown", body);
@@ -105,6 +111,9 @@ static void happen(JoWorld *world, const JoxEvent *event) {
     case JOX_EVENT_SIGNAL:
         good = jox_event_signal(world, event->name, &why);
         break;
+    case JOX_EVENT_PUSH: /* what it does, it does in each step that it lasts */
+        good = event->place >= 0 || find_body(world, event->name, &why) != JOX_NO_BODY;
+        break;
     }
     if (!good) /* a body that fell off the world, or that an edit brings at the next start */
         jox_text_printf(&world->scratch.news, "%s:%d:%d: t = %.2f s: %s\n", event->position.file,
@@ -125,6 +134,61 @@ static double next_time(const JoxEvent *event, double after) {
         time = event->at + ++n * event->every;
     return time <= event->until + NEARLY ? time : INFINITY;
 }
+
+/* ---- pushes ---- */
+
+/* Whether an event that lasts is under way at a time. */
+static bool is_lasting(const JoxEvent *event, double now) {
+    double began = event->at;
+    if (now < began)
+        return false;
+    if (event->every > 0.0) {
+        const double last = now < event->until ? now : event->until;
+        began += floor((last - began) / event->every) * event->every;
+    }
+    return now < began + event->lasts;
+}
+
+static void push_people(JoWorld *world, const JoxEvent *event) {
+    JoxAgents *a = &world->state.agents;
+    JOX_ASSERT((uint32_t)event->place < world->model.place_count);
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (!jox_place_contains(world->model.places, (uint32_t)event->place,
+                                (JoxV2){a->x[i], a->y[i]}))
+            continue;
+        a->ext_x[i] += (float)event->force[0];
+        a->ext_y[i] += (float)event->force[1];
+    }
+}
+
+/* Through its centre, so that it does not turn. */
+static void push_body(JoWorld *world, const JoxEvent *event) {
+    const uint32_t row = jox_bodies_find_name(world->state.bodies, event->name);
+    const double dt = world->model.def.dt;
+    JoxPose pose;
+    if (row == JOX_NO_BODY || !jox_bodies_pose(world->state.bodies, row, &pose))
+        return;
+    const JoxImpulse impulse = {
+        .object = row,
+        .impulse = {(float)(event->force[0] * dt), (float)(event->force[1] * dt), 0.0f},
+        .point = pose.centre};
+    jox_bodies_impulses(world->state.bodies, &impulse, 1);
+}
+
+/* Those that are under way; in the order of the list. */
+static void push(JoWorld *world, double now) {
+    for (uint32_t e = 0; e < world->model.event_count; e++) {
+        const JoxEvent *event = &world->model.events[e];
+        if (event->kind != JOX_EVENT_PUSH || !is_lasting(event, now))
+            continue;
+        if (event->place >= 0)
+            push_people(world, event);
+        else
+            push_body(world, event);
+    }
+}
+
+/* ---- a step's ---- */
 
 /* What is due follows from the step's number alone, so that an edited list goes on from here. */
 void jox_world_events(JoWorld *world) {
@@ -151,6 +215,7 @@ void jox_world_events(JoWorld *world) {
         after = least;
         done = next;
     }
+    push(world, now);
 }
 
 void jox_world_set_events(JoWorld *world, const JoxEvent *events, uint32_t count) {

@@ -1,5 +1,5 @@
-/* What happens in a world at given times: walls open and close, bodies are thrown, signals sound.
- */
+/* What happens in a world at given times: walls open and close, bodies are thrown, signals sound,
+   people and bodies are pushed for a while. */
 #ifndef JOX_WORLD_EVENTS_H
 #define JOX_WORLD_EVENTS_H
 
@@ -14,7 +14,8 @@ typedef enum JoxEventKind {
     JOX_EVENT_THROW,
     JOX_EVENT_OPEN,
     JOX_EVENT_CLOSE,
-    JOX_EVENT_SIGNAL
+    JOX_EVENT_SIGNAL,
+    JOX_EVENT_PUSH
 } JoxEventKind;
 
 /* What happens at given times. */
@@ -25,6 +26,8 @@ typedef struct JoxEvent {
     bool placed;                 /* the body is thrown from `from`; else from where it lies */
     double from[3];              /* of the shape's own frame, m */
     double velocity[3], spin[3]; /* m/s, rad/s */
+    int32_t place;               /* of a push: whoever stands in it; -1: the body of that name */
+    double force[2], lasts;      /* of a push: N on each, s */
     JoxPosition position;
 } JoxEvent;
 

@@ -279,6 +279,17 @@ static const struct Case {
     {CRATE "events: [{at: 1, throw: crate, velocity: [1, 0, @1e300]}]\n" GROUP, "out-of-range",
      NULL},
     {CRATE "events: [{at: 1, throw: crate, from: @[1, 0]}]\n" GROUP, "bad-type", "[x, y, z]"},
+    {CRATE "events: [@{at: 1, push: crate, force: [9, 0]}]\n" GROUP, "bad-event", "lasts: 3"},
+    {CRATE "events: [{at: 1, push: @rock, force: [9, 0], lasts: 1}]\n" GROUP, "bad-event",
+     "Give it a mass above 0"},
+    {CRATE "events: [{at: 1, push: @crat, force: [9, 0], lasts: 1}]\n" GROUP, "unknown-body",
+     "Did you mean 'crate'?"},
+    {CRATE "places: {crate: {point: [0, 0]}}\nevents: [{at: 1, push: @crate, force: [9, 0], "
+           "lasts: 1}]\n" GROUP,
+     "bad-event", "another name"},
+    {"events: [{at: 1, signal: go, lasts: @1}]\n" GROUP, "bad-event", NULL},
+    {CRATE "events: [{at: 1, every: 2, push: crate, force: [9, 0], lasts: @3}]\n" GROUP,
+     "bad-event", NULL},
     /* of a wall that could not be read, its name is not missed too */
     {"walls: [{line: @[[0, 0]], name: gate}]\nevents: [{at: 1, open: gate}]\n" GROUP, "bad-type",
      NULL},

@@ -237,7 +237,8 @@ const JoxExample jox_scene_examples[] = {
      "  - {at: 5, signal: alarm}\n"
      "  - {at: 10, open: gate}\n"
      "  - {at: 1 min, close: gate}\n"
-     "  - {at: 10, every: 5, until: 60, throw: crate, from: [4, 5, 2], velocity: [-4, 0, 3], spin: [0, 0, 2]}\n"},
+     "  - {at: 10, every: 5, until: 60, throw: crate, from: [4, 5, 2], velocity: [-4, 0, 3], spin: [0, 0, 2]}\n"
+     "  - {at: 20, every: 10, push: crate, force: [60, 0], lasts: 1.5}\n"},
     {"mod",
      "name: calm\n"
      "title: Calm crowds\n"
