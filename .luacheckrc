@@ -31,6 +31,7 @@ std = {
     "compression",
     "load",
     "contacts",
+    "held",
     "time_in_state",
     "min",
     "max",

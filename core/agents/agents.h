@@ -101,7 +101,10 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \
     X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
     X(STATE, uint64_t, push_only)  /* tags that are pushed; 0 means all */                         \
-    X(STATE, int32_t, approach)    /* body index that is approached, not anticipated; -1 none */
+    X(STATE, int32_t, approach)    /* body index that is approached, not anticipated; -1 none */   \
+    X(STATE, uint32_t, approached) /* id + 1 of the agent that is approached; 0 none */            \
+    X(STATE, uint32_t, grasped)    /* id + 1 of the agent that it holds; 0 none */                 \
+    X(STATE, uint8_t, held)        /* agents that hold it */
 
 #define JOX_NO_MACHINE UINT16_MAX
 
@@ -169,6 +172,17 @@ static inline bool jox_stands_pressed(const JoxAgents *agents, uint32_t i) {
 /* Whether all `count` cells of a column, 1 at least, are the same to the bit. */
 static inline bool jox_is_same_of_all(const void *cells, size_t size, uint32_t count) {
     return memcmp(cells, (const char *)cells + size, (count - 1) * size) == 0;
+}
+/* Whether an agent means to touch somebody, or is held: then some of its neighbours are none that
+   it avoids. */
+static inline bool jox_is_close_to_some(const JoxAgents *agents, uint32_t i) {
+    return agents->approached[i] || agents->grasped[i] || agents->held[i];
+}
+/* Whether j is one of them. Only contacts keep them apart, where these are solved. */
+static inline bool jox_is_close_to(const JoxAgents *agents, uint32_t i, uint32_t j) {
+    const uint32_t other = agents->id[j] + 1;
+    return agents->approached[i] == other || agents->grasped[i] == other ||
+           agents->grasped[j] == agents->id[i] + 1;
 }
 /* From agent i to agent j, m. */
 static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {

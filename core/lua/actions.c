@@ -209,6 +209,21 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
     lua_pop(L, 1);
 }
 
+static void read_grip(JoxBuild *b, int index, const char *path, JoxState *state) {
+    const JoxParameterInfo grip = jox_table_key_number("state", "grip");
+    char full[256];
+    jox_read_join(full, path, "grip");
+    if (jox_read_field(b->script->vm.L, index, "grip") == LUA_TNIL) {
+        lua_pop(b->script->vm.L, 1);
+        return;
+    }
+    state->grip = jox_read_parameter(b, full, &grip);
+    if (state->grasp < 0)
+        jox_build_error(b, jox_read_at(b, full), "missing-key",
+                        "Example: grasp = nearest \"people\", grip = 400",
+                        "grip is of a state with `grasp`");
+}
+
 void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *state) {
     const JoxParameterInfo impulse = jox_table_key_number("kick", "impulse"),
                            speed = jox_table_key_number("throw", "speed");
@@ -223,6 +238,8 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
                         "Example: throw = { nearest \"ball\", at = goal, speed = 6 }",
                         "throw needs `at`, a target");
     state->take = jox_read_target(b, index, path, "take");
+    state->grasp = jox_read_target(b, index, path, "grasp");
+    read_grip(b, index, path, state);
     read_become(b, index, path, state);
 }
 

@@ -1,5 +1,5 @@
 /* What states ask for besides a preferred velocity: parameters that are expressions, pushing,
-   approaching, kicking. */
+   approaching, kicking, holding on. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -38,6 +38,9 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
         run->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
         run->push_nearest[i] = state->push_nearest;
         run->agents->approach[i] = -1;
+        run->agents->approached[i] = 0;
+        if (state->grasp < 0)
+            run->agents->grasped[i] = 0; /* it lets go */
     }
     for (uint32_t n = 0; state->push_toward >= 0 && n < batch->count; n++) {
         const uint32_t i = agents[n];
@@ -47,8 +50,13 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
         run->push_toward_x[i] = way.x;
         run->push_toward_y[i] = way.y;
     }
-    for (uint32_t n = 0; state->approach >= 0 && n < batch->count; n++)
-        run->agents->approach[agents[n]] = jox_target_find(run, agents[n], state->approach).object;
+    for (uint32_t n = 0; state->approach >= 0 && n < batch->count; n++) {
+        const uint32_t i = agents[n];
+        const JoxSpot spot = jox_target_find(run, i, state->approach);
+        run->agents->approach[i] = spot.object;
+        if (spot.agent != JOX_NO_INDEX)
+            run->agents->approached[i] = run->agents->id[spot.agent] + 1;
+    }
 }
 
 static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -138,19 +146,32 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     a->kicked[i] = row;
 }
 
-/* All that is done to bodies, by id of who does it. */
-static void kick_all(JoxMachineRun *run) {
-    const JoxAgents *a = run->agents;
+/* Lists all who are in states of which something holds, by id. */
+static void list_those(JoxMachineRun *run, bool (*of)(const JoxState *state)) {
     JoxMachineScratch *s = run->scratch;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const JoxState *state = &run->set->items[batch->machine]->states[batch->state];
-        bool kicks = state->kick >= 0 || state->take >= 0 || state->toss >= 0;
-        for (uint32_t n = 0; kicks && n < batch->count; n++)
+        const bool all = of(&run->set->items[batch->machine]->states[batch->state]);
+        for (uint32_t n = 0; all && n < batch->count; n++)
             s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
     jox_sort_by_id(run, s->list, s->list_count);
+}
+
+static bool does_to_bodies(const JoxState *state) {
+    return state->kick >= 0 || state->take >= 0 || state->toss >= 0;
+}
+
+static bool grasps(const JoxState *state) {
+    return state->grasp >= 0;
+}
+
+/* All that is done to bodies, by id of who does it. */
+static void kick_all(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    JoxMachineScratch *s = run->scratch;
+    list_those(run, does_to_bodies);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
@@ -180,5 +201,8 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
     if (run->objects && run->objects->count)
         kick_all(run);
+    memset(a->held, 0, a->count);
+    list_those(run, grasps);
+    jox_machines_grasp(run, run->scratch->list, run->scratch->list_count);
     JOX_CHECK(jox_acts_check(run));
 }

@@ -76,8 +76,9 @@ static void check_transitions(const JoxMachine *m, const JoxState *state) {
 }
 
 static void check_state(const JoxMachine *m, const JoxState *state) {
-    const int16_t targets[] = {state->push_toward, state->face, state->approach, state->kick,
-                               state->kick_at,     state->take, state->toss,     state->toss_at};
+    const int16_t targets[] = {state->push_toward, state->face,    state->approach,
+                               state->kick,        state->kick_at, state->take,
+                               state->toss,        state->toss_at, state->grasp};
     for (size_t n = 0; n < sizeof targets / sizeof *targets; n++)
         JOX_ASSERT(is_index(targets[n], m->target_count));
     JOX_ASSERT(is_index(state->push_when, m->expression_count));

@@ -114,7 +114,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     case JOX_OP_SEES:
         return jox_target_find(run, i, in->target).found;
     case JOX_OP_HAS:
-        return jox_holding(run, i, in->target) >= 0;
+        return jox_has(run, i, in->target);
     case JOX_OP_HEARD:
         return jox_heard(run, i, machine->names[in->name].number, a);
     case JOX_OP_NEIGHBOURS:

@@ -155,6 +155,8 @@ double jox_theirs(const JoxMachineRun *run, uint32_t agent, int32_t target, uint
 /* Whether a gate at the place stands and the agent sees it: within perception, and no other wall
    lies before it. */
 bool jox_sees_shut(const JoxMachineRun *run, uint32_t agent, int32_t place);
+/* Whether the agent carries such a body, or holds on to such an agent. */
+bool jox_has(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Row of the body that the agent holds and the target means, or -1. */
 int32_t jox_holding(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Memory that is set and signals that are given on entering or taking something. */
@@ -206,7 +208,9 @@ void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, double valu
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets what people set of a machine, and its copy. */
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
-/* Parameters that are expressions, pushing, approach and kicks, after the transitions. */
+/* grasp.c: of those given, in ascending id: they take hold, pull, and lose hold. */
+void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t count);
+/* Parameters that are expressions, pushing, approach, kicks and holds, after the transitions. */
 void jox_machines_act(JoxMachineRun *run, JoxPool *pool);
 
 /* check.c: how many of the registers a, b, c an operation reads. */

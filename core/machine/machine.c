@@ -31,6 +31,7 @@ JoxState jox_state_blank(char *name) {
                       .take = -1,
                       .toss = -1,
                       .toss_at = -1,
+                      .grasp = -1,
                       .enters = {.signal = -1},
                       .become_machine = -1,
                       .on_enter = -1,

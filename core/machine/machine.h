@@ -17,6 +17,8 @@ enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 enum { JOX_MOST_WEIGHT = 1000000 };
 /* Greatest figure of a drift, of either sign, in wanted speeds. */
 enum { JOX_MOST_DRIFT = 100 };
+/* N: with which somebody is held on to, where a state does not say. */
+#define JOX_GRIP 300
 
 #define JOX_LOAD_MEANING                                                                           \
     "greatest push borne from any one direction: over directions d, the greatest sum of the "      \
@@ -41,6 +43,7 @@ enum { JOX_MOST_DRIFT = 100 };
       a->compression[i])                                                                           \
     X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
     X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \
+    X(held, held, "", "agents that hold on to the agent (see `grasp`)", a->held[i])                \
     X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
 #define JOX_MEASURED_OTHERS(X)                                                                     \
     X(speed, , "m/s", "present speed", jox_length((JoxV2){a->vx[i], a->vy[i]}))                    \
@@ -69,12 +72,12 @@ typedef enum JoxNow {
    ground. KICKED: the agent kicked target, or what bears its tag, in the last step. HIT_BY: target,
    faster than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target,
    as it moves, comes within a metres during the next 2 s. SEES: target exists within perception.
-   HAS: the agent holds target, a body. HEARD: another agent within perception, and within a metres,
-   gave the signal `name` in the last step. NEIGHBOURS: how many of them are what target asks for.
-   THEIRS: what the agent that target is remembers as `name`, if its machine makes that public; else
-   0. SHUT: a gate at place stands, and the agent sees it. QUEUED: how many
-   stand in the queue `place`. OPEN: the gates called `name` are open. Whom a wall hides is not
-   seen, heard or touched. */
+   HAS: the agent holds target, a body or an agent. HEARD: another agent within perception, and
+   within a metres, gave the signal `name` in the last step. NEIGHBOURS: how many of them are what
+   target asks for. THEIRS: what the agent that target is remembers as `name`, if its machine makes
+   that public; else 0. SHUT: a gate at place stands, and the agent sees it. QUEUED: how many stand
+   in the queue `place`. OPEN: the gates called `name` are open. Whom a wall hides is not seen,
+   heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -238,6 +241,8 @@ typedef struct JoxState {
     int16_t take;          /* body that is picked up where it is in reach; -1 none */
     int16_t toss, toss_at; /* body that is thrown, and whereto; -1 none */
     JoxValue toss_speed;   /* level speed of the throw, m/s */
+    int16_t grasp;         /* agent that is held on to where it is in reach; -1 none */
+    JoxValue grip;         /* the greatest force of that, N; UNSET: JOX_GRIP */
     JoxActions enters;
     double signal_every;    /* s between two calls of enters.signal while in the state; 0: one */
     char *become;           /* behaviour whose machine the agent goes on with; NULL none */

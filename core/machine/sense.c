@@ -94,6 +94,18 @@ bool jox_sees_shut(const JoxMachineRun *run, uint32_t i, int32_t place) {
     return false;
 }
 
+bool jox_has(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const uint32_t grasped = run->agents->grasped[i];
+    if (jox_holding(run, i, target) >= 0)
+        return true;
+    if (!grasped)
+        return false;
+    const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
+    const uint32_t j = jox_agents_find(run->agents, grasped - 1);
+    return j != JOX_NO_INDEX && t->kind >= JOX_TARGET_NEAREST && t->kind != JOX_TARGET_HOME &&
+           jox_is_wanted(run, t, i, j);
+}
+
 int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JOX_ASSERT(target >= 0 && target < (int32_t)jox_machine_of(run, i)->target_count);
     const JoxTarget *t = &jox_machine_of(run, i)->targets[target];

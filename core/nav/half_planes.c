@@ -45,7 +45,8 @@ static bool is_hidden(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) 
 bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
-    return (a->tags[j] & a->ignore[i]) || (s->touched && is_touched(s->touched, i, j)) ||
+    return (a->tags[j] & a->ignore[i]) ||
+           (s->touched && (jox_is_close_to(a, i, j) || is_touched(s->touched, i, j))) ||
            is_hidden(s, i, jox_offset(a, i, j), radius[i] + radius[j]);
 }
 

@@ -91,13 +91,15 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* Of some lanes, those that ignore somebody or stand near walls: who of their neighbours has no
-   half-plane is asked one by one. */
+/* Of some lanes, those that ignore somebody, mean to touch somebody or stand near walls: who of
+   their neighbours has no half-plane is asked one by one. */
 static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
-    const uint64_t *ignore = p->s->agents->ignore + p->first;
+    const JoxAgents *a = p->s->agents;
     uint32_t picky = p->s->touched ? p->near_walls : 0;
-    for (uint32_t lane = 0; p->lanes >> lane; lane++)
-        picky |= (uint32_t)(ignore[lane] != 0) << lane;
+    for (uint32_t lane = 0; p->lanes >> lane; lane++) {
+        const uint32_t i = p->first + lane;
+        picky |= (uint32_t)(a->ignore[i] || jox_is_close_to_some(a, i)) << lane;
+    }
     return picky & p->lanes;
 }
 

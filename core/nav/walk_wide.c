@@ -58,7 +58,7 @@ static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, con
         const uint32_t i = p->first + lane;
         if (!(lanes >> lane & 1))
             continue;
-        if ((a->tags[index[lane]] & a->ignore[i]) ||
+        if ((a->tags[index[lane]] & a->ignore[i]) || jox_is_close_to(a, i, index[lane]) ||
             ((p->near_walls >> lane & 1) &&
              jox_nav_is_behind_wall(p->w->nav, (JoxV2){a->x[i], a->y[i]},
                                     (JoxV2){x[lane], y[lane]})))
@@ -80,7 +80,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
         counts[lane] = p->lanes >> lane & 1 ? n->count[i + lane] : 0;
         most = counts[lane] > most ? counts[lane] : most;
-        if ((p->lanes >> lane & 1) && a->ignore[i + lane])
+        if ((p->lanes >> lane & 1) && (a->ignore[i + lane] || jox_is_close_to_some(a, i + lane)))
             picky |= 1u << lane;
     }
     p->rows = 0;

@@ -93,9 +93,11 @@ function Target:where(name, ...) end
 ---@field push_only? string|string[] pushes those alone
 ---@field ignore? string|string[] does not avoid those
 ---@field face? string|jostle.Target|jostle.Number looks at; else where it walks
----@field approach? string|jostle.Target|jostle.Number a body that is not anticipated, only not overlapped
+---@field approach? string|jostle.Target|jostle.Number a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches
 ---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
+---@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until the state is left or 1 m is between them; see `has` and `held`
+---@field grip? number the greatest force with which it holds on; else 300, N
 ---@field throw? table throws the body that it carries
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
@@ -215,7 +217,7 @@ function incoming(a1, a2) end
 ---@return jostle.Condition
 function kicked(a1) end
 
---- `has(target)`: the agent carries the body (see `take`)
+--- `has(target)`: the agent carries the body (see `take`), or holds on to somebody who is what the target asks for (see `grasp`)
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function has(a1) end
@@ -300,6 +302,10 @@ load = nil
 ---@type jostle.Number
 contacts = nil
 
+--- `held`: agents that hold on to the agent (see `grasp`)
+---@type jostle.Number
+held = nil
+
 --- `time_in_state` in s: since the state was entered
 ---@type jostle.Number
 time_in_state = nil
@@ -333,7 +339,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts held time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

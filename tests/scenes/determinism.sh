@@ -116,6 +116,7 @@ compare dodgeball --for 20
 compare running-through --for 10
 compare evacuation --for 15
 compare catch --for 20
+compare tackle --for 8
 compare station --for 12
 compare gates --for 25
 compare wall-breaking --for 14

@@ -1,0 +1,22 @@
+-- Runs for the end zone past those who would stop it; tears itself away from who holds it, or goes down. By ORCA: not
+-- fit for capacities.
+memory { home = false, down = false }
+
+return machine {
+  name = "sprinter", version = 1, start = "Run",
+  defaults = { speed = normal(5.5, 0.4), max_speed = 7, perception = 8, horizon = 0.8, mass = normal(85, 8) },
+
+  states = {
+    Run = { steer = seek(own.zone) + evade,
+      { to = "Home", when = inside(own.zone) },
+      { to = "Held", when = held:above(0) } },
+
+    Held = { steer = seek(own.zone),
+      { to = "Home", when = inside(own.zone) },
+      { to = "Down", when = after(1.5) },
+      { to = "Run",  when = held:at_most(0) } },
+
+    Home = { steer = hold, set = { home = true } },
+    Down = { steer = hold, set = { down = true } },
+  },
+}

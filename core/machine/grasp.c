@@ -1,0 +1,67 @@
+/* Holding on to people. Who has taken hold of somebody pulls them, and is pulled, as by an arm that
+   is critically damped: with the grip at most, so that who is stronger gets away. The forces are
+   given to both for the step, as those from outside are. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "machine/internal.h"
+
+static const float REACH = 0.5f;     /* m: the gap over which hold is taken */
+static const float SLIPS = 1.0f;     /* m: the gap at which it is lost */
+static const float STIFFNESS = 2e3f; /* N/m, of an arm */
+/* Greatest shares of the stiffness and the damping at which a step of explicit integration would
+   oscillate: m / dt2 and m / dt. */
+static const float STIFF_MOST = 0.12f, DAMPED_MOST = 0.7f;
+
+static float gap(const JoxAgents *a, uint32_t i, uint32_t j) {
+    const float *radius = a->param[JOX_PARAM_radius];
+    return jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
+}
+
+/* Whom the agent holds now: whom it held, or else who is its target and within reach. */
+static uint32_t find_held(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxAgents *a = run->agents;
+    if (a->grasped[i]) {
+        const uint32_t j = jox_agents_find(a, a->grasped[i] - 1);
+        if (j != JOX_NO_INDEX && !a->removed[j] && gap(a, i, j) <= SLIPS)
+            return j;
+    }
+    const JoxSpot spot = jox_target_find(run, i, target);
+    return spot.agent != JOX_NO_INDEX && spot.agent != i && gap(a, i, spot.agent) <= REACH
+               ? spot.agent
+               : JOX_NO_INDEX;
+}
+
+static void pull(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
+    JoxAgents *a = run->agents;
+    const float *mass = a->param[JOX_PARAM_mass], dt = (float)run->dt;
+    const float both = mass[i] * mass[j] / (mass[i] + mass[j]);
+    const JoxV2 way = jox_unit(jox_offset(a, i, j));
+    const float apart = jox_maxf(gap(a, i, j), 0.0f);
+    const float parting = way.x * (a->vx[j] - a->vx[i]) + way.y * (a->vy[j] - a->vy[i]);
+    const float stiffness = jox_minf(STIFFNESS, STIFF_MOST * both / (dt * dt));
+    const float damping = jox_minf(2.0f * sqrtf(stiffness * both), DAMPED_MOST * both / dt);
+    const float force = jox_clampf(stiffness * apart + damping * parting, 0.0f, grip);
+    JOX_ASSERT(both > 0.0f && force >= 0.0f);
+    a->ext_x[i] += force * way.x;
+    a->ext_y[i] += force * way.y;
+    a->ext_x[j] -= force * way.x;
+    a->ext_y[j] -= force * way.y;
+}
+
+void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t count) {
+    JoxAgents *a = run->agents;
+    for (uint32_t n = 0; n < count; n++) {
+        const uint32_t i = agents[n];
+        const JoxMachine *machine = jox_machine_of(run, i);
+        const JoxState *state = &machine->states[a->state[i]];
+        const uint32_t j = find_held(run, i, state->grasp);
+        a->grasped[i] = j == JOX_NO_INDEX ? 0 : a->id[j] + 1;
+        if (j == JOX_NO_INDEX)
+            continue;
+        a->held[j] = (uint8_t)(a->held[j] + (a->held[j] < UINT8_MAX));
+        pull(run, i, j,
+             state->grip.kind == JOX_VALUE_UNSET ? JOX_GRIP
+                                                 : (float)jox_value(run, machine, &state->grip, i));
+    }
+}

@@ -1,0 +1,144 @@
+/* Contact with people that is meant: approaching them, taking hold, being pulled, slipping. */
+#include <math.h>
+
+#include "unit/live_page.h"
+
+#define APART(x)                                                                                   \
+    "jostle: 1\nforces: {enabled: true}\nplaces: {end: {point: [30, 0]}}\n"                        \
+    "groups:\n"                                                                                    \
+    "  one: {behaviour: own.lua, at: [[0, 0]], tags: [one]}\n"                                     \
+    "  other: {behaviour: own.lua, at: [[" x ", 0]], tags: [other]}\n"
+
+/* "one" is id 0, "other" is id 1: of each, its steering and what else its state says. */
+#define TWO(own, one, other)                                                                       \
+    HEAD "\"Wait\", defaults = { perception = 10, speed = 1.3, mass = 70 }, states = {\n"          \
+         "  Wait = { steer = hold, { to = \"One\", when = sees(nearest \"other\") },\n"            \
+         "    { to = \"Other\", when = sees(nearest \"one\") } },\n"                               \
+         "  One = { " one " }, Other = { " other " },\n"                                           \
+         "  Has = { " own " }, Free = { steer = hold } } }\n"
+
+typedef struct Pair {
+    JoScene *scene;
+    const JoxAgents *a;
+    uint32_t one, other;
+} Pair;
+
+static Pair begin(const char *scene, const char *behaviour) {
+    Pair p = {.scene = load_own(scene, behaviour)};
+    p.a = &p.scene->world->state.agents;
+    return p;
+}
+
+static void go(Pair *p, int steps) {
+    step(p->scene, steps);
+    p->one = jox_agents_find(p->a, 0);
+    p->other = jox_agents_find(p->a, 1);
+}
+
+static float gap(const Pair *p) {
+    const float *radius = p->a->param[JOX_PARAM_radius];
+    return jox_length(jox_offset(p->a, p->one, p->other)) - radius[p->one] - radius[p->other];
+}
+
+static const char *state_of(const Pair *p, uint32_t i) {
+    return p->scene->world->model.machines.items[p->a->machine[i]]->states[p->a->state[i]].name;
+}
+
+/* ORCA slows down before who stands; who approaches runs into them at full speed. */
+static void who_is_approached_is_run_into(void **state) {
+    (void)state;
+    static const char *const STEERS[2] = {
+        TWO("", "steer = seek(nearest \"other\"), push = 0", "steer = hold"),
+        TWO("", "steer = seek(nearest \"other\"), approach = nearest \"other\", push = 0",
+            "steer = hold")};
+    float came[2];
+    for (int approaches = 0; approaches < 2; approaches++) {
+        Pair p = begin(APART("2"), STEERS[approaches]);
+        float least = INFINITY;
+        go(&p, 8);
+        for (int n = 0; n < 32; n++) {
+            go(&p, 1);
+            least = jox_minf(least, p.a->vx[p.one]);
+        }
+        assert_int_equal(p.a->approached[p.one], approaches ? 2 : 0);
+        assert_true(approaches ? least > 1.25f : least < 0.9f);
+        assert_true(p.a->x[p.other] > 2.5f && gap(&p) < 0.05f); /* who is shoved goes along */
+        came[approaches] = p.a->x[p.one];
+        jo_scene_free(p.scene);
+    }
+    assert_true(came[1] > came[0] + 0.3f);
+}
+
+#define HOLDS "steer = hold, grasp = nearest \"other\", grip = 200"
+/* What one is pulled by, the other is pulled by; never by more than the grip. */
+static void a_hold_pulls_both_alike(void **state) {
+    (void)state;
+    Pair p = begin(APART("0.7"), TWO("", HOLDS, "steer = seek \"end\""));
+    float most = 0.0f;
+    int held = 0;
+    for (int n = 0; n < 60; n++) {
+        go(&p, 1);
+        assert_float_equal(p.a->given_x[p.one] + p.a->given_x[p.other], 0, 1e-4);
+        assert_float_equal(p.a->given_y[p.one] + p.a->given_y[p.other], 0, 1e-4);
+        assert_true(p.a->given_x[p.one] >= 0.0f); /* towards whom it holds */
+        most = jox_maxf(most, p.a->given_x[p.one]);
+        assert_int_equal(p.a->held[p.other], p.a->grasped[p.one] == 2);
+        assert_int_equal(p.a->held[p.one], 0);
+        held += p.a->held[p.other];
+    }
+    assert_true(held > 55);
+    assert_true(most > 20.0f && most <= 200.0f);
+    assert_true(p.a->x[p.one] > 0.1f); /* dragged along */
+    jo_scene_free(p.scene);
+}
+
+/* A grip of 1 N holds nobody who walks: at a gap of 1 m the hold is lost. */
+static void a_weak_hold_slips(void **state) {
+    (void)state;
+    Pair p = begin(APART("0.7"), TWO("steer = hold, grasp = nearest \"other\", grip = 1, "
+                                     "{ to = \"Free\", when = ~has(nearest \"other\") }",
+                                     "steer = hold, grasp = nearest \"other\", grip = 1, "
+                                     "{ to = \"Has\", when = has(nearest \"other\") }",
+                                     "steer = seek \"end\""));
+    go(&p, 6);
+    assert_string_equal(state_of(&p, p.one), "Has");
+    go(&p, 40);
+    assert_string_equal(state_of(&p, p.one), "Free");
+    assert_int_equal(p.a->grasped[p.one], 0);
+    assert_int_equal(p.a->held[p.other], 0);
+    assert_true(gap(&p) > 1.0f);
+    jo_scene_free(p.scene);
+}
+
+static void who_is_out_of_reach_is_not_held(void **state) {
+    (void)state;
+    Pair p = begin(APART("2"), TWO("", HOLDS, "steer = hold"));
+    go(&p, 10);
+    assert_int_equal(p.a->grasped[p.one], 0);
+    assert_float_equal(p.a->x[p.one], 0, 1e-3);
+    jo_scene_free(p.scene);
+}
+
+static void whoever_is_held_knows_and_may_be_let_go(void **state) {
+    (void)state;
+    Pair p = begin(APART("0.7"), TWO("", HOLDS ", { to = \"Free\", when = after(1) }",
+                                     "steer = hold, { to = \"Has\", when = held:is(1) }"));
+    go(&p, 5);
+    assert_string_equal(state_of(&p, p.other), "Has");
+    go(&p, 25);
+    assert_string_equal(state_of(&p, p.one), "Free");
+    assert_int_equal(p.a->grasped[p.one], 0);
+    assert_int_equal(p.a->held[p.other], 0);
+    jo_scene_free(p.scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(who_is_approached_is_run_into),
+        cmocka_unit_test(a_hold_pulls_both_alike),
+        cmocka_unit_test(a_weak_hold_slips),
+        cmocka_unit_test(who_is_out_of_reach_is_not_held),
+        cmocka_unit_test(whoever_is_held_knows_and_may_be_let_go),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
