@@ -32,8 +32,8 @@ typedef void JoxSteerKernel(JoxSteer *steer);
 JOX_ISAS(X)
 #undef X
 
-/* steer_field.c: the ways of a term of the kind field, of `count` of the agents in index, those of
-   them whose weight counts: way. Sets what they are bound for. */
+/* steering/steer_field.c: the ways of a term of the kind field, of `count` of the agents in index,
+   those of them whose weight counts: way. Sets what they are bound for. */
 void jox_steer_field(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *steer);
 
 /* Runs one instruction over `count` agents of a batch, and says whether it is one that has a loop
