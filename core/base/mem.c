@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "jostle_host.h"
 
 enum { ALIGNMENT = 64 };
 
@@ -21,6 +22,49 @@ static bool may_allocate(void) {
     return !atomic_load_explicit(&limited, memory_order_relaxed) ||
            atomic_fetch_sub_explicit(&remaining, 1, memory_order_relaxed) > 0;
 }
+
+/* ---- where memory comes from ---- */
+
+static JoAllocator host; /* its functions are NULL: the C library's */
+static atomic_bool begun;
+
+bool jox_set_allocator(const JoAllocator *allocator) {
+    if (atomic_load(&begun))
+        return false;
+    host = allocator ? *allocator : (JoAllocator){0};
+    return true;
+}
+
+static void *get(size_t bytes) {
+    if (!atomic_load_explicit(&begun, memory_order_relaxed))
+        atomic_store(&begun, true);
+    return host.allocate ? host.allocate(host.context, bytes) : malloc(bytes);
+}
+
+/* Pages that calloc has from the system are zero without being touched. */
+static void *get_zeroed(size_t bytes) {
+    if (!host.allocate) {
+        atomic_store_explicit(&begun, true, memory_order_relaxed);
+        return calloc(1, bytes);
+    }
+    void *memory = get(bytes);
+    return memory ? memset(memory, 0, bytes) : NULL;
+}
+
+static void *resize(void *memory, size_t bytes) {
+    if (!memory)
+        return get(bytes);
+    return host.allocate ? host.reallocate(host.context, memory, bytes) : realloc(memory, bytes);
+}
+
+static void give_back(void *memory) {
+    if (!host.allocate)
+        free(memory);
+    else if (memory)
+        host.release(host.context, memory);
+}
+
+/* ---- counting ---- */
 
 static bool count_allocation(void) {
     atomic_fetch_add_explicit(&allocations, 1, memory_order_relaxed);
@@ -115,14 +159,12 @@ static void *begin_block(char *start, size_t offset, size_t bytes) {
 
 void *jox_alloc(size_t count, size_t size) {
     size_t bytes = total(count, size, sizeof(JoxBlock));
-    return begin_block(count_allocation() ? calloc(1, bytes) : NULL, sizeof(JoxBlock), bytes);
+    return begin_block(count_allocation() ? get_zeroed(bytes) : NULL, sizeof(JoxBlock), bytes);
 }
 
 void *jox_alloc_aligned(size_t count, size_t size) {
-    /* Not aligned_alloc, as pages that calloc has from the system are zero without being touched.
-     */
     const size_t bytes = total(count, size, ALIGNMENT + sizeof(JoxBlock));
-    char *start = count_allocation() ? calloc(1, bytes) : NULL;
+    char *start = count_allocation() ? get_zeroed(bytes) : NULL;
     const size_t past = ((uintptr_t)start + sizeof(JoxBlock)) % ALIGNMENT;
     return begin_block(start, sizeof(JoxBlock) + (ALIGNMENT - past) % ALIGNMENT, bytes);
 }
@@ -130,12 +172,12 @@ void *jox_alloc_aligned(size_t count, size_t size) {
 void *jox_realloc(void *memory, size_t count, size_t size) {
     size_t bytes = total(count, size, sizeof(JoxBlock));
     if (!memory)
-        return begin_block(count_allocation() ? malloc(bytes) : NULL, sizeof(JoxBlock), bytes);
+        return begin_block(count_allocation() ? get(bytes) : NULL, sizeof(JoxBlock), bytes);
     JoxBlock *block = block_of(memory);
     JoxHeap *heap = block->heap;
     JOX_ASSERT(block->offset == sizeof(JoxBlock));
     unlink_block(block);
-    JoxBlock *moved = count_allocation() ? realloc(block, bytes) : NULL;
+    JoxBlock *moved = count_allocation() ? resize(block, bytes) : NULL;
     link_block(heap, moved ? moved : block); /* where memory is out, the old one stays */
     if (!moved)
         jox_out_of_memory(bytes);
@@ -147,7 +189,7 @@ void jox_free(void *memory) {
         return;
     JoxBlock *block = block_of(memory);
     unlink_block(block);
-    free((char *)memory - block->offset);
+    give_back((char *)memory - block->offset);
 }
 
 void *jox_disown(void *memory) {
@@ -167,7 +209,15 @@ char *jox_strdup(const char *text) {
 }
 
 void *jox_try_realloc(void *memory, size_t bytes) {
-    return may_allocate() ? realloc(memory, bytes) : NULL;
+    return may_allocate() ? resize(memory, bytes) : NULL;
+}
+
+void jox_give_back(void *memory) {
+    give_back(memory);
+}
+
+void *jox_try_malloc(size_t bytes) {
+    return may_allocate() ? malloc(bytes) : NULL;
 }
 
 /* ---- what heaps hold ---- */
@@ -187,7 +237,7 @@ void *jox_hold(void *thing, JoxRelease *release) {
     JOX_ASSERT(thing && release);
     if (!in_use)
         return thing;
-    Held *held = may_allocate() ? malloc(sizeof *held) : NULL;
+    Held *held = may_allocate() ? get(sizeof *held) : NULL;
     if (!held) {
         release(thing);
         jox_out_of_memory(sizeof *held);
@@ -214,7 +264,7 @@ static Held *take_held(const void *thing, const JoxHeap *heap) {
 
 void jox_let_go(void *thing) {
     if (thing)
-        free(take_held(thing, NULL));
+        give_back(take_held(thing, NULL));
 }
 
 /* ---- heaps ---- */
@@ -226,7 +276,7 @@ void jox_heap_begin(JoxHeap *heap) {
 }
 
 JoxHeap *jox_heap_create(void) {
-    JoxHeap *heap = may_allocate() ? malloc(sizeof *heap) : NULL;
+    JoxHeap *heap = may_allocate() ? get(sizeof *heap) : NULL;
     if (heap)
         jox_heap_begin(heap);
     return heap;
@@ -237,7 +287,7 @@ void jox_heap_end(JoxHeap *heap) {
     for (Held *held; (held = take_held(NULL, heap));) {
         if (jox_heap_has_failed(heap))
             held->release(held->thing);
-        free(held);
+        give_back(held);
     }
     while (heap->blocks.next != &heap->blocks) {
         void *memory = heap->blocks.next + 1;
@@ -253,7 +303,7 @@ void jox_heap_free(JoxHeap *heap) {
     if (!heap)
         return;
     jox_heap_end(heap);
-    free(heap);
+    give_back(heap);
 }
 
 JoxHeap *jox_heap_use(JoxHeap *heap) {

@@ -27,9 +27,16 @@ void jox_free(void *memory);
 char *jox_strdup(const char *text);
 char *jox_strndup(const char *text, size_t length);
 
-/* For allocators that other libraries call: as realloc, NULL where memory is out. Such memory
-   belongs to no heap, and goes back by free(). */
+/* For Lua: as realloc, NULL where memory is out. Such memory belongs to no heap, and goes back by
+   jox_give_back. */
 void *jox_try_realloc(void *memory, size_t bytes);
+void jox_give_back(void *memory);
+/* For allocators of other libraries, which have the C library's memory: as malloc. */
+void *jox_try_malloc(size_t bytes);
+
+/* Where all of this comes from; NULL: the C library. False once anything was allocated. */
+struct JoAllocator;
+bool jox_set_allocator(const struct JoAllocator *allocator);
 
 /* Number of allocations since the process began: a steady step must not move it. */
 uint64_t jox_alloc_count(void);

@@ -42,7 +42,7 @@ static bool grow() {
     size_t size = 1024;
     while (size < 4 * (live + 1))
         size *= 2;
-    Allocation *wider = static_cast<Allocation *>(jox_try_realloc(nullptr, size * sizeof *wider));
+    Allocation *wider = static_cast<Allocation *>(jox_try_malloc(size * sizeof *wider));
     if (!wider)
         return false;
     memset(wider, 0, size * sizeof *wider);
@@ -59,7 +59,7 @@ static bool grow() {
 
 static void *allocate(size_t bytes) {
     JoxHeap *heap = jox_heap_used();
-    void *memory = jox_try_realloc(nullptr, bytes);
+    void *memory = jox_try_malloc(bytes);
     if (memory && heap) {
         pthread_mutex_lock(&lock);
         bool room = grow();

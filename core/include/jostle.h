@@ -92,6 +92,9 @@ typedef enum JoLost {
     JO_LOST_STOP    /* it is put back to where it was, at rest, and the world goes on */
 } JoLost;
 
+struct JoJobs; /* jostle_host.h */
+struct JoFile;
+
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
     uint64_t seed;    /* of all random numbers */
@@ -102,7 +105,9 @@ typedef struct JoWorldDef {
     bool literal;     /* the paper's equations as printed, in place of the physical reading */
     double gravity;   /* m/s2 downwards, for bodies; default 9.81 */
     JoLost lost_people, lost_bodies; /* defaults: the world ends; the body is taken out */
-    uint32_t cookie;                 /* set by jo_default_world_def */
+    const struct JoJobs *jobs; /* runs the loops of a step in place of threads of the engine's own;
+                                  stays the caller's while the world lives. NULL: the engine's */
+    uint32_t cookie;           /* set by jo_default_world_def */
 } JoWorldDef;
 JO_API JoWorldDef jo_default_world_def(void);
 
@@ -229,6 +234,11 @@ typedef struct JoSceneDef {
                          jo_scene_try, alone */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
     size_t text_length;
+    const struct JoFile *files; /* taken in place of those on the disk: scene, what it includes,
+                                   behaviours and what they require, walls, inputs */
+    size_t file_count;
+    bool files_only;           /* nothing else is read from the disk */
+    const struct JoJobs *jobs; /* as of JoWorldDef */
     uint32_t cookie;
 } JoSceneDef;
 JO_API JoSceneDef jo_default_scene_def(void);
@@ -347,6 +357,7 @@ JO_API char *jo_scene_lua_profile(const JoScene *scene);
 #endif
 
 #include "jostle_act.h"
+#include "jostle_host.h"
 #include "jostle_read.h"
 
 #endif

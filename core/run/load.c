@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_host.h"
 #include "run/run.h"
 #include "simd/isa.h"
 
@@ -124,6 +125,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.seed = spec->seed;
     world.threads = def->threads;
     world.isa = def->isa;
+    world.jobs = def->jobs;
     world.gravity = spec->gravity;
     world.forces = spec->forces;
     world.literal = spec->literal;
@@ -217,6 +219,10 @@ static const JoxOverlay *use_overlay(JoScene *scene, const JoSceneDef *def) {
     for (size_t f = 0; before && !lies_over && f < before->count; f++)
         jox_overlay_put(&scene->overlay, before->files[f].path, before->files[f].text,
                         before->files[f].length);
+    for (size_t f = 0; f < def->file_count; f++)
+        jox_overlay_put(&scene->overlay, def->files[f].path, def->files[f].text,
+                        def->files[f].length);
+    scene->overlay.sealed = def->files_only;
     scene->overlay.tape = def->resumable ? &scene->tape : NULL;
     return before;
 }

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/clock.h"
 #include "base/mem.h"
+#include "jostle_host.h"
 #include "simd/pause.h"
 #include "task/processors.h"
 #include "task/thread.h"
@@ -45,7 +46,8 @@ struct JoxPool {
     atomic_bool starved; /* memory ran out in a chunk of this round */
     atomic_bool quit;
     bool begun;
-    double spin; /* s: waits at most, before they sleep */
+    const JoJobs *jobs; /* run the chunks in place of the threads; NULL: none */
+    double spin;        /* s: waits at most, before they sleep */
     Pace pace;
     JoxHeap *heap; /* of the caller */
     uint32_t count, grain, chunks;
@@ -78,6 +80,10 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     }
     jox_recovery_pop(&recovery);
     jox_heap_use(before);
+}
+
+static void run_job(void *pool, uint32_t worker) {
+    run_chunks(pool, worker);
 }
 
 /* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a
@@ -164,7 +170,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
 static void begin(JoxPool *pool) {
     pool->begun = true;
     pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
-    for (uint32_t i = 1; i < pool->threads; i++) {
+    for (uint32_t i = 1; i < pool->threads && !pool->jobs; i++) {
         pool->worker[i] = (struct Worker){pool, i};
         if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
             return;
@@ -210,6 +216,11 @@ void jox_pool_free(JoxPool *pool) {
     pthread_cond_destroy(&pool->wake);
     pthread_mutex_destroy(&pool->lock);
     jox_free(pool);
+}
+
+void jox_pool_set_jobs(JoxPool *pool, const JoJobs *jobs) {
+    JOX_ASSERT(!pool->begun);
+    pool->jobs = jobs;
 }
 
 uint32_t jox_pool_threads(const JoxPool *pool) {
@@ -258,10 +269,15 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
     pool->context = context;
     pool->heap = jox_heap_used();
     atomic_store(&pool->next, 0);
-    atomic_store(&pool->gate, OPEN);
-    start_round(pool, pool->chunks - 1);
-    run_chunks(pool, 0);
-    shut(pool);
+    if (pool->jobs) {
+        const uint32_t most = pool->chunks < pool->threads ? pool->chunks : pool->threads;
+        pool->jobs->run(pool->jobs->context, most, run_job, pool);
+    } else {
+        atomic_store(&pool->gate, OPEN);
+        start_round(pool, pool->chunks - 1);
+        run_chunks(pool, 0);
+        shut(pool);
+    }
     JOX_ASSERT(atomic_load(&pool->next) >= pool->chunks);
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);

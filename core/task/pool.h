@@ -5,11 +5,15 @@
 #include <stdint.h>
 
 typedef struct JoxPool JoxPool;
+struct JoJobs;
 
 /* At most `threads`, the caller included, 1..64; they are started when a loop has work for them.
    Never NULL. */
 JoxPool *jox_pool_create(uint32_t threads);
 void jox_pool_free(JoxPool *pool);
+/* Loops run on a program's own threads from here on; before the first loop. It stays the caller's.
+ */
+void jox_pool_set_jobs(JoxPool *pool, const struct JoJobs *jobs);
 uint32_t jox_pool_threads(const JoxPool *pool);
 
 /* Work on [begin, end); `worker` in [0, threads) names scratch space, never influences results. */

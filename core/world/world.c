@@ -16,6 +16,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->model.walking = jox_walk_law();
     world->heap = jox_heap_used();
     world->scratch.pool = jox_pool_create(def->threads ? def->threads : jox_processors());
+    jox_pool_set_jobs(world->scratch.pool, def->jobs);
     world->scratch.nav = jox_nav_create(&world->model.walking);
     jox_nav_set_literal(world->scratch.nav, def->literal);
     jox_nav_set_isa(world->scratch.nav, world->model.def.isa);

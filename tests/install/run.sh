@@ -16,8 +16,8 @@ verdict "the example with the shared library" $?
 gcc -std=c17 tests/install/embed.c $(pkg-config --cflags jostle) "$top/lib/libjostle.a" \
     $(pkg-config --static --libs jostle | sed 's/-ljostle//') -lm -o "$dir/static" && "$dir/static"
 verdict "the example with the static library" $?
-for example in loop ascii bodies; do
-    gcc -std=c17 -Wall -Wextra -Werror tests/install/$example.c $(pkg-config --cflags --libs jostle) -lm -o "$dir/$example" &&
+for example in loop ascii bodies host; do
+    gcc -std=c17 -Wall -Wextra -Werror tests/install/$example.c $(pkg-config --cflags --libs jostle) -lm -pthread -o "$dir/$example" &&
         (cd "$top/share/jostle" && LD_LIBRARY_PATH=$top/lib "$dir/$example") >"$dir/said" 2>&1
     verdict "the example $example" $? ; tail -3 "$dir/said"
 done

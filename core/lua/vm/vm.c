@@ -57,7 +57,7 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     JOX_ASSERT(vm->used >= old);
     if (size == 0) {
         vm->used -= old;
-        free(memory);
+        jox_give_back(memory);
         return NULL;
     }
     const JoxLuaLimits *limits = &vm->group->limits;

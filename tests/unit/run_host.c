@@ -1,0 +1,158 @@
+/* What a program may give the engine: files in memory, threads, and memory before all else. */
+#include "jostle_host.h"
+#include "unit/live_page.h"
+
+#define HALL "jostle: 1\ngroups: {some: {behaviour: walk.lua, at: [[0, 0], [2, 0]]}}\n"
+#define WALK_ON                                                                                    \
+    "local pace = require 'pace'\n"                                                                \
+    "return machine { name = 'walk', start = 'Walk', defaults = { speed = pace }, states = {\n"    \
+    "  Walk = { steer = drift(1, 0) } } }\n"
+#define FILE_OF(path, text)                                                                        \
+    { path, text, sizeof text - 1 }
+
+static void quiet(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+static JoScene *load_files(const JoFile *files, size_t count, bool only, JoError *error) {
+    JoSceneDef def = jo_default_scene_def();
+    *error = (JoError){0};
+    def.path = "nowhere/scenes/hall.yaml";
+    def.files = files;
+    def.file_count = count;
+    def.files_only = only;
+    def.threads = 1;
+    def.message = quiet;
+    return jo_scene_load(&def, error);
+}
+
+static void scenes_are_read_from_memory(void **state) {
+    (void)state;
+    const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
+                            FILE_OF("nowhere/behaviours/walk.lua", WALK_ON),
+                            FILE_OF("nowhere/behaviours/pace.lua", "return 1.5\n")};
+    JoError error;
+    for (int only = 0; only < 2; only++) {
+        JoScene *scene = load_files(files, 3, only, &error);
+        if (!scene)
+            fail_msg("%s:%d: %s", error.file, error.line, error.text);
+        step(scene, 20);
+        assert_float_equal(scene->world->state.agents.vx[0], 1.5, 0.01);
+        jo_scene_free(scene);
+    }
+}
+
+static void what_is_not_among_the_files_is_missed(void **state) {
+    (void)state;
+    const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
+                            FILE_OF("nowhere/behaviours/walk.lua", WALK_ON)};
+    JoError error;
+    assert_null(load_files(files, 2, true, &error));
+    assert_non_null(strstr(error.text, "pace"));
+    assert_string_equal(error.file, "nowhere/behaviours/walk.lua");
+    assert_null(load_files(files, 1, true, &error));
+    assert_non_null(strstr(error.text, "walk"));
+    assert_null(load_files(NULL, 0, true, &error));
+    assert_non_null(strstr(error.text, "hall.yaml"));
+}
+
+/* A file of the disk is not read where only those given count. */
+static void the_disk_is_left_out(void **state) {
+    (void)state;
+    char path[300];
+    JoError error;
+    JoSceneDef def = jo_default_scene_def();
+    write_file("own.lua", HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    write_file("scene.yaml", "jostle: 1\ngroups: {one: {behaviour: own.lua, at: [[0, 0]]}}\n");
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    def.path = path;
+    def.message = quiet;
+    JoScene *scene = jo_scene_load(&def, &error);
+    assert_non_null(scene);
+    jo_scene_free(scene);
+    def.files_only = true;
+    assert_null(jo_scene_load(&def, &error));
+}
+
+/* ---- threads ---- */
+
+static uint32_t rounds, most;
+
+/* In turn, and from the last to the first: none waits for another. */
+static void in_turn(void *context, uint32_t count, void (*job)(void *, uint32_t), void *data) {
+    assert_ptr_equal(context, &rounds);
+    rounds++;
+    most = count > most ? count : most;
+    while (count-- > 0)
+        job(data, count);
+}
+
+static void loops_run_on_the_programs_threads(void **state) {
+    (void)state;
+    const JoJobs jobs = {in_turn, &rounds};
+    uint64_t hashes[2];
+    for (int own = 0; own < 2; own++) {
+        JoWorldDef def = jo_default_world_def();
+        def.threads = 3;
+        def.jobs = own ? &jobs : NULL;
+        JoWorld *world = jo_world_create(&def, NULL);
+        JoAgentDef agent = jo_default_agent_def();
+        for (int n = 0; n < 1600; n++) {
+            agent.x = n % 40;
+            agent.y = (double)(n / 40);
+            jo_agent_set_preferred(world, jo_world_add_agent(world, &agent, NULL), 1, 0.2 * n);
+        }
+        jo_world_step(world, 10);
+        hashes[own] = jo_world_hash(world);
+        jo_world_free(world);
+    }
+    assert_true(hashes[0] == hashes[1]);
+    assert_true(rounds > 10);
+    assert_int_equal(most, 3);
+}
+
+/* ---- memory ---- */
+
+static void *no_memory(void *context, size_t bytes) {
+    (void)context;
+    (void)bytes;
+    return NULL;
+}
+static void *no_more(void *context, void *memory, size_t bytes) {
+    (void)context;
+    (void)memory;
+    (void)bytes;
+    return NULL;
+}
+static void never(void *context, void *memory) {
+    (void)context;
+    (void)memory;
+    fail();
+}
+
+/* That it works from the start on is shown by tests/install/host.c. */
+static void an_allocator_comes_first(void **state) {
+    (void)state;
+    const JoAllocator late = {no_memory, no_more, never, NULL};
+    JoError error = {0};
+    JoWorldDef def = jo_default_world_def();
+    jo_world_free(jo_world_create(&def, NULL));
+    assert_false(jo_set_allocator(&late, &error));
+    assert_int_equal(error.code, JO_USAGE);
+    assert_non_null(strstr(error.text, "before all else"));
+    JoWorld *world = jo_world_create(&def, NULL);
+    assert_non_null(world); /* the old one stays */
+    jo_world_free(world);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scenes_are_read_from_memory),
+        cmocka_unit_test(what_is_not_among_the_files_is_missed),
+        cmocka_unit_test(the_disk_is_left_out),
+        cmocka_unit_test(loops_run_on_the_programs_threads),
+        cmocka_unit_test(an_allocator_comes_first),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
