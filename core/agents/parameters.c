@@ -66,6 +66,13 @@ void jox_parameter_store_all(JoxParameter parameter, const double *values, const
     }
 }
 
+bool jox_parameter_is_stored(JoxParameter parameter, float stored) {
+    const JoxParameterInfo *info = &jox_parameters[parameter];
+    if (parameter == JOX_PARAM_push_angle || parameter == JOX_PARAM_brace_angle)
+        return stored >= -1.0f && stored <= 1.0f;
+    return stored >= (float)info->least && stored <= (float)info->greatest;
+}
+
 double jox_parameter_value(JoxParameter parameter, float stored) {
     if (parameter != JOX_PARAM_push_angle && parameter != JOX_PARAM_brace_angle)
         return stored;

@@ -57,6 +57,8 @@ float jox_parameter_store(JoxParameter parameter, double value);
 /* The same of `count` values, into the places of some agents in a column. */
 void jox_parameter_store_all(JoxParameter parameter, const double *values, const uint32_t *agents,
                              uint32_t count, float *column);
+/* Whether that is a number that a column can hold. */
+bool jox_parameter_is_stored(JoxParameter parameter, float stored);
 /* The value in the parameter's unit of what a column holds. */
 double jox_parameter_value(JoxParameter parameter, float stored);
 

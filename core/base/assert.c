@@ -19,3 +19,8 @@ void jox_assert_set_handler(JoxAssertHandler *handler) {
 void jox_assert_failed(const char *condition, const char *file, int line) {
     handler_now(condition, file, line);
 }
+
+void jox_assert_no_fault(const char *condition, const char *file, int line) {
+    if (condition)
+        jox_assert_failed(condition, file, line);
+}

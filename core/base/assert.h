@@ -5,6 +5,9 @@
 /* Reports a broken expectation through the handler (default: print; abort in debug builds). */
 void jox_assert_failed(const char *condition, const char *file, int line);
 
+/* The same of a condition that somebody found not to hold; NULL: all hold. */
+void jox_assert_no_fault(const char *condition, const char *file, int line);
+
 /* Replaces the handler; NULL restores the default. The handler may return. */
 typedef void JoxAssertHandler(const char *condition, const char *file, int line);
 void jox_assert_set_handler(JoxAssertHandler *handler);
@@ -23,6 +26,17 @@ void jox_assert_set_handler(JoxAssertHandler *handler);
 #else
 #define JOX_CHECK(call) (call)
 #endif
+
+/* In a function that looks for faults: it returns what does not hold, as the code has it, for an
+   assertion, or for who read it from a file; NULL at its end. */
+#define JOX_MUST(condition)                                                                        \
+    do {                                                                                           \
+        if (!(condition))                                                                          \
+            return #condition;                                                                     \
+    } while (0)
+
+/* Expects that such a function found none. */
+#define JOX_NO_FAULT(call) jox_assert_no_fault((call), __FILE__, __LINE__)
 
 /* Misuse of the public API: reported in every build, then the function returns `result`. */
 #define JOX_REQUIRE(condition, result)                                                             \

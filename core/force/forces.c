@@ -1,4 +1,5 @@
 /* Scratch, transfers between agents, and the list of impulses on bodies. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -158,6 +159,9 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
 
 static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
     JOX_SECTION_ARRAY(s, name, kept->items, kept->count, kept->capacity);
+    for (size_t k = 0; s->mode == JOX_SECTIONS_RESTORE && k < kept->count; k++)
+        if (!(kept->items[k].impulse >= 0.0f && kept->items[k].impulse < INFINITY))
+            jox_sections_fail(s, name, "an impulse of a contact pulls, or is no number");
 }
 
 void jox_forces_sections(JoxForces *f, JoxSections *s) {

@@ -1,6 +1,15 @@
 /* A field as part of a world's state. */
+#include <math.h>
+
 #include "base/mem.h"
 #include "geom/field_parts.h"
+
+/* Whether its numbers are those of a box of cells, m. */
+static bool is_grid(const JoxField *f) {
+    const float least = 0.01f, most = 1e7f;
+    return f->size >= least && f->size <= most && f->clearance >= least && f->clearance <= most &&
+           fabsf(f->low.x) <= most && fabsf(f->low.y) <= most;
+}
 
 /* Whether what was read can be sampled: all indices are within their arrays. */
 static void check(const JoxField *f, JoxSections *s) {
@@ -40,7 +49,7 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
     f->columns = (int)columns;
     f->rows = (int)rows;
     f->patch_capacity = f->patch_count;
-    if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !(f->size > 0.0f))
+    if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !is_grid(f))
         jox_sections_fail(s, "field_columns", "the grid is none");
     if (!s->failed)
         check(f, s);

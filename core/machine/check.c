@@ -182,29 +182,49 @@ void jox_heard_check(const JoxMachineRun *run) {
         JOX_ASSERT(s->everywhere[k] < run->set->name_count);
 }
 
-/* Rows end with the slots of the machine: what lies beyond is hashed, and must not differ. */
-static void check_rows(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
-    JOX_ASSERT(machine->own_count <= a->own_count && machine->memory_count <= a->memory_stride);
-    JOX_ASSERT(machine->own_count >= 64 || a->given[i] >> machine->own_count == 0);
-    for (uint32_t s = machine->own_count; s < a->own_count; s++)
-        JOX_ASSERT(jox_own(a, i, s) == 0.0);
-    for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
-        JOX_ASSERT(a->memory[(size_t)i * a->memory_stride + s] == 0.0);
+const char *jox_signals_fault(const JoxMachineRun *run) {
+    const JoxMachineState *state = run->state;
+    for (uint32_t n = 0; n < state->called_count; n++) {
+        const JoxSignal *called = &state->called[n];
+        JOX_MUST(called->name < run->set->name_count && called->agent_id < run->agents->next_id);
+        JOX_MUST(isfinite(called->x) && isfinite(called->y));
+    }
+    for (uint32_t n = 0; n < state->announced_count; n++)
+        JOX_MUST(state->announced[n] < run->set->name_count);
+    return NULL;
 }
 
-void jox_states_check(const JoxMachineRun *run) {
+/* Rows end with the slots of the machine: what lies beyond is hashed, and must not differ. */
+static const char *rows_fault(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
+    JOX_MUST(machine->own_count <= a->own_count && machine->memory_count <= a->memory_stride);
+    JOX_MUST(machine->own_count >= 64 || a->given[i] >> machine->own_count == 0);
+    for (uint32_t s = machine->own_count; s < a->own_count; s++)
+        JOX_MUST(jox_own(a, i, s) == 0.0);
+    for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
+        JOX_MUST(a->memory[(size_t)i * a->memory_stride + s] == 0.0);
+    return NULL;
+}
+
+const char *jox_states_fault(const JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
             continue;
-        JOX_ASSERT(a->machine[i] < run->set->count);
+        JOX_MUST(a->machine[i] < run->set->count);
         const JoxMachine *machine = jox_machine_of(run, i);
-        JOX_ASSERT(a->state[i] < machine->state_count);
+        JOX_MUST(a->state[i] < machine->state_count);
         const uint32_t conditions = machine->states[a->state[i]].transition_count;
-        JOX_ASSERT(conditions >= 32 || a->was_true[i] >> conditions == 0);
-        JOX_ASSERT(a->entered[i] <= run->tick && !isnan(a->lasts[i]));
-        check_rows(a, i, machine);
+        JOX_MUST(conditions >= 32 || a->was_true[i] >> conditions == 0);
+        JOX_MUST(a->entered[i] <= run->tick && !isnan(a->lasts[i]));
+        const char *fault = rows_fault(a, i, machine);
+        if (fault)
+            return fault;
     }
+    return NULL;
+}
+
+void jox_states_check(const JoxMachineRun *run) {
+    JOX_NO_FAULT(jox_states_fault(run));
 }
 
 static void check_bodies(const JoxMachineRun *run) {
@@ -256,17 +276,25 @@ void jox_preferred_check(const JoxMachineRun *run) {
     }
 }
 
-void jox_edits_check(const JoxMachineRun *run) {
+const char *jox_edits_fault(const JoxMachineRun *run) {
     const JoxMachineState *state = run->state;
     for (uint32_t e = 0; e < state->edit_count; e++) {
         const JoxParameterEdit *edit = &state->edits[e];
-        JOX_ASSERT(edit->machine < run->set->count);
-        JOX_ASSERT(edit->parameter >= 0 && edit->parameter < JOX_PARAM_COUNT);
+        JOX_MUST(edit->machine < run->set->count);
+        JOX_MUST(is_index(edit->state, run->set->built[edit->machine]->state_count));
+        JOX_MUST(edit->parameter >= 0 && edit->parameter < JOX_PARAM_COUNT);
+        JOX_MUST(edit->value >= jox_parameters[edit->parameter].least &&
+                 edit->value <= jox_parameters[edit->parameter].greatest);
         for (uint32_t o = 0; o < e; o++) /* one for each parameter */
-            JOX_ASSERT(edit->machine != state->edits[o].machine ||
-                       edit->state != state->edits[o].state ||
-                       edit->parameter != state->edits[o].parameter);
+            JOX_MUST(edit->machine != state->edits[o].machine ||
+                     edit->state != state->edits[o].state ||
+                     edit->parameter != state->edits[o].parameter);
     }
+    return NULL;
+}
+
+void jox_edits_check(const JoxMachineRun *run) {
+    JOX_NO_FAULT(jox_edits_fault(run));
 }
 
 void jox_counts_carried_check(const JoxMachineCounts *was, const JoxMachineCounts *is) {

@@ -124,6 +124,10 @@ void jox_groups_check(const JoxMachineRun *run);
 void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t count);
 void jox_by_id_check(const JoxAgents *agents, const uint32_t *list, uint32_t count);
 void jox_heard_check(const JoxMachineRun *run);
+/* What of signals, of agents' states or of set parameters does not hold; NULL: all does. */
+const char *jox_signals_fault(const JoxMachineRun *run);
+const char *jox_states_fault(const JoxMachineRun *run);
+const char *jox_edits_fault(const JoxMachineRun *run);
 void jox_states_check(const JoxMachineRun *run);
 void jox_acts_check(const JoxMachineRun *run);
 void jox_taken_check(const JoxMachineRun *run);

@@ -48,26 +48,15 @@ static void list_counts(JoxMachineCounts *counts, JoxSections *s) {
 
 /* Whether all that was read names machines, states and names that there are. */
 static void check(const JoxMachineRun *run, JoxSections *s) {
-    const JoxAgents *a = run->agents;
-    const JoxMachineState *state = run->state;
-    const JoxMachineSet *set = run->set;
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE &&
-            (a->machine[i] >= set->count || a->state[i] >= set->built[a->machine[i]]->state_count))
-            jox_sections_fail(s, "state", "an agent is in a state that there is not");
-    for (uint32_t e = 0; e < state->edit_count; e++) {
-        const JoxParameterEdit *edit = &state->edits[e];
-        if (edit->machine >= set->count || edit->parameter < 0 ||
-            edit->parameter >= JOX_PARAM_COUNT ||
-            edit->state >= (int32_t)set->built[edit->machine]->state_count)
-            jox_sections_fail(s, "edits", "a parameter was set that there is not");
-    }
-    for (uint32_t n = 0; n < state->called_count; n++)
-        if (state->called[n].name >= set->name_count)
-            jox_sections_fail(s, "called", "a signal has no name");
-    for (uint32_t n = 0; n < state->announced_count; n++)
-        if (state->announced[n] >= set->name_count)
-            jox_sections_fail(s, "announced", "a signal has no name");
+    const char *fault = jox_states_fault(run);
+    if (fault)
+        jox_sections_fail(s, "state", fault);
+    fault = jox_edits_fault(run);
+    if (fault)
+        jox_sections_fail(s, "edits", fault);
+    fault = jox_signals_fault(run);
+    if (fault)
+        jox_sections_fail(s, "called", fault);
 }
 
 void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {

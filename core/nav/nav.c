@@ -5,6 +5,9 @@
 #include "base/mem.h"
 #include "nav/internal.h"
 
+/* m: more than radii, time gaps and speeds together give */
+static const float MOST_WALL_REACH = 1e4f;
+
 JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     JoxNav *nav = jox_alloc(1, sizeof *nav);
     nav->walk = walk;
@@ -42,6 +45,11 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
 void jox_nav_sections(JoxNav *nav, JoxSections *s) {
     jox_sections_module(s, "nav");
     JOX_SECTION(s, "wall_reach", nav->grid.reach);
+    if (s->mode == JOX_SECTIONS_RESTORE &&
+        !(nav->grid.reach >= 0.0f && nav->grid.reach <= MOST_WALL_REACH)) {
+        jox_sections_fail(s, "wall_reach", "nobody reaches so far");
+        nav->grid.reach = 0.0f;
+    }
     if (s->mode == JOX_SECTIONS_RESTORE)
         jox_wall_grid_reset(&nav->grid, nav->grid.reach);
 }

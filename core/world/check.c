@@ -10,44 +10,39 @@ static bool names_one(int32_t index, uint32_t count) {
     return index == -1 || (index >= 0 && (uint32_t)index < count);
 }
 
-/* What does not hold, as it is written here. */
-#define MUST(condition)                                                                            \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            return #condition;                                                                     \
-    } while (0)
-
 static const char *machine_fault(const JoWorld *w, uint32_t i) {
     const JoxAgents *a = &w->state.agents;
     if (a->machine[i] == JOX_NO_MACHINE)
         return NULL;
-    MUST(a->machine[i] < w->model.machines.count);
-    MUST(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
-    MUST(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
+    JOX_MUST(a->machine[i] < w->model.machines.count);
+    JOX_MUST(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
+    JOX_MUST(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
     return NULL;
 }
 
 static const char *agents_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
+    JOX_MUST(w->state.tick < UINT32_MAX && w->machines.tick <= w->state.tick);
     const uint32_t bodies = jox_bodies_rows(w->state.bodies);
-    MUST(a->count <= a->capacity && a->count <= a->next_id);
-    MUST(a->count + a->free_count == a->slot_count);
+    JOX_MUST(w->state.settled || w->state.first_unsettled <= a->next_id);
+    JOX_MUST(a->count <= a->capacity && a->count <= a->next_id);
+    JOX_MUST(a->count + a->free_count == a->slot_count);
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r];
-        MUST(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
-        MUST(a->id[i] < a->next_id);
-        MUST(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
-        MUST(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
-        MUST(a->slot_generation[a->slot[i]] > 0);
-        MUST(!a->removed[i]);
-        MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
-        MUST(names_one(a->goal[i], w->model.place_count));
-        MUST(names_one(a->bound[i], w->model.place_count));
-        MUST(names_one(a->queue_at[i], w->model.place_count));
-        MUST(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
-        MUST(names_one(a->struck[i], bodies));
-        MUST(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
-        MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
+        JOX_MUST(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
+        JOX_MUST(a->id[i] < a->next_id);
+        JOX_MUST(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
+        JOX_MUST(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
+        JOX_MUST(a->slot_generation[a->slot[i]] > 0);
+        JOX_MUST(!a->removed[i]);
+        JOX_MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
+        JOX_MUST(names_one(a->goal[i], w->model.place_count));
+        JOX_MUST(names_one(a->bound[i], w->model.place_count));
+        JOX_MUST(names_one(a->queue_at[i], w->model.place_count));
+        JOX_MUST(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
+        JOX_MUST(names_one(a->struck[i], bodies));
+        JOX_MUST(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
+        JOX_MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
         const char *fault = machine_fault(w, i);
         if (fault)
             return fault;
@@ -56,16 +51,7 @@ static const char *agents_fault(const JoWorld *w) {
 }
 
 void jox_world_agents_check(const JoWorld *w) {
-    const char *fault = agents_fault(w);
-    if (fault)
-        jox_assert_failed(fault, __FILE__, __LINE__);
-}
-
-static bool all_finite(const float *column, uint32_t count) {
-    bool good = true;
-    for (uint32_t i = 0; i < count; i++)
-        good &= isfinite(column[i]) != 0;
-    return good;
+    JOX_NO_FAULT(agents_fault(w));
 }
 
 static bool all_within(const float *column, uint32_t count, float most) {
@@ -74,6 +60,9 @@ static bool all_within(const float *column, uint32_t count, float most) {
         good &= fabsf(column[i]) <= most;
     return good;
 }
+
+/* m/s, N, N/m, s: far more than of people, and squares of it are still finite. */
+static const float MOST = 1e9f;
 
 /* Numbers that the guard, or what wrote them, keeps in bounds. */
 static const char *numbers_fault(const JoWorld *w) {
@@ -85,26 +74,32 @@ static const char *numbers_fault(const JoWorld *w) {
         a->eager,   a->still,   a->ext_x,    a->ext_y,    a->inferred_x,  a->inferred_y,
         a->force_x, a->force_y, a->course_x, a->course_y, a->compression, a->load};
     for (size_t c = 0; c < sizeof positions / sizeof *positions; c++)
-        MUST(all_within(positions[c], n, JOX_WORLD_FARTHEST));
+        JOX_MUST(all_within(positions[c], n, JOX_WORLD_FARTHEST));
     for (size_t c = 0; c < sizeof others / sizeof *others; c++)
-        MUST(all_finite(others[c], n));
+        JOX_MUST(all_within(others[c], n, MOST));
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        MUST(all_finite(a->param[p], n));
+        for (uint32_t i = 0; i < n; i++)
+            JOX_MUST(jox_parameter_is_stored((JoxParameter)p, a->param[p][i]));
     for (uint32_t i = 0; i < n; i++)
-        MUST(!isnan(a->lasts[i]));
-    for (uint32_t s = 0; s < w->model.source_count; s++)
-        MUST(w->state.population.made[s] >= 0.0 && w->state.population.made[s] < 1e9);
-    for (uint32_t g = 0; g < w->model.group_count; g++)
-        MUST(w->state.population.party_left[g] == 0 ||
-             w->state.population.party_left[g] < w->model.groups[g].party);
-    for (uint32_t g = 0; g < w->state.drags.grab_count; g++)
-        MUST(w->state.drags.grabs[g].row < jox_bodies_rows(w->state.bodies));
+        JOX_MUST(!isnan(a->lasts[i]));
     return NULL;
 }
 
-const char *jox_world_fault(const JoWorld *w) {
-    const char *fault = agents_fault(w);
-    return fault ? fault : numbers_fault(w);
+/* Who is to come, and in which parties. */
+static const char *population_fault(const JoWorld *w) {
+    const JoxPopulation *p = &w->state.population;
+    JOX_MUST(p->all_until <= w->model.start_count);
+    for (uint32_t s = 0; s < w->model.start_count; s++)
+        JOX_MUST(p->entered[s] <= 1);
+    for (uint32_t s = 0; s < w->model.source_count; s++)
+        JOX_MUST(p->made[s] >= 0.0 && p->made[s] < 1e9);
+    for (uint32_t g = 0; g < w->model.group_count; g++) {
+        if (p->party_left[g] == 0)
+            continue;
+        JOX_MUST(p->party_left[g] < w->model.groups[g].party);
+        JOX_MUST(p->party_team[g] > w->model.group_count && p->party_team[g] <= UINT16_MAX);
+    }
+    return NULL;
 }
 
 static void check_walls(const JoxWalls *walls) {
@@ -128,11 +123,8 @@ void jox_world_model_check(const JoWorld *w) {
     for (uint32_t s = 0; s < m->source_count; s++) {
         JOX_ASSERT(m->sources[s].place < m->scene_places);
         JOX_ASSERT(m->sources[s].like < m->group_count);
-        JOX_ASSERT(w->state.population.made[s] >= 0.0);
     }
-    for (uint32_t g = 0; g < m->group_count; g++)
-        JOX_ASSERT(w->state.population.party_left[g] == 0 ||
-                   w->state.population.party_left[g] < m->groups[g].party);
+    JOX_NO_FAULT(population_fault(w));
     for (uint32_t s = 0; s < m->sink_count; s++) {
         JOX_ASSERT(m->sinks[s].place < m->scene_places);
         JOX_ASSERT(m->sinks[s].group < (int64_t)m->group_count);
@@ -141,25 +133,31 @@ void jox_world_model_check(const JoWorld *w) {
     check_walls(&m->all_walls);
 }
 
-static void check_input(const JoxInputLog *log) {
-    JOX_ASSERT(log->next <= log->count);
+static const char *input_fault(const JoxInputLog *log) {
+    JOX_MUST(log->next <= log->count);
     for (size_t e = log->next; e < log->count; e++)
-        JOX_ASSERT(e == 0 || log->entries[e - 1].tick <= log->entries[e].tick);
-    for (uint32_t p = 0; p < log->present_count; p++)
+        JOX_MUST(e == 0 || log->entries[e - 1].tick <= log->entries[e].tick);
+    for (uint32_t p = 0; p < log->present_count; p++) {
+        JOX_MUST(isfinite(log->present[p].vx) && isfinite(log->present[p].vy));
         for (uint32_t q = 0; q < p; q++)
-            JOX_ASSERT(log->present[q].agent_id != log->present[p].agent_id);
+            JOX_MUST(log->present[q].agent_id != log->present[p].agent_id);
+    }
+    return NULL;
 }
 
 /* Ids of bodies only grow: the boxes, the oldest first, ascend. */
-static void check_drags(const JoxDrags *drags, const JoxBodies *bodies) {
-    JOX_ASSERT(drags->box_count <= JOX_MOST_BOXES && drags->grab_count <= JOX_MOST_GRABS);
+static const char *drags_fault(const JoxDrags *drags, const JoxBodies *bodies) {
+    JOX_MUST(drags->box_count <= JOX_MOST_BOXES && drags->grab_count <= JOX_MOST_GRABS);
     for (uint32_t b = 1; b < drags->box_count; b++)
-        JOX_ASSERT(drags->boxes[b - 1] < drags->boxes[b]);
+        JOX_MUST(drags->boxes[b - 1] < drags->boxes[b]);
     for (uint32_t g = 0; g < drags->grab_count; g++) {
-        JOX_ASSERT(drags->grabs[g].row < jox_bodies_rows(bodies));
+        const JoxV3 to = drags->grabs[g].to;
+        JOX_MUST(drags->grabs[g].row < jox_bodies_rows(bodies));
+        JOX_MUST(isfinite(to.x) && isfinite(to.y) && isfinite(to.z));
         for (uint32_t k = 0; k < g; k++)
-            JOX_ASSERT(drags->grabs[k].id != drags->grabs[g].id);
+            JOX_MUST(drags->grabs[k].id != drags->grabs[g].id);
     }
+    return NULL;
 }
 
 static void check_inspection(const JoxInspection *all, const JoWorld *w) {
@@ -171,24 +169,36 @@ static void check_inspection(const JoxInspection *all, const JoWorld *w) {
     }
 }
 
-static void check_figures(const JoWorld *w) {
+static const char *figures_fault(const JoWorld *w) {
     const JoxStatistics *s = &w->state.statistics;
     uint64_t samples = 0;
     for (int bin = 0; bin < JOX_OVERLAP_BINS; bin++)
         samples += s->overlap[bin];
-    JOX_ASSERT(samples == s->overlap_samples && samples <= s->agent_steps);
-    JOX_ASSERT(s->second_failures <= s->failures && s->failures <= s->agent_steps);
-    JOX_ASSERT(s->removed + w->state.agents.count <= s->spawned);
-    JOX_ASSERT(s->bonds.rows <= s->bonds.people);
+    JOX_MUST(samples == s->overlap_samples && samples <= s->agent_steps);
+    JOX_MUST(s->second_failures <= s->failures && s->failures <= s->agent_steps);
+    JOX_MUST(s->removed + w->state.agents.count <= s->spawned);
+    JOX_MUST(s->bonds.rows <= s->bonds.people);
     uint64_t people = 0;
     for (uint32_t e = 0; e < w->state.exits.count; e++)
         people += w->state.exits.items[e].people;
-    JOX_ASSERT(people <= w->state.exits.left && w->state.exits.left <= s->removed);
+    JOX_MUST(people <= w->state.exits.left && w->state.exits.left <= s->removed);
+    return NULL;
+}
+
+static const char *lists_fault(const JoWorld *w) {
+    const char *fault = input_fault(&w->state.input);
+    fault = fault ? fault : drags_fault(&w->state.drags, w->state.bodies);
+    return fault ? fault : figures_fault(w);
 }
 
 void jox_world_lists_check(const JoWorld *w) {
-    check_input(&w->state.input);
-    check_drags(&w->state.drags, w->state.bodies);
     check_inspection(&w->scratch.inspection, w);
-    check_figures(w);
+    JOX_NO_FAULT(lists_fault(w));
+}
+
+const char *jox_world_fault(const JoWorld *w) {
+    const char *fault = agents_fault(w);
+    fault = fault ? fault : population_fault(w);
+    fault = fault ? fault : numbers_fault(w);
+    return fault ? fault : lists_fault(w);
 }

@@ -44,15 +44,16 @@ static void look(const JoxObject *o, JoxObstacle *out) {
     }
 }
 
-static void check(const JoxObstacles *obstacles) {
+static const char *fault(const JoxObstacles *obstacles) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const JoxObstacle *o = &obstacles->items[i];
-        JOX_ASSERT(o->count > 0 && o->count <= JOX_FOOTPRINT_POINTS);
+        JOX_MUST(o->count > 0 && o->count <= JOX_FOOTPRINT_POINTS);
         for (uint32_t k = 0; k < o->count; k++)
-            JOX_ASSERT(isfinite(o->ring[k].x) && isfinite(o->ring[k].y));
+            JOX_MUST(isfinite(o->ring[k].x) && isfinite(o->ring[k].y));
         for (uint32_t k = 0; k < i; k++)
-            JOX_ASSERT(obstacles->items[k].id != o->id);
+            JOX_MUST(obstacles->items[k].id != o->id);
     }
+    return NULL;
 }
 
 /* Whether a corner of `a` is farther than that from the outline of `b`. */
@@ -99,7 +100,7 @@ void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects) {
         look(&objects->rows[row], &obstacles->items[obstacles->count++]);
     }
     obstacles->version++;
-    JOX_CHECK(check(obstacles));
+    JOX_CHECK(JOX_NO_FAULT(fault(obstacles)));
 }
 
 void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *walls) {
@@ -113,9 +114,8 @@ void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *wa
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "obstacles", obstacles->items, obstacles->count, obstacles->capacity);
     JOX_SECTION(s, "obstacles_version", obstacles->version);
-    for (uint32_t i = 0; s->mode == JOX_SECTIONS_RESTORE && i < obstacles->count; i++)
-        if (obstacles->items[i].count > JOX_FOOTPRINT_POINTS)
-            jox_sections_fail(s, "obstacles", "an obstacle has too many corners");
+    if (s->mode == JOX_SECTIONS_RESTORE && fault(obstacles))
+        jox_sections_fail(s, "obstacles", fault(obstacles));
 }
 
 void jox_obstacles_free(JoxObstacles *obstacles) {

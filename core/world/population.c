@@ -10,7 +10,8 @@
 #include "geom/polygon.h"
 #include "world/world.h"
 
-enum { AT_ONCE = 256 }; /* agents that one source makes in a step at most */
+static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
+enum { AT_ONCE = 256 };                   /* agents that one source makes in a step at most */
 
 uint32_t jox_world_machine(const JoWorld *world, const char *path) {
     const JoxMachineSet *set = &world->model.machines;
@@ -469,6 +470,9 @@ static void list_points(JoWorld *world, JoxSections *s) {
     for (uint32_t p = 0; p < count && first + p < world->model.place_count; p++)
         points[p] = world->model.places[first + p].points[0];
     jox_section(s, "points", points, sizeof *points, count);
+    for (size_t p = 0; s->mode == JOX_SECTIONS_RESTORE && p < count; p++)
+        if (!(fabsf(points[p].x) <= FARTHEST_POINT && fabsf(points[p].y) <= FARTHEST_POINT))
+            jox_sections_fail(s, "points", "a place of a single agent is nowhere");
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed) {
         while (world->model.place_count > first)
             jox_place_free(&world->model.places[--world->model.place_count]);

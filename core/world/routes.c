@@ -67,18 +67,20 @@ JoxRoutes *jox_routes_create(void) {
 }
 
 /* Only fields that are there or under way are counted, and none was asked for in the future. */
-static void check(const JoxRouteStage *w) {
+static const char *fault(const JoxRouteStage *w) {
     const JoxRoutes *routes = w->routes;
     uint32_t count = 0;
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++) {
         const Route *route = &routes->items[at];
         count += routes->fields[at] || route->making;
-        JOX_ASSERT(route->asked <= w->tick && route->asked <= route->due);
-        JOX_ASSERT(route->walls <= routes->walls);
-        JOX_ASSERT(route->obstacles <= routes->obstacles.version);
+        JOX_MUST(route->asked <= w->tick && route->asked <= route->due);
+        JOX_MUST(route->walls <= routes->walls);
+        JOX_MUST(route->obstacles <= routes->obstacles.version);
     }
-    JOX_ASSERT(count == routes->count && count <= MOST_FIELDS);
-    JOX_ASSERT(routes->capacity >= w->place_count);
+    JOX_MUST(count == routes->count && count <= MOST_FIELDS);
+    JOX_MUST(count == 0 || routes->begun);
+    JOX_MUST(routes->capacity >= w->place_count);
+    return NULL;
 }
 
 /* ---- making one ---- */
@@ -368,7 +370,7 @@ void jox_routes_update(const JoxRouteStage *w) {
         }
         routes->wanted[p] = 0;
     }
-    JOX_CHECK(check(w));
+    JOX_CHECK(JOX_NO_FAULT(fault(w)));
 }
 
 void jox_routes_renew(JoxRoutes *routes) {
@@ -430,6 +432,8 @@ void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
         list_route(routes, at, s);
+    if (s->mode == JOX_SECTIONS_RESTORE && fault(w))
+        jox_sections_fail(s, "routes", fault(w));
 }
 
 void jox_routes_free(JoxRoutes *routes) {

@@ -352,21 +352,30 @@ static void what_does_not_fit_is_refused(void **state) {
     jox_text_free(&damaged);
 }
 
+static void until_called(JoScene *scene) {
+    const JoxMachineState *machines = &scene->world->state.machines;
+    for (int n = 0; n < 400 && machines->called_count == 0; n++)
+        step(scene, 1);
+    assert_true(machines->called_count > 0);
+}
+
 /* Of good form, with checksums that are right, and yet of no run: it would be read as an index. */
 static void what_is_no_state_of_a_run_is_refused(void **state) {
     (void)state;
     JoScene *scene = town();
-    JoxAgents *a = &scene->world->state.agents;
+    JoWorld *world = scene->world;
+    JoxAgents *a = &world->state.agents;
     JoxText odd = {0};
     step(scene, 20);
-#define REFUSED(variable, value)                                                                   \
+#define REFUSED_AS(reason, variable, value)                                                        \
     do {                                                                                           \
         const __typeof__(variable) was = (variable);                                               \
         (variable) = (value);                                                                      \
         snapshot(scene, &odd);                                                                     \
         (variable) = was;                                                                          \
-        expect_refused(scene, &odd, "it is none of a run");                                        \
+        expect_refused(scene, &odd, reason);                                                       \
     } while (0)
+#define REFUSED(variable, value) REFUSED_AS("it is none of a run", variable, value)
     REFUSED(a->group[3], 7);
     REFUSED(a->goal[3], 9999);
     REFUSED(a->bound[3], -2);
@@ -375,8 +384,21 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     REFUSED(a->x[3], 1e30f);
     REFUSED(a->y[3], NAN);
     REFUSED(a->vx[3], INFINITY);
+    REFUSED(a->vy[3], 1e30f);
     REFUSED(a->param[JOX_PARAM_radius][3], -1.0f);
     REFUSED(a->param[JOX_PARAM_perception][3], NAN);
+    REFUSED(a->param[JOX_PARAM_neighbours][3], 1e6f);
+    REFUSED(world->state.tick, (uint64_t)1 << 40);
+    REFUSED(world->state.statistics.removed, 1u << 30);
+    REFUSED(world->state.statistics.failures, UINT64_MAX);
+    world->state.settled = false; /* from here on somebody is to be settled before the next step */
+    REFUSED(world->state.first_unsettled, 1u << 30);
+    REFUSED_AS("machines.state", a->was_true[3], UINT32_MAX);
+    REFUSED_AS("machines.state", a->given[3], UINT64_MAX);
+    until_called(scene);
+    REFUSED_AS("machines.called", world->state.machines.called[0].x, NAN);
+    until_called(scene);
+    REFUSED_AS("machines.called", world->state.machines.called[0].agent_id, UINT32_MAX);
     jox_text_free(&odd);
     jo_scene_free(scene);
 }
