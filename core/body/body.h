@@ -10,6 +10,7 @@
 
 #include "base/sections.h"
 #include "base/text.h"
+#include "body/path.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
 #include "jostle.h"
@@ -49,12 +50,16 @@ struct JoxBodyPart {
 /* Everything is copied. Start from jox_body_def. */
 typedef struct JoxBodyDef {
     JoxShape shape;
-    double position[3];           /* of the shape's own frame (not the centre of mass), m */
-    double turn[4];               /* quaternion x, y, z, w; all zero is no turn */
-    double velocity[3], spin[3];  /* of the centre of mass, m/s; rad/s */
-    double mass;                  /* kg; with density 0 too, the body is static */
-    double density;               /* kg/m3; read where mass is 0 */
-    bool still;                   /* static whatever the mass */
+    double position[3];          /* of the shape's own frame (not the centre of mass), m */
+    double turn[4];              /* quaternion x, y, z, w; all zero is no turn */
+    double velocity[3], spin[3]; /* of the centre of mass, m/s; rad/s */
+    double mass;                 /* kg; with density 0 too, the body is static */
+    double density;              /* kg/m3; read where mass is 0 */
+    bool still;                  /* static whatever the mass */
+    bool kinematic; /* whatever the mass: it moves by its velocity and spin, or along its path, and
+                       nothing turns it aside */
+    JoxBodyPath path; /* of the shape's own frame; its first point is `position`. Without points:
+                         none */
     double friction, restitution; /* multiplied with those of the other; ground and walls have 1 */
     double damping, spin_damping; /* share of velocity lost in a second, 0 to 1 */
     uint64_t tags;
@@ -104,8 +109,9 @@ typedef struct JoxPose {
     JoxV3 centre;   /* of mass, m */
     JoxV3 velocity; /* of the centre of mass, m/s */
     JoxV3 spin;     /* rad/s */
-    float mass;     /* kg; 0 static */
-    JoxV3 inertia;  /* principal moments, kg m2; 0 static */
+    float mass;     /* kg; 0 static or kinematic */
+    JoxV3 inertia;  /* principal moments, kg m2; 0 likewise */
+    bool kinematic;
 } JoxPose;
 /* False, and `pose` zero, where there is no such body. */
 bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose);
@@ -121,10 +127,12 @@ typedef struct JoxBodyLook {
 /* Part `part` of a body; false where it has none of that number. Parts that broke off are bodies of
    their own. */
 bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out);
-/* False, and nothing done, for a static body or a number that is not finite. */
+/* False, and nothing done, for a static body or a number that is not finite. A kinematic body keeps
+   this velocity, and leaves its path. */
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin);
 /* Puts the shape's own frame at a position, m, turned by a quaternion x, y, z, w (NULL: as it is),
-   at rest; static bodies too. Nobody carries it from here on. False where there is no such body. */
+   at rest; static bodies too. Nobody carries it from here on, and it leaves its path. False where
+   there is no such body. */
 bool jox_bodies_place(JoxBodies *bodies, uint32_t row, const double position[3],
                       const double turn[4]);
 /* From here on an agent carries the body: it touches nothing until it is let go. False for a static

@@ -127,6 +127,7 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     delete r->body;
     jox_body_shape_free(&r->shape);
     jox_free(r->name);
+    jox_row_leave_path(r);
     JOX_ASSERT(!r->bonds || b->bonded > 0);
     b->bonded -= r->bonds ? 1 : 0;
     jox_bonds_free(r->bonds);
@@ -195,7 +196,9 @@ static const char *wrong(const JoxBodyDef *d) {
     for (double share : shares)
         if (!(share >= 0 && share <= 1))
             return "a body's restitution and dampings must lie between 0 and 1";
-    return nullptr;
+    if (d->path.count && !d->kinematic)
+        return "a path is for a kinematic body";
+    return d->path.count ? jox_path_wrong(&d->path) : nullptr;
 }
 
 static uint32_t free_row(JoxBodies *b) {
@@ -233,16 +236,19 @@ void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
         r->body->setCcdMotionThreshold(shape.inner);
         r->body->setCcdSweptSphereRadius(0.8f * shape.inner);
     }
+    if (r->kinematic)
+        jox_row_make_kinematic(r);
     b->world->addRigidBody(r->body);
 }
 
 uint32_t jox_row_add(JoxBodies *b, const JoxBodyShape *shape, const btTransform &frame,
-                     const JoxMaterial &material) {
+                     const JoxMaterial &material, bool kinematic) {
     uint32_t at = free_row(b);
     b->rows[at] = JoxRow();
     b->rows[at].live = true;
     b->rows[at].id = b->next_id++;
     b->rows[at].shape = *shape;
+    b->rows[at].kinematic = kinematic;
     jox_row_create_body(b, at, frame, material);
     jox_reserve(b->order, b->order_capacity, b->live + 1);
     b->order[b->live++] = at;
@@ -257,7 +263,7 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
             jox_text_add(error, problem);
         return JOX_NO_BODY;
     }
-    bool still = def->still ||
+    bool still = def->still || def->kinematic ||
                  (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
     JoxBodyShape shape;
     JoxBondGraph *bonds = nullptr;
@@ -276,7 +282,8 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     turn = turn.length2() > 1e-12f ? turn.normalized() : btQuaternion::getIdentity();
     JoxMaterial material = {float(def->friction), float(def->restitution), float(def->damping),
                             float(def->spin_damping)};
-    uint32_t at = jox_row_add(b, &shape, btTransform(turn, vector(def->position)), material);
+    uint32_t at =
+        jox_row_add(b, &shape, btTransform(turn, vector(def->position)), material, def->kinematic);
     if (jox_bodies_are_heaped(b, error)) {
         jox_bodies_drop(b, at);
         jox_bonds_free(bonds);
@@ -285,10 +292,12 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     JoxRow *r = &b->rows[at];
     r->name = def->name ? jox_strdup(def->name) : nullptr;
     r->tags = def->tags;
-    if (!still) {
+    if (!still || def->kinematic) {
         r->body->setLinearVelocity(vector(def->velocity));
         r->body->setAngularVelocity(vector(def->spin));
     }
+    if (def->path.count)
+        jox_row_begin_path(r, def);
     if (bonds && !still && bonds->bond_count > 0) {
         r->bonds = bonds;
         b->bonded++;
@@ -299,12 +308,8 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     return at;
 }
 
-static JoxRow *row_of(const JoxBodies *b, uint32_t row) {
-    return row < b->count && b->rows[row].live ? &b->rows[row] : nullptr;
-}
-
 bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
-    if (!row_of(b, row))
+    if (!jox_row_of(b, row))
         return false;
     jox_bodies_drop(b, row);
     for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
@@ -336,18 +341,18 @@ uint32_t jox_bodies_find_name(const JoxBodies *b, const char *name) {
 }
 
 uint32_t jox_bodies_id(const JoxBodies *b, uint32_t row) {
-    const JoxRow *r = row_of(b, row);
+    const JoxRow *r = jox_row_of(b, row);
     return r ? r->id : JOX_NO_BODY;
 }
 
 const char *jox_bodies_name(const JoxBodies *b, uint32_t row) {
-    const JoxRow *r = row_of(b, row);
+    const JoxRow *r = jox_row_of(b, row);
     return r && r->name ? r->name : "";
 }
 
 bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     *pose = JoxPose();
-    const JoxRow *r = row_of(b, row);
+    const JoxRow *r = jox_row_of(b, row);
     if (!r)
         return false;
     btTransform at = jox_row_frame(r);
@@ -360,12 +365,13 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     pose->spin = jox_v3(r->body->getAngularVelocity());
     pose->mass = r->shape.mass;
     pose->inertia = jox_v3(r->shape.inertia);
+    pose->kinematic = r->kinematic;
     return true;
 }
 
 bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
     *out = JoxBodyLook();
-    const JoxRow *r = row_of(b, row);
+    const JoxRow *r = jox_row_of(b, row);
     if (!r || part >= r->shape.part_count)
         return false;
     const JoxConvexPart *p = &r->shape.parts[part];
@@ -393,51 +399,19 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
 }
 
 bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 spin) {
-    JoxRow *r = row_of(b, row);
-    if (!r || r->shape.mass <= 0 || !jox_finite(jox_bt(velocity)) || !jox_finite(jox_bt(spin)))
+    JoxRow *r = jox_row_of(b, row);
+    if (!r || !(r->shape.mass > 0 || r->kinematic) || !jox_finite(jox_bt(velocity)) ||
+        !jox_finite(jox_bt(spin)))
         return false;
+    jox_row_leave_path(r);
     r->body->activate(true);
     r->body->setLinearVelocity(jox_bt(velocity));
     r->body->setAngularVelocity(jox_bt(spin));
     return true;
 }
 
-bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
-    JoxRow *r = row_of(b, row);
-    if (!r || r->shape.mass <= 0)
-        return false;
-    r->held = true;
-    r->holder = agent_id;
-    r->body->setCollisionFlags(r->body->getCollisionFlags() |
-                               btCollisionObject::CF_NO_CONTACT_RESPONSE);
-    return true;
-}
-
-void jox_bodies_carry(JoxBodies *b, uint32_t row, JoxV3 centre, JoxV3 velocity) {
-    JoxRow *r = row_of(b, row);
-    if (!r || !r->held || !jox_finite(jox_bt(centre)) || !jox_finite(jox_bt(velocity)))
-        return;
-    btTransform at = r->body->getWorldTransform();
-    at.setOrigin(jox_bt(centre));
-    r->body->setWorldTransform(at);
-    r->body->setInterpolationWorldTransform(at);
-    r->body->activate(true);
-    r->body->setLinearVelocity(jox_bt(velocity));
-    r->body->setAngularVelocity(btVector3(0, 0, 0));
-}
-
-void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
-    JoxRow *r = row_of(b, row);
-    if (!r || !r->held)
-        return;
-    r->held = false;
-    r->body->setCollisionFlags(r->body->getCollisionFlags() &
-                               ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
-    jox_bodies_set_velocity(b, row, velocity, JoxV3{0, 0, 0});
-}
-
 bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
-    JoxRow *r = row_of(b, row);
+    JoxRow *r = jox_row_of(b, row);
     if (!r || r->shape.mass <= 0 || !jox_finite(jox_bt(force)))
         return false;
     r->force = jox_v3(jox_bt(r->force) + jox_bt(force));
@@ -456,7 +430,7 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
     uint32_t odd = 0;
     for (uint32_t i = 0; i < count; i++) {
         btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
-        JoxRow *r = row_of(b, impulses[i].object);
+        JoxRow *r = jox_row_of(b, impulses[i].object);
         if (!r || r->shape.mass <= 0 || !jox_finite(p) || !jox_finite(at)) {
             odd++;
             continue;

@@ -81,6 +81,9 @@ struct JoxRow {
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
     JoxV3 pushed;        /* scratch: the force of the last substep, N */
     float before[16];    /* scratch: where the substep began, a transform as OpenGL has it */
+    bool kinematic;      /* no mass, and moved by its velocity, or along its path */
+    JoxBodyPath path;    /* of the centre of mass; its points are owned */
+    double path_time;    /* s, since it began */
     bool held;           /* by an agent */
     uint32_t holder;
     /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
@@ -113,6 +116,7 @@ struct JoxBulletWorld : btDiscreteDynamicsWorld {
     void remove(btRigidBody *body);
 
   protected:
+    void saveKinematicState(btScalar dt) override;
     void predictUnconstraintMotion(btScalar dt) override;
     void createPredictiveContacts(btScalar dt) override;
     void integrateTransforms(btScalar dt) override;
@@ -195,14 +199,28 @@ void jox_bodies_guard_begin(JoxBodies *bodies);
 void jox_bodies_guard(JoxBodies *bodies);
 /* Takes `shape` over as a new body in a free row; the caller fills name, tags, and velocity. */
 uint32_t jox_row_add(JoxBodies *bodies, const JoxBodyShape *shape, const btTransform &frame,
-                     const JoxMaterial &material);
+                     const JoxMaterial &material, bool kinematic);
 /* Bullet's body of a row whose shape is there: `frame` is that of the shape. */
 void jox_row_create_body(JoxBodies *bodies, uint32_t row, const btTransform &frame,
                          const JoxMaterial &material);
+/* bullet_drive.cc. Makes a still body of a row one that moves by its velocity; sets it upon the
+   path of its definition, gives it a copy of a path of its centre of mass, or takes that away. */
+void jox_row_make_kinematic(JoxRow *row);
+void jox_row_begin_path(JoxRow *row, const JoxBodyDef *def);
+void jox_row_set_path(JoxRow *row, const JoxBodyPath *path);
+void jox_row_leave_path(JoxRow *row);
+/* Before a substep: velocities with which it leads along paths. After a step: those with which
+   bodies go on, for whoever sees them. */
+void jox_bodies_drive(JoxBodies *bodies, float dt);
+void jox_bodies_driven(JoxBodies *bodies);
 /* The shape of bonded blocks; NULL with a sentence in `error`. */
 JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);
 bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
                               JoxText *error);
+/* A live row, or NULL. */
+static inline JoxRow *jox_row_of(const JoxBodies *b, uint32_t row) {
+    return row < b->count && b->rows[row].live ? &b->rows[row] : nullptr;
+}
 /* The shape's own frame in the world. */
 static inline btTransform jox_row_frame(const JoxRow *row) {
     return row->body->getWorldTransform() * row->shape.frame.inverse();

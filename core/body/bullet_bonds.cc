@@ -160,7 +160,7 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
             btTransform shift(
                 btQuaternion::getIdentity(),
                 btVector3(float(centre.at[0]), float(centre.at[1]), float(centre.at[2])));
-            at = jox_row_add(b, &shape, whole.frame * shift, material);
+            at = jox_row_add(b, &shape, whole.frame * shift, material, false);
             b->rows[at].tags = tags;
         }
         set_going(b->rows[at].body, whole);

@@ -36,7 +36,9 @@ static void check_row(const JoxBodies *b, uint32_t row) {
     JOX_ASSERT(r->live && r->id < b->next_id);
     JOX_ASSERT(r->body && r->body->getUserIndex() == int(row));
     JOX_ASSERT(r->body->getCollisionShape() == r->shape.collision);
-    JOX_ASSERT(r->body->isStaticObject() == r->shape.still);
+    JOX_ASSERT(r->body->isStaticOrKinematicObject() == r->shape.still);
+    JOX_ASSERT(r->body->isKinematicObject() == r->kinematic);
+    JOX_ASSERT(!r->path.count || (r->kinematic && !jox_path_wrong(&r->path)));
     JOX_ASSERT((r->body->getInvMass() > 0) == (r->shape.mass > 0));
     JOX_ASSERT(r->held == ((r->body->getCollisionFlags() & no_response) != 0));
     JOX_ASSERT(!r->shape.still || !(r->held || r->bonds));

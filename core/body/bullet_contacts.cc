@@ -134,10 +134,15 @@ void jox_bodies_renew_contacts(JoxBodies *b, const JoxContactRecord *contacts, u
 
 /* ---- what holds bodies, for those who touch them ---- */
 
-/* The row of a body that can be moved, or JOX_NO_OBJECT. */
+/* The row of a body that can be pushed, or JOX_NO_OBJECT. */
 static uint32_t moving_row(const JoxBodies *b, const btCollisionObject *object) {
     const int index = object->getUserIndex();
     return index >= 0 && b->rows[index].shape.mass > 0 ? uint32_t(index) : JOX_NO_OBJECT;
+}
+
+/* What that touches: also a body that moves by a velocity of its own. */
+static uint32_t other_row(const JoxBodies *b, const btCollisionObject *object) {
+    return object->isKinematicObject() ? uint32_t(object->getUserIndex()) : moving_row(b, object);
 }
 
 /* Bullet has measured the gaps before it moved the bodies for the last time. */
@@ -149,7 +154,7 @@ static JoxObjectContact seen_contact(const JoxBodies *b, const btPersistentManif
     const bool swap = one == JOX_NO_OBJECT;
     JoxObjectContact contact;
     contact.first = swap ? two : one;
-    contact.second = swap ? one : two;
+    contact.second = other_row(b, swap ? manifold->getBody0() : manifold->getBody1());
     contact.point = jox_v3((on_one + on_two) * 0.5f);
     contact.normal = jox_v3(swap ? -p.m_normalWorldOnB : p.m_normalWorldOnB);
     contact.gap = (on_one - on_two).dot(p.m_normalWorldOnB);

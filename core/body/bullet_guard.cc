@@ -63,7 +63,7 @@ static bool is_lost(JoxBodies *b, const JoxRow *r, JoxBodyEnd *why) {
         *why = JOX_BODY_NOT_FINITE;
     else if (moves && at.z() < b->def.kill_height)
         *why = JOX_BODY_FELL;
-    else if (moves && is_far(at))
+    else if ((moves || r->kinematic) && is_far(at))
         *why = JOX_BODY_LEFT;
     else if (moves && r->body->isActive() && passed_wall(b, r))
         *why = JOX_BODY_PASSED_WALL;

@@ -68,7 +68,6 @@ static void put_motion(JoxBodyRecord *record, const btRigidBody *body) {
 
 static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBodyShape &shape) {
     const uint32_t parts = shape.part_count, points = shape.source_point_count;
-    record->still = shape.still;
     record->part_count = parts;
     jox_reserve(image->parts, image->part_capacity, image->part_count + parts);
     memcpy(image->parts + image->part_count, shape.source, parts * sizeof *image->parts);
@@ -77,6 +76,21 @@ static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBod
     if (points)
         memcpy(image->points + image->point_count, shape.source_points, points * sizeof(double));
     image->point_count += points;
+}
+
+static void put_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow *r) {
+    const uint32_t numbers = 3 * r->path.count;
+    record->path_count = r->path.count;
+    record->path_end = r->path.end;
+    record->path_speed = r->path.speed;
+    record->path_after = r->path.after;
+    record->path_wait = r->path.wait;
+    record->path_time = r->path_time;
+    jox_reserve(image->path_points, image->path_point_capacity, image->path_point_count + numbers);
+    if (numbers)
+        memcpy(image->path_points + image->path_point_count, r->path.points,
+               numbers * sizeof(double));
+    image->path_point_count += numbers;
 }
 
 static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
@@ -97,7 +111,9 @@ static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
     memcpy(record->material, material, sizeof material);
     put_vector(record->force, jox_bt(r->force));
     put_motion(record, r->body);
+    record->still = r->kinematic ? JOX_BODY_KINEMATIC : r->shape.still ? JOX_BODY_STATIC : 0;
     put_shape(image, record, r->shape);
+    put_path(image, record, r);
     if (r->bonds)
         jox_bodies_image_add_bonds(image, record, r->bonds);
     record->name_length = r->name ? uint32_t(strlen(r->name)) : 0;
@@ -109,7 +125,7 @@ static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
 
 void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
     image->body_count = image->part_count = image->point_count = 0;
-    image->name_count = image->block_count = image->bond_count = 0;
+    image->name_count = image->block_count = image->bond_count = image->path_point_count = 0;
     image->counters = {b->next_id, b->count, 0, b->last_dt};
     for (uint32_t k = 0; k < b->live; k++)
         put_row(b, image, b->order[k]);
@@ -189,7 +205,7 @@ static bool take_shape(const JoxBodiesImage *image, const JoxBodyRecord *record,
 
 /* Where the next body's parts, points, names, blocks and bonds begin. */
 struct Cursor {
-    uint32_t part, point, name, block, bond;
+    uint32_t part, point, name, block, bond, path;
 };
 
 static void advance(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord *record) {
@@ -199,6 +215,7 @@ static void advance(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord
     at->name += record->name_length;
     at->block += record->block_count;
     at->bond += record->bond_count;
+    at->path += 3 * record->path_count;
 }
 
 static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRecord *record,
@@ -208,6 +225,14 @@ static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRec
     r->id = record->id;
     r->tags = uint64_t(record->tags[1]) << 32 | record->tags[0];
     r->shape = shape;
+    r->kinematic = record->still == JOX_BODY_KINEMATIC;
+    if (record->path_count) {
+        const JoxBodyPath path = {
+            image->path_points + at.path, record->path_count, record->path_end,
+            record->path_speed,           record->path_after, record->path_wait};
+        jox_row_set_path(r, &path);
+        r->path_time = record->path_time;
+    }
     r->grounded = record->grounded != 0;
     r->swept = record->swept != 0;
     r->force = JoxV3{record->force[0], record->force[1], record->force[2]};

@@ -1,10 +1,44 @@
-/* Bodies that somebody puts elsewhere. */
+/* Bodies that somebody carries or puts elsewhere. */
 #include "body/bullet.h"
 
-bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], const double turn[4]) {
-    if (row >= b->count || !b->rows[row].live)
+bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
+    JoxRow *r = jox_row_of(b, row);
+    if (!r || r->shape.mass <= 0)
         return false;
-    JoxRow *r = &b->rows[row];
+    r->held = true;
+    r->holder = agent_id;
+    r->body->setCollisionFlags(r->body->getCollisionFlags() |
+                               btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    return true;
+}
+
+void jox_bodies_carry(JoxBodies *b, uint32_t row, JoxV3 centre, JoxV3 velocity) {
+    JoxRow *r = jox_row_of(b, row);
+    if (!r || !r->held || !jox_finite(jox_bt(centre)) || !jox_finite(jox_bt(velocity)))
+        return;
+    btTransform at = r->body->getWorldTransform();
+    at.setOrigin(jox_bt(centre));
+    r->body->setWorldTransform(at);
+    r->body->setInterpolationWorldTransform(at);
+    r->body->activate(true);
+    r->body->setLinearVelocity(jox_bt(velocity));
+    r->body->setAngularVelocity(btVector3(0, 0, 0));
+}
+
+void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
+    JoxRow *r = jox_row_of(b, row);
+    if (!r || !r->held)
+        return;
+    r->held = false;
+    r->body->setCollisionFlags(r->body->getCollisionFlags() &
+                               ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    jox_bodies_set_velocity(b, row, velocity, JoxV3{0, 0, 0});
+}
+
+bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], const double turn[4]) {
+    JoxRow *r = jox_row_of(b, row);
+    if (!r)
+        return false;
     btTransform frame = jox_row_frame(r);
     frame.setOrigin(btVector3(btScalar(position[0]), btScalar(position[1]), btScalar(position[2])));
     if (turn) {
@@ -16,7 +50,7 @@ bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], cons
     const btTransform at = frame * r->shape.frame;
     r->body->setWorldTransform(at);
     r->body->setInterpolationWorldTransform(at);
-    if (r->shape.mass > 0) {
+    if (r->shape.mass > 0 || r->kinematic) {
         jox_bodies_set_velocity(b, row, JoxV3{0, 0, 0}, JoxV3{0, 0, 0});
         r->body->setInterpolationLinearVelocity(btVector3(0, 0, 0));
         r->body->setInterpolationAngularVelocity(btVector3(0, 0, 0));

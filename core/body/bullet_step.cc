@@ -94,9 +94,9 @@ static void mark_grounded(JoxBodies *b) {
     for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
         const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
         const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
-        if (one->isStaticObject() == two->isStaticObject())
+        if (one->isStaticOrKinematicObject() == two->isStaticOrKinematicObject())
             continue;
-        const btCollisionObject *mover = one->isStaticObject() ? two : one;
+        const btCollisionObject *mover = one->isStaticOrKinematicObject() ? two : one;
         float sign = mover == one ? 1.0f : -1.0f;
         for (int c = 0; c < manifold->getNumContacts(); c++) {
             const btManifoldPoint &p = manifold->getContactPoint(c);
@@ -151,6 +151,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
         jox_bodies_guard_begin(b);
+        jox_bodies_drive(b, h);
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, n, s + 1 == n);
@@ -162,6 +163,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
         jox_bodies_guard(b);
         mark_grounded(b);
     }
+    jox_bodies_driven(b);
     if (b->bonded)
         jox_bodies_break(b, dt);
     JOX_CHECK(jox_bodies_check(b));
@@ -258,6 +260,7 @@ static void write_shape(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     o->id = r->id;
     o->live = true;
     o->moves = r->shape.mass > 0;
+    o->kinematic = r->kinematic;
     o->position = jox_v3(r->body->getWorldTransform().getOrigin());
     o->inverse_mass = r->body->getInvMass();
     for (int i = 0; i < 9; i++)

@@ -1,11 +1,29 @@
 /* What Bullet's world does differently: the same to the bit of bodies that move. */
 #include "body/bullet.h"
 
+/* Bullet would take the velocities of kinematic bodies from how they were moved; here they have
+   velocities, and move by these, before contacts are looked for. */
+void JoxBulletWorld::saveKinematicState(btScalar dt) {
+    btTransform to;
+    for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
+        btRigidBody *body = m_nonStaticRigidBodies[i];
+        if (!body->isKinematicObject() || !body->isActive())
+            continue;
+        body->predictIntegratedTransform(dt, to);
+        body->setCenterOfMassTransform(to);
+    }
+}
+
+/* Whether Bullet moves a body on by its velocity. */
+static bool is_moved(const btRigidBody *body) {
+    return body->isActive() && !body->isKinematicObject();
+}
+
 /* Bullet damps and predicts bodies that sleep, too: velocities of 0, and where they lie. */
 void JoxBulletWorld::predictUnconstraintMotion(btScalar dt) {
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
         btRigidBody *body = m_nonStaticRigidBodies[i];
-        if (!body->isActive())
+        if (!is_moved(body))
             continue;
         body->applyDamping(dt);
         body->predictIntegratedTransform(dt, body->getInterpolationWorldTransform());
@@ -15,7 +33,7 @@ void JoxBulletWorld::predictUnconstraintMotion(btScalar dt) {
 /* Whether Bullet may find that a body moves by more than its threshold of continuous collision. */
 static bool is_fast(const btRigidBody *body, btScalar dt) {
     const btScalar way2 = body->getLinearVelocity().length2() * dt * dt;
-    return body->isActive() && !(way2 < 0.99f * body->getCcdSquareMotionThreshold());
+    return is_moved(body) && !(way2 < 0.99f * body->getCcdSquareMotionThreshold());
 }
 
 void JoxBulletWorld::createPredictiveContacts(btScalar dt) {
@@ -29,7 +47,7 @@ void JoxBulletWorld::integrateTransforms(btScalar dt) {
     btTransform to;
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
         btRigidBody *body = m_nonStaticRigidBodies[i];
-        if (!body->isActive())
+        if (!is_moved(body))
             continue;
         if (is_fast(body, dt)) {
             integrateTransformsInternal(&m_nonStaticRigidBodies[i], 1, dt);

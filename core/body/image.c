@@ -5,7 +5,7 @@
 
 #include "base/mem.h"
 
-_Static_assert(sizeof(JoxBodyRecord) == 320, "a body's record has no padding");
+_Static_assert(sizeof(JoxBodyRecord) == 360, "a body's record has no padding");
 _Static_assert(sizeof(JoxBodyPartRecord) == 104, "a part's record has no padding");
 _Static_assert(sizeof(JoxBlockRecord) == 88, "a block's record has no padding");
 _Static_assert(sizeof(JoxContactRecord) == 64, "a contact's record has no padding");
@@ -18,6 +18,7 @@ void jox_bodies_image_free(JoxBodiesImage *image) {
     jox_free(image->parts);
     jox_free(image->points);
     jox_free(image->names);
+    jox_free(image->path_points);
     jox_free(image->blocks);
     jox_free(image->bonds);
     jox_free(image->contacts);
@@ -31,6 +32,7 @@ void jox_bodies_image_sections(JoxBodiesImage *i, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "parts", i->parts, i->part_count, i->part_capacity);
     JOX_SECTION_ARRAY(s, "points", i->points, i->point_count, i->point_capacity);
     JOX_SECTION_ARRAY(s, "names", i->names, i->name_count, i->name_capacity);
+    JOX_SECTION_ARRAY(s, "paths", i->path_points, i->path_point_count, i->path_point_capacity);
     JOX_SECTION_ARRAY(s, "blocks", i->blocks, i->block_count, i->block_capacity);
     JOX_SECTION_ARRAY(s, "bonds", i->bonds, i->bond_count, i->bond_capacity);
     JOX_SECTION_ARRAY(s, "contacts", i->contacts, i->contact_count, i->contact_capacity);
@@ -141,8 +143,22 @@ static bool graph_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r,
 
 /* Sums of what the bodies have, to be compared with the lengths of the arrays. */
 typedef struct Totals {
-    uint64_t names, parts, points, blocks, bonds;
+    uint64_t names, parts, points, blocks, bonds, paths;
 } Totals;
+
+/* A record whose path begins at this number. */
+static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, uint64_t first) {
+    if (first + 3 * (uint64_t)r->path_count > image->path_point_count)
+        return false;
+    const JoxBodyPath path = {image->path_points + first,
+                              r->path_count,
+                              r->path_end,
+                              r->path_speed,
+                              r->path_after,
+                              r->path_wait};
+    return r->path_count <= JOX_PATH_POINTS && r->still == JOX_BODY_KINEMATIC &&
+           !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time);
+}
 
 static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *taken) {
     const JoxBodyRecord *r = &image->bodies[n];
@@ -150,7 +166,7 @@ static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *ta
         (n > 0 && r->id <= image->bodies[n - 1].id))
         return false;
     taken[r->row] = 1;
-    return r->still <= 1 && r->held <= 1 && r->grounded <= 1 && r->swept <= 1 &&
+    return r->still <= JOX_BODY_KINEMATIC && r->held <= 1 && r->grounded <= 1 && r->swept <= 1 &&
            !(r->still && (r->held || r->block_count)) && r->activation >= 1 &&
            r->activation <= LAST_ACTIVATION && r->part_count >= 1 && r->part_count <= 4096 &&
            (r->bond_count == 0) == (r->block_count == 0) &&
@@ -168,6 +184,9 @@ static bool bodies_are_sound(const JoxBodiesImage *image) {
         if (sound && r->block_count && t.blocks + r->block_count <= image->block_count &&
             t.bonds + r->bond_count <= image->bond_count)
             sound = graph_is_sound(image, r, (uint32_t)t.blocks, (uint32_t)t.bonds);
+        if (sound && r->path_count)
+            sound = path_is_sound(image, r, t.paths);
+        t.paths += 3 * (uint64_t)r->path_count;
         t.names += r->name_length;
         t.parts += r->part_count;
         t.blocks += r->block_count;
@@ -182,7 +201,7 @@ static bool bodies_are_sound(const JoxBodiesImage *image) {
     }
     return sound && t.names == image->name_count && t.parts == image->part_count &&
            t.points == image->point_count && t.blocks == image->block_count &&
-           t.bonds == image->bond_count;
+           t.bonds == image->bond_count && t.paths == image->path_point_count;
 }
 
 static bool contacts_are_sound(const JoxBodiesImage *image) {

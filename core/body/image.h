@@ -9,14 +9,14 @@
 #include "body/body.h"
 #include "body/bonds.h"
 
-enum { JOX_BODY_MOTION = 36 };
+enum { JOX_BODY_MOTION = 36, JOX_BODY_STATIC = 1, JOX_BODY_KINEMATIC = 2 };
 
-/* One live body. What it has of names, parts, blocks and bonds follows in the arrays of these in
-   the order of the bodies. */
+/* One live body. What it has of names, parts, blocks, bonds and points of its path follows in the
+   arrays of these in the order of the bodies. */
 typedef struct JoxBodyRecord {
     uint32_t row, id;
     uint32_t tags[2]; /* low and high half */
-    uint32_t still;   /* static */
+    uint32_t still;   /* 0: it can be pushed; or JOX_BODY_STATIC, JOX_BODY_KINEMATIC */
     uint32_t held, holder;
     uint32_t grounded, swept;
     uint32_t activation;     /* Bullet's state of sleep */
@@ -30,6 +30,8 @@ typedef struct JoxBodyRecord {
     uint32_t block_count, bond_count; /* 0: it cannot come apart */
     uint32_t low[3], range[3];        /* the rest as of JoxBondGraph */
     double block_size[3], origin[3], block_mass, peak_load;
+    uint32_t path_count, path_end; /* points; 0: no path */
+    double path_speed, path_after, path_wait, path_time;
 } JoxBodyRecord;
 
 typedef struct JoxBodyPartRecord {
@@ -70,6 +72,8 @@ typedef struct JoxBodiesImage {
     uint32_t point_count, point_capacity;
     char *names; /* without their ends */
     uint32_t name_count, name_capacity;
+    double *path_points; /* of the centre of mass, three numbers each */
+    uint32_t path_point_count, path_point_capacity;
     JoxBlockRecord *blocks;
     uint32_t block_count, block_capacity;
     JoxBondRecord *bonds;

@@ -69,7 +69,7 @@ static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out
         JoxV2 forced = {f->step.agents->forced_x[i], f->step.agents->forced_y[i]};
         float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
         float least = speed;
-        if (speed > 0.0f)
+        if (speed > 0.0f && f->step.objects->rows[t->object].moves) /* else nothing brakes it */
             least -= braking(&f->step, i, speed, decay);
         least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};

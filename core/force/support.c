@@ -49,8 +49,8 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     m->spin += four(jox_turn3(body->inverse_inertia, turn));
 }
 
-/* All bodies as they are, and behind them what is static, at rest; those that are touched, and what
-   they stand at, are solved for. */
+/* All bodies as they are, and behind them what is static, at rest; of those that can be pushed the
+   touched, and what they stand at, are solved for. */
 static void reset_motions(JoxForces *f) {
     const JoxObjects *objects = f->step.objects;
     JOX_RESERVE(f->motions, f->motion_capacity, objects->count + 1);
@@ -58,8 +58,11 @@ static void reset_motions(JoxForces *f) {
     for (uint32_t row = 0; row < objects->count; row++)
         f->motions[row] = (JoxBodyMotion){.velocity = four(objects->rows[row].velocity),
                                           .spin = four(objects->rows[row].spin)};
-    for (uint32_t k = 0; k < f->touch_count; k++)
-        f->motions[f->touch[k].object].solved = f->motions[f->touch[k].object].touched = true;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        const uint32_t row = f->touch[k].object;
+        f->motions[row].touched = true;
+        f->motions[row].solved = objects->rows[row].moves;
+    }
 }
 
 /* Whether a body is solved for by now, before this link. */
@@ -68,7 +71,7 @@ static bool is_reached(const JoxForces *f, uint32_t row, uint32_t link) {
 }
 
 static void reach_next(JoxForces *f, uint32_t row, uint32_t link) {
-    if (row == JOX_NO_OBJECT || f->motions[row].solved)
+    if (row == JOX_NO_OBJECT || f->motions[row].solved || !f->step.objects->rows[row].moves)
         return;
     f->motions[row].solved = true;
     f->motions[row].link = (uint8_t)(link + 1);

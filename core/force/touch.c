@@ -21,7 +21,7 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touc
     const JoxAgents *a = f->step.agents;
     const JoxObject *body = &f->step.objects->rows[row];
     JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
-    JoxV2 towards = {a->vx[i] - body->velocity.x, a->vy[i] - body->velocity.y};
+    JoxV2 towards = jox_sub(jox_v2(a->vx[i], a->vy[i]), jox_object_velocity_at(body, at.point));
     float closing = jox_length(towards) * (float)f->step.dt;
     float gap = at.gap - a->breadth[i];
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))

@@ -18,7 +18,8 @@ typedef struct JoxObject {
     uint32_t id;     /* of the body, never reused */
     bool live;       /* false: the row is free */
     bool in_band;    /* some of it is within the agents' height band: can be touched */
-    bool moves;      /* false: mass 0, static */
+    bool moves;      /* by what pushes it; false: mass 0, static or kinematic */
+    bool kinematic;  /* moves by a velocity of its own: pushes, and is not pushed */
     bool grounded;   /* touches the ground or rests upon something static */
     bool held;       /* carried by an agent: touches nothing */
     uint32_t holder; /* its id */
@@ -29,7 +30,7 @@ typedef struct JoxObject {
     JoxV3 spin;               /* angular velocity, rad/s */
     float disc;               /* radius of the projected bounding disc about position.xy, m */
     float sphere;             /* radius of the bounding sphere about position, m */
-    float inverse_mass;       /* 1/kg; 0 static */
+    float inverse_mass;       /* 1/kg; 0 static or kinematic */
     float inverse_inertia[9]; /* world frame, row major, 1/(kg m2) */
     /* Footprint within the height band: a convex ring, counter-clockwise, or, with count 0, the
        disc of radius `round` about position.xy. */
@@ -49,11 +50,23 @@ typedef struct JoxImpulse {
     float lasting;
 } JoxImpulse;
 
+/* The velocity that people reckon with at a point of a body, m/s: that of its centre; of one that
+   is kinematic, which turns as steadily as it goes, with its turning. */
+static inline JoxV2 jox_object_velocity_at(const JoxObject *body, JoxV2 point) {
+    JoxV2 v = {body->velocity.x, body->velocity.y};
+    if (body->kinematic) {
+        v.x -= body->spin.z * (point.y - body->position.y);
+        v.y += body->spin.z * (point.x - body->position.x);
+    }
+    return v;
+}
+
 #define JOX_NO_OBJECT UINT32_MAX
 
 /* A point at which a moving body touches another, or ground, wall or a static body. */
 typedef struct JoxObjectContact {
-    uint32_t first, second; /* rows; second is JOX_NO_OBJECT where it is static */
+    uint32_t first, second; /* rows, the first of a body that can be pushed; second is JOX_NO_OBJECT
+                               where it is static */
     JoxV3 point, normal;    /* m; unit, it points to the first */
     float gap, friction;    /* m; coefficient of the two together */
     float force;            /* along the normal in the step before, N */

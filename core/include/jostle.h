@@ -171,6 +171,8 @@ typedef struct JoBodyDef {
     double turn;       /* about z, rad */
     double vx, vy, vz; /* m/s */
     double friction, restitution;
+    bool kinematic; /* whatever the mass: it moves by its velocity, as a door or a train does,
+                       pushes people and bodies, and nothing pushes it; see jo_body_set_velocity */
     uint32_t cookie;
 } JoBodyDef;
 JO_API JoBodyDef jo_default_body_def(void);

@@ -62,7 +62,8 @@ JO_API bool jo_body_impulse(JoWorld *world, JoBody body, const double impulse[3]
 JO_API bool jo_body_place(JoWorld *world, JoBody body, const double at[3], const double turn[4],
                           JoError *error);
 /* Sets the velocity of a body's centre of mass, m/s, and its spin, rad/s (NULL: none), each up to
-   100 along an axis. Not for static bodies. */
+   100 along an axis. Not for static bodies. A kinematic body keeps them until they are set anew,
+   and no longer follows the path that its scene gave it. */
 JO_API bool jo_body_set_velocity(JoWorld *world, JoBody body, const double velocity[3],
                                  const double spin[3], JoError *error);
 /* Takes a body out. */

@@ -17,6 +17,7 @@ static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, const JoxObjec
     }
     JoxFootprintPoint side = jox_footprint_nearest(o, at);
     float gap = side.gap - radius, time = gap < 0.0f ? planning_time : tau;
+    moving = jox_object_velocity_at(o, side.point);
     return (JoxHalfPlane){side.normal, jox_dot(moving, side.normal) - gap / time};
 }
 

@@ -42,6 +42,24 @@ void jox_key_hull(const JoxReader *r, const JoxKey *key, const JoxYaml *list, vo
     shape->point_count = list->count;
 }
 
+/* Its first point is where the body begins, which is set once all of the body is read. */
+void jox_key_path(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
+    JoxBodyPath *path = &((JoxLoadBody *)item)->body.def.path;
+    if (!list)
+        return;
+    if (list->kind != JOX_YAML_LIST || list->count < 1 || list->count >= JOX_PATH_POINTS) {
+        jox_scene_error(r, list, "bad-type", "[[5, 0, 1], ...]", "a path has 1 to %d points",
+                        JOX_PATH_POINTS - 1);
+        return;
+    }
+    double *points = jox_arena_take(r->arena, 3 * ((size_t)list->count + 1), sizeof *points);
+    for (uint32_t i = 0; i < list->count; i++)
+        if (!read_corner(r, key, list->items[i], &points[3 * (i + 1)]))
+            return;
+    path->points = points;
+    path->count = list->count + 1;
+}
+
 /* Three whole numbers, of blocks or of copies. */
 static bool read_counts(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                         const char *what, double count[3]) {
@@ -102,6 +120,25 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) 
     def->mass = each * def->shape.count[0] * def->shape.count[1] * def->shape.count[2];
 }
 
+/* A kinematic body has no mass, and moves along its path or by its velocity. */
+static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDef *def) {
+    const JoxYaml *path = jox_yaml_get(map, "path"), *velocity = jox_yaml_get(map, "velocity");
+    const JoxYaml *mass = jox_yaml_get(map, "mass"), *density = jox_yaml_get(map, "density");
+    if (def->kinematic && (mass || density))
+        jox_scene_error(r, mass ? mass : density, "bad-body", "Leave out its mass",
+                        "a kinematic body has no mass: nothing pushes it");
+    if (path && !def->kinematic)
+        jox_scene_error(r, path, "bad-body", "Add `kinematic: true`, and no mass",
+                        "only a kinematic body follows a path");
+    if (path && velocity)
+        jox_scene_error(r, velocity, "bad-body", "Leave out the velocity or the path",
+                        "a body on a path moves at the speed of the path");
+    if (def->kinematic)
+        def->mass = def->density = 0;
+    if (def->path.count)
+        memcpy(def->path.points, def->position, sizeof def->position);
+}
+
 /* Bodies in one place all touch each other: their contacts are as many as pairs, and have no sense.
  */
 static bool is_lattice(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *load) {
@@ -112,6 +149,17 @@ static bool is_lattice(const JoxReader *r, const JoxYaml *map, const JoxLoadBody
             return false;
         }
     return true;
+}
+
+/* The path of a copy stands apart from the first one's as the copy does. */
+static void move_path(const JoxReader *r, JoxBodyPath *path, const uint32_t cell[3],
+                      const double step[3]) {
+    if (!path->count || !(cell[0] || cell[1] || cell[2]))
+        return;
+    double *points = jox_arena_take(r->arena, 3 * (size_t)path->count, sizeof *points);
+    for (uint32_t n = 0; n < 3 * path->count; n++)
+        points[n] = path->points[n] + cell[n % 3] * step[n % 3];
+    path->points = points;
 }
 
 /* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
@@ -135,6 +183,7 @@ static void add_copies(const JoxReader *r, const JoxLoadBody *load, uint32_t *ro
         *copy = *body;
         for (int i = 0; i < 3; i++)
             copy->def.position[i] += cell[i] * step[i];
+        move_path(r, &copy->def.path, cell, step);
         if (copies > 1 && body->def.name) {
             char name[80];
             snprintf(name, sizeof name, "%.60s-%u", body->def.name, n + 1);
@@ -154,8 +203,10 @@ void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, 
     for (uint32_t i = 0; i < count; i++) {
         JoxLoadBody body = {.body = {.def = jox_body_def(), .position = list->items[i]->position}};
         r->load->block_mass = NAN;
-        if (jox_keys_fill(r, list->items[i], "body", &body))
+        if (jox_keys_fill(r, list->items[i], "body", &body)) {
             set_mass(r, list->items[i], &body);
+            set_motion(r, list->items[i], &body.body.def);
+        }
         if (is_lattice(r, list->items[i], &body))
             add_copies(r, &body, &room);
     }

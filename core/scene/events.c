@@ -39,8 +39,10 @@ static void check_body(const JoxReader *r, const JoxYaml *name, const char *done
         const JoxBodyDef *def = &r->load->scene->bodies[b].def;
         if (def->name && strcmp(def->name, name->text) == 0) {
             if (is_static(def))
-                jox_scene_error(r, name, "bad-event", "Give it a mass above 0",
-                                "the body '%.60s' is static: it cannot be %s", name->text, done);
+                jox_scene_error(r, name, "bad-event",
+                                def->kinematic ? NULL : "Give it a mass above 0",
+                                "the body '%.60s' is %s: it cannot be %s", name->text,
+                                def->kinematic ? "kinematic" : "static", done);
             return;
         }
         if (def->name && count < 256)

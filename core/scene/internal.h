@@ -76,8 +76,8 @@ JoxOwnerFinish jox_finish_camera;
 JoxKeyRead jox_key_walls, jox_key_wall_points, jox_key_wall_file;
 
 /* bodies.c */
-JoxKeyRead jox_key_bodies, jox_key_turn, jox_key_hull, jox_key_block_count, jox_key_block_mass,
-    jox_key_copies;
+JoxKeyRead jox_key_bodies, jox_key_turn, jox_key_hull, jox_key_path, jox_key_block_count,
+    jox_key_block_mass, jox_key_copies;
 JoxKeyRead jox_key_part_shape;
 
 /* groups.c, sets.c, populate.c, starts.c */

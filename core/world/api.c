@@ -269,6 +269,7 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     memcpy(body.shape.size, def->size, sizeof def->size);
     body.mass = def->mass;
     body.still = def->mass == 0.0;
+    body.kinematic = def->kinematic;
     memcpy(body.position, (double[]){def->x, def->y, def->z}, sizeof body.position);
     body.turn[2] = jox_sin(def->turn / 2.0);
     body.turn[3] = jox_cos(def->turn / 2.0);

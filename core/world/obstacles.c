@@ -23,7 +23,7 @@ static float length_of(const JoxObject *o) {
 static bool is_obstacle(const JoxObject *o) {
     if (!o->live || !o->in_band || o->held || o->swept)
         return false;
-    if (!o->moves)
+    if (!o->moves && !o->kinematic)
         return true;
     return jox_length2((JoxV2){o->velocity.x, o->velocity.y}) < SLOW * SLOW && length_of(o) > LONG;
 }
@@ -80,7 +80,7 @@ static bool has_changed(const JoxObstacles *obstacles, const JoxObjects *objects
             return true;
         JoxObstacle now;
         const JoxObstacle *before = &obstacles->items[at++];
-        if (!o->moves)
+        if (!o->moves && !o->kinematic)
             continue;
         look(o, &now);
         if (sticks_out(&now, before) || sticks_out(before, &now))

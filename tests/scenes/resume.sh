@@ -22,6 +22,7 @@ goes_on "a crowd that pushes" scenes/running-through.yaml 3 "3.05 4 9"
 goes_on "bodies, thrown and kicked" scenes/dodgeball.yaml 7 "13 16 20"
 goes_on "a wall that breaks" scenes/wall-breaking.yaml 1 "6.5 8"
 goes_on "people who come and go" scenes/tawaf.yaml 2 "3.5" --set groups.pilgrims.count=1000
+goes_on "doors upon their paths" scenes/train-doors.yaml 2 "9.6 14.5"
 goes_on "events and gates" scenes/gates.yaml 4 "9"
 goes_on "a mod" scenes/tawaf.yaml 1 "2.5" --set groups.pilgrims.count=300 --mod scenes/mods/rough
 

@@ -80,6 +80,16 @@ static void fill(JoxBodies *b) {
     add(b, table, "table", -3, 5, 1.0);
     table.still = true;
     add(b, table, "post", -5, 5, 0.7);
+    JoxBodyDef door = box, bar = box;
+    double points[] = {3, 5, 0.3, 5, 3, 0.3, 8, 5, 0.6};
+    door.kinematic = true;
+    door.path = (JoxBodyPath){
+        .points = points, .count = 3, .end = JOX_PATH_BACK, .speed = 0.7, .wait = 0.6};
+    add(b, door, "door", 3, 5, 0.3);
+    bar.shape.size[0] = 4;
+    bar.kinematic = true;
+    bar.spin[2] = 0.4;
+    add(b, bar, "bar", -1, 4, 0.6);
     add(b, blocks(400), "early", 0, -3, 0.5);
     add(b, blocks(3000), "late", 0, -5, 0.5);
 }
@@ -107,6 +117,9 @@ static void act(JoxBodies *b, uint32_t tick) {
         box.velocity[1] = -6;
         add(b, box, "thrown", 1, 8, 1);
     }
+    if (tick == SAVED - 9 || tick == SAVED + 60)
+        jox_bodies_set_velocity(b, jox_bodies_find_name(b, "bar"),
+                                (JoxV3){0.3f, tick > SAVED ? -0.5f : 0.2f, 0}, (JoxV3){0, 0, 0.6f});
     if (tick == SAVED + 90)
         jox_bodies_remove(b, jox_bodies_find_name(b, "hull"));
 }
@@ -279,6 +292,9 @@ static void broken_images_are_refused(void **state) {
     JoxBodiesImage image = {0};
     jox_bodies_capture(b, &image);
     const uint64_t before = hash_of(b);
+    JoxBodyRecord *door = image.bodies;
+    while (!door->path_count)
+        door++;
     struct {
         void *cell;
         uint32_t wrong;
@@ -297,6 +313,12 @@ static void broken_images_are_refused(void **state) {
                    {&image.bonds[2].b, 5000},
                    {&image.bonds[2].axis, 3},
                    {&image.contacts[0].impulse[0], 0x7f800000}, /* infinite */
+                   {&door->still, JOX_BODY_STATIC},
+                   {&door->still, 3},
+                   {&door->path_count, 4},
+                   {&door->path_end, JOX_PATH_ENDS},
+                   {(uint32_t *)&door->path_speed + 1, 0xbff00000}, /* -1 or so */
+                   {(uint32_t *)&image.path_points[4] + 1, 0x7ff80000},
                    {&image.point_count, 3}};
     for (size_t k = 0; k < sizeof changes / sizeof *changes; k++) {
         uint32_t kept;

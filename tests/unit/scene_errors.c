@@ -220,6 +220,18 @@ static const struct Case {
     {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], repeat: @{count: [2, 1, 1], "
      "step: [0, 1, 1]}}\n",
      "bad-body", NULL},
+    {"bodies: [{shape: {sphere: {radius: 1}}, at: [0, 0, 1], kinematic: true, mass: @3}]\n" GROUP,
+     "bad-body", "Leave out its mass"},
+    {"bodies: [{shape: {sphere: {radius: 1}}, at: [0, 0, 1], path: @{through: [[1, 0, 1]], speed: "
+     "1}}]\n" GROUP,
+     "bad-body", "Add `kinematic: true`"},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], kinematic: true, velocity: @[1, "
+     "0, 0],\n"
+     "     path: {through: [[1, 0, 1]], speed: 1}}\n" GROUP,
+     "bad-body", "Leave out the velocity or the path"},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], kinematic: true,\n"
+     "     path: {through: @[], speed: 1}}\n" GROUP,
+     "bad-type", "[[5, 0, 1], ...]"},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: circle, in: box}}\n", "bad-fill",
      "point and radius"},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: line, in: box}}\n", "bad-fill",

@@ -27,7 +27,7 @@ static bool pull(JoWorld *world, const JoxInputEntry *entry, bool anew, JoxText 
         jox_text_printf(why, "there is no body %u", row);
         break;
     case JOX_GRAB_STATIC:
-        jox_text_printf(why, "body %u is static: it cannot be moved", row);
+        jox_text_printf(why, "body %u is static or kinematic: it cannot be dragged", row);
         break;
     case JOX_GRAB_FREE:
         jox_text_printf(why, "body %u is not held; grab it first", row);
@@ -78,7 +78,7 @@ static bool find_body(const JoWorld *world, const JoxInputEntry *entry, bool mov
                       JoxText *why) {
     if (!jox_bodies_pose(world->state.bodies, entry->number, pose))
         jox_text_printf(why, "there is no body %u", entry->number);
-    else if (moves && !(pose->mass > 0.0f))
+    else if (moves && !pose->kinematic && !(pose->mass > 0.0f))
         jox_text_printf(why, "body %u is static", entry->number);
     else
         return true;
@@ -89,6 +89,10 @@ bool jox_perform_impulse(JoWorld *world, const JoxInputEntry *entry, JoxText *wh
     JoxPose pose;
     if (!find_body(world, entry, true, &pose, why))
         return false;
+    if (pose.kinematic) {
+        jox_text_printf(why, "body %u is kinematic: nothing pushes it", entry->number);
+        return false;
+    }
     JoxImpulse impulse = {.object = entry->number,
                           .impulse = vector(entry->numbers),
                           .point = entry->given > 3 ? vector(entry->numbers + 3) : pose.centre};

@@ -1,0 +1,72 @@
+/* Bodies that move by velocities of their own: kinematic ones. */
+#include "body/bullet.h"
+
+#include <cstring>
+
+static void set_velocity(JoxRow *r, const double v[3]) {
+    r->body->setLinearVelocity(btVector3(float(v[0]), float(v[1]), float(v[2])));
+}
+
+/* A path is given for the shape's own frame, and kept for the centre of mass, about which a body
+   turns. */
+void jox_row_begin_path(JoxRow *r, const JoxBodyDef *def) {
+    const btVector3 &centre = r->body->getWorldTransform().getOrigin();
+    jox_row_set_path(r, &def->path);
+    for (uint32_t n = 0; n < 3 * def->path.count; n++)
+        r->path.points[n] += double(centre[int(n % 3)]) - def->position[n % 3];
+    set_velocity(r, jox_path_spot(&r->path, 0).velocity);
+}
+
+void jox_row_set_path(JoxRow *r, const JoxBodyPath *path) {
+    r->path = *path;
+    r->path.points = static_cast<double *>(jox_alloc(3 * size_t(path->count), sizeof(double)));
+    memcpy(r->path.points, path->points, 3 * size_t(path->count) * sizeof(double));
+    r->path_time = 0;
+}
+
+void jox_row_leave_path(JoxRow *r) {
+    jox_free(r->path.points);
+    r->path = JoxBodyPath();
+    r->path_time = 0;
+}
+
+void jox_row_make_kinematic(JoxRow *r) {
+    const int flags = r->body->getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT;
+    JOX_ASSERT(r->shape.still);
+    r->kinematic = true;
+    r->body->setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
+}
+
+/* What is under way is awake, and wakes what it touches; at rest it lets that sleep. */
+static void wake(JoxRow *r) {
+    const bool moves =
+        r->body->getLinearVelocity().length2() > 0 || r->body->getAngularVelocity().length2() > 0;
+    r->body->forceActivationState(moves ? ACTIVE_TAG : ISLAND_SLEEPING);
+    r->body->setDeactivationTime(0);
+}
+
+void jox_bodies_drive(JoxBodies *b, float dt) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (!r->kinematic)
+            continue;
+        if (r->path.count) { /* to where it has to be, whatever was rounded so far */
+            r->path_time += dt;
+            const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
+            const btVector3 &at = r->body->getWorldTransform().getOrigin();
+            double v[3];
+            for (int i = 0; i < 3; i++)
+                v[i] = (spot.at[i] - double(at[i])) / double(dt);
+            set_velocity(r, v);
+        }
+        wake(r);
+    }
+}
+
+void jox_bodies_driven(JoxBodies *b) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (r->path.count)
+            set_velocity(r, jox_path_spot(&r->path, r->path_time).velocity);
+    }
+}

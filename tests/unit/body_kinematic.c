@@ -1,0 +1,228 @@
+/* Bodies that move by velocities of their own: along paths, against others, with others upon them.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "body/body.h"
+
+static const float DT = 0.05f;
+
+static void expect_spot(const JoxBodyPath *path, double time, double x, double y, double vx,
+                        double vy) {
+    JoxPathSpot s = jox_path_spot(path, time);
+    const double got[] = {s.at[0], s.at[1], s.velocity[0], s.velocity[1]}, want[] = {x, y, vx, vy};
+    for (int k = 0; k < 4; k++)
+        if (!(fabs(got[k] - want[k]) < 1e-9))
+            fail_msg("after %g s number %d is %g, not %g", time, k, got[k], want[k]);
+}
+
+static void paths_lead_where_they_say(void **state) {
+    (void)state;
+    double points[] = {0, 0, 1, 4, 0, 1, 4, 2, 1};
+    JoxBodyPath p = {.points = points, .count = 3, .speed = 2, .after = 3, .wait = 1};
+    expect_spot(&p, 2.9, 0, 0, 0, 0);
+    expect_spot(&p, 3.0, 0, 0, 2, 0);
+    expect_spot(&p, 4.5, 3, 0, 2, 0);
+    expect_spot(&p, 5.5, 4, 0, 0, 0); /* it waits at the corner from 5 s to 6 s */
+    expect_spot(&p, 6.5, 4, 1, 0, 2);
+    expect_spot(&p, 1000, 4, 2, 0, 0);
+    p.end = JOX_PATH_BACK; /* at the last from 7 s to 8 s; then 1 s, a wait, 2 s, a wait */
+    expect_spot(&p, 7.5, 4, 2, 0, 0);
+    expect_spot(&p, 8.5, 4, 1, 0, -2);
+    expect_spot(&p, 11, 2, 0, -2, 0);
+    expect_spot(&p, 12.5, 0, 0, 0, 0);
+    expect_spot(&p, 4.5 + 10, 3, 0, 2, 0);
+    p.end = JOX_PATH_ROUND;
+    p.wait = 0; /* 2 s, 1 s, and sqrt(5) s back to the first */
+    expect_spot(&p, 6 + sqrt(5.0) / 2, 2, 1, -4 / sqrt(5.0), -2 / sqrt(5.0));
+    expect_spot(&p, 3 + 3 + sqrt(5.0) + 1, 2, 0, 2, 0);
+}
+
+static JoxBodies *create(void) {
+    JoxBodiesDef def = jox_bodies_def();
+    return jox_bodies_create(&def);
+}
+
+static uint32_t add(JoxBodies *b, const JoxBodyDef *def) {
+    JoxText why = {0};
+    uint32_t row = jox_bodies_add(b, def, &why);
+    if (row == JOX_NO_BODY)
+        fail_msg("%s", why.data);
+    return row;
+}
+
+static JoxBodyDef box_at(double x, double z, double wide, double high) {
+    JoxBodyDef d = jox_body_def();
+    d.position[0] = x;
+    d.position[2] = z;
+    d.shape.size[0] = d.shape.size[1] = wide;
+    d.shape.size[2] = high;
+    return d;
+}
+
+static JoxPose pose_of(const JoxBodies *b, uint32_t row) {
+    JoxPose p;
+    assert_true(jox_bodies_pose(b, row, &p));
+    return p;
+}
+
+static void step_for(JoxBodies *b, double seconds) {
+    for (int i = 0; i < (int)(seconds / 0.05 + 0.5); i++)
+        jox_bodies_step(b, DT, NULL, 0);
+}
+
+static void it_pushes_and_is_not_pushed(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodies *b = create();
+    JoxBodyDef door = box_at(0, 1, 1, 2), crate = box_at(2, 0.5, 1, 1);
+    door.kinematic = true;
+    door.velocity[0] = 0.5;
+    crate.mass = 1000;
+    uint32_t mover = add(b, &door), pushed = add(b, &crate);
+    step_for(b, 6);
+    assert_float_equal(pose_of(b, mover).position.x, 3.0, 1e-4); /* as if nothing were there */
+    assert_float_equal(pose_of(b, mover).velocity.x, 0.5, 0.0);
+    assert_float_equal(pose_of(b, pushed).position.x, 4.0, 0.02);
+    assert_float_equal(pose_of(b, pushed).velocity.x, 0.5, 0.05);
+    assert_float_equal(pose_of(b, mover).mass, 0.0, 0.0);
+    const JoxImpulse hard = {.object = mover, .point = {3, 0, 1}, .impulse = {-1e4f, 0, 0}};
+    assert_int_equal(jox_bodies_impulses(b, &hard, 1), 1);
+    assert_false(jox_bodies_force(b, mover, (JoxV3){-1e4f, 0, 0}));
+    assert_false(jox_bodies_hold(b, mover, 1));
+    step_for(b, 1);
+    assert_float_equal(pose_of(b, mover).position.x, 3.5, 1e-4);
+    JoxObjects o = {0};
+    jox_bodies_objects(b, &o);
+    assert_true(o.rows[mover].kinematic && !o.rows[mover].moves);
+    assert_float_equal(o.rows[mover].velocity.x, 0.5, 0.0);
+    assert_true(!o.rows[pushed].kinematic && o.rows[pushed].moves);
+    /* What is pushed is held by what pushes it, which has a row of its own. */
+    uint32_t between = 0;
+    for (uint32_t k = 0; k < o.contact_count; k++)
+        between += o.contacts[k].first == pushed && o.contacts[k].second == mover;
+    assert_true(between > 0);
+    jox_bodies_free(b);
+}
+
+/* A crate upon a platform that waits, long enough for the crate to sleep, and goes up and across.
+ */
+static void it_carries_what_lies_upon_it(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodies *b = create();
+    double points[] = {0, 0, 0.1, 0, 0, 2.1, 3, 0, 2.1};
+    JoxBodyDef lift = box_at(0, 0.1, 2, 0.2), crate = box_at(0, 0.7, 1, 1);
+    lift.kinematic = true;
+    lift.path = (JoxBodyPath){.points = points, .count = 3, .speed = 0.5, .after = 10, .wait = 5};
+    uint32_t platform = add(b, &lift), load = add(b, &crate);
+    step_for(b, 9);
+    assert_float_equal(pose_of(b, load).velocity.z, 0.0, 0.0); /* it sleeps */
+    step_for(b, 3);
+    assert_float_equal(pose_of(b, platform).position.z, 1.1, 1e-4);
+    assert_float_equal(pose_of(b, platform).velocity.z, 0.5, 1e-6);
+    assert_float_equal(pose_of(b, load).position.z, 1.7, 0.02);
+    JoxObjects o = {0};
+    jox_bodies_objects(b, &o);
+    assert_true(o.rows[load].grounded);
+    step_for(b, 16); /* at 28 s: it came to the second point at 14 s, and left it at 19 s */
+    assert_float_equal(pose_of(b, platform).position.x, 3.0, 1e-4);
+    assert_float_equal(pose_of(b, platform).velocity.x, 0.0, 0.0);
+    assert_float_equal(pose_of(b, load).position.x, 3.0, 0.05);
+    assert_float_equal(pose_of(b, load).position.z, 2.7, 0.02);
+    jox_bodies_free(b);
+}
+
+static void it_turns_about_its_middle(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodies *b = create();
+    JoxBodyDef bar = box_at(0, 0.5, 1, 0.2), ball = box_at(2.5, 0.5, 0, 0);
+    bar.shape.size[0] = 6;
+    bar.kinematic = true;
+    bar.spin[2] = 0.5;
+    ball.position[1] = 1.2;
+    ball.shape.kind = JOX_SHAPE_SPHERE;
+    ball.shape.size[0] = 0.4;
+    uint32_t sweeper = add(b, &bar), swept = add(b, &ball);
+    step_for(b, 3.14159265 / 0.5 + 0.02); /* half a turn, to the nearest step */
+    JoxPose p = pose_of(b, sweeper);
+    assert_float_equal(fabsf(p.turn[2]), 1.0, 2e-3);
+    assert_float_equal(p.position.x, 0.0, 1e-6);
+    assert_true(pose_of(b, swept).position.x < 2.0f || pose_of(b, swept).position.y > 1.5f);
+    jox_bodies_free(b);
+}
+
+/* Whoever sets its velocity, or puts it elsewhere, has it from then on. */
+static void a_path_can_be_left(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodies *b = create();
+    double points[] = {0, 0, 1, 5, 0, 1};
+    JoxBodyDef door = box_at(0, 1, 1, 2);
+    door.kinematic = true;
+    door.path = (JoxBodyPath){.points = points, .count = 2, .speed = 1};
+    uint32_t row = add(b, &door);
+    step_for(b, 2);
+    assert_float_equal(pose_of(b, row).position.x, 2.0, 1e-4);
+    assert_true(jox_bodies_set_velocity(b, row, (JoxV3){0, 2, 0}, (JoxV3){0, 0, 0}));
+    step_for(b, 1);
+    assert_float_equal(pose_of(b, row).position.x, 2.0, 1e-4);
+    assert_float_equal(pose_of(b, row).position.y, 2.0, 1e-4);
+    assert_true(jox_bodies_place(b, row, (double[]){7, 7, 1}, NULL));
+    step_for(b, 1);
+    assert_float_equal(pose_of(b, row).position.x, 7.0, 0.0);
+    assert_float_equal(pose_of(b, row).position.y, 7.0, 0.0);
+    jox_bodies_free(b);
+}
+
+static void refused(JoxBodies *b, const JoxBodyDef *def, const char *word) {
+    JoxText why = {0};
+    assert_int_equal(jox_bodies_add(b, def, &why), JOX_NO_BODY);
+    assert_non_null(strstr(why.data, word));
+    jox_text_free(&why);
+}
+
+static void refuses(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodies *b = create();
+    double points[] = {0, 0, 1, 5, 0, 1, 5, 0, 1};
+    JoxBodyDef d = box_at(0, 1, 1, 2);
+    d.path = (JoxBodyPath){.points = points, .count = 2, .speed = 1};
+    refused(b, &d, "kinematic");
+    d.kinematic = true;
+    d.path.speed = 0;
+    refused(b, &d, "speed");
+    d.path = (JoxBodyPath){.points = points, .count = 3, .speed = 1};
+    refused(b, &d, "1 mm");
+    d.path.count = 2;
+    points[4] = NAN;
+    refused(b, &d, "10 km");
+    points[4] = 0;
+    d.path.wait = -1;
+    refused(b, &d, "waits");
+    assert_int_equal(jox_bodies_count(b), 0);
+    jox_bodies_free(b);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(paths_lead_where_they_say),
+                                       cmocka_unit_test(it_pushes_and_is_not_pushed),
+                                       cmocka_unit_test(it_carries_what_lies_upon_it),
+                                       cmocka_unit_test(it_turns_about_its_middle),
+                                       cmocka_unit_test(a_path_can_be_left),
+                                       cmocka_unit_test(refuses)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,135 @@
+/* People and bodies that move by velocities of their own: who is pushed, who makes way, and what
+   programs can do to such a body. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "body/body.h"
+#include "jostle.h"
+#include "jostle_act.h"
+
+typedef struct Meeting {
+    JoWorld *world;
+    JoAgent person;
+    JoBody gate;
+} Meeting;
+
+/* A barrier 1 m high and 4 m long whose front is at x = 0.25 m, and somebody at (2, 0) who wants to
+   stay. */
+static Meeting meet(bool forces, double speed) {
+    JoError error = {0};
+    JoWorldDef def = jo_default_world_def();
+    def.forces = forces;
+    Meeting m = {.world = jo_world_create(&def, &error)};
+    JoAgentDef agent = jo_default_agent_def();
+    agent.x = 2;
+    m.person = jo_world_add_agent(m.world, &agent, &error);
+    JoBodyDef gate = jo_default_body_def();
+    gate.size[0] = 0.5;
+    gate.size[1] = 4;
+    gate.kinematic = true;
+    gate.vx = speed;
+    m.gate = jo_world_add_body(m.world, &gate, &error);
+    if (error.text[0])
+        fail_msg("%s", error.text);
+    return m;
+}
+
+/* m, between the barrier's front and the person. */
+static double gap(const Meeting *m) {
+    const JoAgentState person = jo_agent_state(m->world, m->person);
+    return person.x - person.radius - jo_body_state(m->world, m->gate).x - 0.25;
+}
+
+static void who_stands_there_is_pushed_along(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    Meeting m = meet(true, 0.6);
+    double least = 9, load = 0;
+    for (int step = 0; step < 200; step++) {
+        jo_world_step(m.world, 1);
+        least = fmin(least, gap(&m));
+        load = fmax(load, jo_agent_state(m.world, m.person).load);
+    }
+    print_message("  %.0f N and %.1f mm deep at most, at the end at %.2f m\n", load,
+                  fmax(0, -1e3 * least), jo_agent_state(m.world, m.person).x);
+    assert_float_equal(jo_body_state(m.world, m.gate).x, 6.0, 1e-3); /* it was not held up */
+    assert_true(jo_agent_state(m.world, m.person).x > 6.4);
+    assert_true(least > -0.005);
+    jo_world_free(m.world);
+}
+
+/* Without forces nobody is pushed: they make way before it comes. */
+static void people_make_way(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    Meeting m = meet(false, 0.6);
+    double least = 9;
+    for (int step = 0; step < 200; step++) {
+        jo_world_step(m.world, 1);
+        least = fmin(least, gap(&m));
+    }
+    assert_true(jo_agent_state(m.world, m.person).x > 6.4 ||
+                fabs(jo_agent_state(m.world, m.person).y) > 2);
+    assert_true(least > -0.01);
+    jo_world_free(m.world);
+}
+
+static void a_bar_that_turns_sweeps_people_along(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    Meeting m = meet(true, 0.0);
+    JoError error = {0};
+    const double still[3] = {0}, spin[3] = {0, 0, 0.4};
+    const double at[3] = {1, 1.2, 0.5};
+    assert_true(jo_body_place(m.world, m.gate, at, NULL, &error));
+    assert_true(jo_body_set_velocity(m.world, m.gate, still, spin, &error));
+    double least = 9; /* m, from the bar's middle line */
+    for (int step = 0; step < 300; step++) {
+        jo_world_step(m.world, 1);
+        const JoAgentState p = jo_agent_state(m.world, m.person);
+        const JoBodyState b = jo_body_state(m.world, m.gate);
+        const double turn = 2 * atan2(b.qz, b.qw), x = p.x - b.x, y = p.y - b.y;
+        const double across = x * cos(turn) + y * sin(turn), along = y * cos(turn) - x * sin(turn);
+        if (fabs(along) < 2)
+            least = fmin(least, fabs(across) - 0.25 - p.radius);
+    }
+    print_message("  %.1f mm deep at most\n", fmax(0, -1e3 * least));
+    assert_true(least > -0.005 && least < 0.05);
+    jo_world_free(m.world);
+}
+
+static void programs_drive_it(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    Meeting m = meet(true, 0.0);
+    JoError error = {0};
+    const double velocity[3] = {0, 1, 0}, impulse[3] = {1e4, 0, 0};
+    jo_world_step(m.world, 20);
+    assert_float_equal(jo_body_state(m.world, m.gate).y, 0.0, 0.0);
+    assert_true(jo_body_set_velocity(m.world, m.gate, velocity, NULL, &error));
+    assert_false(jo_body_impulse(m.world, m.gate, impulse, NULL, &error));
+    assert_non_null(strstr(error.text, "kinematic"));
+    jo_world_step(m.world, 40);
+    assert_float_equal(jo_body_state(m.world, m.gate).x, 0.0, 0.0);
+    assert_float_equal(jo_body_state(m.world, m.gate).y, 2.0, 1e-4);
+    assert_float_equal(jo_body_state(m.world, m.gate).vy, 1.0, 0.0);
+    jo_world_free(m.world);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(who_stands_there_is_pushed_along),
+                                       cmocka_unit_test(people_make_way),
+                                       cmocka_unit_test(a_bar_that_turns_sweeps_people_along),
+                                       cmocka_unit_test(programs_drive_it)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
