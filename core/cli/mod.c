@@ -94,7 +94,7 @@ const CliCommand cli_mod = {
              "  enable  turns a mod on for all runs: until then it is off, whatever folder it lies "
              "in; when its files change, it is off again\n"
              "  disable turns it off\n"
-             "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, "
+             "  why     who set a value, e.g. tawaf.Circle.push or bodies.ball.mass: every place, "
              "the last counts\n"
              "  check   every error of mods, without running",
     .notes = "exit status: 0 done, 1 it could not be done, 2 wrong usage, 3 errors found or no "

@@ -112,10 +112,10 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
 
 /* ---- why ---- */
 
-/* Who set a path of the scene: its own file, then mods. */
+/* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
 static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
-    bool found = false;
+    bool found = jox_scene_why(spec, path, out);
     for (uint32_t c = 0; c < spec->changes.count; c++) {
         const JoxPatchChange *change = &spec->changes.items[c];
         const char *rest;
@@ -127,7 +127,8 @@ static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
                         change->removes ? "taken away" : "set", mod->name, mod->version);
         found = true;
     }
-    return found;
+    found |= jox_scene_why_set(spec, path, out);
+    return found || jox_scene_why_default(spec, path, out);
 }
 
 /* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
@@ -141,6 +142,13 @@ static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
             return machines->set->items[m];
     }
     return NULL;
+}
+
+static uint32_t count_lines(const char *text) {
+    uint32_t lines = 0;
+    for (; *text; text++)
+        lines += *text == '\n';
+    return lines;
 }
 
 char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
@@ -171,10 +179,10 @@ char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
         jox_error(error, JO_INPUT,
                   machine ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
                             "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
-                          : "neither a behaviour nor a mod sets '%s'%s%s",
+                          : "neither the scene nor a behaviour or a mod sets '%s'%s%s",
                   path, near ? "; did you mean " : "", near ? near : "");
         jox_text_free(&out);
-    } else {
+    } else if (count_lines(out.data) > 2) { /* the path, and more than one place */
         jox_text_add(&out, "  the last one counts\n");
     }
     jo_scene_free(scene);

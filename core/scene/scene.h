@@ -137,6 +137,7 @@ typedef struct JoxSceneSpec {
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
     const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
+    const struct JoxYaml *own;  /* the same without mods and what was set for the run */
     JoxPatchChanges changes;    /* that mods made */
     void *memory;               /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
@@ -163,6 +164,12 @@ bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char 
 /* Name of what people are coloured by first: what the scene says (NULL: it says nothing), or what
    tells most where behaviours have so many states in all, and people so many groups. */
 const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_t groups);
+/* Append where the scene's own files write the value of a path ("groups.red.count"; items of lists
+   by name or number), where it was set for the run, and what it is by default: false where that is
+   nowhere. */
+bool jox_scene_why(const JoxSceneSpec *scene, const char *path, JoxText *out);
+bool jox_scene_why_set(const JoxSceneSpec *scene, const char *path, JoxText *out);
+bool jox_scene_why_default(const JoxSceneSpec *scene, const char *path, JoxText *out);
 /* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
  */
 void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);

@@ -17,6 +17,12 @@ says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/ge
 says "why: the behaviour's own line" 0 ":87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
+says "why: of a scene, its own line too" 0 "scenes/dodgeball.yaml:24:9: a list of 1" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
+says "why: of a body, by its name" 0 "scenes/dodgeball.yaml:17:11: 0.4" "$JOSTLE" mod why bodies.ball.mass scenes/dodgeball.yaml
+says "why: of a body, by its number" 0 "the default: 0.6" "$JOSTLE" mod why bodies.0.friction scenes/dodgeball.yaml
+says "why: of a table that the scene leaves out" 0 "the default: physical" "$JOSTLE" mod why forces.mode scenes/dodgeball.yaml
+says "why: of what an included file says" 0 "scenes/tawaf.yaml:" "$JOSTLE" mod why step scenes/tawaf-few.yaml
+says "why: no such key" 3 "neither the scene nor a behaviour or a mod sets 'groups.rad.at'" "$JOSTLE" mod why groups.rad.at scenes/dodgeball.yaml
 says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
 says "why: the engine's default" 0 "the engine's default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
 says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
