@@ -81,6 +81,14 @@ typedef struct JoSaidEvent {
     uint32_t agent, signal;
     float x, y; /* m */
 } JoSaidEvent;
+/* What an agent did: it kicked or threw a body, or took hold of another agent. */
+typedef enum JoDone { JO_DONE_KICK, JO_DONE_GRASP } JoDone;
+typedef struct JoActionEvent {
+    uint32_t agent;
+    uint32_t kind;  /* JoDone */
+    uint32_t other; /* slot of the body; id of the agent */
+    float x, y;     /* m: where it was done from */
+} JoActionEvent;
 
 /* What happened in the last step, in ascending ids of agents, then of what they met; `entered` and
    `left`: since events were read last. The arrays hold until the next call on the world. */
@@ -91,8 +99,9 @@ typedef struct JoEvents {
     const JoBreakEvent *breaks;
     const JoPresenceEvent *entered, *left;
     const JoSaidEvent *said;
+    const JoActionEvent *actions;
     uint32_t transition_count, touch_count, hit_count, break_count, entered_count, left_count,
-        said_count;
+        said_count, action_count;
 } JoEvents;
 /* All zero where memory is out. Before the first step `entered` has all who are there. */
 JO_API JoEvents jo_world_events(JoWorld *world);

@@ -75,7 +75,7 @@ static void a_hold_pulls_both_alike(void **state) {
     (void)state;
     Pair p = begin(APART("0.7"), TWO("", HOLDS, "steer = seek \"end\""));
     float most = 0.0f;
-    int held = 0;
+    int held = 0, told = 0;
     for (int n = 0; n < 60; n++) {
         go(&p, 1);
         assert_float_equal(p.a->given_x[p.one] + p.a->given_x[p.other], 0, 1e-4);
@@ -85,8 +85,13 @@ static void a_hold_pulls_both_alike(void **state) {
         assert_int_equal(p.a->held[p.other], p.a->grasped[p.one] == 2);
         assert_int_equal(p.a->held[p.one], 0);
         held += p.a->held[p.other];
+        const JoEvents e = jo_world_events(p.scene->world);
+        for (uint32_t k = 0; k < e.action_count; k++, told++)
+            assert_true(e.actions[k].agent == 0 && e.actions[k].kind == JO_DONE_GRASP &&
+                        e.actions[k].other == 1);
     }
     assert_true(held > 55);
+    assert_int_equal(told, 1); /* it took hold once */
     assert_true(most > 20.0f && most <= 200.0f);
     assert_true(p.a->x[p.one] > 0.1f); /* dragged along */
     jo_scene_free(p.scene);

@@ -106,6 +106,35 @@ static void touches_begin(void **state) {
     jo_scene_free(scene);
 }
 
+static void kicks_are_told(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    scene = load_own("jostle: 1\nplaces: {goal: {point: [9, 0]}}\n"
+                     "bodies: [{name: post, shape: {box: {size: [1, 1, 1]}}, at: [20, 20, 0.5]},\n"
+                     "  {name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [1, 0, 0.1],"
+                     " tags: [ball]}]\n"
+                     "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n",
+                     HEAD "\"Go\", states = { Go = { steer = seek(nearest \"ball\"), "
+                          "approach = nearest \"ball\", "
+                          "kick = { nearest \"ball\", at = \"goal\", impulse = 6 }, "
+                          "{ to = \"Stop\", when = kicked(nearest \"ball\") } }, "
+                          "Stop = { steer = hold } } }\n");
+    world = jo_scene_world(scene);
+    uint32_t kicks = 0;
+    for (int n = 0; n < 40; n++) {
+        step(scene, 1);
+        const JoEvents e = jo_world_events(world);
+        for (uint32_t k = 0; k < e.action_count; k++, kicks++) {
+            assert_true(e.actions[k].agent == 0 && e.actions[k].kind == JO_DONE_KICK);
+            assert_string_equal(jo_world_body_name(world, e.actions[k].other), "ball");
+            assert_true(e.actions[k].x > 0.3f && e.actions[k].x < 1.0f);
+        }
+    }
+    assert_int_equal(kicks, 1);
+    jo_scene_free(scene);
+}
+
 static void a_ball_hits(void **state) {
     (void)state;
     if (!jox_bodies_available())
@@ -227,6 +256,7 @@ int main(void) {
         cmocka_unit_test(columns_are_in_place),
         cmocka_unit_test(events_tell_what_happened),
         cmocka_unit_test(touches_begin),
+        cmocka_unit_test(kicks_are_told),
         cmocka_unit_test(a_ball_hits),
         cmocka_unit_test(questions_have_exact_answers),
         cmocka_unit_test(ways_lead_round_walls),

@@ -83,7 +83,11 @@ static void read_touches(const JoWorld *w, JoxHappened *h) {
     h->touching_capacity = spare_capacity;
 }
 
-/* ---- who came and left ---- */
+/* ---- who came and left, and what they did ---- */
+
+static void note(JoxHappened *h, const JoxAgents *a, uint32_t i, JoDone kind, uint32_t other) {
+    h->actions[h->action_count++] = (JoActionEvent){a->id[i], kind, other, a->x[i], a->y[i]};
+}
 
 static JoPresenceEvent presence(const JoxSeenAgent *seen) {
     return (JoPresenceEvent){seen->id, seen->group, seen->x, seen->y};
@@ -95,16 +99,22 @@ static void read_presence(const JoWorld *w, JoxHappened *h) {
     JOX_RESERVE(h->seeing, h->seeing_capacity, a->count);
     JOX_RESERVE(h->entered, h->entered_capacity, a->count);
     JOX_RESERVE(h->left, h->left_capacity, h->seen_count);
-    h->entered_count = h->left_count = 0;
+    JOX_RESERVE(h->actions, h->action_capacity, 2 * a->count); /* both in one step at most */
+    h->entered_count = h->left_count = h->action_count = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r];
-        const JoxSeenAgent now = {a->id[i], a->group[i], a->x[i], a->y[i]};
+        const JoxSeenAgent now = {a->id[i], a->group[i], a->grasped[i], a->x[i], a->y[i]};
+        uint32_t held = 0;
         while (before < h->seen_count && h->seen[before].id < now.id)
             h->left[h->left_count++] = presence(&h->seen[before++]);
         if (before < h->seen_count && h->seen[before].id == now.id)
-            before++;
+            held = h->seen[before++].grasped;
         else
             h->entered[h->entered_count++] = presence(&now);
+        if (a->kicked[i] >= 0)
+            note(h, a, i, JO_DONE_KICK, (uint32_t)a->kicked[i]);
+        if (now.grasped && now.grasped != held)
+            note(h, a, i, JO_DONE_GRASP, now.grasped - 1);
         h->seeing[r] = now;
     }
     while (before < h->seen_count)
@@ -142,11 +152,13 @@ JoEvents jo_world_events(JoWorld *world) {
                       .entered = h->entered,
                       .left = h->left,
                       .said = h->said,
+                      .actions = h->actions,
                       .transition_count = h->transition_count,
                       .touch_count = h->touch_count,
                       .hit_count = h->hit_count,
                       .break_count = h->break_count,
                       .entered_count = h->entered_count,
                       .left_count = h->left_count,
-                      .said_count = h->said_count};
+                      .said_count = h->said_count,
+                      .action_count = h->action_count};
 }

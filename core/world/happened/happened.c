@@ -24,8 +24,9 @@ void jox_happened_bodies(JoxHappened *h, const JoxBodiesReport *report, const Jo
 }
 
 void jox_happened_free(JoxHappened *h) {
-    void *const owned[] = {h->hits, h->breaks, h->transitions, h->touches, h->entered, h->left,
-                           h->said, h->seen,   h->seeing,      h->touched, h->touching};
+    void *const owned[] = {h->hits,    h->breaks, h->transitions, h->touches,
+                           h->entered, h->left,   h->said,        h->actions,
+                           h->seen,    h->seeing, h->touched,     h->touching};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
     jox_field_free(h->field);

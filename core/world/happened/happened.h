@@ -9,7 +9,7 @@
 
 /* Who was there when events were read last, by id; and who pressed on what, by ids. */
 typedef struct JoxSeenAgent {
-    uint32_t id, group;
+    uint32_t id, group, grasped; /* the last: id + 1 of whom it holds, or 0 */
     float x, y;
 } JoxSeenAgent;
 typedef struct JoxSeenTouch {
@@ -30,12 +30,13 @@ typedef struct JoxHappened {
     JoTouchEvent *touches;
     JoPresenceEvent *entered, *left;
     JoSaidEvent *said;
+    JoActionEvent *actions;
     JoxSeenAgent *seen, *seeing;
     JoxSeenTouch *touched, *touching;
-    uint32_t transition_count, touch_count, entered_count, left_count, said_count, seen_count,
-        touched_count;
+    uint32_t transition_count, touch_count, entered_count, left_count, said_count, action_count,
+        seen_count, touched_count;
     size_t transition_capacity, touch_capacity, entered_capacity, left_capacity, said_capacity,
-        seen_capacity, seeing_capacity, touched_capacity, touching_capacity;
+        action_capacity, seen_capacity, seeing_capacity, touched_capacity, touching_capacity;
     /* The way that was asked for last. */
     JoxField *field;
     JoxFieldMarks *marks;
