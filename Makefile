@@ -296,7 +296,7 @@ unit: $(B)/units
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
-HEADERS   := $(sort $(wildcard core/include/*.h))
+HEADERS   := $(sort $(wildcard core/include/*.h core/include/*.hpp))
 L          = $(DESTDIR)$(LIBDIR)
 install-built:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) SHARED=$(SHARED) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all

@@ -21,6 +21,9 @@ for example in loop ascii bodies host; do
         (cd "$top/share/jostle" && LD_LIBRARY_PATH=$top/lib "$dir/$example") >"$dir/said" 2>&1
     verdict "the example $example" $? ; tail -3 "$dir/said"
 done
+g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror tests/install/loop.cpp $(pkg-config --cflags --libs jostle) -o "$dir/loop-cpp" &&
+    (cd "$top/share/jostle" && LD_LIBRARY_PATH=$top/lib "$dir/loop-cpp") >"$dir/said" 2>&1
+verdict "the example in C++" $? ; tail -2 "$dir/said"
 # The engine alone needs no cairo, no web server; the headers alone name no other's folder.
 ! LC_ALL=C ldd "$top/lib/libjostle.so.0" | grep -qE 'cairo|websockets|ssl|X11|fontconfig'
 verdict "the library needs what the engine needs" $? ; LC_ALL=C ldd "$top/lib/libjostle.so.0" | awk '{print "    " $1}'

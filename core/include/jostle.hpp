@@ -1,0 +1,218 @@
+// The C interface for C++17, without a library of its own: worlds and scenes that free themselves, errors as
+// exceptions, columns and events as ranges. Whatever is not here is called as in C, with `get()`.
+#ifndef JOSTLE_HPP
+#define JOSTLE_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jostle.h"
+
+namespace jostle {
+
+// What a call failed with: what() has file and line where there are some.
+class Error : public std::runtime_error {
+  public:
+    explicit Error(const JoError &error) : std::runtime_error(text_of(error)), error_(error) {}
+    int code() const noexcept { return static_cast<int>(error_.code); }
+    const JoError &error() const noexcept { return error_; }
+
+  private:
+    static std::string text_of(const JoError &error) {
+        if (!error.file[0] || error.line == 0)
+            return error.text;
+        return std::string(error.file) + ":" + std::to_string(error.line) + ": " + error.text;
+    }
+    JoError error_;
+};
+
+namespace detail {
+inline void require(bool good, const JoError &error) {
+    if (!good)
+        throw Error(error);
+}
+} // namespace detail
+
+// `count` items from a pointer, which holds as long as the C interface says.
+template <class T> class Range {
+  public:
+    Range(const T *data, std::size_t count) noexcept : data_(data), count_(count) {}
+    const T *begin() const noexcept { return data_; }
+    const T *end() const noexcept { return data_ + count_; }
+    std::size_t size() const noexcept { return count_; }
+    bool empty() const noexcept { return count_ == 0; }
+    const T &operator[](std::size_t n) const noexcept { return data_[n]; }
+
+  private:
+    const T *data_;
+    std::size_t count_;
+};
+
+template <class T> struct TypeOf;
+template <> struct TypeOf<std::uint8_t> { static constexpr JoType value = JO_U8; };
+template <> struct TypeOf<std::uint16_t> { static constexpr JoType value = JO_U16; };
+template <> struct TypeOf<std::uint32_t> { static constexpr JoType value = JO_U32; };
+template <> struct TypeOf<std::int32_t> { static constexpr JoType value = JO_I32; };
+template <> struct TypeOf<std::uint64_t> { static constexpr JoType value = JO_U64; };
+template <> struct TypeOf<float> { static constexpr JoType value = JO_F32; };
+template <> struct TypeOf<double> { static constexpr JoType value = JO_F64; };
+
+// A number of every agent, in place: column[i] is that of agent i until the next step.
+template <class T> class Column {
+  public:
+    explicit Column(const JoColumn &column) noexcept
+        : data_(static_cast<const char *>(column.data)), stride_(column.stride),
+          count_(column.data ? column.count : 0) {}
+    std::size_t size() const noexcept { return count_; }
+    const T &operator[](std::size_t i) const noexcept {
+        return *reinterpret_cast<const T *>(data_ + i * stride_);
+    }
+
+  private:
+    const char *data_;
+    std::size_t stride_, count_;
+};
+
+// A world that somebody owns, as seen: of a scene, or of a World.
+class WorldRef {
+  public:
+    explicit WorldRef(JoWorld *world) noexcept : world_(world) {}
+    JoWorld *get() const noexcept { return world_; }
+    double time() const noexcept { return jo_world_time(world_); }
+    std::uint64_t hash() const noexcept { return jo_world_hash(world_); }
+    std::uint32_t agent_count() const noexcept { return jo_world_agent_count(world_); }
+
+    // Throws std::invalid_argument where there is no such column, or it holds another type.
+    template <class T> Column<T> column(const char *name) const {
+        const JoColumn column = jo_world_column(world_, name);
+        if (column.data && column.type != TypeOf<T>::value)
+            throw std::invalid_argument(std::string("the column '") + name + "' is of another type");
+        if (!column.data && agent_count() > 0)
+            throw std::invalid_argument(std::string("there is no column '") + name + "'");
+        return Column<T>(column);
+    }
+
+    Range<JoTransitionEvent> transitions() const {
+        const JoEvents e = jo_world_events(world_);
+        return {e.transitions, e.transition_count};
+    }
+    Range<JoTouchEvent> touches() const {
+        const JoEvents e = jo_world_events(world_);
+        return {e.touches, e.touch_count};
+    }
+    Range<JoHitEvent> hits() const {
+        const JoEvents e = jo_world_events(world_);
+        return {e.hits, e.hit_count};
+    }
+    Range<JoSaidEvent> said() const {
+        const JoEvents e = jo_world_events(world_);
+        return {e.said, e.said_count};
+    }
+    Range<JoActionEvent> actions() const {
+        const JoEvents e = jo_world_events(world_);
+        return {e.actions, e.action_count};
+    }
+
+    JoAgent spawn(const char *group, double x, double y) {
+        JoError error{};
+        const JoAgent agent = jo_world_spawn(world_, group, x, y, &error);
+        detail::require(agent.generation != 0, error);
+        return agent;
+    }
+    std::vector<std::uint32_t> neighbours(double x, double y, double radius) const {
+        std::vector<std::uint32_t> ids(jo_world_neighbours(world_, x, y, radius, nullptr, nullptr, 0));
+        jo_world_neighbours(world_, x, y, radius, ids.data(), nullptr,
+                            static_cast<std::uint32_t>(ids.size()));
+        return ids;
+    }
+
+  private:
+    JoWorld *world_;
+};
+
+struct Free {
+    void operator()(JoWorld *world) const noexcept { jo_world_free(world); }
+    void operator()(JoScene *scene) const noexcept { jo_scene_free(scene); }
+    void operator()(char *text) const noexcept { jo_free(text); }
+};
+
+// A world that is made by hand.
+class World : public WorldRef {
+  public:
+    explicit World(const JoWorldDef &def = jo_default_world_def()) : World(create(def)) {}
+
+    JoAgent add(const JoAgentDef &def) {
+        JoError error{};
+        const JoAgent agent = jo_world_add_agent(get(), &def, &error);
+        detail::require(agent.generation != 0, error);
+        return agent;
+    }
+    JoBody add(const JoBodyDef &def) {
+        JoError error{};
+        const JoBody body = jo_world_add_body(get(), &def, &error);
+        detail::require(body.generation != 0, error);
+        return body;
+    }
+    // Throws std::runtime_error where the world ended.
+    void step(std::uint32_t steps = 1) {
+        jo_world_step(get(), steps);
+        const char *failure = jo_world_failure(get());
+        if (failure && *failure)
+            throw std::runtime_error(failure);
+    }
+
+  private:
+    explicit World(JoWorld *world) : WorldRef(world), owned_(world) {}
+    static JoWorld *create(const JoWorldDef &def) {
+        JoError error{};
+        JoWorld *world = jo_world_create(&def, &error);
+        detail::require(world != nullptr, error);
+        return world;
+    }
+    std::unique_ptr<JoWorld, Free> owned_;
+};
+
+// A scene from its file, or from a definition made as in C.
+class Scene {
+  public:
+    explicit Scene(const JoSceneDef &def) {
+        JoError error{};
+        scene_.reset(jo_scene_load(&def, &error));
+        detail::require(scene_ != nullptr, error);
+    }
+    explicit Scene(const std::string &path) : Scene(def_of(path)) {}
+
+    JoScene *get() const noexcept { return scene_.get(); }
+    WorldRef world() const noexcept { return WorldRef(jo_scene_world(get())); }
+    void step(std::uint32_t steps = 1) {
+        JoError error{};
+        for (std::uint32_t n = 0; n < steps; n++)
+            detail::require(jo_scene_step(get(), &error), error);
+    }
+    void input(const std::string &line) {
+        JoError error{};
+        detail::require(jo_scene_input(get(), line.c_str(), &error), error);
+    }
+    // Of the whole run, as JSON.
+    std::string summary() const {
+        const std::unique_ptr<char, Free> text(jo_scene_summary(get()));
+        return text ? text.get() : "";
+    }
+
+  private:
+    static JoSceneDef def_of(const std::string &path) {
+        JoSceneDef def = jo_default_scene_def();
+        def.path = path.c_str();
+        return def;
+    }
+    std::unique_ptr<JoScene, Free> scene_;
+};
+
+} // namespace jostle
+
+#endif
