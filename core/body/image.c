@@ -160,6 +160,19 @@ static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, u
            !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time);
 }
 
+static bool all_within(const float *values, uint32_t count, float most) {
+    bool within = true;
+    for (uint32_t i = 0; i < count; i++)
+        within &= fabsf(values[i]) <= most;
+    return within;
+}
+
+/* Bullet looks for contacts where such a body has moved to, before anything else sees it there. */
+static bool moves_soundly(const JoxBodyRecord *r) {
+    return r->still != JOX_BODY_KINEMATIC ||
+           (all_within(r->motion + 9, 3, 1e4f) && all_within(r->motion + 24, 6, 500.0f));
+}
+
 static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *taken) {
     const JoxBodyRecord *r = &image->bodies[n];
     if (r->row >= image->counters.row_count || taken[r->row] || r->id >= image->counters.next_id ||
@@ -169,7 +182,7 @@ static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *ta
     return r->still <= JOX_BODY_KINEMATIC && r->held <= 1 && r->grounded <= 1 && r->swept <= 1 &&
            !(r->still && (r->held || r->block_count)) && r->activation >= 1 &&
            r->activation <= LAST_ACTIVATION && r->part_count >= 1 && r->part_count <= 4096 &&
-           (r->bond_count == 0) == (r->block_count == 0) &&
+           (r->bond_count == 0) == (r->block_count == 0) && moves_soundly(r) &&
            all_finite(r->motion, JOX_BODY_MOTION) && all_finite(&r->deactivation_time, 1) &&
            all_finite(r->material, 4) && all_finite(r->force, 3);
 }

@@ -30,6 +30,10 @@ static const char SCENE[] =
     " count: [1, 2, 2], bond: 800 N, block_mass: 3 kg}}}\n"
     "  - {name: ball, at: [0.7, 1.2, 0.12], shape: {sphere: {radius: 0.12}}, mass: 0.5,"
     " tags: [ball]}\n"
+    "  - {name: door, at: [3.4, 0.4, 3], shape: {box: {size: [0.1, 0.5, 1]}}, kinematic: true,"
+    " path: {through: [[3.4, 1.5, 3]], speed: 1, wait: 0.2, end: back}}\n"
+    "  - {name: bar, at: [1.2, 1.6, 3], shape: {box: {size: [1, 0.1, 0.2]}}, kinematic: true,"
+    " spin: [0, 0, 1]}\n"
     "  - {name: crate, at: [1.6, 0.4, 0.3], shape: {box: {size: [0.7, 0.4, 0.6]}}, mass: 60}\n"
     "groups:\n"
     "  pairs: {behaviour: own.lua, at: [[0.5, 0.5], [0.5, 1], [1.2, 1.2]], party: 2, tags: [red]}\n"
@@ -112,7 +116,7 @@ static void begin(void) {
     go_on(JOX_BODIES_REINSERT_STEPS / 2);
     do_it("wall post 3.5 0.1 3.5 0.4");
     do_it("box 1.6 1.2 1 0 0 0 0.3 10");
-    do_it("grab 3 1.4 1.6 1");
+    do_it("grab 5 1.4 1.6 1");
     go_on(JOX_BODIES_REINSERT_STEPS / 2);
     do_it("set m Queue speed 0.5");
     do_it("spawn pairs 0.5 1.7");

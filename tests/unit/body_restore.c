@@ -317,6 +317,8 @@ static void broken_images_are_refused(void **state) {
                    {&door->still, 3},
                    {&door->path_count, 4},
                    {&door->path_end, JOX_PATH_ENDS},
+                   {&door->motion[9], 0x7e967699},                  /* 1e38 m */
+                   {&door->motion[25], 0x501502f9},                 /* 1e10 m/s */
                    {(uint32_t *)&door->path_speed + 1, 0xbff00000}, /* -1 or so */
                    {(uint32_t *)&image.path_points[4] + 1, 0x7ff80000},
                    {&image.point_count, 3}};
