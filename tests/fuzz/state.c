@@ -139,23 +139,57 @@ static Head head_at(const JoxText *state, size_t at) {
     return head;
 }
 
-/* Where the n-th section begins, counted round; the one before it in *before. */
-static size_t find(const JoxText *state, size_t n, size_t *before) {
+/* Calls a function for each section, with where it and the one before it begin. */
+typedef struct Search {
+    uint16_t key;
+    uint64_t name; /* of all, that whose low bits follow the key most closely, counted round */
+    size_t count, wanted;
+    size_t at, before;
+} Search;
+typedef void Visit(Search *search, Head head, size_t at, size_t before);
+
+static void each_section(const JoxText *state, Visit *visit, Search *search) {
     enum { MAGIC = 8 };
-    size_t count = 0, at = MAGIC;
-    const size_t last = state->length - sizeof(uint64_t);
-    for (size_t pass = 0; pass < 2; pass++) {
-        for (size_t k = 0, next; at < last; k++, at = next) {
-            const Head head = head_at(state, at);
-            next = at + HEAD + head.size * head.count;
-            if (pass && k == n % count)
-                return at;
-            *before = at;
-            count += !pass;
-        }
-        at = MAGIC;
+    for (size_t at = MAGIC, before = MAGIC; at < state->length - sizeof(uint64_t);) {
+        const Head head = head_at(state, at);
+        visit(search, head, at, before);
+        before = at;
+        at += HEAD + head.size * head.count;
     }
-    abort();
+}
+
+static void take_name(Search *search, Head head, size_t at, size_t before) {
+    const uint64_t was = search->name, is = head.name;
+    (void)at, (void)before;
+    if (!was || (uint16_t)(is - search->key) < (uint16_t)(was - search->key))
+        search->name = is;
+}
+
+static void count_name(Search *search, Head head, size_t at, size_t before) {
+    (void)at, (void)before;
+    search->count += head.name == search->name;
+}
+
+static void take_place(Search *search, Head head, size_t at, size_t before) {
+    if (head.name != search->name || search->count++ != search->wanted)
+        return;
+    search->at = at;
+    search->before = before;
+}
+
+/* Where the section of an edit begins: by a key of its name, so that it is the same one after
+   others came to be listed, and by its number among those of that name. Where the one before it
+   begins, in *before. */
+static size_t find(const JoxText *state, const uint8_t *edit, size_t *before) {
+    Search search = {0};
+    memcpy(&search.key, edit, sizeof search.key);
+    each_section(state, take_name, &search);
+    each_section(state, count_name, &search);
+    search.wanted = edit[15] % search.count;
+    search.count = 0;
+    each_section(state, take_place, &search);
+    *before = search.before;
+    return search.at;
 }
 
 static uint64_t whole_number(uint8_t choice, uint64_t was) {
@@ -242,19 +276,17 @@ static void show(void *context, const char *section, size_t index, void *cell, s
 }
 
 static void change(JoxText *state, const uint8_t *edit) {
-    uint16_t section, number;
+    uint16_t number;
     size_t before = 0;
-    memcpy(&section, edit, sizeof section);
     memcpy(&number, edit + 4, sizeof number);
-    const size_t at = find(state, section, &before);
+    const size_t at = find(state, edit, &before);
     const Head head = head_at(state, at);
     if (getenv("FUZZ_SHOW")) {
         uint64_t name = head.name;
         JoxSections s = jox_sections_visit(show, &name);
         jox_world_sections(scene->world, &s);
-        fprintf(stderr,
-                "  section %zu of %" PRIu64 " cells of %" PRIu64 " bytes: edit %d of cell %u\n", at,
-                head.count, head.size, edit[2] % 8, number);
+        fprintf(stderr, "  key %u, of %" PRIu64 " cells of %" PRIu64 " bytes: edit %d of cell %u\n",
+                (unsigned)(head.name & 0xffff), head.count, head.size, edit[2] % 8, number);
     }
     if (edit[2] % 8 == 7) {
         resize(state, at, before, number);
