@@ -11,7 +11,7 @@ _Static_assert(sizeof(JoxBlockRecord) == 88, "a block's record has no padding");
 _Static_assert(sizeof(JoxContactRecord) == 64, "a contact's record has no padding");
 _Static_assert(sizeof(JoxBondRecord) == 24, "a bond's record has no padding");
 
-enum { MOST_ROWS = 1 << 24, MOST_POINTS = 256, LAST_ACTIVATION = 5 };
+enum { SPARE_ROWS = 1 << 16, SPARE_EACH = 8, MOST_POINTS = 256, LAST_ACTIVATION = 5 };
 
 void jox_bodies_image_free(JoxBodiesImage *image) {
     jox_free(image->bodies);
@@ -228,9 +228,12 @@ static bool contacts_are_sound(const JoxBodiesImage *image) {
 }
 
 bool jox_bodies_image_check(const JoxBodiesImage *image, JoxText *error) {
-    bool sound =
-        image->counters.row_count <= MOST_ROWS && image->body_count <= image->counters.row_count &&
-        isfinite(image->counters.last_dt) && contacts_are_sound(image) && bodies_are_sound(image);
+    const uint64_t rows = image->counters.row_count;
+    bool sound = image->body_count <= rows && rows <= image->counters.next_id &&
+                 /* rows of bodies that are gone take room */
+                 rows <= SPARE_ROWS + (uint64_t)SPARE_EACH * image->body_count &&
+                 isfinite(image->counters.last_dt) && contacts_are_sound(image) &&
+                 bodies_are_sound(image);
     if (!sound && error)
         jox_text_add(error, "the bodies of the saved state contradict each other");
     return sound;

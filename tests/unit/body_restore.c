@@ -300,6 +300,7 @@ static void broken_images_are_refused(void **state) {
         uint32_t wrong;
     } changes[] = {{&image.counters.next_id, 3},
                    {&image.counters.row_count, 2},
+                   {&image.counters.row_count, 60000}, /* more than there ever were */
                    {&image.bodies[3].row, image.bodies[2].row},
                    {&image.bodies[3].id, image.bodies[2].id},
                    {&image.bodies[1].activation, 77},
@@ -334,6 +335,10 @@ static void broken_images_are_refused(void **state) {
         assert_true(hash_of(b) == before);
         memcpy(changes[k].cell, &kept, sizeof kept);
     }
+    image.counters.next_id = image.counters.row_count = 1 << 24; /* they would take gigabytes */
+    assert_false(jox_bodies_rebuild(b, &image, NULL));
+    assert_true(hash_of(b) == before);
+    jox_bodies_capture(b, &image);
     image.parts[0].size[0] = -1.0; /* found where the shape is made */
     assert_false(jox_bodies_rebuild(b, &image, NULL));
     assert_true(hash_of(b) == before);

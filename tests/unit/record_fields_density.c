@@ -12,7 +12,8 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "record/fields/density.h"
+#include "geom/polygon.h"
+#include "record/fields/density_parts.h"
 
 /* Which NAN never is. */
 static void assert_near(double got, double expected, double tolerance) {
@@ -288,6 +289,46 @@ static void edges_and_changes(void **state) {
     jox_density_free(d);
 }
 
+/* Solids of any form, some in others: stars, splinters, and one whose outline crosses itself. */
+static void within_is_as_polygons_have_it(void **state) {
+    (void)state;
+    enum { SOLIDS = 60, CORNERS = 40 };
+    static JoxV2 rings[SOLIDS][CORNERS];
+    uint32_t counts[SOLIDS], chance = 11, inside = 0;
+    JoxWalls walls = {0};
+    JoxDensity *d = grid(-1, 9, 0.2f);
+    for (int s = 0; s < SOLIDS; s++) {
+        const JoxV2 middle = {8 * dice(&chance), 8 * dice(&chance)};
+        counts[s] = s ? 3 + (uint32_t)(dice(&chance) * (CORNERS - 3)) : 5;
+        for (uint32_t k = 0; k < counts[s]; k++) {
+            const float angle = (s ? 1.0f : 2.0f) * 6.2831853f * (float)k / (float)counts[s];
+            const float r = s ? 0.05f + dice(&chance) : 1.0f;
+            rings[s][k] = jox_v2(middle.x + r * cosf(angle), middle.y + r * sinf(angle));
+        }
+        jox_walls_add_solid(&walls, rings[s], counts[s], 3);
+    }
+    JoxDensitySolids *solids = jox_density_solids_create(d, &walls);
+    for (int n = 0; n < 40000; n++) {
+        /* many on each line, as nodes are, and corners themselves */
+        JoxV2 p = {-1 + 10 * dice(&chance), -1 + 0.05f * floorf(200 * dice(&chance))};
+        if (n % 8 == 0)
+            p = rings[n / 8 % SOLIDS][n / 512 % counts[n / 8 % SOLIDS]];
+        bool expected = false;
+        for (uint32_t r = 0; r < walls.ring_count && !expected; r++) {
+            JoxV2 *ring = jox_walls_ring_points(&walls, r);
+            expected = jox_polygon_contains(ring, walls.rings[r].count, p);
+            jox_free(ring);
+        }
+        inside += expected;
+        if (jox_density_within(solids, p) != expected)
+            fail_msg("(%g, %g) is %s", (double)p.x, (double)p.y, expected ? "within" : "outside");
+    }
+    assert_in_range(inside, 8000, 36000);
+    jox_density_solids_free(solids);
+    jox_density_free(d);
+    jox_walls_free(&walls);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_the_open_it_is_the_gaussian),
@@ -296,6 +337,7 @@ int main(void) {
         cmocka_unit_test(an_even_crowd_is_even_up_to_the_walls),
         cmocka_unit_test(nobody_is_lost),
         cmocka_unit_test(edges_and_changes),
+        cmocka_unit_test(within_is_as_polygons_have_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,6 +46,12 @@ JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int
 /* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
 int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
                       float shares[4]);
+/* density_solids.c: the solids that stand among walls, so that one can ask what lies within, as
+   often as need be. */
+typedef struct JoxDensitySolids JoxDensitySolids;
+JoxDensitySolids *jox_density_solids_create(const JoxDensity *density, const JoxWalls *walls);
+bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
+void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c */
 void jox_density_free_floor(JoxDensityFloor *floor);
 /* density_spread.c: makes a field's masses densities, in 1/cell, by the kernel. */

@@ -16,12 +16,6 @@ static const double TOUCHES = 1e-9;       /* of a length: as near as that is on 
 static const float OFF = 0.02f;           /* of a cell: nodes are at least so far from walls */
 static const float LEAST_AREA = 0.1f; /* of a cell: of a node that has less, those beside take it */
 
-/* A solid, so that one can ask what lies within. */
-typedef struct Solid {
-    JoxV2 *points, low, high;
-    uint32_t count;
-} Solid;
-
 /* ---- which walls pass through which cells ---- */
 
 /* Shows each cell that a bar passes through to the count of `first`, or with `fill` to the list. */
@@ -85,14 +79,6 @@ static bool has_wall(const JoxDensityFloor *f, size_t cell) {
 
 /* ---- nodes ---- */
 
-static bool within(const Solid *solids, uint32_t count, JoxV2 p) {
-    for (uint32_t s = 0; s < count; s++)
-        if (p.x >= solids[s].low.x && p.x <= solids[s].high.x && p.y >= solids[s].low.y &&
-            p.y <= solids[s].high.y && jox_polygon_contains(solids[s].points, solids[s].count, p))
-            return true;
-    return false;
-}
-
 static JoxV2 fine_point(const JoxDensity *d, int column, int row, int k) {
     const JoxV2 low = jox_density_corner(d);
     return jox_v2(low.x + ((float)column + ((float)k + 0.5f) / FINE) * d->cell,
@@ -100,7 +86,7 @@ static JoxV2 fine_point(const JoxDensity *d, int column, int row, int k) {
 }
 
 /* Whether a node can stand at p: on the floor, and not on a wall. */
-static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, const Solid *solids, uint32_t count) {
+static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, JoxDensitySolids *solids) {
     const JoxDensityFloor *f = d->floor;
     float off = OFF * d->cell;
     for (uint32_t k = f->first[cell]; k < f->first[cell + 1]; k++) {
@@ -109,12 +95,12 @@ static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, const Solid *solid
         if (jox_length2(jox_sub(jox_segment_nearest(from, to, p), p)) < off * off)
             return false;
     }
-    return !within(solids, count, p);
+    return !jox_density_within(solids, p);
 }
 
 /* The middle of each cell, or where that cannot be walked on the nearest point that can. `per` is 1
    where there is one. Cells without walls are as the one before them in their row. */
-static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
+static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
     for (int row = 0; row < d->high; row++)
@@ -128,12 +114,12 @@ static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
                 f->per[cell] = f->per[cell - 1];
                 continue;
             }
-            f->per[cell] = stands(d, cell, middle, solids, count) ? 1.0f : 0.0f;
+            f->per[cell] = stands(d, cell, middle, solids) ? 1.0f : 0.0f;
             float nearest = INFINITY;
             for (int k = 0; k < FINE && has_wall(f, cell) && f->per[cell] == 0.0f; k++) {
                 JoxV2 p = fine_point(d, column, row, k);
                 float away = jox_length2(jox_sub(p, middle));
-                if (away < nearest && stands(d, cell, p, solids, count)) {
+                if (away < nearest && stands(d, cell, p, solids)) {
                     nearest = away;
                     f->node[cell] = p;
                 }
@@ -144,7 +130,7 @@ static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
 }
 
 /* The node to which a point of the floor belongs; false: none that is seen from there. */
-static bool owner_of(const JoxDensity *d, JoxV2 p, const Solid *solids, uint32_t count, int *node) {
+static bool owner_of(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int *node) {
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
     int column = jox_density_clamped((p.x - low.x) / d->cell, d->wide - 1);
@@ -154,7 +140,7 @@ static bool owner_of(const JoxDensity *d, JoxV2 p, const Solid *solids, uint32_t
     if (!f->near[cell])
         return true;
     /* Without a wall in it a cell lies within a solid, or outside, as its node does. */
-    if ((has_wall(f, (size_t)cell) ? within(solids, count, p) : f->per[cell] <= 0.0f) ||
+    if ((has_wall(f, (size_t)cell) ? jox_density_within(solids, p) : f->per[cell] <= 0.0f) ||
         jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
         return false;
     *node = row * d->wide + column;
@@ -179,7 +165,7 @@ static void link(JoxDensity *d, int a, int b, float side) {
 
 /* The ways over the side from `from` by `along` between the cell and the one beyond. */
 static void link_side(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 along,
-                      const Solid *solids, uint32_t count) {
+                      JoxDensitySolids *solids) {
     const JoxDensityFloor *f = d->floor;
     const JoxV2 off = {along.y * 1e-3f, along.x * 1e-3f}; /* to the cell beyond */
     if (!f->near[cell] && !f->near[beyond]) {
@@ -190,14 +176,14 @@ static void link_side(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 alo
         int a, b;
         JoxV2 p = jox_add(from, jox_scale(along, ((float)k + 0.5f) / SIDE));
         JoxV2 before = jox_sub(p, off), behind = jox_add(p, off);
-        if (owner_of(d, before, solids, count, &a) && owner_of(d, behind, solids, count, &b) &&
-            a != b && !jox_density_hidden(d, before, behind))
+        if (owner_of(d, before, solids, &a) && owner_of(d, behind, solids, &b) && a != b &&
+            !jox_density_hidden(d, before, behind))
             link(d, a, b, 1.0f / SIDE);
     }
 }
 
 /* Where one can go. Nothing goes beyond the outermost cells but one. */
-static void open_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
+static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
     const int wide = d->wide;
@@ -210,11 +196,9 @@ static void open_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
             const int cell = row * wide + column;
             const float x = low.x + (float)column * d->cell, y = low.y + (float)row * d->cell;
             if (column + 2 < wide)
-                link_side(d, cell, cell + 1, jox_v2(x + d->cell, y), jox_v2(0, d->cell), solids,
-                          count);
+                link_side(d, cell, cell + 1, jox_v2(x + d->cell, y), jox_v2(0, d->cell), solids);
             if (row + 2 < d->high)
-                link_side(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0), solids,
-                          count);
+                link_side(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0), solids);
         }
 }
 
@@ -236,7 +220,7 @@ static void mark_near(JoxDensity *d) {
 /* ---- areas ---- */
 
 /* What a cell's floor gives to the nodes around, if people stand anywhere on it alike. */
-static void share_area(JoxDensity *d, int column, int row, const Solid *solids, uint32_t count) {
+static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
     if (!f->near[cell]) { /* means of the shares over the cell: 3/4 of each side, 1/8 to the next */
@@ -252,7 +236,7 @@ static void share_area(JoxDensity *d, int column, int row, const Solid *solids, 
         uint32_t nodes[4];
         float shares[4];
         JoxV2 p = fine_point(d, column, row, k);
-        if (has_wall(f, cell) && within(solids, count, p))
+        if (has_wall(f, cell) && jox_density_within(solids, p))
             continue;
         int n = jox_density_share(d, p.x, p.y, nodes, shares);
         for (int s = 0; s < n; s++)
@@ -260,12 +244,12 @@ static void share_area(JoxDensity *d, int column, int row, const Solid *solids, 
     }
 }
 
-static void measure(JoxDensity *d, const Solid *solids, uint32_t count) {
+static void measure(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     memset(f->area, 0, (size_t)d->wide * (size_t)d->high * sizeof *f->area);
     for (int row = 1; row < d->high - 1; row++)
         for (int column = 1; column < d->wide - 1; column++)
-            share_area(d, column, row, solids, count);
+            share_area(d, column, row, solids);
 }
 
 /* Narrows the ways of nodes with little area, so that no more leaves in a step than is there. */
@@ -293,11 +277,11 @@ static void narrow_ways(JoxDensity *d) {
 }
 
 /* Once more where nodes have next to no area of their own, which they leave to those beside. */
-static void make_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
+static void make_ways(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     mark_near(d);
-    open_ways(d, solids, count);
-    measure(d, solids, count);
+    open_ways(d, solids);
+    measure(d, solids);
     bool fewer = false;
     for (int cell = 0; cell < d->wide * d->high; cell++)
         if (f->per[cell] > 0.0f && f->area[cell] < LEAST_AREA) {
@@ -306,23 +290,10 @@ static void make_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
         }
     if (fewer) {
         mark_near(d);
-        open_ways(d, solids, count);
-        measure(d, solids, count);
+        open_ways(d, solids);
+        measure(d, solids);
     }
     narrow_ways(d);
-}
-
-static uint32_t list_solids(const JoxWalls *walls, Solid **solids) {
-    uint32_t count = 0;
-    *solids = jox_alloc(walls->ring_count + 1, sizeof **solids);
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (walls->rings[r].solid && !walls->rings[r].open) {
-            Solid *s = &(*solids)[count++];
-            s->points = jox_walls_ring_points(walls, r);
-            s->count = walls->rings[r].count;
-            jox_bounds(s->points, s->count, &s->low, &s->high);
-        }
-    return count;
 }
 
 static void make_floor(JoxDensity *d) {
@@ -351,7 +322,6 @@ static uint64_t hash_of(const JoxWalls *walls) {
 }
 
 void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
-    Solid *solids;
     if (!walls || walls->count == 0) {
         jox_density_free_floor(d->floor);
         d->floor = NULL;
@@ -363,13 +333,11 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
     if (!d->floor)
         make_floor(d);
     d->floor->hash = hash;
-    uint32_t count = list_solids(walls, &solids);
+    JoxDensitySolids *solids = jox_density_solids_create(d, walls);
     list_bars(d, walls);
-    place_nodes(d, solids, count);
-    make_ways(d, solids, count);
-    for (uint32_t s = 0; s < count; s++)
-        jox_free(solids[s].points);
-    jox_free(solids);
+    place_nodes(d, solids);
+    make_ways(d, solids);
+    jox_density_solids_free(solids);
 }
 
 void jox_density_free_floor(JoxDensityFloor *f) {

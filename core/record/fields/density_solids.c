@@ -1,0 +1,203 @@
+/* What lies within solids. Along a line of one y they are stretches of x between the places where
+   their outlines cross it; lines are kept, as many points of a row of cells share them. A point is
+   within where jox_polygon_contains says so of one of the solids. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/sort.h"
+#include "geom/polygon.h"
+#include "record/fields/density_parts.h"
+
+enum { LINES = 1 << 14 }; /* kept at a time, by their bits */
+
+typedef struct Edge {
+    JoxV2 a, b;
+    uint32_t solid;
+} Edge;
+
+typedef struct Crossing {
+    uint32_t solid;
+    float x;
+} Crossing;
+
+/* From the first to before the second, m. */
+typedef struct Stretch {
+    float from, to;
+} Stretch;
+
+typedef struct Line {
+    float y;
+    bool made;
+    Stretch *stretches; /* ascending, and apart */
+    uint32_t count, capacity;
+} Line;
+
+struct JoxDensitySolids {
+    struct Box {
+        JoxV2 low, high;
+    } * boxes; /* by solid */
+    Edge *edges;
+    uint32_t edge_count;
+    float low, cell; /* of the rows, m */
+    int rows;
+    uint32_t *first, *list; /* by row of cells: the edges that reach into it */
+    Crossing *crossings;    /* scratch: room for all edges */
+    Line *lines;
+};
+
+/* ---- edges by row ---- */
+
+static int row_of(const JoxDensitySolids *s, float y) {
+    return jox_density_clamped(((double)y - s->low) / s->cell, s->rows - 1);
+}
+
+static void enter(JoxDensitySolids *s, uint32_t edge, bool fill) {
+    const Edge *e = &s->edges[edge];
+    const int last = row_of(s, jox_maxf(e->a.y, e->b.y));
+    for (int row = row_of(s, jox_minf(e->a.y, e->b.y)); row <= last; row++) {
+        if (fill)
+            s->list[--s->first[row]] = edge;
+        else
+            s->first[row]++;
+    }
+}
+
+static void list_edges(JoxDensitySolids *s) {
+    s->first = jox_alloc((size_t)s->rows + 1, sizeof *s->first);
+    for (uint32_t e = 0; e < s->edge_count; e++)
+        enter(s, e, false);
+    for (int row = 0; row < s->rows; row++) /* the ends of the lists, which filling moves down */
+        s->first[row + 1] += s->first[row];
+    s->list = jox_alloc((size_t)s->first[s->rows] + 1, sizeof *s->list);
+    for (uint32_t e = s->edge_count; e-- > 0;)
+        enter(s, e, true);
+}
+
+static void add_solid(JoxDensitySolids *s, uint32_t solid, const JoxV2 *ring, uint32_t count) {
+    struct Box *box = &s->boxes[solid];
+    jox_bounds(ring, count, &box->low, &box->high);
+    for (uint32_t i = 0, j = count - 1; i < count; j = i++)
+        s->edges[s->edge_count++] = (Edge){ring[i], ring[j], solid};
+}
+
+JoxDensitySolids *jox_density_solids_create(const JoxDensity *d, const JoxWalls *walls) {
+    JoxDensitySolids *s = jox_alloc(1, sizeof *s);
+    uint32_t count = 0;
+    s->low = jox_density_corner(d).y;
+    s->cell = d->cell;
+    s->rows = d->high;
+    s->boxes = jox_alloc((size_t)walls->ring_count + 1, sizeof *s->boxes);
+    s->edges = jox_alloc((size_t)walls->count + 1, sizeof *s->edges);
+    s->crossings = jox_alloc((size_t)walls->count + 1, sizeof *s->crossings);
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        if (!walls->rings[r].solid || walls->rings[r].open)
+            continue;
+        JoxV2 *ring = jox_walls_ring_points(walls, r);
+        add_solid(s, count++, ring, walls->rings[r].count);
+        jox_free(ring);
+    }
+    if (s->edge_count) {
+        list_edges(s);
+        s->lines = jox_alloc(LINES, sizeof *s->lines);
+    }
+    return s;
+}
+
+void jox_density_solids_free(JoxDensitySolids *s) {
+    jox_free(s->boxes);
+    jox_free(s->edges);
+    jox_free(s->crossings);
+    jox_free(s->first);
+    jox_free(s->list);
+    for (int n = 0; s->lines && n < LINES; n++)
+        jox_free(s->lines[n].stretches);
+    jox_free(s->lines);
+    jox_free(s);
+}
+
+/* ---- lines ---- */
+
+static int by_solid(const void *left, const void *right, const void *context) {
+    const Crossing *a = left, *b = right;
+    (void)context;
+    if (a->solid != b->solid)
+        return a->solid < b->solid ? -1 : 1;
+    return (a->x > b->x) - (a->x < b->x);
+}
+
+static int by_beginning(const void *left, const void *right, const void *context) {
+    const Stretch *a = left, *b = right;
+    (void)context;
+    return (a->from > b->from) - (a->from < b->from);
+}
+
+/* Where the outlines cross it, solid by solid: an even number of times each. */
+static uint32_t cross(JoxDensitySolids *s, float y) {
+    uint32_t count = 0;
+    const int row = row_of(s, y);
+    for (uint32_t k = s->first[row]; k < s->first[row + 1]; k++) {
+        const Edge *e = &s->edges[s->list[k]];
+        const JoxV2 a = e->a, b = e->b;
+        if ((a.y > y) != (b.y > y))
+            s->crossings[count++] =
+                (Crossing){e->solid, (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x};
+    }
+    jox_sort(s->crossings, count, sizeof *s->crossings, by_solid, NULL, NULL);
+    return count;
+}
+
+static void join(Line *line) {
+    uint32_t kept = 0;
+    jox_sort(line->stretches, line->count, sizeof *line->stretches, by_beginning, NULL, NULL);
+    for (uint32_t k = 0; k < line->count; k++) {
+        const Stretch *next = &line->stretches[k];
+        Stretch *last = &line->stretches[kept - (kept > 0)];
+        if (kept && next->from <= last->to)
+            last->to = jox_maxf(last->to, next->to);
+        else
+            line->stretches[kept++] = *next;
+    }
+    line->count = kept;
+}
+
+static void make(JoxDensitySolids *s, Line *line, float y) {
+    const uint32_t count = cross(s, y);
+    line->y = y;
+    line->made = true;
+    line->count = 0;
+    JOX_RESERVE(line->stretches, line->capacity, count / 2 + 1);
+    for (uint32_t k = 0; k + 1 < count; k += 2) {
+        const Crossing *c = &s->crossings[k];
+        const struct Box *box = &s->boxes[c->solid]; /* which rounding does not pass */
+        const Stretch within = {jox_maxf(c[0].x, box->low.x),
+                                jox_minf(c[1].x, nextafterf(box->high.x, INFINITY))};
+        if (within.from < within.to)
+            line->stretches[line->count++] = within;
+    }
+    join(line);
+}
+
+static Line *line_of(JoxDensitySolids *s, float y) {
+    uint32_t bits;
+    memcpy(&bits, &y, sizeof bits);
+    Line *line = &s->lines[(bits * 2654435761u) >> 16 & (LINES - 1)];
+    if (!line->made || line->y != y)
+        make(s, line, y);
+    return line;
+}
+
+bool jox_density_within(JoxDensitySolids *s, JoxV2 p) {
+    if (s->edge_count == 0)
+        return false;
+    const Line *line = line_of(s, p.y);
+    uint32_t low = 0, high = line->count;
+    while (low < high) { /* the first that ends beyond the point */
+        const uint32_t middle = (low + high) / 2;
+        if (line->stretches[middle].to > p.x)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low < line->count && line->stretches[low].from <= p.x;
+}
