@@ -24,7 +24,7 @@ const char *jox_path_wrong(const JoxBodyPath *p) {
         return "the speed of a path must be above 0 and at most 100 m/s";
     if (!(p->after >= 0.0 && p->after <= LONGEST) || !(p->wait >= 0.0 && p->wait <= LONGEST))
         return "a body on a path waits for 0 to 1e9 s";
-    if (p->end >= JOX_PATH_ENDS)
+    if (p->end > JO_PATH_ROUND)
         return "the end of a path is unknown";
     for (uint32_t k = 0; k < 3 * p->count; k++)
         if (!(fabs(p->points[k]) <= 1e4))
@@ -38,16 +38,16 @@ const char *jox_path_wrong(const JoxBodyPath *p) {
 /* Where leg n leads; legs are counted on for ever, but for a path at whose end the body stays. */
 static void leg_of(const JoxBodyPath *p, uint32_t n, const double **from, const double **to) {
     const uint32_t last = p->count - 1;
-    const bool returns = p->end == JOX_PATH_BACK && n >= last;
+    const bool returns = p->end == JO_PATH_BACK && n >= last;
     *from = returns ? point(p, 2 * last - n) : point(p, n);
     *to = returns ? point(p, 2 * last - n - 1) : point(p, n + 1);
 }
 
 /* Legs until all repeats, or the end. */
 static uint32_t legs_of(const JoxBodyPath *p) {
-    return p->end == JOX_PATH_STAY   ? p->count - 1
-           : p->end == JOX_PATH_BACK ? 2 * (p->count - 1)
-                                     : p->count;
+    return p->end == JO_PATH_STAY   ? p->count - 1
+           : p->end == JO_PATH_BACK ? 2 * (p->count - 1)
+                                    : p->count;
 }
 
 static double leg_time(const JoxBodyPath *p, uint32_t n) {
@@ -77,7 +77,7 @@ JoxPathSpot jox_path_spot(const JoxBodyPath *p, double time) {
         return spot_on(p, 0, 0.0, true);
     for (uint32_t n = 0; n < legs; n++)
         round += leg_time(p, n) + p->wait;
-    if (p->end != JOX_PATH_STAY)
+    if (p->end != JO_PATH_STAY)
         left = fmod(left, round);
     for (uint32_t n = 0; n < legs; n++) {
         const double way = leg_time(p, n);

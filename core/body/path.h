@@ -5,21 +5,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { JOX_PATH_POINTS = 256 };
+#include "jostle.h"
 
-/* What a body does that has come to the last point of its path. */
-typedef enum JoxPathEnd {
-    JOX_PATH_STAY,
-    JOX_PATH_BACK,  /* it returns the way it came, again and again */
-    JOX_PATH_ROUND, /* it goes on to the first point, and round again */
-    JOX_PATH_ENDS
-} JoxPathEnd;
+enum { JOX_PATH_POINTS = 256 };
 
 /* Straight from point to point, at one speed. Without points it is none. */
 typedef struct JoxBodyPath {
     double *points; /* x, y, z, m; the first is where it begins. Owned by whoever has the path. */
     uint32_t count; /* 0, or 2 to JOX_PATH_POINTS */
-    uint32_t end;   /* JoxPathEnd */
+    uint32_t end;   /* JoPathEnd */
     double speed;   /* m/s */
     double after;   /* s until it starts */
     double wait;    /* s at each point that it comes to */

@@ -163,6 +163,17 @@ JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, dou
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
 
 typedef enum JoShape { JO_SPHERE, JO_BOX, JO_CYLINDER } JoShape;
+/* What a body does that has come to the last point of its path: it stays, returns the way it came
+   and goes to and fro, or goes on to the first and round. */
+typedef enum JoPathEnd { JO_PATH_STAY, JO_PATH_BACK, JO_PATH_ROUND } JoPathEnd;
+/* From where a body begins straight through points, x, y, z each, m: 1 to 255. */
+typedef struct JoPath {
+    const double *points; /* NULL: no path */
+    uint32_t count;
+    JoPathEnd end;
+    double speed;       /* m/s, 0.001 to 100 */
+    double after, wait; /* s: until it starts; at each point that it comes to */
+} JoPath;
 typedef struct JoBodyDef {
     JoShape shape;
     double size[3];    /* m: sphere radius; box lengths x, y, z; cylinder radius, height */
@@ -173,6 +184,7 @@ typedef struct JoBodyDef {
     double friction, restitution;
     bool kinematic; /* whatever the mass: it moves by its velocity, as a door or a train does,
                        pushes people and bodies, and nothing pushes it; see jo_body_set_velocity */
+    JoPath path;    /* of a kinematic body, in place of a velocity; copied */
     uint32_t cookie;
 } JoBodyDef;
 JO_API JoBodyDef jo_default_body_def(void);

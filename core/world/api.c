@@ -256,6 +256,22 @@ JoBodyDef jo_default_body_def(void) {
                        .cookie = BODY_COOKIE};
 }
 
+/* The path of a body, from where the body begins; its points are the caller's. */
+static JoxBodyPath path_of(const JoBodyDef *def) {
+    const JoPath *p = &def->path;
+    if (!p->points || p->count >= JOX_PATH_POINTS) /* too many are refused when it is added */
+        return (JoxBodyPath){.count = p->points ? JOX_PATH_POINTS + 1 : 0};
+    JoxBodyPath path = {.points = jox_alloc(3 * ((size_t)p->count + 1), sizeof *path.points),
+                        .count = p->count + 1,
+                        .end = (uint32_t)p->end,
+                        .speed = p->speed,
+                        .after = p->after,
+                        .wait = p->wait};
+    memcpy(path.points, (double[]){def->x, def->y, def->z}, 3 * sizeof *path.points);
+    memcpy(path.points + 3, p->points, 3 * (size_t)p->count * sizeof *path.points);
+    return path;
+}
+
 JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     JOX_REQUIRE(world && def && def->cookie == BODY_COOKIE, (JoBody){0});
     static const JoxShapeKind KINDS[] = {[JO_SPHERE] = JOX_SHAPE_SPHERE,
@@ -276,8 +292,10 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     memcpy(body.velocity, (double[]){def->vx, def->vy, def->vz}, sizeof body.velocity);
     body.friction = def->friction;
     body.restitution = def->restitution;
+    body.path = path_of(def);
     JoxText why = {0};
     uint32_t row = jox_bodies_add(world->state.bodies, &body, &why);
+    jox_free(body.path.points);
     if (row == JOX_NO_BODY) {
         jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the body was refused");
         jox_text_free(&why);

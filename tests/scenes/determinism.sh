@@ -119,6 +119,7 @@ compare catch --for 20
 compare tackle --for 8
 compare station --for 12
 compare gates --for 25
+compare train-doors --for 18
 compare wall-breaking --for 14
 compare office --for 8
 compare dodgeball-500 --for 4

@@ -32,13 +32,13 @@ static void paths_lead_where_they_say(void **state) {
     expect_spot(&p, 5.5, 4, 0, 0, 0); /* it waits at the corner from 5 s to 6 s */
     expect_spot(&p, 6.5, 4, 1, 0, 2);
     expect_spot(&p, 1000, 4, 2, 0, 0);
-    p.end = JOX_PATH_BACK; /* at the last from 7 s to 8 s; then 1 s, a wait, 2 s, a wait */
+    p.end = JO_PATH_BACK; /* at the last from 7 s to 8 s; then 1 s, a wait, 2 s, a wait */
     expect_spot(&p, 7.5, 4, 2, 0, 0);
     expect_spot(&p, 8.5, 4, 1, 0, -2);
     expect_spot(&p, 11, 2, 0, -2, 0);
     expect_spot(&p, 12.5, 0, 0, 0, 0);
     expect_spot(&p, 4.5 + 10, 3, 0, 2, 0);
-    p.end = JOX_PATH_ROUND;
+    p.end = JO_PATH_ROUND;
     p.wait = 0; /* 2 s, 1 s, and sqrt(5) s back to the first */
     expect_spot(&p, 6 + sqrt(5.0) / 2, 2, 1, -4 / sqrt(5.0), -2 / sqrt(5.0));
     expect_spot(&p, 3 + 3 + sqrt(5.0) + 1, 2, 0, 2, 0);

@@ -83,8 +83,8 @@ static void fill(JoxBodies *b) {
     JoxBodyDef door = box, bar = box;
     double points[] = {3, 5, 0.3, 5, 3, 0.3, 8, 5, 0.6};
     door.kinematic = true;
-    door.path = (JoxBodyPath){
-        .points = points, .count = 3, .end = JOX_PATH_BACK, .speed = 0.7, .wait = 0.6};
+    door.path =
+        (JoxBodyPath){.points = points, .count = 3, .end = JO_PATH_BACK, .speed = 0.7, .wait = 0.6};
     add(b, door, "door", 3, 5, 0.3);
     bar.shape.size[0] = 4;
     bar.kinematic = true;
@@ -317,7 +317,7 @@ static void broken_images_are_refused(void **state) {
                    {&door->still, JOX_BODY_STATIC},
                    {&door->still, 3},
                    {&door->path_count, 4},
-                   {&door->path_end, JOX_PATH_ENDS},
+                   {&door->path_end, JO_PATH_ROUND + 1},
                    {&door->motion[9], 0x7e967699},                  /* 1e38 m */
                    {&door->motion[25], 0x501502f9},                 /* 1e10 m/s */
                    {(uint32_t *)&door->path_speed + 1, 0xbff00000}, /* -1 or so */

@@ -126,10 +126,44 @@ static void programs_drive_it(void **state) {
     jo_world_free(m.world);
 }
 
+/* To and fro between two points, with a stop at each. */
+static void programs_give_it_a_path(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    Meeting m = meet(true, 0.0);
+    JoError error = {0};
+    const double points[] = {20, 2, 0.5, 20, 2, 3};
+    JoBodyDef lift = jo_default_body_def();
+    lift.x = 20;
+    lift.kinematic = true;
+    lift.path = (JoPath){
+        .points = points, .count = 2, .end = JO_PATH_BACK, .speed = 0.5, .after = 1, .wait = 1};
+    const JoBody body = jo_world_add_body(m.world, &lift, &error);
+    assert_true(body.generation > 0);
+    jo_world_step(m.world, 60); /* 3 s */
+    assert_float_equal(jo_body_state(m.world, body).y, 1.0, 1e-4);
+    assert_float_equal(jo_body_state(m.world, body).vy, 0.5, 1e-6);
+    jo_world_step(m.world, 160); /* 11 s: at the top from then on for a second */
+    assert_float_equal(jo_body_state(m.world, body).z, 3.0, 1e-4);
+    jo_world_step(m.world, 60); /* 14 s: on its way down since 12 s */
+    assert_float_equal(jo_body_state(m.world, body).z, 2.0, 1e-4);
+    lift.kinematic = false;
+    assert_int_equal(jo_world_add_body(m.world, &lift, &error).generation, 0);
+    assert_non_null(strstr(error.text, "kinematic"));
+    lift.kinematic = true;
+    for (uint32_t count = 0; count < 2; count++) { /* none, and more than there may be */
+        lift.path.count = count ? UINT32_MAX : 0;
+        assert_int_equal(jo_world_add_body(m.world, &lift, &error).generation, 0);
+        assert_non_null(strstr(error.text, "points"));
+    }
+    jo_world_free(m.world);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(who_stands_there_is_pushed_along),
-                                       cmocka_unit_test(people_make_way),
-                                       cmocka_unit_test(a_bar_that_turns_sweeps_people_along),
-                                       cmocka_unit_test(programs_drive_it)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(who_stands_there_is_pushed_along), cmocka_unit_test(people_make_way),
+        cmocka_unit_test(a_bar_that_turns_sweeps_people_along), cmocka_unit_test(programs_drive_it),
+        cmocka_unit_test(programs_give_it_a_path)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
