@@ -31,7 +31,7 @@ std = {
     "compression",
     "load",
     "contacts",
-    "held",
+    "holders",
     "time_in_state",
     "min",
     "max",

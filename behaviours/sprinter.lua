@@ -9,12 +9,12 @@ return machine {
   states = {
     Run = { steer = seek(own.zone) + evade,
       { to = "Home", when = inside(own.zone) },
-      { to = "Held", when = held:above(0) } },
+      { to = "Held", when = holders:above(0) } },
 
     Held = { steer = seek(own.zone),
       { to = "Home", when = inside(own.zone) },
       { to = "Down", when = after(1.5) },
-      { to = "Run",  when = held:at_most(0) } },
+      { to = "Run",  when = holders:at_most(0) } },
 
     Home = { steer = hold, set = { home = true } },
     Down = { steer = hold, set = { down = true } },

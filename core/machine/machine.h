@@ -43,7 +43,7 @@ enum { JOX_MOST_DRIFT = 100 };
       a->compression[i])                                                                           \
     X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
     X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \
-    X(held, held, "", "agents that hold on to the agent (see `grasp`)", a->held[i])                \
+    X(holders, holders, "", "agents that hold on to the agent (see `grasp`)", a->held[i])                \
     X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
 #define JOX_MEASURED_OTHERS(X)                                                                     \
     X(speed, , "m/s", "present speed", jox_length((JoxV2){a->vx[i], a->vy[i]}))                    \

@@ -96,7 +96,7 @@ function Target:where(name, ...) end
 ---@field approach? string|jostle.Target|jostle.Number a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches
 ---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
----@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until the state is left or 1 m is between them; see `has` and `held`
+---@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until the state is left or 1 m is between them; see `has` and `holders`
 ---@field grip? number the greatest force with which it holds on; else 300, N
 ---@field throw? table throws the body that it carries
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
@@ -302,9 +302,9 @@ load = nil
 ---@type jostle.Number
 contacts = nil
 
---- `held`: agents that hold on to the agent (see `grasp`)
+--- `holders`: agents that hold on to the agent (see `grasp`)
 ---@type jostle.Number
-held = nil
+holders = nil
 
 --- `time_in_state` in s: since the state was entered
 ---@type jostle.Number
@@ -339,7 +339,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts held time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts holders time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

@@ -127,7 +127,7 @@ static void who_is_out_of_reach_is_not_held(void **state) {
 static void whoever_is_held_knows_and_may_be_let_go(void **state) {
     (void)state;
     Pair p = begin(APART("0.7"), TWO("", HOLDS ", { to = \"Free\", when = after(1) }",
-                                     "steer = hold, { to = \"Has\", when = held:is(1) }"));
+                                     "steer = hold, { to = \"Has\", when = holders:is(1) }"));
     go(&p, 5);
     assert_string_equal(state_of(&p, p.other), "Has");
     go(&p, 25);
