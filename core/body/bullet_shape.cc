@@ -290,6 +290,15 @@ void principal(const Total &total, JoxBodyShape *out) {
     out->mass = float(total.mass);
 }
 
+/* Of a needle the least moment is lost beside the others. */
+bool has_moments(const btVector3 &inertia) {
+    bool good = true;
+    for (int i = 0; i < 3; i++)
+        good = good && inertia[i] > 0 &&
+               inertia[i] <= 1.001f * (inertia[(i + 1) % 3] + inertia[(i + 2) % 3]);
+    return good;
+}
+
 /* Corners into the body's frame, and how far the body reaches from its centre of mass. */
 void settle_parts(JoxBodyShape *out) {
     btTransform back = out->frame.inverse();
@@ -405,6 +414,10 @@ bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, J
             return false;
         }
     principal(total, out);
+    if (!still && !has_moments(out->inertia)) {
+        jox_body_shape_free(out);
+        return fail(error, "a body is too thin for its length: make it thicker, or static");
+    }
     settle_parts(out);
     join_parts(out);
     if (still) {

@@ -245,6 +245,28 @@ static void equal_runs_have_equal_hashes(void **state) {
     assert_true(first != hash_of_a_run(0.01));
 }
 
+/* A needle has a volume, and a least moment of inertia that is lost beside the others: it cannot
+   turn, but it can stand. */
+static void what_is_too_thin_cannot_move(void **state) {
+    (void)state;
+    need_bullet();
+    static const double NEEDLE[] = {6.96,  3.48, 0.696, 0.08,  0.08, 0.024, 0.16, 0.12,
+                                    0.032, 0.08, 0.08,  0.024, 0.32, 0.2,   0.048};
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxBodyDef d = jox_body_def();
+    JoxText why = {0};
+    d.shape.kind = JOX_SHAPE_HULL;
+    d.shape.points = NEEDLE;
+    d.shape.point_count = 5;
+    assert_int_equal(jox_bodies_add(b, &d, &why), JOX_NO_BODY);
+    assert_non_null(strstr(why.data, "too thin"));
+    d.still = true;
+    assert_int_not_equal(jox_bodies_add(b, &d, NULL), JOX_NO_BODY);
+    jox_text_free(&why);
+    jox_bodies_free(b);
+}
+
 static void static_bodies_stay_and_impulses_are_clamped(void **state) {
     (void)state;
     need_bullet();
@@ -275,6 +297,7 @@ int main(void) {
         cmocka_unit_test(a_hair_of_tilt_costs_no_corner),
         cmocka_unit_test(what_falls_for_ever_is_taken_out),
         cmocka_unit_test(equal_runs_have_equal_hashes),
+        cmocka_unit_test(what_is_too_thin_cannot_move),
         cmocka_unit_test(static_bodies_stay_and_impulses_are_clamped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
