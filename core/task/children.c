@@ -83,6 +83,7 @@ static void work_on(const Child *child, pid_t parent, JoxChildWork *work, void *
         _exit(1);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is for the parent, which ends its children */
     signal(SIGTERM, SIG_DFL);
+    signal(SIGXCPU, SIG_DFL); /* it has no files to finish */
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nothing, 0);
     dup2(nothing, 1);
@@ -138,7 +139,9 @@ static void say_why(const Child *child, int status, char why[400]) {
     read_all(child->said, 200, &said);
     if (said.data)
         jox_text_clean(said.data);
-    if (WIFSIGNALED(status))
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        snprintf(why, 400, "it took the processor time that its process may");
+    else if (WIFSIGNALED(status))
         snprintf(why, 400, "its process was ended by signal %d (%s)%s", WTERMSIG(status),
                  strsignal(WTERMSIG(status)),
                  WTERMSIG(status) == SIGKILL ? ", as systems that run out of memory end processes"

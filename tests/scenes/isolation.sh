@@ -10,6 +10,14 @@ says() { # NAME STATUS TEXT COMMAND...
     if [ $got = "$status" ] && { [ -z "$text" ] || grep -qF -- "$text" out; }; then echo "ok $name"; else
         echo "not ok $name: status $got, wanted $status and '$text'"; head -5 out; fi
 }
+# The limits of a process that commands set: a line each, soft and hard; a number or "unlimited".
+limits_of() { sed -n 's/^\(Max \(cpu time\|file size\|open files\|address space\)\) *\([^ ]*\) *\([^ ]*\).*/\1 \3 \4/p' "/proc/$1/limits" 2>/dev/null; }
+child_of() { pgrep -P "$1" | head -1; }
+soon() { for _ in $(seq 100); do "$@" && return; sleep 0.1; done; return 1; }
+has_all() { [ "$(limits_of "$1" | grep -c 'Max [a-z ]* [0-9]')" = 4 ]; }
+has_child_alike() { [ -n "$(child_of "$1")" ] && [ "$(limits_of "$(child_of "$1")")" = "$(limits_of "$1")" ]; }
+bounded() { soon has_all "$2"; verdict "$1" $?; } # NAME PROCESS
+alike() { soon has_child_alike "$2"; verdict "$1" $?; } # NAME PROCESS: some child has its limits
 rest='return machine { name = "m", start = "S", states = { S = { steer = hold } } }'
 echo "$rest" >elsewhere/away.lua
 echo "$rest" >behaviours/near.lua
@@ -71,7 +79,7 @@ END
     timeout 20 "$program" view r.sqlite --port 8790 >page 2>&1 & pages=$!
     for _ in $(seq 100); do grep -q token page && break; sleep 0.1; done
     grep -q 'Seccomp:[[:space:]]*2' "/proc/$(pgrep -P $pages)/status"; verdict "a page of a recording is served by a confined process" $?
-    grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' "/proc/$(pgrep -P $pages)/limits" >out; [ "$(cat out)" = 4 ]; verdict "  which has its limits" $?
+    bounded "  which has its limits" "$(child_of $pages)"
     kill $pages; wait $pages
 fi
 scene near.lua
@@ -90,8 +98,24 @@ says "a large run is kept, and recorded" 0 "" "$program" run inner/large.yaml --
 says "a run that goes on for too long says so" 1 "with --trusted there is no limit" prlimit --cpu=6 "$program" resume inner/large --quiet --for 1e6
 says "  and one that begins anew" 1 "with --trusted there is no limit" prlimit --cpu=6 "$program" run inner/large.yaml --quiet --for 1e6
 "$program" run inner/large.yaml --quiet --for 1e6 2>/dev/null & runs=$!
-for _ in $(seq 100); do [ "$(grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' /proc/$runs/limits)" = 4 ] && break; sleep 0.1; done
-[ "$(grep -c '^Max \(cpu time\|file size\|open files\|address space\) *[0-9]' /proc/$runs/limits)" = 4 ]; verdict "  which has its other limits, too" $?
+bounded "  which has its other limits, too" $runs
+kill $runs; wait $runs
+
+# ---- many runs ----
+"$program" sweep inner/large.yaml --seeds 1 --for 1e6 --jobs 1 --out inner/sweep.sqlite --quiet 2>/dev/null & runs=$!
+bounded "a sweep has its limits" $runs
+alike "  and so has each of its runs" $runs
+kill $runs; wait $runs
+says "a run of a sweep that takes all its processor time says so, and is one that failed" 1 \
+    "large.yaml, seed 1 failed: it took the processor time that its process may" \
+    prlimit --cpu=6 "$program" sweep inner/large.yaml --seeds 1 --for 1e6 --out inner/late.sqlite
+"$program" compare inner/large.yaml scenes/s.yaml --seeds 1 --for 1e6 --jobs 1 --out inner/compared --quiet >/dev/null 2>&1 & runs=$!
+bounded "a comparison has its limits" $runs
+alike "  and so has each of its runs" $runs
+kill $runs; wait $runs
+"$program" sweep inner/large.yaml --seeds 1 --for 1e6 --jobs 1 --out inner/trusted.sqlite --quiet --trusted 2>/dev/null & runs=$!
+alike "  unless its user trusts it: then its runs have those" $runs
+[ "$(limits_of $runs)" = "$(limits_of $$)" ]; verdict "  of who began it" $?
 kill $runs; wait $runs
 [ "$(sqlite3 inner/large.sqlite 'PRAGMA integrity_check')" = ok ] && [ "$(sqlite3 inner/large.sqlite 'SELECT max(frame) > 100 FROM trajectory_data')" = 1 ]
 verdict "  and leaves a recording that is whole" $?
