@@ -42,9 +42,7 @@ template <typename T> static void unmake(T *object) {
     btAlignedFree(object);
 }
 
-void jox_bodies_ensure(JoxBodies *b) {
-    if (b->world)
-        return;
+static void make_world(JoxBodies *b) {
     btDefaultCollisionConstructionInfo info;
     info.m_defaultMaxPersistentManifoldPoolSize = 512;
     info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
@@ -90,19 +88,13 @@ void jox_bodies_drop_walls(JoxBodies *b) {
 }
 
 /* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
-void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
-    if (!(height > 0))
-        return;
-    jox_bodies_ensure(b);
-    jox_bodies_drop_walls(b);
-    jox_walls_standing(&b->standing, walls, true);
-    b->wall_grid.walls = &b->standing;
-    b->wall_height = height;
-    for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
-        b->rows[b->order[k]].body->activate();
+static void raise_walls(JoxBodies *b) {
+    const JoxWalls *walls = &b->standing;
+    b->walls_raised = true;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         uint32_t first = walls->rings[r].first, n = walls->rings[r].count;
-        float tall = std::isfinite(walls->rings[r].height) ? walls->rings[r].height : height;
+        float tall =
+            std::isfinite(walls->rings[r].height) ? walls->rings[r].height : b->wall_height;
         for (uint32_t i = first; i < first + n; i++) {
             JoxV2 p = walls->vertices[i].point, d = walls->vertices[i].direction;
             JoxV2 q = walls->vertices[walls->vertices[i].next].point;
@@ -119,6 +111,27 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
                 add_static(b, new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
         }
     }
+}
+
+void jox_bodies_ensure(JoxBodies *b) {
+    if (!b->world)
+        make_world(b);
+    if (!b->walls_raised)
+        raise_walls(b);
+}
+
+void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
+    if (!(height > 0))
+        return;
+    jox_bodies_drop_walls(b);
+    jox_walls_standing(&b->standing, walls, true);
+    b->wall_grid.walls = &b->standing;
+    b->wall_height = height;
+    b->walls_raised = false;
+    for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
+        b->rows[b->order[k]].body->activate();
+    if (b->live) /* else with the first body: most worlds have none */
+        raise_walls(b);
 }
 
 void jox_bodies_drop(JoxBodies *b, uint32_t row) {

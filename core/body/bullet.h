@@ -134,6 +134,7 @@ struct JoxBodies {
     btRigidBody *ground;
     btRigidBody **walls;
     uint32_t wall_count, wall_capacity;
+    bool walls_raised;     /* they are there; not before a body is */
     JoxWalls standing;     /* of which these are made */
     JoxWallGrid wall_grid; /* over them, for the guard; empty until something moves */
     float wall_height;     /* m: where none is given */
@@ -190,7 +191,7 @@ static inline bool jox_finite(const btVector3 &v) {
     return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
-/* Makes Bullet's world if it is not there yet. */
+/* Before a body is added: makes Bullet's world, with the walls, if it is not there yet. */
 void jox_bodies_ensure(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
 /* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or

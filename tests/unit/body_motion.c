@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "body/body.h"
 
 static JoxBodyDef ball(void) {
@@ -159,12 +160,52 @@ static void refuses(void **state) {
     jox_bodies_free(b);
 }
 
+/* Walls are there for bodies: without any a plan of a hundred thousand corners costs next to
+   nothing, and the first one, whenever it comes, rolls against them. */
+static void walls_wait_for_bodies(void **state) {
+    (void)state;
+    enum { CORNERS = 100000 };
+    static JoxV2 ring[CORNERS];
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxWalls many = {0}, few = {0};
+    const JoxV2 wall[] = {{1, -2}, {1, 2}};
+    for (int k = 0; k < CORNERS; k++)
+        ring[k] = (JoxV2){50 * cosf(6.2831853f * (float)k / CORNERS),
+                          50 * sinf(6.2831853f * (float)k / CORNERS)};
+    jox_walls_add_polyline(&many, ring, CORNERS, true, 3);
+    jox_walls_add_polyline(&few, wall, 2, false, 3);
+    const double begin = jox_clock_thread();
+    jox_bodies_set_walls(b, &many, 3);
+    assert_true(jox_clock_thread() - begin < 3.0); /* in Bullet they take half a minute */
+    jox_bodies_set_walls(b, &few, 3);
+    for (int again = 0; again < 2; again++) { /* and after all were gone */
+        JoxBodyDef d = ball();
+        d.position[2] = 0.11;
+        d.velocity[0] = 3;
+        const uint32_t row = jox_bodies_add(b, &d, NULL);
+        for (int i = 0; i < 20; i++)
+            jox_bodies_step(b, 0.05f, NULL, 0);
+        JoxPose p;
+        assert_true(jox_bodies_pose(b, row, &p));
+        assert_in_range(1000 * p.position.x, 500, 900);
+        jox_bodies_remove(b, row);
+        jox_bodies_set_walls(b, &few, 3);
+    }
+    jox_bodies_free(b);
+    jox_walls_free(&many);
+    jox_walls_free(&few);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(falls),
                                        cmocka_unit_test(stack_stands),
                                        cmocka_unit_test(ball_hits_person),
                                        cmocka_unit_test(an_impulse_may_last),
                                        cmocka_unit_test(friction_holds_without_creep),
-                                       cmocka_unit_test(refuses)};
+                                       cmocka_unit_test(refuses),
+                                       cmocka_unit_test(walls_wait_for_bodies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
