@@ -7,7 +7,7 @@ from typing import Any, Optional
 
 from ._declarations import ffi
 
-__all__ = ["Error", "check", "ffi", "lib", "text_of"]
+__all__ = ["Error", "check", "ffi", "lib", "named", "text_of"]
 
 
 def _candidates() -> list[str]:
@@ -46,6 +46,15 @@ class Error(Exception):
         self.text, self.code, self.file, self.line, self.column = text, code, file, line, column
         place = f"{file}:{line}:{column}: " if file and line else f"{file}: " if file else ""
         super().__init__(place + text)
+
+
+def named(text: str) -> bytes:
+    """A text for C, which would end at a zero byte."""
+    if not isinstance(text, str):
+        raise TypeError(f"a text is expected, not {text!r}")
+    if "\0" in text:
+        raise ValueError(f"a text with a zero byte names nothing: {text!r}")
+    return text.encode()
 
 
 def text_of(pointer: Any) -> str:

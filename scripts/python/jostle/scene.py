@@ -1,7 +1,6 @@
 """A scene that runs, its agents and bodies."""
 from __future__ import annotations
 
-import functools
 import io
 import json
 import sys
@@ -11,7 +10,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 
 from ._events import Events, events_of
-from ._library import Error, check, ffi, lib, taken, text_of
+from ._library import Error, check, ffi, lib, named, taken, text_of
 from .show import Picture, live_page, picture_of
 
 __all__ = ["Agent", "Body", "Scene"]
@@ -27,8 +26,13 @@ def _written(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value, default=float)
 
 
-def _keep(_owner: Any, _pointer: Any) -> None:
-    """What a view refers to, its scene, lives as long as the view."""
+FARTHEST = 1e4  # m, from the origin
+
+
+def _within(what: str, least: float, most: float, *numbers: float) -> None:
+    for number in numbers:
+        if not least <= number <= most:
+            raise ValueError(f"{what} is from {least:g} to {most:g}, not {number!r}")
 
 
 def _vector(numbers: Optional[Sequence[float]], count: int) -> Any:
@@ -64,15 +68,16 @@ class Scene:
                  input_log: Union[str, Path, None] = None, message: Optional[Callable[[str], Any]] = None,
                  density: bool = True) -> None:
         self.path, self.seed, self.overrides = str(path), seed, dict(set or {})
-        self._scene = ffi.NULL
-        self._stepping = False
+        self._scene = self._closed = ffi.NULL
+        self._stepping = self._finished = False
+        self._views = 0
         say = message or sys.stderr.write
         self._message = ffi.callback("void(void *, const char *)", lambda _context, text: (say(text_of(text)), None)[1])
         definition = ffi.new("JoSceneDef *", lib.jo_default_scene_def())
-        kept = [ffi.new("char[]", self.path.encode())]
+        kept = [ffi.new("char[]", named(self.path))]
         definition.path = kept[0]
-        overrides = [ffi.new("char[]", f"{key}={_written(value)}".encode()) for key, value in self.overrides.items()]
-        names = [ffi.new("char[]", str(mod).encode()) for mod in mods]
+        overrides = [ffi.new("char[]", named(f"{key}={_written(value)}")) for key, value in self.overrides.items()]
+        names = [ffi.new("char[]", named(str(mod))) for mod in mods]
         kept += [ffi.new("char *[]", overrides or [ffi.NULL]), ffi.new("char *[]", names or [ffi.NULL])]
         definition.overrides, definition.override_count = ffi.cast("const char *const *", kept[1]), len(overrides)
         definition.mods, definition.mod_count = ffi.cast("const char *const *", kept[2]), len(names)
@@ -83,7 +88,7 @@ class Scene:
         if dt is not None:
             definition.has_dt, definition.dt = True, dt
         if input_log is not None:
-            kept.append(ffi.new("char[]", str(input_log).encode()))
+            kept.append(ffi.new("char[]", named(str(input_log))))
             definition.input_log = kept[-1]
         self._error = ffi.new("JoError *")
         self._scene = check(lib.jo_scene_load(definition, self._error), self._error)
@@ -92,11 +97,21 @@ class Scene:
     # ---- its life ----
 
     def close(self) -> None:
-        """Frees it; arrays that are views of it must not be read any more."""
+        """Ends it. It is freed at once, or with the last array that is a view of it."""
         if self._scene:
             self._live()
-            lib.jo_scene_free(self._scene)
-            self._scene = self._world = ffi.NULL
+            self._closed, self._scene, self._world = self._scene, ffi.NULL, ffi.NULL
+            self._free_closed()
+
+    def _free_closed(self) -> None:
+        if self._closed and not self._views:
+            lib.jo_scene_free(self._closed)
+            self._closed = ffi.NULL
+
+    def _drop_view(self, _pointer: Any) -> None:
+        """An array was freed. What it referred to, its scene, lives at least as long."""
+        self._views -= 1
+        self._free_closed()
 
     def __enter__(self) -> "Scene":
         return self
@@ -123,10 +138,15 @@ class Scene:
 
     # ---- stepping ----
 
+    def _going(self) -> None:
+        self._live()
+        if self._finished:
+            raise Error("the scene is finished: nothing is done to it any more", 2)
+
     def step(self, steps: int = 1) -> None:
         """Advances by so many steps. Other Python threads run meanwhile."""
         for _ in range(steps):
-            self._live()
+            self._going()
             self._stepping = True
             try:
                 good = lib.jo_scene_step(self._scene, self._error)
@@ -170,13 +190,14 @@ class Scene:
     def __getitem__(self, name: str) -> np.ndarray:
         """A column, one number for each agent, in place and read-only: it holds until the next step or the next call
         that changes the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
-        column = lib.jo_world_column(self._live(), name.encode())
+        column = lib.jo_world_column(self._live(), named(name))
         if not column.stride:
             raise KeyError(name)
         dtype = TYPES[column.type]
         if not column.count:
             return np.empty(0, dtype)
-        owner = ffi.gc(ffi.cast("char *", column.data), functools.partial(_keep, self))
+        owner = ffi.gc(ffi.cast("char *", column.data), self._drop_view)
+        self._views += 1
         view = np.frombuffer(ffi.buffer(owner, column.count * column.stride), dtype)
         view.flags.writeable = False
         return view
@@ -227,7 +248,7 @@ class Scene:
 
     def body(self, name: str) -> "Body":
         """The body of a name. KeyError where there is none."""
-        body = lib.jo_world_find_body(self._live(), name.encode())
+        body = lib.jo_world_find_body(self._live(), named(name))
         if not body.generation:
             raise KeyError(name)
         return Body(self, body)
@@ -236,6 +257,8 @@ class Scene:
 
     def neighbours(self, x: float, y: float, radius: float) -> tuple:
         """Ids and distances (m) of agents whose centres are within `radius` m, the nearest first; at most 1,024."""
+        _within("a place, m,", -FARTHEST, FARTHEST, x, y)
+        _within("a radius, m,", 0.0, float("inf"), radius)
         ids, distances = np.empty(1024, np.uint32), np.empty(1024, np.float32)
         count = lib.jo_world_neighbours(self._live(), x, y, radius, ffi.from_buffer("uint32_t *", ids),
                                         ffi.from_buffer("float *", distances), 1024)
@@ -244,6 +267,8 @@ class Scene:
     def cast(self, start: Sequence[float], end: Sequence[float], radius: float = 0.0, agents: bool = True,
              bodies: bool = True, walls: bool = True) -> Optional[Hit]:
         """What a disc (a ray, without radius) meets first on its way; None where the way is free."""
+        _within("a place, m,", -FARTHEST, FARTHEST, *start, *end)
+        _within("a radius, m,", 0.0, 100.0, radius)
         kinds = lib.JO_CAST_AGENTS * agents + lib.JO_CAST_BODIES * bodies + lib.JO_CAST_WALLS * walls
         met = lib.jo_world_cast(self._live(), _vector(start, 2), _vector(end, 2), radius, kinds)
         kind = {lib.JO_TOUCHED_AGENT: "agent", lib.JO_TOUCHED_BODY: "body", lib.JO_TOUCHED_WALL: "wall"}[met.kind]
@@ -251,13 +276,15 @@ class Scene:
 
     def way(self, x: float, y: float, place: str) -> np.ndarray:
         """The way round walls to a place: rows x, y about 0.25 m apart; no rows where none leads there."""
-        count = lib.jo_world_path(self._live(), x, y, place.encode(), ffi.NULL, 0, ffi.NULL)
+        _within("a place, m,", -FARTHEST, FARTHEST, x, y)
+        count = lib.jo_world_path(self._live(), x, y, named(place), ffi.NULL, 0, ffi.NULL)
         points = np.empty((count, 2))
-        lib.jo_world_path(self._world, x, y, place.encode(), ffi.from_buffer("double *", points), count, ffi.NULL)
+        lib.jo_world_path(self._world, x, y, named(place), ffi.from_buffer("double *", points), count, ffi.NULL)
         return points
 
     def density(self, x: float, y: float) -> float:
         """People per m2 at a point."""
+        _within("a place, m,", -FARTHEST, FARTHEST, x, y)
         return lib.jo_world_density(self._live(), x, y)
 
     # ---- what is done to it ----
@@ -265,44 +292,46 @@ class Scene:
     def spawn(self, group: str, x: float, y: float) -> "Agent":
         """A new agent of a group, at a point, m."""
         self._live()
-        agent = lib.jo_world_spawn(self._world, group.encode(), x, y, self._error)
+        agent = lib.jo_world_spawn(self._world, named(group), x, y, self._error)
         check(agent.generation, self._error)
         return Agent(self, lib.jo_agent_state(self._world, agent).id)
 
     def signal(self, name: str) -> None:
         """Calls a name out, which everybody hears in the next step."""
-        self._do(lib.jo_world_signal, self._world, name.encode())
+        self._do(lib.jo_world_signal, self._world, named(name))
 
     def open(self, wall: str, is_open: bool = True) -> None:
         """Opens or closes the walls of a name."""
-        self._do(lib.jo_world_open_wall, self._world, wall.encode(), is_open)
+        self._do(lib.jo_world_open_wall, self._world, named(wall), is_open)
 
     def add_wall(self, name: str, points: Sequence[Sequence[float]]) -> None:
         """A thin wall between 2 points or a solid with 4 corners, m."""
         flat = [number for point in points for number in point]
-        self._do(lib.jo_world_add_wall, self._world, name.encode(), _vector(flat, 2 * len(points)), len(points))
+        self._do(lib.jo_world_add_wall, self._world, named(name), _vector(flat, 2 * len(points)), len(points))
 
     def remove_wall(self, name: str) -> None:
         """Takes out the walls of a name that were added."""
-        self._do(lib.jo_world_remove_wall, self._world, name.encode())
+        self._do(lib.jo_world_remove_wall, self._world, named(name))
 
     def input(self, line: str) -> None:
         """Does what a line of an input log says: "push 7 300 0"."""
-        self._do(lib.jo_scene_input, self._scene, line.encode())
+        self._going()
+        self._do(lib.jo_scene_input, self._scene, named(line))
 
     # ---- what it leaves ----
 
     def record(self, path: Union[str, Path], every: float = 0.0) -> None:
         """Writes trajectories to an SQLite file from here on, a frame each `every` s (0: each 0.1 s)."""
-        self._do(lib.jo_scene_record, self._scene, str(path).encode(), every)
+        self._do(lib.jo_scene_record, self._scene, named(str(path)), every)
 
     def log_input(self, path: Union[str, Path]) -> None:
         """Writes what is done to it to a file from here on, which `input_log` plays back to the same state."""
-        self._do(lib.jo_scene_log_input, self._scene, str(path).encode())
+        self._do(lib.jo_scene_log_input, self._scene, named(str(path)))
 
     def finish(self) -> None:
         """Ends recordings and logs: their files are whole."""
         self._do(lib.jo_scene_finish, self._scene)
+        self._finished = True
 
     def snapshot(self) -> bytes:
         """All that its future depends on."""
@@ -412,11 +441,11 @@ class Agent:
 
     def set_state(self, state: str) -> None:
         """Puts it into a state."""
-        self._do(lib.jo_agent_set_state, state.encode())
+        self._do(lib.jo_agent_set_state, named(state))
 
     def set_goal(self, place: str) -> None:
         """Has it aim at a place."""
-        self._do(lib.jo_agent_set_goal, place.encode())
+        self._do(lib.jo_agent_set_goal, named(place))
 
     def teleport(self, x: float, y: float) -> None:
         """Moves it to a point, m, or to the nearest free spot."""
@@ -438,7 +467,7 @@ class Agent:
 
     def set_memory(self, name: str, value: float) -> None:
         """Sets a value that it remembers."""
-        self._do(lib.jo_agent_set_memory, name.encode(), value)
+        self._do(lib.jo_agent_set_memory, named(name), value)
 
     def parameter(self, name: str) -> float:
         """A parameter at present. KeyError where there is none."""
@@ -446,12 +475,12 @@ class Agent:
 
     def set_parameter(self, name: str, value: float) -> None:
         """Its own value of a parameter, in all states that set none."""
-        self._do(lib.jo_agent_set_parameter, name.encode(), value)
+        self._do(lib.jo_agent_set_parameter, named(name), value)
 
     def _value(self, call: Any, name: str) -> float:
         self._state()
         value = ffi.new("double *")
-        if not call(self.scene._world, self._handle(), name.encode(), value):
+        if not call(self.scene._world, self._handle(), named(name), value):
             raise KeyError(name)
         return value[0]
 

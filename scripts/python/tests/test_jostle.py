@@ -186,3 +186,37 @@ def test_a_closed_scene(path):
     with pytest.raises(jostle.Error, match="closed"):
         scene.step()
     assert "closed" in repr(scene)
+
+
+def test_arrays_outlive_a_closed_scene(path):
+    scene = jostle.Scene(path)
+    scene.step(3)
+    x = scene["x"]
+    part, before = x[::2], x.copy()
+    scene.close()
+    del x
+    others = [jostle.Scene(path) for _ in range(3)]  # which would take the memory
+    assert np.array_equal(part, before[::2])
+    with pytest.raises(jostle.Error, match="closed"):
+        scene["x"]
+    del part, others
+
+
+def test_what_means_nothing_is_refused(path):
+    scene = jostle.Scene(path)
+    scene.step()
+    state, odd = scene.hash, float("nan")
+    for call, arguments in [(scene.neighbours, (odd, 0, 1)), (scene.neighbours, (0, 0, -1)), (scene.way, (1e5, 0, "west")),
+                            (scene.density, (0, odd)), (scene.cast, ((0, odd), (1, 1))), (scene.cast, ((0, 0), (1, 1), -1)),
+                            (scene.signal, ("go\0ne",)), (scene.open, ("gate\0",)), (scene.__getitem__, ("x\0",)),
+                            (scene.input, ("push 0 1 1\0",)), (jostle.Scene, (f"{path}\0",))]:
+        with pytest.raises(ValueError):
+            call(*arguments)
+    for call, arguments in [(scene.signal, (b"go",)), (scene.body, (5,)), (scene.density, ("x", 0)), (scene.restore, ("x",))]:
+        with pytest.raises(TypeError):
+            call(*arguments)
+    assert scene.hash == state
+    scene.finish()
+    for call, arguments in [(scene.step, ()), (scene.input, ("push 0 1 1",))]:
+        with pytest.raises(jostle.Error, match="finished"):
+            call(*arguments)
