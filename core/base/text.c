@@ -176,3 +176,8 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
         *length = text.length;
     return text.data;
 }
+
+size_t jox_text_mark(const char *text, size_t length) {
+    static const char MARK[] = {'\xef', '\xbb', '\xbf'};
+    return length >= sizeof MARK && memcmp(text, MARK, sizeof MARK) == 0 ? sizeof MARK : 0;
+}

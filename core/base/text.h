@@ -26,6 +26,9 @@ void jox_text_free(JoxText *text);
    not UTF-8 become '?', ends of lines blanks. */
 void jox_text_clean(char *text);
 
+/* Bytes of the mark of UTF-8 that some editors write first: 3, or 0 where there is none. */
+size_t jox_text_mark(const char *text, size_t length);
+
 /* The nearest of `names` to `word` by edit distance, or NULL if none is near enough. */
 const char *jox_suggest(const char *word, const char *const *names, size_t count);
 

@@ -245,7 +245,8 @@ bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *tex
     bool begun = false;
     for (int c = 0; c < COLUMNS; c++)
         r.column_of[c] = c <= Y ? c : -1;
-    for (size_t at = 0; at < length && jox_diag_has_room(diagnostics, JOX_SEVERITY_ERROR);) {
+    for (size_t at = jox_text_mark(text, length);
+         at < length && jox_diag_has_room(diagnostics, JOX_SEVERITY_ERROR);) {
         const char *line = text + at;
         const char *newline = memchr(line, '\n', length - at);
         size_t n = newline ? (size_t)(newline - line) : length - at;

@@ -97,7 +97,9 @@ static void columns_by_place(void **state) {
                                       "7 10 0 -100\n7 11 10 -100\n7 12 20 -100\n7 13 30 -100\n"
                                       "7 14 40 -100\n3 14 100 200\n3 13 100 200\n3 12 100 200\n"
                                       "3 11 100 200\n3 10 100 200\n";
+    static char marked[sizeof METRES + 3] = "\xef\xbb\xbf"; /* as some editors write */
     check_walk(read_text(METRES, 0, 0));
+    check_walk(read_text(strcat(marked, METRES), 0, 0));
     check_walk(read_text(CENTIMETRES, 0, 0));
     check_walk(
         read_text(strstr(CENTIMETRES, "7 10"), 10, 0.01)); /* no header: the caller says it */

@@ -55,8 +55,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
                        "unreadable-file", NULL, "cannot load '%s': %s", path, wrong);
         return NULL;
     }
-    if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-        memcpy(text, "   ", 3); /* a byte order mark */
+    memset(text, ' ', jox_text_mark(text, length));
     JOX_RESERVE(vm->files, vm->file_capacity, vm->file_count + 1);
     JoxLuaFile *file = &vm->files[vm->file_count++];
     file->path = jox_strdup(path);

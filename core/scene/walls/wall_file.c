@@ -237,8 +237,7 @@ bool jox_wall_file_read_wkt(const char *path, const char *text, size_t length,
                .diagnostics = diagnostics};
     uint32_t before = walls->ring_count;
     bool good = true;
-    if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) /* a byte order mark */
-        p.at += 3;
+    p.at += jox_text_mark(text, length);
     do { /* several geometries, one a line, are fine */
         good = good && take_geometry(&p, 0);
         skip(&p);
@@ -253,7 +252,7 @@ bool jox_wall_file_read_wkt(const char *path, const char *text, size_t length,
 bool jox_wall_file_read(const char *path, const char *text, size_t length,
                         const JoxWallFileOptions *options, JoxWalls *walls,
                         JoxDiagnostics *diagnostics) {
-    size_t at = length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t at = jox_text_mark(text, length);
     while (at < length && isspace((unsigned char)text[at]))
         at++;
     return (at < length && text[at] == '<' ? jox_wall_file_read_xml : jox_wall_file_read_wkt)(
