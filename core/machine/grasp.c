@@ -49,19 +49,24 @@ static void pull(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
     a->ext_y[j] -= force * way.y;
 }
 
+/* An expression may come to anything. */
+static float grip_of(const JoxMachineRun *run, uint32_t i, const JoxState *state) {
+    if (state->grip.kind == JOX_VALUE_UNSET)
+        return JOX_GRIP;
+    const double grip = jox_value(run, jox_machine_of(run, i), &state->grip, i);
+    return grip > 0.0 ? (float)fmin(grip, JOX_MOST_GRIP) : 0.0f;
+}
+
 void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t count) {
     JoxAgents *a = run->agents;
     for (uint32_t n = 0; n < count; n++) {
         const uint32_t i = agents[n];
-        const JoxMachine *machine = jox_machine_of(run, i);
-        const JoxState *state = &machine->states[a->state[i]];
+        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
         const uint32_t j = find_held(run, i, state->grasp);
         a->grasped[i] = j == JOX_NO_INDEX ? 0 : a->id[j] + 1;
         if (j == JOX_NO_INDEX)
             continue;
         a->held[j] = (uint8_t)(a->held[j] + (a->held[j] < UINT8_MAX));
-        pull(run, i, j,
-             state->grip.kind == JOX_VALUE_UNSET ? JOX_GRIP
-                                                 : (float)jox_value(run, machine, &state->grip, i));
+        pull(run, i, j, grip_of(run, i, state));
     }
 }

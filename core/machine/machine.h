@@ -17,8 +17,8 @@ enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 enum { JOX_MOST_WEIGHT = 1000000 };
 /* Greatest figure of a drift, of either sign, in wanted speeds. */
 enum { JOX_MOST_DRIFT = 100 };
-/* N: with which somebody is held on to, where a state does not say. */
-#define JOX_GRIP 300
+/* N: with which somebody is held on to, where a state does not say; and at most. */
+enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
 
 #define JOX_LOAD_MEANING                                                                           \
     "greatest push borne from any one direction: over directions d, the greatest sum of the "      \

@@ -115,6 +115,27 @@ static void a_weak_hold_slips(void **state) {
     jo_scene_free(p.scene);
 }
 
+/* What a grip is computed to may be no number, less than nothing, or without end. */
+static void grips_are_within_bounds(void **state) {
+    (void)state;
+    static const char *const GRIPS[3] = {
+        TWO("", "steer = hold, grasp = nearest \"other\", grip = 0 - 100 * now.time",
+            "steer = seek \"end\""),
+        TWO("", "steer = hold, grasp = nearest \"other\", grip = sqrt(0 - now.time - 1)",
+            "steer = seek \"end\""),
+        TWO("", "steer = hold, grasp = nearest \"other\", grip = 1e30 * now.time * 1e30",
+            "steer = seek \"end\"")};
+    for (int n = 0; n < 3; n++) {
+        Pair p = begin(APART("0.7"), GRIPS[n]);
+        for (int k = 0; k < 20; k++) {
+            go(&p, 1);
+            const float pull = p.a->given_x[p.one];
+            assert_true(n < 2 ? pull == 0.0f : pull >= 0.0f && pull <= 5000.0f);
+        }
+        jo_scene_free(p.scene);
+    }
+}
+
 static void who_is_out_of_reach_is_not_held(void **state) {
     (void)state;
     Pair p = begin(APART("2"), TWO("", HOLDS, "steer = hold"));
@@ -142,6 +163,7 @@ int main(void) {
         cmocka_unit_test(who_is_approached_is_run_into),
         cmocka_unit_test(a_hold_pulls_both_alike),
         cmocka_unit_test(a_weak_hold_slips),
+        cmocka_unit_test(grips_are_within_bounds),
         cmocka_unit_test(who_is_out_of_reach_is_not_held),
         cmocka_unit_test(whoever_is_held_knows_and_may_be_let_go),
     };
