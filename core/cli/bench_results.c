@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/format/json_writer.h"
 #include "base/format/quote.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "cli/bench.h"
@@ -165,18 +166,26 @@ bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases
 
 bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoError *error) {
     JoTiming *timings = jox_alloc(count, sizeof *timings);
+    size_t told = 0; /* the clock of processor time may advance by milliseconds */
     for (size_t k = 0; k < count; k++) {
         const BenchCase *c = &cases[k];
-        timings[k] = (JoTiming){.scene = c->name,
-                                .isa = jo_isa_name(c->isa),
-                                .agents = c->last.agents,
-                                .in_series = strncmp(c->name, "scale-", 6) == 0,
-                                .ns = median(c->ns, c->measured),
-                                .least_ns = least(c->ns, c->measured)};
+        if (!(median(c->ns, c->measured) > 0.0))
+            continue;
+        timings[told] = (JoTiming){.scene = c->name,
+                                   .isa = jo_isa_name(c->isa),
+                                   .agents = c->last.agents,
+                                   .in_series = strncmp(c->name, "scale-", 6) == 0,
+                                   .ns = median(c->ns, c->measured),
+                                   .least_ns = least(c->ns, c->measured)};
         for (int s = 0; s < JO_STAGE_COUNT; s++)
-            timings[k].stage_ns[s] = median(c->stages[s], c->measured);
+            timings[told].stage_ns[s] = median(c->stages[s], c->measured);
+        told++;
     }
-    const bool good = jo_plot_times(timings, count, folder, error);
+    if (told == 0)
+        jox_error(error, JO_INPUT,
+                  "nothing to draw: so few steps take less processor time than its clock tells "
+                  "apart; more --steps would do");
+    const bool good = told > 0 && jo_plot_times(timings, told, folder, error);
     jox_free(timings);
     return good;
 }
