@@ -1,4 +1,5 @@
 /* Loads of bonds: what acts from outside, what of it the bonds carry, and what breaks. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -272,6 +273,7 @@ static uint32_t cut_worst(JoxBondGraph *g) {
     if (!(g->peak_load > 1.0))
         return 0;
     double limit = 0.95 * g->peak_load > 1.0 ? 0.95 * g->peak_load : 1.0;
+    limit = limit < DBL_MAX ? limit : DBL_MAX; /* bonds next to none are loaded without end */
     uint32_t kept = 0, all = g->bond_count;
     for (uint32_t k = 0; k < all; k++)
         if (load_ratio(g, &g->bonds[k]) <= limit)

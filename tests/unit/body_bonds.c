@@ -61,6 +61,10 @@ static void the_weakest_for_its_load_breaks(void **state) {
     assert_int_equal(g->label[1], 0);
     assert_int_equal(g->label[2], 1);
     jox_bonds_free(g);
+    g = row_of(5, 400);
+    g->bonds[1].strength = 5e-324; /* the least number: its load is infinitely much of that */
+    assert_int_equal(hold(g, 4, 245, 0, 3), 1);
+    jox_bonds_free(g);
 }
 
 /* Across: a free beam under F in its middle. Two blocks of five on either side have to be moved
