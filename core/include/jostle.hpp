@@ -78,6 +78,22 @@ template <class T> class Column {
     std::size_t stride_, count_;
 };
 
+// The arrays of JoEvents: they hold until the next call on the world.
+struct Events {
+    explicit Events(const JoEvents &e) noexcept
+        : transitions(e.transitions, e.transition_count), touches(e.touches, e.touch_count),
+          hits(e.hits, e.hit_count), breaks(e.breaks, e.break_count),
+          entered(e.entered, e.entered_count), left(e.left, e.left_count),
+          said(e.said, e.said_count), actions(e.actions, e.action_count) {}
+    Range<JoTransitionEvent> transitions;
+    Range<JoTouchEvent> touches;
+    Range<JoHitEvent> hits;
+    Range<JoBreakEvent> breaks;
+    Range<JoPresenceEvent> entered, left;
+    Range<JoSaidEvent> said;
+    Range<JoActionEvent> actions;
+};
+
 // A world that somebody owns, as seen: of a scene, or of a World.
 class WorldRef {
   public:
@@ -97,26 +113,8 @@ class WorldRef {
         return Column<T>(column);
     }
 
-    Range<JoTransitionEvent> transitions() const {
-        const JoEvents e = jo_world_events(world_);
-        return {e.transitions, e.transition_count};
-    }
-    Range<JoTouchEvent> touches() const {
-        const JoEvents e = jo_world_events(world_);
-        return {e.touches, e.touch_count};
-    }
-    Range<JoHitEvent> hits() const {
-        const JoEvents e = jo_world_events(world_);
-        return {e.hits, e.hit_count};
-    }
-    Range<JoSaidEvent> said() const {
-        const JoEvents e = jo_world_events(world_);
-        return {e.said, e.said_count};
-    }
-    Range<JoActionEvent> actions() const {
-        const JoEvents e = jo_world_events(world_);
-        return {e.actions, e.action_count};
-    }
+    // What happened in the last step.
+    Events events() const { return Events(jo_world_events(world_)); }
 
     JoAgent spawn(const char *group, double x, double y) {
         JoError error{};

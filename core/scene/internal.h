@@ -112,6 +112,9 @@ JoxOwnerFinish jox_finish_setting;
 /* override.c: sets PATH=VALUE; what is wrong with it is reported at this name in place of a file.
  */
 #define JOX_LOAD_OVERRIDE "--set"
+/* Where a map holds a key's value, or a list the item of a number or with a `name`; NULL if it does
+   not. */
+JoxYaml **jox_load_slot(const JoxYaml *node, const char *key);
 void jox_load_override(const JoxLoad *load, JoxYaml *root, const char *set);
 /* patch.c: merges what mods change into the tree; the result may be another tree. */
 JoxYaml *jox_load_patches(JoxLoad *load, JoxYaml *root, JoxYamlFiles *files);

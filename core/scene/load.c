@@ -37,7 +37,8 @@ JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t len
     load.datadir = options ? options->datadir : NULL;
     load.scene->path = jox_arena_text(arena, name);
     JoxYaml *root = jox_yaml_load(arena, load.scene->path, text, length, files, diagnostics);
-    load.scene->own = root ? jox_yaml_copy(arena, root) : NULL;
+    /* Patches make a copy of what they change; what is set for the run is changed in place. */
+    load.scene->own = root && options && options->set_count ? jox_yaml_copy(arena, root) : root;
     if (root && options)
         root = jox_load_patches(&load, root, files);
     for (uint32_t i = 0; root && options && i < options->set_count; i++)

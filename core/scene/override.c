@@ -4,11 +4,17 @@
 
 #include "scene/internal.h"
 
-/* Where a map holds a key's value, or a list the item of a number; NULL if it does not. */
-static JoxYaml **find_slot(const JoxYaml *node, const char *key) {
+static bool is_called(const JoxYaml *item, const char *name) {
+    const JoxYaml *own = item->kind == JOX_YAML_MAP ? jox_yaml_get(item, "name") : NULL;
+    return own && own->kind == JOX_YAML_SCALAR && strcmp(own->text, name) == 0;
+}
+
+JoxYaml **jox_load_slot(const JoxYaml *node, const char *key) {
     if (node->kind == JOX_YAML_LIST) {
         bool digits = *key && strlen(key) < 9 && key[strspn(key, "0123456789")] == 0;
         unsigned long i = digits ? strtoul(key, NULL, 10) : node->count;
+        for (uint32_t n = 0; !digits && n < node->count && i == node->count; n++)
+            i = is_called(node->items[n], key) ? n : i;
         return i < node->count ? &node->items[i] : NULL;
     }
     for (uint32_t i = 0; i < node->count; i++)
@@ -40,14 +46,14 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
                                .position = at};
             if (map->kind == JOX_YAML_MAP)
                 jox_yaml_set(l->reader.arena, map, key, value);
-            else if ((slot = find_slot(map, key)))
+            else if ((slot = jox_load_slot(map, key)))
                 *slot = value;
             else
                 jox_diag_error(l->reader.diagnostics, at, "bad-override", NULL,
                                "the scene has no '%.*s'", (int)(part - set), set);
             return;
         }
-        slot = find_slot(map, key);
+        slot = jox_load_slot(map, key);
         JoxYaml *next = slot ? *slot : NULL;
         const JoxKey *known = map == root ? jox_key_find(l->reader.format, "scene", key) : NULL;
         if (!next && known && known->type == JOX_TYPE_TABLE) {
@@ -55,7 +61,7 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
             next = jox_arena_take(l->reader.arena, 1, sizeof *next);
             *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};
             jox_yaml_set(l->reader.arena, map, key, next);
-            slot = find_slot(map, key);
+            slot = jox_load_slot(map, key);
         }
         if (!next || next->kind == JOX_YAML_SCALAR) {
             jox_diag_error(l->reader.diagnostics, at, "bad-override",

@@ -11,8 +11,9 @@ int main() {
         unsigned transitions = 0, touches = 0;
         for (int frame = 0; frame < 60; frame++) {
             scene.step();
-            transitions += static_cast<unsigned>(world.transitions().size());
-            for (const JoTouchEvent &touch : world.touches())
+            const jostle::Events events = world.events();
+            transitions += static_cast<unsigned>(events.transitions.size());
+            for (const JoTouchEvent &touch : events.touches)
                 touches += touch.began && touch.kind == JO_TOUCHED_AGENT;
         }
         const JoAgentState at = jo_agent_state(world.get(), player);

@@ -24,15 +24,17 @@ static void overrides_change_what_they_name_alone(void **state) {
     (void)state;
     const char *text = "jostle: 1\n"
                        "places: {a: {point: [0, 0], radius: 50}}\n"
-                       "walls: [{line: [[90, 0], [91, 0]], height: 1}]\n"
+                       "walls: [{line: [[90, 0], [91, 0]], height: 1}, "
+                       "{line: [[90, 5], [91, 5]], name: gate, height: 1}]\n"
                        "groups:\n"
                        "  g: {behaviour: stander, count: 5, in: a, set: &s {mass: 60}}\n"
                        "  h: {behaviour: stander, count: 5, in: a, set: *s}\n";
-    const char *good[] = {"groups.g.count=7", "groups.g.set.mass=80",
-                          "walls.0.height=2", "groups.h.behaviour=walker.lua",
-                          "seed=12",          "forces.enabled=false"};
+    const char *good[] = {
+        "groups.g.count=7",    "groups.g.set.mass=80",          "walls.0.height=2",
+        "walls.gate.height=3", "groups.h.behaviour=walker.lua", "seed=12",
+        "forces.enabled=false"};
     JoxDiagnostics d = {0};
-    JoxSceneSpec *scene = load(text, good, 6, &d);
+    JoxSceneSpec *scene = load(text, good, 7, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
@@ -42,6 +44,7 @@ static void overrides_change_what_they_name_alone(void **state) {
     assert_true(find_set(&scene->groups[1], "mass")->dist.a == 60);
     assert_non_null(strstr(scene->groups[1].mix[0].behaviour, "walker.lua"));
     assert_true(scene->walls.rings[0].height == 2);
+    assert_true(scene->walls.rings[1].height == 3); /* by the name that it gives itself */
     assert_int_equal(scene->seed, 12);
     assert_false(scene->forces); /* a table that the scene lacks */
     jox_scene_free(scene);
