@@ -208,24 +208,8 @@ static bool check(const JoxViewOptions *options, const char *address, JoxText *w
     return false;
 }
 
-static bool find_port(JoxView *view, const JoxViewOptions *options, const char *address,
-                      JoxText *why) {
-    int first = options->port ? options->port : JOX_VIEW_PORT;
-    int count = options->port ? 1 : JOX_VIEW_PORTS, failed = 0;
-    for (int p = first; p < first + count; p++) {
-        failed = try_port(address, p);
-        view->port = p;
-        if (!failed)
-            return true;
-        if (failed != EADDRINUSE)
-            break;
-    }
-    jox_text_printf(why, "cannot listen at %s, port %d: %s; --view=PORT takes another", address,
-                    first, strerror(failed));
-    return false;
-}
-
-static bool open_transport(JoxView *view, const char *address, double patience) {
+/* A context of libwebsockets that listens at view->port; none where it cannot. */
+static bool listen_at_port(JoxView *view, const char *address, double patience) {
     JoxTransport *transport = view->transport;
     struct rlimit files;
     rlim_t most = MOST_CONNECTIONS; /* and the program's own files need room too */
@@ -253,10 +237,30 @@ static bool open_transport(JoxView *view, const char *address, double patience) 
     transport->context = lws_create_context(&info);
     sigaction(SIGPIPE, &before, NULL);
     transport->vhost = transport->context ? lws_create_vhost(transport->context, &info) : NULL;
-    if (!transport->vhost)
-        return false;
-    transport->running = jox_thread_start(&transport->thread, serve, view);
-    return transport->running;
+    if (!transport->vhost && transport->context) {
+        lws_context_destroy(transport->context);
+        transport->context = NULL;
+    }
+    return transport->vhost != NULL;
+}
+
+/* Listens at the first port that can be had. A port that was free may be another's by the time
+   libwebsockets listens; then it is taken as one in use. */
+static bool listen_anywhere(JoxView *view, const JoxViewOptions *options, const char *address,
+                            JoxText *why) {
+    int first = options->port ? options->port : JOX_VIEW_PORT;
+    int count = options->port ? 1 : JOX_VIEW_PORTS, failed = 0;
+    for (int p = first; p < first + count; p++) {
+        failed = try_port(address, p);
+        view->port = p;
+        if (!failed && listen_at_port(view, address, options->patience))
+            return true;
+        if (failed && failed != EADDRINUSE)
+            break;
+    }
+    jox_text_printf(why, "cannot listen at %s, port %d: %s; --view=PORT takes another", address,
+                    first, strerror(failed ? failed : EADDRINUSE));
+    return false;
 }
 
 /* Ends the serving thread and its connections. */
@@ -288,10 +292,12 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     bool good = jox_access_token(view->token) && jox_access_token(view->pass) && view->wake >= 0;
     if (!good)
         jox_text_add(why, "the system has no random numbers or no file descriptors left");
-    good = good && find_port(view, options, address, why);
-    if (good && !open_transport(view, address, options->patience)) {
-        jox_text_printf(why, "cannot listen at %s, port %d", address, view->port);
-        good = false;
+    good = good && listen_anywhere(view, options, address, why);
+    if (good) {
+        JoxTransport *transport = view->transport;
+        good = transport->running = jox_thread_start(&transport->thread, serve, view);
+        if (!good)
+            jox_text_add(why, "cannot start a thread that serves the live page");
     }
     if (!good) {
         jox_view_close(view);

@@ -2,6 +2,7 @@
 #include "unit/view_open.h"
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 
 static void the_page_is_served_with_its_headers(void **state) {
     (void)state;
@@ -356,6 +357,45 @@ static void ports_and_folders(void **state) {
     jox_view_close(open_to_all);
 }
 
+/* Each finds a port though all look for one in the same moment. */
+static void many_that_begin_at_once(void **state) {
+    (void)state;
+    enum { COUNT = 12, ROUNDS = 5 };
+    for (int r = 0; r < ROUNDS; r++) {
+        int begin[2], done[2];
+        assert_int_equal(pipe(begin), 0);
+        assert_int_equal(pipe(done), 0);
+        pid_t ids[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            assert_true((ids[i] = fork()) >= 0);
+            if (ids[i] == 0) {
+                char c;
+                close(begin[1]);
+                close(done[1]);
+                bool waited = read(begin[0], &c, 1) == 0; /* its end is what they wait for */
+                JoxText why = {0};
+                JoxViewOptions options = {.page = "page", .three = "three"};
+                JoxView *opened = waited && !chdir(folder) ? jox_view_open(&options, &why) : NULL;
+                if (!opened)
+                    fprintf(stderr, "%s\n", why.data ? why.data : "no view");
+                bool kept = opened && read(done[0], &c, 1) == 0; /* till all have theirs */
+                _exit(kept ? 0 : 1);
+            }
+        }
+        close(begin[0]);
+        close(done[0]);
+        close(begin[1]);
+        usleep(300000);
+        close(done[1]);
+        for (int i = 0; i < COUNT; i++) {
+            int status;
+            assert_int_equal(waitpid(ids[i], &status, 0), ids[i]);
+            assert_true(WIFEXITED(status));
+            assert_int_equal(WEXITSTATUS(status), 0);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         WITH_VIEW(the_page_is_served_with_its_headers),
@@ -369,6 +409,7 @@ int main(void) {
         WITH_VIEW(malformed_frames_end_the_connection),
         WITH_VIEW(who_says_nothing_delays_nobody),
         WITH_VIEW(ports_and_folders),
+        cmocka_unit_test(many_that_begin_at_once),
     };
     return cmocka_run_group_tests(tests, make_pages, remove_pages);
 }
