@@ -1,5 +1,7 @@
 /* The stage contact, equations 6 and 7: finds what touches, solves all contacts together, and gives
    the agents their contact forces. */
+#include <string.h>
+
 #include "base/assert.h"
 #include "force/internal.h"
 
@@ -22,18 +24,38 @@ static JoxV2 received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     return sum;
 }
 
+static void finish_one(JoxForces *f, uint32_t i) {
+    JoxAgents *a = f->step.agents;
+    const float per_second = 1.0f / (float)f->step.dt;
+    uint32_t contacts = 0;
+    JoxV2 sum = received(f, i, &contacts);
+    a->contacts[i] = (uint8_t)(contacts < UINT8_MAX ? contacts : UINT8_MAX);
+    a->contact_x[i] = sum.x * per_second;
+    a->contact_y[i] = sum.y * per_second;
+    jox_load_measure(f, i);
+}
+
+/* Agents [begin, end), whom nothing presses. */
+static void finish_free(JoxForces *f, uint32_t begin, uint32_t end) {
+    JoxAgents *a = f->step.agents;
+    const size_t floats = (end - begin) * sizeof(float);
+    memset(a->contacts + begin, 0, (end - begin) * sizeof *a->contacts);
+    memset(a->contact_x + begin, 0, floats);
+    memset(a->contact_y + begin, 0, floats);
+    memset(a->compression + begin, 0, floats);
+    memset(a->load + begin, 0, floats);
+}
+
 static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
-    float per_second = 1.0f / (float)f->step.dt;
-    for (uint32_t i = begin; i < end; i++) {
-        uint32_t contacts = 0;
-        JoxV2 sum = received(f, i, &contacts);
-        a->contacts[i] = (uint8_t)(contacts < UINT8_MAX ? contacts : UINT8_MAX);
-        a->contact_x[i] = sum.x * per_second;
-        a->contact_y[i] = sum.y * per_second;
-        jox_load_measure(f, i);
+    for (uint32_t i = begin; i < end; i += JOX_LANES) {
+        const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
+        if (jox_touch_nothing(f, i, last) && jox_loads_are_none(f, i, last))
+            finish_free(f, i, last);
+        else
+            for (uint32_t k = i; k < last; k++)
+                finish_one(f, k);
     }
 }
 

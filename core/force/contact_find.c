@@ -27,10 +27,10 @@ void jox_contacts_find(JoxForces *f) {
                      sizeof(JoxFoundPair));
     jox_chunks_begin(&f->found_walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
                      sizeof(JoxFoundWall));
-    JOX_RESERVE(f->found_first, f->found_first_capacity, n);
-    JOX_RESERVE(f->found_number, f->found_number_capacity, n);
-    JOX_RESERVE(f->wall_first, f->wall_first_capacity, n);
-    JOX_RESERVE(f->wall_number, f->wall_number_capacity, n);
+    JOX_RESERVE(f->found_first, f->found_first_capacity, n + JOX_LANES);
+    JOX_RESERVE(f->found_number, f->found_number_capacity, n + JOX_LANES);
+    JOX_RESERVE(f->wall_first, f->wall_first_capacity, n + JOX_LANES);
+    JOX_RESERVE(f->wall_number, f->wall_number_capacity, n + JOX_LANES);
     if (f->bodies) {
         jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
                          sizeof(JoxTouch));

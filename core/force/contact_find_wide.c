@@ -103,10 +103,7 @@ static void find_seen(Packet *p, uint32_t lanes) {
                        ji_load(a->id + i)};
     JoxFloats reach = jf_add(self.radius, jf_set(f->widest));
     reach = jf_add(jf_add(reach, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
-    uint32_t counts[JOX_WIDTH] = {0};
-    for (uint32_t lane = 0; lanes >> lane; lane++)
-        counts[lane] = lanes >> lane & 1 ? near->count[i + lane] : 0;
-    const JoxInts most = ji_load(counts);
+    const JoxInts most = ji_load_bytes(near->count + i);
     for (uint32_t k = 0; k < near->stride; k++) {
         const size_t at = jox_neighbour_at(near, i, k);
         const JoxMask close = jf_lt(jf_load(near->distance2 + at), jf_mul(reach, reach));
@@ -122,32 +119,42 @@ static void find_seen(Packet *p, uint32_t lanes) {
     }
 }
 
-static void find_packet(Packet *p) {
+/* Of the lanes, those whose neighbours are all that they may touch. */
+static uint32_t lanes_seen(const Packet *p) {
+    const uint8_t *touch_count = p->f->step.neighbours->touch_count;
+    if (p->f->cut)
+        return 0;
+    if (!touch_count)
+        return p->lanes;
+    const JoxInts count = ji_load_bytes(touch_count + p->first);
+    return p->lanes & jm_bits(ji_equal(count, ji_set(JOX_TOUCH_IS_SEEN)));
+}
+
+/* Writes that none of a packet's agents touches anything. */
+static void write_none(const Packet *p) {
     JoxForces *f = p->f;
-    const JoxAgents *a = f->step.agents;
-    const JoxNeighbours *near = f->step.neighbours;
+    const uint32_t i = p->first, chunk = i / JOX_FORCE_GRAIN;
+    const uint32_t found = chunk * f->found.room + f->found.counts[chunk];
+    const uint32_t walls = chunk * f->found_walls.room + f->found_walls.counts[chunk];
+    ji_store(f->found_first + i, ji_set((int32_t)found));
+    ji_store(f->wall_first + i, ji_set((int32_t)walls));
+    ji_store_bytes(f->found_number + i, ji_set(0));
+    ji_store_bytes(f->wall_number + i, ji_set(0));
+}
+
+/* Writes what each touches; looks for the contacts of those of whom not all are seen. */
+static void write_each(Packet *p, uint32_t seen) {
+    JoxForces *f = p->f;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
     JoxFoundPair *found = (JoxFoundPair *)f->found.items + (size_t)chunk * f->found.room;
     JoxFoundWall *walls = (JoxFoundWall *)f->found_walls.items;
     walls += (size_t)chunk * f->found_walls.room;
-    uint32_t seen = f->cut ? 0 : p->lanes;
-    for (uint32_t lane = 0; near->touch_count && seen >> lane; lane++)
-        if (near->touch_count[p->first + lane] != JOX_TOUCH_IS_SEEN)
-            seen &= ~(1u << lane);
-    p->walls = 0;
-    if (f->step.walls)
-        p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
-                                                    jf_load(a->y + p->first)));
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        p->count[lane] = 0;
-    if (seen)
-        find_seen(p, seen);
+    uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         const bool by_walls = p->walls >> lane & 1;
         if (!(seen >> lane & 1))
             p->count[lane] = jox_contacts_of(f, i, by_walls, p->found[lane]);
-        uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
         JOX_ASSERT(*n + p->count[lane] <= f->found.room);
         f->found_first[i] = chunk * f->found.room + *n;
         f->found_number[i] = (uint8_t)p->count[lane];
@@ -157,6 +164,25 @@ static void find_packet(Packet *p) {
         f->wall_number[i] = by_walls ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
         *w += f->wall_number[i];
     }
+}
+
+static void find_packet(Packet *p) {
+    const JoxForces *f = p->f;
+    const JoxAgents *a = f->step.agents;
+    const uint32_t seen = lanes_seen(p);
+    p->walls = 0;
+    if (f->step.walls)
+        p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
+                                                    jf_load(a->y + p->first)));
+    ji_store(p->count, ji_set(0));
+    if (seen)
+        find_seen(p, seen);
+    const JoxInts none = ji_set(0);
+    const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walls | ~seen;
+    if (touching & p->lanes)
+        write_each(p, seen);
+    else
+        write_none(p);
 }
 
 void JOX_WIDE(jox_find_packets)(JoxForces *f, uint32_t begin, uint32_t end) {

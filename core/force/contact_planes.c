@@ -3,6 +3,7 @@
    does, so that neither plans to move into the other. What is being pushed may brake by its feet;
    what follows another that recedes need not. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -82,10 +83,18 @@ static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     JoxContactPlanes *planes = &f->planes;
     JoxDecay decay = f->decay;
-    for (uint32_t i = begin; i < end; i++) {
-        JoxContactPlane *own = planes->planes + planes->starts[i];
-        planes->people[i] = (uint8_t)people_planes(f, i, own, &decay);
-        planes->bodies[i] = (uint8_t)body_planes(f, i, own + planes->people[i], &decay);
+    for (uint32_t i = begin; i < end; i += JOX_LANES) {
+        const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
+        if (jox_touch_nothing(f, i, last)) {
+            memset(planes->people + i, 0, last - i);
+            memset(planes->bodies + i, 0, last - i);
+            continue;
+        }
+        for (uint32_t k = i; k < last; k++) {
+            JoxContactPlane *own = planes->planes + planes->starts[k];
+            planes->people[k] = (uint8_t)people_planes(f, k, own, &decay);
+            planes->bodies[k] = (uint8_t)body_planes(f, k, own + planes->people[k], &decay);
+        }
     }
 }
 
@@ -96,8 +105,8 @@ void jox_contact_planes_make(JoxForces *f) {
     if (!f->contacts_known || f->options.literal || n == 0)
         return;
     JOX_RESERVE(planes->starts, planes->starts_capacity, n);
-    JOX_RESERVE(planes->people, planes->people_capacity, n);
-    JOX_RESERVE(planes->bodies, planes->bodies_capacity, n);
+    JOX_RESERVE(planes->people, planes->people_capacity, n + JOX_LANES);
+    JOX_RESERVE(planes->bodies, planes->bodies_capacity, n + JOX_LANES);
     uint32_t most = 0;
     for (uint32_t i = 0; i < n; i++) {
         planes->starts[i] = most;

@@ -211,6 +211,8 @@ void jox_contacts_solve(JoxForces *forces);
 void jox_contact_planes_make(JoxForces *forces);
 /* load.c: compression and load of one agent, and of all walls, by the impulses found. */
 void jox_load_measure(JoxForces *forces, uint32_t agent);
+/* Whether neither walls nor what was passed on press on any of agents [begin, end). */
+bool jox_loads_are_none(const JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_wall_loads_measure(JoxForces *forces);
 
 /* touch.c: contacts with bodies. begin: velocities of bodies, first impulses; pass: one over all
@@ -223,6 +225,13 @@ float jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
 static inline uint32_t jox_touches_of(const JoxForces *forces, uint32_t agent) {
     return forces->touch_count ? forces->touch_number[agent] : 0;
+}
+/* Whether agents [begin, end), JOX_LANES at most, touch neither people nor bodies. */
+static inline bool jox_touch_nothing(const JoxForces *f, uint32_t begin, uint32_t end) {
+    uint32_t touches = f->end_starts[end] - f->end_starts[begin];
+    for (uint32_t i = begin; f->touch_count && i < end; i++)
+        touches |= f->touch_number[i];
+    return touches == 0;
 }
 /* Normal velocity of a body where it is touched, m/s: before the contacts, and after them. */
 float jox_touch_speed_before(const JoxForces *forces, const JoxTouch *touch);

@@ -69,6 +69,16 @@ static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t m
     return n;
 }
 
+bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
+    uint32_t loads = f->pushed ? f->starts[end] - f->starts[begin] : 0;
+    float braced = 0.0f;
+    for (uint32_t i = begin; i < end; i++) {
+        loads |= f->wall_number[i];
+        braced += fabsf(f->braced[i].x) + fabsf(f->braced[i].y);
+    }
+    return loads == 0 && braced == 0.0f;
+}
+
 void jox_load_measure(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     JoxV2 force[MOST_FORCES];

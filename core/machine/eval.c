@@ -23,11 +23,22 @@ static double counted_area(const JoxPlace *place) {
                                             : 4.0 * 3.14159265358979;
 }
 
-static bool is_inside(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
-    int32_t place = jox_target_place(run, i, in->place);
-    JoxSpot spot = jox_target_find(run, i, in->target);
-    return place >= 0 && spot.found &&
-           jox_place_contains(run->places, (uint32_t)place, (JoxV2){spot.x, spot.y});
+static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int32_t place) {
+    if (place < 0)
+        return false;
+    const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
+    if (target < 0)
+        return jox_place_contains(run->places, (uint32_t)place, own);
+    const JoxSpot spot = jox_target_find(run, i, target);
+    return spot.found && jox_place_contains(run->places, (uint32_t)place, jox_v2(spot.x, spot.y));
+}
+
+static void inside(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
+                   const uint32_t *agents, uint32_t count, double *to) {
+    int32_t places[JOX_BATCH];
+    jox_target_places(run, machine, in->place, agents, count, places);
+    for (uint32_t n = 0; n < count; n++)
+        to[n] = is_inside(run, agents[n], in->target, places[n]);
 }
 
 /* Whether some agents, of whom place `index` is the one that is asked about, crossed it. */
@@ -89,8 +100,6 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     case JOX_OP_PLACE_COUNT:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : people_in(run, place);
-    case JOX_OP_INSIDE:
-        return is_inside(run, i, in);
     case JOX_OP_NEAR:
         return jox_target_distance(run, i, in->target) < a;
     case JOX_OP_FIRST_IN:
@@ -148,7 +157,9 @@ static bool is_open(const JoxMachineRun *run, const char *gate) {
 static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
                     const uint32_t *agents, uint32_t count, JoxRegisters r) {
     double *to = r[in->to];
-    if (in->op == JOX_OP_CROSSES) {
+    if (in->op == JOX_OP_INSIDE) {
+        inside(run, machine, in, agents, count, to);
+    } else if (in->op == JOX_OP_CROSSES) {
         crosses(run, machine, in, agents, count, to);
     } else if (in->op == JOX_OP_OPEN) {
         const double open = is_open(run, machine->names[in->name].text);

@@ -83,6 +83,9 @@ void jox_post_set(JoxMachineRun *run, uint32_t agent);
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* The place a target names for this agent, or -1. */
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index);
+/* Those of some agents of one machine. */
+void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int32_t index,
+                       const uint32_t *agents, uint32_t count, int32_t *places);
 /* Gap between the agent's disc and a spot, m. */
 float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot);
 /* Distance from the agent's centre to a target, INFINITY if absent. */

@@ -16,21 +16,31 @@ typedef struct JoxSteer {
     float sum_x[JOX_BATCH], sum_y[JOX_BATCH];     /* of the terms so far */
     float ahead_x[JOX_BATCH], ahead_y[JOX_BATCH]; /* where those that do not evade lead */
     bool leads;                                   /* `ahead` is known */
+    /* For arrive: those that go to a point and stop there, all bits set, and where it is, m. */
+    uint32_t arrives[JOX_BATCH];
+    float to_x[JOX_BATCH], to_y[JOX_BATCH];
     /* For orbit: of agents [begin, end) of the batch, the place, NULL where there is none. */
     uint32_t begin, end;
     const JoxPlace *place;
     const double *args; /* JoxOrbitArgument */
 } JoxSteer;
 
-/* orbit: way. add: way, weighed, into sum; what asks for more than any word does, or for what is no
-   number, is left out. finish: pref_x, pref_y from sum. face: face_x, face_y along the velocity of
-   those who move. */
+#define JOX_SLOWING 0.5f /* s: who arrives slows to stop within this time */
+
+/* orbit: way. arrive: way of those who arrive, the others' stays. add: way, weighed, into sum; what
+   asks for more than any word does, or for what is no number, is left out. finish: pref_x, pref_y
+   from sum. face: face_x, face_y along the velocity of those who move. */
 typedef void JoxSteerKernel(JoxSteer *steer);
 #define X(name, isa)                                                                               \
-    JoxSteerKernel jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,          \
-        jox_steer_face_##name;
+    JoxSteerKernel jox_steer_orbit_##name, jox_steer_arrive_##name, jox_steer_add_##name,          \
+        jox_steer_finish_##name, jox_steer_face_##name;
 JOX_ISAS(X)
 #undef X
+
+/* steering/steer_place.c: the ways of a term that leads to places, or along them: seek and along,
+   of those of a batch whose weight counts. What leads to points is left to the kernel `arrive`. */
+void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     JoxSteer *steer);
 
 /* steering/steer_field.c: the ways of a term of the kind field, of `count` of the agents in index,
    those of them whose weight counts: way. Sets what they are bound for. */

@@ -1,16 +1,13 @@
 /* What a target is for one agent, now. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
 
-int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
-    const JoxMachine *machine = jox_machine_of(run, agent);
+/* The place that a target is for one agent, or -1. */
+static inline int32_t place_of(const JoxMachineRun *run, const JoxTarget *target, uint32_t agent) {
     int32_t place = -1;
-    if (index < 0)
-        return -1;
-    JOX_ASSERT((uint32_t)index < machine->target_count);
-    const JoxTarget *target = &machine->targets[index];
     if (target->kind == JOX_TARGET_PLACE)
         place = target->arg;
     else if (target->kind == JOX_TARGET_OWN_PLACE)
@@ -19,6 +16,22 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];
     return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
+}
+
+int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
+    int32_t place;
+    jox_target_places(run, jox_machine_of(run, agent), index, &agent, 1, &place);
+    return place;
+}
+
+void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int32_t index,
+                       const uint32_t *agents, uint32_t count, int32_t *places) {
+    JOX_ASSERT(index < 0 || (uint32_t)index < machine->target_count);
+    if (index < 0)
+        memset(places, 0xff, count * sizeof *places); /* -1 */
+    else
+        for (uint32_t n = 0; n < count; n++)
+            places[n] = place_of(run, &machine->targets[index], agents[n]);
 }
 
 /* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */

@@ -69,6 +69,7 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
 /* What does not change from neighbour to neighbour. */
 typedef struct JoxSelf {
     JoxFloats x, y, radius;
+    JoxFloats room; /* that a walker leaves to whom it follows, a share of the law's */
     JoxOrcaSelf orca;
 } JoxSelf;
 
@@ -81,9 +82,9 @@ typedef struct JoxTouched {
 static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     const JoxContactPlanes *planes = p->s->touched;
     t->rows = 0;
-    for (uint32_t lane = 0; planes && p->lanes >> lane; lane++) {
+    for (uint32_t lane = 0; p->touching >> lane; lane++) {
         const uint32_t i = p->first + lane;
-        for (uint32_t k = 0; (p->lanes >> lane & 1) && k < planes->people[i]; k++) {
+        for (uint32_t k = 0; (p->touching >> lane & 1) && k < planes->people[i]; k++) {
             for (; t->rows <= k; t->rows++)
                 memset(t->other[t->rows], 0xff, sizeof t->other[0]);
             t->other[k][lane] = planes->planes[planes->starts[i] + k].other;
@@ -95,11 +96,16 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
    their neighbours has no half-plane is asked one by one. */
 static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
+    const uint32_t i = p->first;
     uint32_t picky = p->s->touched ? p->near_walls : 0;
-    for (uint32_t lane = 0; p->lanes >> lane; lane++) {
-        const uint32_t i = p->first + lane;
-        picky |= (uint32_t)(a->ignore[i] || jox_is_close_to_some(a, i)) << lane;
-    }
+    uint64_t ignoring = 0;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        ignoring |= a->ignore[i + lane];
+    for (uint32_t lane = 0; ignoring && lane < JOX_WIDTH; lane++)
+        picky |= (uint32_t)(a->ignore[i + lane] != 0) << lane;
+    const JoxInts close = ji_or(ji_load(a->approached + i),
+                                ji_or(ji_load(a->grasped + i), ji_load_bytes(a->held + i)));
+    picky |= ~jm_bits(ji_equal(close, ji_set(0)));
     return picky & p->lanes;
 }
 
@@ -126,6 +132,9 @@ static inline JoxSelf jox_self_of(const JoxPacket *p) {
         .x = jf_load(a->x + i),
         .y = jf_load(a->y + i),
         .radius = jf_load(a->param[JOX_PARAM_radius] + i),
+        .room = p->walkers ? jf_sub(jf_set(1.0f), jf_mul(jf_set((float)p->s->nav->walk->room_eager),
+                                                         jf_load(a->eager + i)))
+                           : jf_set(1.0f),
         .orca = {.velocity = jv_load(a->vx, a->vy, i),
                  .inverse = jf_div(jf_set(1.0f), jf_load(a->param[JOX_PARAM_horizon] + i)),
                  .share =
@@ -133,22 +142,39 @@ static inline JoxSelf jox_self_of(const JoxPacket *p) {
     };
 }
 
+/* How far a walker and its neighbour are apart, and what their widths are, m: that of one who
+   follows, and that of one who crosses. */
+typedef struct JoxWalkerGap {
+    JoxFloats distance, follows, crosses;
+} JoxWalkerGap;
+
+static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *self,
+                                          const JoxPair *q) {
+    const JoxVector offset = {q->x, q->y};
+    return (JoxWalkerGap){
+        jf_sqrt(jv_dot(offset, offset)),
+        jf_mul(jf_mul(q->radii, jf_set((float)law->width)), self->room),
+        jf_mul(q->radii, jf_set((float)law->width_cross)),
+    };
+}
+
+/* Those for whom a walker is too far away to have a half-plane, however they mind each other. */
+static inline JoxMask jox_walker_is_far(const JoxWalkLaw *law, const JoxWalkerGap *g) {
+    return jf_le(jf_set((float)law->close), jf_sub(g->distance, jf_max(g->crosses, g->follows)));
+}
+
 /* The half-planes of walkers in place of ORCA's, of those who mind their neighbours, and who they
    are; their offset is q->x, q->y: see walker_half_plane in half_planes.c. */
-static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxPair *q, JoxInts others,
+static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxPair *q,
+                                             const JoxWalkerGap *g, JoxInts others,
                                              JoxVector velocity, JoxMask *there) {
     const JoxAgents *a = p->s->agents;
     const JoxWalkLaw *law = p->s->nav->walk;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxVector offset = {q->x, q->y};
     const JoxMindsLanes minds = jox_minds_lanes(p->s->nav, a, p->first, others, offset);
-    const JoxFloats room =
-        jf_sub(one, jf_mul(jf_set((float)law->room_eager), jf_load(a->eager + p->first)));
-    const JoxFloats follows = jf_mul(jf_mul(q->radii, jf_set((float)law->width)), room);
-    const JoxFloats crosses = jf_mul(q->radii, jf_set((float)law->width_cross));
-    const JoxFloats distance = jf_sqrt(jv_dot(offset, offset));
-    const JoxFloats gap = jf_sub(distance, jf_select(minds.crossing, crosses, follows));
-    const JoxFloats by = jf_div(one, distance);
+    const JoxFloats gap = jf_sub(g->distance, jf_select(minds.crossing, g->crosses, g->follows));
+    const JoxFloats by = jf_div(one, g->distance);
     const JoxVector towards = {jf_mul(q->x, by), jf_mul(q->y, by)};
     const JoxFloats leaves = jv_dot(towards, velocity);
     const JoxFloats share = jf_select(minds.crossing, jf_set(0.5f), one);
@@ -164,77 +190,103 @@ static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlan
                            jf_select(m, a.offset, b.offset)};
 }
 
-/* The rows of the neighbours, at most so many of each. Returns the lanes that coincide with a
-   neighbour, of which the half-plane depends on who they are. */
-static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p, uint32_t most,
-                                                                   const bool periodic) {
-    const JoxSolve *s = p->s;
-    const JoxAgents *a = s->agents;
-    const JoxSelf self = jox_self_of(p);
+/* Where their neighbours are, given as indices, and how they move: *velocity is theirs. */
+static inline JoxPair jox_pair_lanes(const JoxPacket *p, const JoxSelf *self, JoxInts others,
+                                     const bool periodic, JoxVector *velocity) {
+    const JoxAgents *a = p->s->agents;
+    JoxFloats record[4];
+    jf_records(&p->s->nav->records[0].x, others, record);
+    *velocity = (JoxVector){record[2], record[3]};
+    JoxPair q = {jf_sub(record[0], self->x), jf_sub(record[1], self->y),
+                 jf_sub(self->orca.velocity.x, record[2]), jf_sub(self->orca.velocity.y, record[3]),
+                 jf_add(self->radius, jf_pick(a->param[JOX_PARAM_radius], others))};
+    if (periodic) {
+        q.x = jf_wrap(q.x, a->period.x);
+        q.y = jf_wrap(q.y, a->period.y);
+    }
+    return q;
+}
+
+/* The half-planes of `lanes` for a neighbour of each: zeros for those who have none. Returns the
+   lanes that coincide with it. */
+static inline __attribute__((always_inline)) uint32_t
+jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, const JoxPair *q,
+                const JoxWalkerGap *gap, JoxInts others, JoxVector velocity, JoxPlaneLanes *plane) {
     const JoxPlaneLanes none = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)};
     const JoxMask walkers = jm_of_bits(p->walkers);
+    JoxMask minds = jm_of_bits(lanes);
+    const JoxFloats apart = jf_max(jf_abs(q->x), jf_abs(q->y));
+    const uint32_t coincide = jm_bits(jm_and(minds, jf_le(apart, none.x)));
+    *plane = none;
+    if (p->lanes & ~p->walkers)
+        *plane = jox_orca_lanes(q, &self->orca, p->s->planning_time, minds);
+    if (p->walkers) {
+        JoxMask has;
+        *plane =
+            jox_select_plane(walkers, jox_walker_lanes(p, q, gap, others, velocity, &has), *plane);
+        minds = jm_without(minds, jm_without(walkers, has));
+    }
+    *plane = jox_select_plane(minds, *plane, none);
+    return coincide;
+}
+
+/* The rows of the neighbours, less those in which no lane has one that it minds. Returns the lanes
+   that coincide with a neighbour, of which the half-plane depends on who they are. */
+static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
+                                                                   const bool periodic) {
+    const JoxSolve *s = p->s;
+    const JoxNeighbours *near = s->neighbours;
+    const JoxSelf self = jox_self_of(p);
+    const JoxInts zero = ji_set(0);
+    const JoxInts counts =
+        ji_select(jm_of_bits(p->lanes), ji_load_bytes(near->count + p->first), zero);
     const uint32_t picky = jox_picky_lanes(p);
-    uint32_t coincide = 0, counts[JOX_WIDTH];
+    uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        counts[lane] = p->lanes >> lane & 1 ? s->neighbours->count[p->first + lane] : 0;
-    for (uint32_t k = 0; k < most; k++) {
-        const JoxMask there = ji_less(ji_set((int32_t)k), ji_load(counts));
-        const JoxInts listed =
-            ji_load(s->neighbours->index + jox_neighbour_at(s->neighbours, p->first, k));
-        const JoxInts others = ji_select(there, listed, ji_set(0));
-        JoxMask minds = jm_of_bits(jox_minding(p, &touched, jm_bits(there), picky, others));
-        JoxFloats record[4];
-        jf_records(&s->nav->records[0].x, others, record);
-        JoxPair q = {jf_sub(record[0], self.x), jf_sub(record[1], self.y),
-                     jf_sub(self.orca.velocity.x, record[2]),
-                     jf_sub(self.orca.velocity.y, record[3]),
-                     jf_add(self.radius, jf_pick(a->param[JOX_PARAM_radius], others))};
-        if (periodic) {
-            q.x = jf_wrap(q.x, a->period.x);
-            q.y = jf_wrap(q.y, a->period.y);
-        }
-        JoxFloats apart = jf_max(jf_abs(q.x), jf_abs(q.y));
-        coincide |= jm_bits(jm_and(minds, jf_le(apart, none.x)));
-        JoxPlaneLanes plane = none;
-        if (p->lanes & ~p->walkers)
-            plane = jox_orca_lanes(&q, &self.orca, s->planning_time, minds);
+    const uint32_t choosy = picky | (touched.rows ? p->touching : 0);
+    for (uint32_t k = 0; k < near->stride; k++) {
+        const JoxMask there = ji_less(ji_set((int32_t)k), counts);
+        uint32_t lanes = jm_bits(there);
+        if (!lanes)
+            break;
+        const JoxInts listed = ji_load(near->index + jox_neighbour_at(near, p->first, k));
+        const JoxInts others = ji_select(there, listed, zero);
+        JoxVector velocity;
+        const JoxPair q = jox_pair_lanes(p, &self, others, periodic, &velocity);
+        JoxWalkerGap gap = {self.x, self.x, self.x};
         if (p->walkers) {
-            JoxMask has;
-            plane = jox_select_plane(
-                walkers, jox_walker_lanes(p, &q, others, (JoxVector){record[2], record[3]}, &has),
-                plane);
-            minds = jm_without(minds, jm_without(walkers, has));
+            gap = jox_walker_gap(s->nav->walk, &self, &q);
+            lanes &= ~(p->walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
         }
-        plane = jox_select_plane(minds, plane, none);
-        jf_store(p->rows[p->hard + k].x, plane.x);
-        jf_store(p->rows[p->hard + k].y, plane.y);
-        jf_store(p->rows[p->hard + k].offset, plane.offset);
+        if (lanes & choosy)
+            lanes = jox_minding(p, &touched, lanes, picky, others);
+        if (!lanes)
+            continue;
+        JoxPlaneLanes plane;
+        coincide |= jox_plane_lanes(p, &self, lanes, &q, &gap, others, velocity, &plane);
+        JoxRow *row = &p->rows[p->count++];
+        jf_store(row->x, plane.x);
+        jf_store(row->y, plane.y);
+        jf_store(row->offset, plane.offset);
     }
     return coincide;
 }
 
-static inline uint32_t jox_put_rows_bounded(JoxPacket *p, uint32_t most) {
-    return jox_put_rows(p, most, false);
+static inline uint32_t jox_put_rows_bounded(JoxPacket *p) {
+    return jox_put_rows(p, false);
 }
 
-static inline uint32_t jox_put_rows_periodic(JoxPacket *p, uint32_t most) {
-    return jox_put_rows(p, most, true);
+static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
+    return jox_put_rows(p, true);
 }
 
 static inline void jox_put_neighbours(JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
-    const uint8_t *counts = p->s->neighbours->count + p->first;
-    uint32_t most = 0;
-    for (uint32_t lane = 0; p->lanes >> lane; lane++)
-        if ((p->lanes >> lane & 1) && counts[lane] > most)
-            most = counts[lane];
-    jox_rows_open(p, p->hard + most);
     const bool periodic = a->period.x > 0.0f || a->period.y > 0.0f;
-    const uint32_t alone = (periodic ? jox_put_rows_periodic : jox_put_rows_bounded)(p, most);
+    const uint32_t alone = (periodic ? jox_put_rows_periodic : jox_put_rows_bounded)(p);
     for (uint32_t lane = 0; alone >> lane; lane++)
-        for (uint32_t row = p->hard; (alone >> lane & 1) && row < p->hard + most; row++)
+        for (uint32_t row = p->hard; (alone >> lane & 1) && row < p->count; row++)
             p->rows[row].x[lane] = p->rows[row].y[lane] = p->rows[row].offset[lane] = 0.0f;
     if (alone)
         JOX_PUT_EACH(p, alone, p->hard, jox_solve_neighbours, agents);

@@ -176,11 +176,9 @@ static uint32_t solve_packet(JoxPacket *p) {
     const JoxVector planned = jox_as_forced_lanes(&pressed, velocity);
     const uint32_t rest = p->lanes & jm_bits(jm_or(failed, far));
     Plan plan = {.failed = jm_bits(failed)};
-    jf_store(plan.velocity_x, planned.x);
-    jf_store(plan.velocity_y, planned.y);
-    for (uint32_t lane = 0; p->lanes >> lane; lane++)
-        if ((p->lanes & ~rest) >> lane & 1)
-            jox_keep_plan(p->s, i + lane, plan.velocity_x[lane], plan.velocity_y[lane], false);
+    const JoxMask planned_now = jm_of_bits(p->lanes & ~rest);
+    jf_store(a->next_x + i, jf_select(planned_now, planned.x, jf_load(a->next_x + i)));
+    jf_store(a->next_y + i, jf_select(planned_now, planned.y, jf_load(a->next_y + i)));
     if (!rest)
         return 0;
     jf_store(plan.wanted_x, pressed.wanted.x);
@@ -209,9 +207,11 @@ static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
     p->near_walls = p->lanes & jm_bits(jox_wall_grid_near_lanes(
                                    &s->nav->grid, jf_load(a->x + first), jf_load(a->y + first)));
     p->touching = 0;
-    for (uint32_t lane = 0; t && p->lanes >> lane; lane++)
-        p->touching |= (uint32_t)(t->people[first + lane] + t->bodies[first + lane] > 0) << lane;
-    p->touching &= p->lanes;
+    if (t) {
+        const JoxInts count =
+            ji_or(ji_load_bytes(t->people + first), ji_load_bytes(t->bodies + first));
+        p->touching = p->lanes & jm_bits(ji_less(ji_set(0), count));
+    }
 }
 
 uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t end) {

@@ -33,6 +33,15 @@ static inline JoxInts ji_load(const uint32_t *from) {
 static inline void ji_store(uint32_t *to, JoxInts a) {
     _mm256_storeu_si256((__m256i *)to, a);
 }
+static inline JoxInts ji_load_bytes(const uint8_t *from) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)from));
+}
+static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
+    const __m256i low = _mm256_and_si256(a, _mm256_set1_epi32(255));
+    const __m128i pairs =
+        _mm_packs_epi32(_mm256_castsi256_si128(low), _mm256_extracti128_si256(low, 1));
+    _mm_storel_epi64((__m128i *)to, _mm_packus_epi16(pairs, pairs));
+}
 static inline JoxInts ji_lane(void) {
     return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
 }
@@ -83,6 +92,9 @@ static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
 }
 static inline JoxInts ji_and(JoxInts a, JoxInts b) {
     return _mm256_and_si256(a, b);
+}
+static inline JoxInts ji_or(JoxInts a, JoxInts b) {
+    return _mm256_or_si256(a, b);
 }
 #define ji_shift_left(a, bits) _mm256_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm256_srli_epi32(a, bits)

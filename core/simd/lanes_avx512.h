@@ -31,6 +31,12 @@ static inline JoxInts ji_load(const uint32_t *from) {
 static inline void ji_store(uint32_t *to, JoxInts a) {
     _mm512_storeu_si512(to, a);
 }
+static inline JoxInts ji_load_bytes(const uint8_t *from) {
+    return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)from));
+}
+static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
+    _mm_storeu_si128((__m128i *)to, _mm512_cvtepi32_epi8(a));
+}
 static inline JoxInts ji_lane(void) {
     return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
@@ -83,6 +89,9 @@ static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
 }
 static inline JoxInts ji_and(JoxInts a, JoxInts b) {
     return _mm512_and_si512(a, b);
+}
+static inline JoxInts ji_or(JoxInts a, JoxInts b) {
+    return _mm512_or_si512(a, b);
 }
 #define ji_shift_left(a, bits) _mm512_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm512_srli_epi32(a, bits)

@@ -5,6 +5,7 @@
 #include <arm_neon.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "simd/packed.h"
 
@@ -32,6 +33,15 @@ static inline JoxInts ji_load(const uint32_t *from) {
 }
 static inline void ji_store(uint32_t *to, JoxInts a) {
     vst1q_u32(to, vreinterpretq_u32_s32(a));
+}
+static inline JoxInts ji_load_bytes(const uint8_t *from) {
+    return (JoxInts){from[0], from[1], from[2], from[3]};
+}
+static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
+    const uint16x4_t pairs = vmovn_u32(vreinterpretq_u32_s32(a));
+    const uint32_t four =
+        vget_lane_u32(vreinterpret_u32_u8(vmovn_u16(vcombine_u16(pairs, pairs))), 0);
+    memcpy(to, &four, sizeof four);
 }
 static inline JoxInts ji_lane(void) {
     return (JoxInts){0, 1, 2, 3};
@@ -84,6 +94,9 @@ static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
 }
 static inline JoxInts ji_and(JoxInts a, JoxInts b) {
     return vandq_s32(a, b);
+}
+static inline JoxInts ji_or(JoxInts a, JoxInts b) {
+    return vorrq_s32(a, b);
 }
 #define ji_shift_left(a, bits) vshlq_n_s32(a, bits)
 #define ji_shift_right(a, bits) vreinterpretq_s32_u32(vshrq_n_u32(vreinterpretq_u32_s32(a), bits))

@@ -34,6 +34,13 @@ static inline JoxInts ji_load(const uint32_t *from) {
 static inline void ji_store(uint32_t *to, JoxInts a) {
     *to = (uint32_t)a;
 }
+/* From and to JOX_WIDTH consecutive bytes; of what is stored, the low ones. */
+static inline JoxInts ji_load_bytes(const uint8_t *from) {
+    return *from;
+}
+static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
+    *to = (uint8_t)a;
+}
 /* The number of the lane. */
 static inline JoxInts ji_lane(void) {
     return 0;
@@ -89,6 +96,9 @@ static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
 }
 static inline JoxInts ji_and(JoxInts a, JoxInts b) {
     return a & b;
+}
+static inline JoxInts ji_or(JoxInts a, JoxInts b) {
+    return a | b;
 }
 #define ji_shift_left(a, bits) ((int32_t)((uint32_t)(a) << (bits)))
 /* Zeros come in. */

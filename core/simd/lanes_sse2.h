@@ -5,6 +5,7 @@
 #include <emmintrin.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "simd/packed.h"
 
@@ -32,6 +33,18 @@ static inline JoxInts ji_load(const uint32_t *from) {
 }
 static inline void ji_store(uint32_t *to, JoxInts a) {
     _mm_storeu_si128((__m128i *)to, a);
+}
+static inline JoxInts ji_load_bytes(const uint8_t *from) {
+    int32_t four;
+    memcpy(&four, from, sizeof four);
+    const __m128i zero = _mm_setzero_si128();
+    return _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(four), zero), zero);
+}
+static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
+    const __m128i low = _mm_and_si128(a, _mm_set1_epi32(255)); /* packing keeps these as they are */
+    const __m128i pairs = _mm_packs_epi32(low, low);
+    const int32_t four = _mm_cvtsi128_si32(_mm_packus_epi16(pairs, pairs));
+    memcpy(to, &four, sizeof four);
 }
 static inline JoxInts ji_lane(void) {
     return _mm_setr_epi32(0, 1, 2, 3);
@@ -83,6 +96,9 @@ static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
 }
 static inline JoxInts ji_and(JoxInts a, JoxInts b) {
     return _mm_and_si128(a, b);
+}
+static inline JoxInts ji_or(JoxInts a, JoxInts b) {
+    return _mm_or_si128(a, b);
 }
 #define ji_shift_left(a, bits) _mm_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm_srli_epi32(a, bits)

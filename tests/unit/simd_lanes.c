@@ -126,6 +126,7 @@ static void of_ints(const int32_t *ia, const int32_t *ib) {
     INTS_GIVE(ji_add(i_, j_), (uint32_t)i + (uint32_t)j);
     INTS_GIVE(ji_sub(i_, j_), (uint32_t)i - (uint32_t)j);
     INTS_GIVE(ji_and(i_, j_), i & j);
+    INTS_GIVE(ji_or(i_, j_), i | j);
     INTS_GIVE(ji_shift_left(i_, 3), (uint32_t)i << 3);
     INTS_GIVE(ji_shift_right(i_, 5), (uint32_t)i >> 5);
     INTS_GIVE(ji_select(ji_less(i_, j_), i_, j_), i < j ? i : j);
@@ -193,10 +194,27 @@ static void lanes_are_taken_in_their_order(void **state) {
         assert_int_equal(jm_bits(jm_of_bits(bits)), bits);
 }
 
+static void bytes_come_and_go_in_their_order(void **state) {
+    (void)state;
+    uint8_t bytes[256], out[JOX_WIDTH];
+    int32_t expected[JOX_WIDTH];
+    for (int k = 0; k < 256; k++)
+        bytes[k] = (uint8_t)(167 * k + 3); /* each value once */
+    for (int k = 0; k + JOX_WIDTH <= 256; k++) {
+        for (int l = 0; l < JOX_WIDTH; l++)
+            expected[l] = bytes[k + l];
+        same_ints(ji_load_bytes(bytes + k), expected);
+        const JoxInts high = ji_set((int32_t)0x8a7b0500); /* only the low byte is stored */
+        ji_store_bytes(out, ji_or(ji_load_bytes(bytes + k), high));
+        assert_memory_equal(out, bytes + k, JOX_WIDTH);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(arithmetic_is_that_of_one_lane),
         cmocka_unit_test(lanes_are_taken_in_their_order),
+        cmocka_unit_test(bytes_come_and_go_in_their_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

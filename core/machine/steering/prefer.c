@@ -7,10 +7,10 @@
 #include "machine/kernels.h"
 
 #define X(name, isa)                                                                               \
-    [isa] = {jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,                \
-             jox_steer_face_##name},
+    [isa] = {jox_steer_orbit_##name, jox_steer_arrive_##name, jox_steer_add_##name,                \
+             jox_steer_finish_##name, jox_steer_face_##name},
 static const struct Kernels {
-    JoxSteerKernel *orbit, *add, *finish, *face;
+    JoxSteerKernel *orbit, *arrive, *add, *finish, *face;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
@@ -41,10 +41,13 @@ static void weigh(const JoxMachineRun *run, const JoxMachine *machine, const Jox
     const bool computed = weight->kind == JOX_VALUE_EXPRESSION;
     if (computed)
         jox_eval(run, machine, &machine->expressions[weight->index], s->index, s->count, registers);
-    for (uint32_t n = 0; n < s->count; n++)
-        s->by[n] = weight->kind == JOX_VALUE_UNSET ? 1.0f
-                   : computed                      ? (float)registers[0][n]
-                              : (float)jox_value(run, machine, weight, s->index[n]);
+    if (weight->kind == JOX_VALUE_UNSET)
+        for (uint32_t n = 0; n < s->count; n++)
+            s->by[n] = 1.0f;
+    else
+        for (uint32_t n = 0; n < s->count; n++)
+            s->by[n] = computed ? (float)registers[0][n]
+                                : (float)jox_value(run, machine, weight, s->index[n]);
 }
 
 /* Round a place: all of a batch at once where it is the same for all of them. */
@@ -91,6 +94,12 @@ static void ask(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *
     }
     if (term->kind == JOX_STEER_ORBIT) {
         orbit(p, term, s);
+        return;
+    }
+    if (term->kind == JOX_STEER_SEEK || term->kind == JOX_STEER_ALONG) {
+        jox_steer_place(p->run, machine, term, s);
+        if (term->kind == JOX_STEER_SEEK)
+            p->kernels->arrive(s);
         return;
     }
     if (term->kind == JOX_STEER_FIELD) {

@@ -3,9 +3,8 @@
 
 #include "base/assert.h"
 #include "base/number/elementary.h"
-#include "machine/internal.h"
+#include "machine/kernels.h"
 
-static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
 static const double TURN = 6.283185307179586;
 
 JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
@@ -13,7 +12,7 @@ JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
     float distance = jox_length(way);
     if (distance < 1e-4f)
         return (JoxV2){0.0f, 0.0f};
-    float share = speed > 0.0f ? jox_minf(1.0f, distance / (speed * SLOWING)) : 1.0f;
+    float share = speed > 0.0f ? jox_minf(1.0f, distance / (speed * JOX_SLOWING)) : 1.0f;
     return jox_scale(way, share / distance);
 }
 
@@ -61,24 +60,6 @@ static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
     return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
-}
-
-static JoxV2 along(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    int32_t index = jox_target_place(run, i, term->target);
-    if (index < 0 || run->places[index].count < 2)
-        return (JoxV2){0.0f, 0.0f};
-    const JoxPlace *place = &run->places[index];
-    JoxV2 p = {run->agents->x[i], run->agents->y[i]}, best = {0.0f, 0.0f};
-    float least = INFINITY;
-    for (uint32_t k = 0; k + 1 < place->count; k++) {
-        JoxV2 a = place->points[k], b = place->points[k + 1];
-        float d2 = jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
-        if (d2 < least) {
-            least = d2;
-            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
-        }
-    }
-    return best;
 }
 
 static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
@@ -192,8 +173,6 @@ static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
 JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     switch (term->kind) {
-    case JOX_STEER_SEEK:
-        return jox_steer_seek(run, i, term->target);
     case JOX_STEER_AWAY_FROM: {
         JoxSpot spot = jox_target_find(run, i, term->target);
         return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
@@ -210,14 +189,14 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
                                 a->param[JOX_PARAM_speed][i]);
     case JOX_STEER_SPREAD:
         return spread(run, i);
-    case JOX_STEER_ALONG:
-        return along(run, i, term);
     case JOX_STEER_TOGETHER:
         return together(run, i, term);
     case JOX_STEER_PLAYER:
         return player(run, i);
     case JOX_STEER_HOLD:
     case JOX_STEER_ORBIT: /* a kernel's */
+    case JOX_STEER_SEEK:  /* of a batch: steer_place.c */
+    case JOX_STEER_ALONG:
     case JOX_STEER_DRIFT: /* of a batch, as its figures may be computed */
     case JOX_STEER_FIELD: /* of a batch: steer_field.c */
     case JOX_STEER_EVADE: /* by the sum of the others */

@@ -69,6 +69,26 @@ void JOX_WIDE(jox_steer_orbit)(JoxSteer *s) {
     }
 }
 
+/* jox_steer_arrive */
+void JOX_WIDE(jox_steer_arrive)(JoxSteer *s) {
+    const JoxAgents *a = s->agents;
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
+    for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {
+        const JoxInts at = ji_load(s->index + n);
+        const JoxVector before = jv_load(s->way_x, s->way_y, n);
+        const JoxVector way = jv_sub(jv_load(s->to_x, s->to_y, n), pick(a->x, a->y, at));
+        const JoxFloats distance = jf_sqrt(length2(way));
+        const JoxFloats speed = jf_pick(a->param[JOX_PARAM_speed], at);
+        JoxFloats share = jf_min(one, jf_div(distance, jf_mul(speed, jf_set(JOX_SLOWING))));
+        share = jf_select(jf_lt(zero, speed), share, one);
+        const JoxMask is_there = jf_lt(distance, jf_set(1e-4f));
+        const JoxVector asked =
+            jv_select(is_there, (JoxVector){zero, zero}, jv_scale(way, jf_div(share, distance)));
+        const JoxMask arrives = ji_equal(ji_load(s->arrives + n), ji_set(-1));
+        jv_store(s->way_x, s->way_y, n, jv_select(arrives, asked, before));
+    }
+}
+
 void JOX_WIDE(jox_steer_add)(JoxSteer *s) {
     const JoxFloats zero = jf_set(0.0f), most = jf_set((float)JOX_MOST_WEIGHT);
     for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {

@@ -1,0 +1,64 @@
+/* The words that lead to places or along them, of a batch of agents. Most are bound for the same
+   place as who stands before them in the batch, or for a point, which is left to the kernel. */
+#include <math.h>
+
+#include "machine/kernels.h"
+
+/* The way along a line or a queue where it is nearest to p. */
+static JoxV2 way_along(const JoxPlace *place, JoxV2 p) {
+    JoxV2 best = {0.0f, 0.0f};
+    float least = INFINITY;
+    for (uint32_t k = 0; k + 1 < place->count; k++) {
+        const JoxV2 a = place->points[k], b = place->points[k + 1];
+        const bool one = place->count == 2; /* then it is the nearest */
+        const float d2 = one ? 0.0f : jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
+        if (d2 < least) {
+            least = d2;
+            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
+        }
+    }
+    return best;
+}
+
+static void along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) {
+    JoxV2 way = {0.0f, 0.0f};
+    int32_t last = -1; /* the place of which that is the way, wherever one stands */
+    for (uint32_t n = 0; n < s->count; n++) {
+        if (places[n] != last || last < 0) {
+            const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
+            const uint32_t i = s->index[n];
+            way = place ? way_along(place, (JoxV2){run->agents->x[i], run->agents->y[i]})
+                        : (JoxV2){0.0f, 0.0f};
+            last = place && place->count <= 2 ? places[n] : -1;
+        }
+        s->way_x[n] = way.x;
+        s->way_y[n] = way.y;
+    }
+}
+
+static void seek(const JoxMachineRun *run, const int32_t *places, int32_t target, JoxSteer *s) {
+    for (uint32_t n = 0; n < s->count; n++) {
+        const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
+        const bool arrives = place && place->kind == JOX_PLACE_POINT;
+        JoxV2 way = {0.0f, 0.0f}, to = {0.0f, 0.0f};
+        if (arrives)
+            to = place->centre;
+        else if (jox_weight_counts(s->by[n]))
+            way = jox_steer_seek(run, s->index[n], target);
+        s->arrives[n] = arrives ? UINT32_MAX : 0;
+        s->to_x[n] = to.x;
+        s->to_y[n] = to.y;
+        s->way_x[n] = way.x;
+        s->way_y[n] = way.y;
+    }
+}
+
+void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     JoxSteer *s) {
+    int32_t places[JOX_BATCH];
+    jox_target_places(run, machine, term->target, s->index, s->count, places);
+    if (term->kind == JOX_STEER_ALONG)
+        along(run, places, s);
+    else
+        seek(run, places, term->target, s);
+}
