@@ -27,14 +27,6 @@ JOX_ISAS(X)
 #undef X
 /* The same of one agent, whoever is about, searching within `radius` first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
-/* Agents among whom the nearest of one are: indices, and squared distances, m2. */
-typedef struct JoxCandidates {
-    const uint32_t *index;
-    const float *distance2;
-    uint32_t count;
-} JoxCandidates;
-/* The same of one agent, of whom everybody is known that it sees, or as many as it minds. */
-void jox_perceive_among(const JoxPerceive *perceive, uint32_t agent, const JoxCandidates *among);
 /* Those within touching range. */
 void jox_perceive_touching(const JoxPerceive *perceive, uint32_t agent, float range);
 

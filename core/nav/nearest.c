@@ -134,28 +134,3 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     }
     keep(p, i, perception, &found);
 }
-
-/* Sorts one in who may be among the nearest. */
-static void sink(Nearest *found, uint64_t key) {
-    if (found->count == found->most && key > found->keys[found->count - 1])
-        return;
-    uint32_t at = found->count < found->most ? found->count++ : found->count - 1;
-    for (; at > 0 && found->keys[at - 1] > key; at--)
-        found->keys[at] = found->keys[at - 1];
-    found->keys[at] = key;
-}
-
-void jox_perceive_among(const JoxPerceive *p, uint32_t i, const JoxCandidates *among) {
-    const float perception = jox_minf(p->agents->param[JOX_PARAM_perception][i], p->sight);
-    const uint32_t *rank = p->agents->rank;
-    Nearest found;
-    found.most = (uint32_t)p->agents->param[JOX_PARAM_neighbours][i];
-    clear(&found);
-    JOX_ASSERT(found.most > 0);
-    for (uint32_t k = 0; k < among->count; k++) {
-        const float d2 = among->distance2[k];
-        JOX_ASSERT(d2 >= 0.0f && d2 < INFINITY);
-        sink(&found, key_of(d2, rank[among->index[k]]));
-    }
-    keep(p, i, perception, &found);
-}

@@ -5,13 +5,13 @@
 
    A key is a float that is never computed with: its bits are the squared distance as a fixed-point
    number of 26 bits (a share of the squared radius) above the place in the list, so that min and
-   max sort both at once. Lanes of which two keys have
-   the same distance by these bits choose anew from their lists, and those whose lists are full
-   search anew, one by one (nearest.c), which orders exactly, and by id. So neighbours are exact,
-   whatever the width. */
+   max sort both at once. Of lanes of which two keys have the same distance by these bits, these
+   are put in their exact order, ties by id; those whose lists are full search anew, one by one
+   (nearest.c). So neighbours are exact, whatever the width. */
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "nav/kernels.h"
 #include "simd/lanes.h"
 #include "simd/order.h"
@@ -34,9 +34,10 @@ typedef struct Packet {
     uint32_t lanes;  /* bits of those that are there */
     uint32_t levels; /* keys that are kept: one more than the most neighbours of any lane */
     float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
-    uint32_t count[JOX_LANES];                                 /* within the radius */
-    uint32_t index[JOX_LANES * LIST];                          /* lists, lane after lane */
-    float distance2[JOX_LANES * LIST];                         /* m2 */
+    float scale[JOX_LANES];            /* from squared distances to fixed point, 1/m2 */
+    uint32_t count[JOX_LANES];         /* within the radius */
+    uint32_t index[JOX_LANES * LIST];  /* lists, lane after lane */
+    float distance2[JOX_LANES * LIST]; /* m2 */
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
 } Packet;
 
@@ -209,8 +210,9 @@ static inline __attribute__((always_inline)) void order_lists(Packet *packet, ui
                                                               const uint32_t levels) {
     const JoxInts count = ji_load(packet->count);
     const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats scale = /* from squared distances to fixed point, 1/m2 */
+    const JoxFloats scale =
         jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
+    jf_store(packet->scale, scale);
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
@@ -329,48 +331,73 @@ static bool is_before(const Packet *packet, size_t one, size_t other) {
     return rank[packet->index[one]] < rank[packet->index[other]];
 }
 
-/* Puts those of one lane whose keys have the same distance in their exact order. Returns false
-   where the last key that is kept is among them: then others may come before it. */
-static bool settle_ties(const Packet *packet, uint32_t lane, uint32_t *keys) {
-    const size_t list = (size_t)lane * LIST, most = (size_t)(packet->levels - 1) * JOX_WIDTH;
-    for (size_t k = JOX_WIDTH; k <= most; k += JOX_WIDTH) {
-        const uint32_t key = keys[k];
-        size_t at = k;
-        for (; at > 0 && keys[at - JOX_WIDTH] >> PLACE_BITS == key >> PLACE_BITS &&
-               is_before(packet, list + key % PLACES, list + keys[at - JOX_WIDTH] % PLACES);
-             at -= JOX_WIDTH)
-            keys[at] = keys[at - JOX_WIDTH];
-        keys[at] = key;
-    }
-    return most == 0 || keys[most] >= NO_KEY ||
-           keys[most] >> PLACE_BITS != keys[most - JOX_WIDTH] >> PLACE_BITS;
+/* The keys of one lane, the nearest first: those of a packet stand JOX_WIDTH apart. */
+static inline uint32_t *key_at(uint32_t *keys, uint32_t k) {
+    return keys + (size_t)k * JOX_WIDTH;
 }
 
-/* Settles the ties of some lanes; returns those who have to choose anew. */
-static uint32_t settle_lanes(Packet *packet, uint32_t lanes) {
-    uint32_t keys[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH], anew = 0;
-    for (uint32_t k = 0; k < packet->levels; k++)
-        ji_store(keys + k * JOX_WIDTH, jf_bits(packet->keys[k]));
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(left);
-        anew |= (uint32_t)!settle_ties(packet, lane, keys + lane) << lane;
-    }
-    for (uint32_t k = 0; k < packet->levels; k++)
-        packet->keys[k] = ji_as_floats(ji_load(keys + k * JOX_WIDTH));
-    return anew;
+/* Puts a key behind those from `from` on, up to place `at`, that it does not come before. */
+static void sink_in(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from, uint32_t at,
+                    uint32_t key) {
+    const size_t list = (size_t)lane * LIST;
+    for (;
+         at > from && is_before(packet, list + key % PLACES, list + *key_at(keys, at - 1) % PLACES);
+         at--)
+        *key_at(keys, at) = *key_at(keys, at - 1);
+    *key_at(keys, at) = key;
 }
 
-/* Some lanes in the exact order of their lists; those that are `full` search all others. */
-static void choose_anew(const Packet *packet, uint32_t lanes, uint32_t full) {
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+/* The last keys that are kept, from `from` on, have one distance, as others that are not kept may:
+   the first of all of these in their exact order. */
+static void settle_last(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from) {
+    const float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    const uint32_t share = (*key_at(keys, from) - NORMAL) >> PLACE_BITS;
+    uint32_t n = from;
+    for (uint32_t place = 0; place < packet->count[lane]; place++) {
+        if ((uint32_t)(int32_t)(distance2[place] * packet->scale[lane]) != share)
+            continue;
+        const uint32_t key = (share << PLACE_BITS) + NORMAL + place;
         const size_t list = (size_t)lane * LIST;
-        const JoxCandidates among = {packet->index + list, packet->distance2 + list,
-                                     packet->count[lane]};
-        if (full >> lane & 1)
-            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
+        if (n < packet->levels)
+            sink_in(packet, lane, keys, from, n++, key);
+        else if (is_before(packet, list + place, list + *key_at(keys, n - 1) % PLACES))
+            sink_in(packet, lane, keys, from, n - 1, key);
+    }
+    JOX_ASSERT(n == packet->levels);
+}
+
+/* Puts those of one lane whose keys have the same distance in their exact order. */
+static void settle_ties(const Packet *packet, uint32_t lane, uint32_t *keys) {
+    uint32_t from = 0; /* the first of the distance at hand */
+    for (uint32_t k = 1; k < packet->levels && *key_at(keys, k) < NO_KEY; k++) {
+        const uint32_t key = *key_at(keys, k);
+        if (*key_at(keys, k - 1) >> PLACE_BITS != key >> PLACE_BITS)
+            from = k;
+        else if (k + 1 < packet->levels)
+            sink_in(packet, lane, keys, from, k, key);
         else
-            jox_perceive_among(packet->p, packet->first + lane, &among);
+            settle_last(packet, lane, keys, from);
+    }
+}
+
+/* Settles the ties of some lanes. */
+static void settle_lanes(Packet *packet, uint32_t lanes) {
+    uint32_t keys[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
+    for (uint32_t k = 0; k < packet->levels; k++)
+        ji_store(key_at(keys, k), jf_bits(packet->keys[k]));
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        settle_ties(packet, lane, keys + lane);
+    }
+    for (uint32_t k = 0; k < packet->levels; k++)
+        packet->keys[k] = ji_as_floats(ji_load(key_at(keys, k)));
+}
+
+/* Some lanes, whose lists have no room for all, search one by one. */
+static void search_alone(const Packet *packet, uint32_t lanes) {
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
     }
 }
 
@@ -394,14 +421,17 @@ static void perceive_packet(Packet *packet) {
         list_lanes(packet, left);
         const uint32_t full = full_lists(packet, &places);
         (packet->levels <= FEW + 1 ? order_few : order_many)(packet, places);
-        const Found f = read_keys(packet, most);
+        Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
         const uint32_t done = full | (left & ~jm_bits(short_of));
         const uint32_t tied = done & jm_bits(f.tied) & ~full;
-        const uint32_t anew = full | (tied ? settle_lanes(packet, tied) : 0);
-        write(packet, &f, done & ~anew, perception);
-        if (anew)
-            choose_anew(packet, anew, full);
+        if (tied) {
+            settle_lanes(packet, tied);
+            f = read_keys(packet, most);
+        }
+        write(packet, &f, done & ~full, perception);
+        if (full)
+            search_alone(packet, full);
         left &= ~done;
         radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
     }
