@@ -205,7 +205,7 @@ endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Kernels, and what has loops over numbers that become vector operations, of the same bits.
-VECTORISED := core/nav/walk_one core/geom/field_crowd core/record/fields/density_spread \
+VECTORISED := core/nav/walk_one core/geom/field_crowd core/record/fields/density_spread core/world/guard \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 define wide

@@ -1,6 +1,5 @@
 /* What a target is for one agent, now. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
@@ -27,11 +26,13 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
 void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int32_t index,
                        const uint32_t *agents, uint32_t count, int32_t *places) {
     JOX_ASSERT(index < 0 || (uint32_t)index < machine->target_count);
-    if (index < 0)
-        memset(places, 0xff, count * sizeof *places); /* -1 */
-    else
-        for (uint32_t n = 0; n < count; n++)
-            places[n] = place_of(run, &machine->targets[index], agents[n]);
+    const JoxTarget *target = index < 0 ? NULL : &machine->targets[index];
+    const JoxOwnColumn *own =
+        target && target->kind == JOX_TARGET_OWN_PLACE ? &run->agents->own[target->arg] : NULL;
+    const bool same = own ? !own->each : !target || target->kind == JOX_TARGET_PLACE;
+    const int32_t first = target ? place_of(run, target, agents[0]) : -1;
+    for (uint32_t n = 0; n < count; n++)
+        places[n] = same ? first : place_of(run, target, agents[n]);
 }
 
 /* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */

@@ -1,5 +1,6 @@
 /* The stage move: integration, weak projection of overlaps, and walls that nobody passes. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "nav/kernels.h"
@@ -62,11 +63,10 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
     const JoxContactPlanes *t = m->touched;
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
+    memcpy(to + begin, from + begin, (end - begin) * sizeof *to);
     for (uint32_t i = begin; i < end; i++) {
-        if (!(t->people[i] | t->bodies[i])) {
-            to[i] = from[i];
+        if (!t->people[i] && !t->bodies[i])
             continue;
-        }
         const JoxContactPlane *planes = t->planes + t->starts[i];
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < t->people[i]; k++)

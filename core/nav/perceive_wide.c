@@ -172,17 +172,9 @@ static void list_lanes(Packet *packet, uint32_t lanes) {
         }
 }
 
-/* The lanes of which lists have no room, and the places that the longest list has otherwise. */
-static uint32_t full_lists(const Packet *packet, uint32_t *places) {
-    uint32_t full = 0;
-    *places = 0;
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        full |= (uint32_t)(packet->count[lane] > PLACES) << lane;
-        if (packet->count[lane] > *places)
-            *places = packet->count[lane];
-    }
-    *places = *places < PLACES ? *places : PLACES;
-    return full;
+/* The lanes of which lists have more than so many places. */
+static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
+    return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
 }
 
 /* Where the list of each lane begins, in parts of which a list has so many. */
@@ -206,7 +198,7 @@ static inline void read_places(const Packet *packet, JoxInts count, JoxFloats sc
 }
 
 /* The least keys of the lists, as many as there are levels. */
-static inline __attribute__((always_inline)) void order_lists(Packet *packet, uint32_t places,
+static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
     const JoxInts count = ji_load(packet->count);
     const JoxFloats radius = jf_load(packet->radius);
@@ -219,7 +211,7 @@ static inline __attribute__((always_inline)) void order_lists(Packet *packet, ui
         read_places(packet, count, scale, from, keys + from);
     keys[ORDERED] = jf_set(INFINITY);
     jox_order_16(keys);
-    for (uint32_t from = ORDERED; from < places; from += 4) {
+    for (uint32_t from = ORDERED; from < PLACES && lists_beyond(packet, from); from += 4) {
         JoxFloats more[4];
         read_places(packet, count, scale, from, more);
         for (uint32_t m = 0; m < 4; m++) {
@@ -237,12 +229,12 @@ static inline __attribute__((always_inline)) void order_lists(Packet *packet, ui
         packet->keys[k] = keys[k];
 }
 
-static void order_few(Packet *packet, uint32_t places) {
-    order_lists(packet, places, FEW + 1);
+static void order_few(Packet *packet) {
+    order_lists(packet, FEW + 1);
 }
 
-static void order_many(Packet *packet, uint32_t places) {
-    order_lists(packet, places, JOX_MOST_NEIGHBOURS + 1);
+static void order_many(Packet *packet) {
+    order_lists(packet, JOX_MOST_NEIGHBOURS + 1);
 }
 
 /* What the keys of a packet say, lane by lane. */
@@ -282,6 +274,10 @@ static inline void store_floats(float *to, JoxMask m, JoxFloats a) {
     jf_store(to, jf_select(m, a, jf_load(to)));
 }
 
+static inline void store_bytes(uint8_t *to, JoxMask m, JoxInts a) {
+    ji_store_bytes(to, ji_select(m, a, ji_load_bytes(to)));
+}
+
 /* Writes what was found for some lanes. */
 static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloats perception) {
     const JoxPerceive *p = packet->p;
@@ -291,11 +287,7 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
                  jf_div(ji_to_floats(f->count), jf_mul(jf_set(JOX_PI), area)));
-    uint32_t counts[JOX_WIDTH];
-    ji_store(counts, f->count);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        if (lanes >> lane & 1)
-            p->out->count[packet->first + lane] = (uint8_t)counts[lane];
+    store_bytes(p->out->count + packet->first, mask, f->count);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask kept = jm_and(mask, ji_less(ji_set((int32_t)k), f->count));
         const size_t at = jox_neighbour_at(p->out, packet->first, k);
@@ -313,14 +305,17 @@ static void find_touching(const Packet *packet, JoxMask sees) {
     JoxFloats range = jf_add(jf_add(radius, jf_set(p->out->widest)), jf_set(JOX_TOUCH_LEAST));
     range = jf_min(jf_add(range, jf_set(JOX_TOUCH_MOST)), jf_set(p->sight));
     JoxFloats reach = jf_select(sees, jf_load(p->agents->search + packet->first), jf_set(0.0f));
-    const uint32_t lacking = jm_bits(jf_lt(reach, range));
+    const uint32_t lacking = packet->lanes & jm_bits(jf_lt(reach, range));
+    store_bytes(p->out->touch_count + packet->first, jm_of_bits(packet->lanes),
+                ji_set(JOX_TOUCH_IS_SEEN));
+    if (!lacking)
+        return;
     float ranges[JOX_WIDTH];
     jf_store(ranges, range);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        if (packet->lanes >> lane & lacking >> lane & 1)
-            jox_perceive_touching(p, packet->first + lane, ranges[lane]);
-        else if (packet->lanes >> lane & 1)
-            p->out->touch_count[packet->first + lane] = JOX_TOUCH_IS_SEEN;
+    for (uint32_t left = lacking; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        jox_perceive_touching(p, packet->first + lane, ranges[lane]);
+    }
 }
 
 /* Whether who stands at one place of a list comes before who stands at another. */
@@ -415,12 +410,11 @@ static void perceive_packet(Packet *packet) {
     jf_store(packet->at_y, jf_load(a->y + i));
     const JoxMask sees = ji_less(ji_set(0), most);
     for (uint32_t left = packet->lanes; left;) {
-        uint32_t places;
         radius = jf_min(radius, perception);
         jf_store(packet->radius, radius);
         list_lanes(packet, left);
-        const uint32_t full = full_lists(packet, &places);
-        (packet->levels <= FEW + 1 ? order_few : order_many)(packet, places);
+        const uint32_t full = lists_beyond(packet, PLACES);
+        (packet->levels <= FEW + 1 ? order_few : order_many)(packet);
         Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
         const uint32_t done = full | (left & ~jm_bits(short_of));
@@ -438,6 +432,15 @@ static void perceive_packet(Packet *packet) {
     find_touching(packet, sees);
 }
 
+/* One more than the most neighbours of so many agents; mostly all have as many. */
+static uint32_t levels_of(const float *neighbours, uint32_t count) {
+    float most = neighbours[0];
+    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_sub(jf_load(neighbours), jf_set(most))));
+    for (uint32_t lane = 1; jm_bits(other) && lane < count; lane++)
+        most = jox_maxf(most, neighbours[lane]);
+    return (uint32_t)most + 1;
+}
+
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
     Packet packet;
     memset(&packet, 0, sizeof packet); /* lists are read by whole packets */
@@ -447,10 +450,7 @@ void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
         packet.first = i;
         packet.lanes = (1u << count) - 1;
-        packet.levels = 1;
-        for (uint32_t lane = 0; lane < count; lane++)
-            if ((uint32_t)most[i + lane] + 1 > packet.levels)
-                packet.levels = (uint32_t)most[i + lane] + 1;
+        packet.levels = levels_of(most + i, count);
         perceive_packet(&packet);
     }
 }
