@@ -30,7 +30,7 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine machine/steering world/input world/happened world world/verbs world/embed scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results live report render validate luatest sweep sweep/compare)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field agents nav force body machine machine/steering world/input world/happened world world/verbs world/embed scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results live report render validate luatest sweep sweep/compare)
 # Of them, what libjostle leaves to libjostle-tools: pages, pictures, reports.
 TOOLS   := view picture live report render validate luatest sweep sweep/compare
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
@@ -205,7 +205,7 @@ endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Kernels, and what has loops over numbers that become vector operations, of the same bits.
-VECTORISED := core/nav/walk_one core/geom/field_crowd core/record/fields/density_spread core/world/guard \
+VECTORISED := core/nav/walk_one core/geom/field/field_crowd core/record/fields/density_spread core/world/guard \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 define wide

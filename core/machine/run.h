@@ -5,7 +5,7 @@
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/text.h"
-#include "geom/field.h"
+#include "geom/field/field.h"
 #include "geom/objects.h"
 #include "geom/place.h"
 #include "jostle.h"

@@ -1,5 +1,5 @@
 /* Ways round a crowd that is held up, and goals that lie along walls. */
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 #include "unit/geom_walk.h"
 
 enum { HELD = 60 };
@@ -72,8 +72,14 @@ static void a_crowd_makes_the_way_lead_by_the_other_door(void **state) {
 
 /* The sum over the floor of the slowness that a person at `at` adds, times area. */
 static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
-    JoxField f = {.low = {-6, -6}, .size = 0.2f, .clearance = 0.15f, .columns = 60, .rows = 60};
     enum { COUNT = 3600 };
+    static JoxFieldCell cells[COUNT];
+    JoxField f = {.low = {-6, -6},
+                  .size = 0.2f,
+                  .clearance = 0.15f,
+                  .columns = 60,
+                  .rows = 60,
+                  .cells = cells};
     static uint32_t first[COUNT + 1];
     static uint16_t solid[COUNT];
     static float slowness[COUNT], before[COUNT], x[COUNT], y[COUNT];
@@ -105,6 +111,9 @@ static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
     }
     jox_free(f.edges);
     jox_free(f.refs);
+    jox_free(f.patches);
+    jox_free(w.patched);
+    jox_free(w.sight);
     return sum;
 }
 

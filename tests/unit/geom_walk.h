@@ -14,7 +14,7 @@
 
 #include "base/number/elementary.h"
 #include "base/number/random.h"
-#include "geom/field.h"
+#include "geom/field/field.h"
 
 static const double TURN = 6.283185307179586;
 

@@ -4,7 +4,7 @@
 
 #include "agents/agents.h"
 #include "body/body.h"
-#include "geom/field.h"
+#include "geom/field/field.h"
 #include "jostle.h"
 
 /* Who was there when events were read last, by id; and who pressed on what, by ids. */

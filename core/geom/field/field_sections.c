@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/mem.h"
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 
 /* Whether its numbers are those of a box of cells, m. */
 static bool is_grid(const JoxField *f) {

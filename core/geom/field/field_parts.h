@@ -7,7 +7,7 @@
 #ifndef JOX_GEOM_FIELD_PARTS_H
 #define JOX_GEOM_FIELD_PARTS_H
 
-#include "geom/field.h"
+#include "geom/field/field.h"
 
 enum { JOX_FIELD_SIDE = 3, JOX_FIELD_SAMPLES = 9, JOX_FIELD_MIDDLE = 4 };
 enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* instead of a patch: blend; do not */
@@ -25,6 +25,16 @@ typedef struct JoxFieldPatch {
     uint16_t cut;          /* bits: samples whose ninth of the cell an edge passes */
     uint16_t on_edge;      /* bits: samples on an edge, on neither side of it, which are not used */
 } JoxFieldPatch;
+
+/* What walls let the samples of patches see: bits of JoxFieldSight, sample by sample. */
+typedef uint16_t JoxFieldSight;
+enum {
+    JOX_SIGHT_NODES = 0x000f,   /* of the four nodes about the sample */
+    JOX_SIGHT_OPEN = 0x0010,    /* no edge is near enough to stand in the way ahead */
+    JOX_SIGHT_BY_WALL = 0x0020, /* an edge is nearer than the clearance */
+    JOX_SIGHT_SOLID = 0x0040,   /* within matter that an edge bounds; its patch has the way out */
+    JOX_SIGHT_DEEP = 0x0080     /* within matter that no near edge bounds */
+};
 
 typedef struct JoxFieldEdge {
     JoxV2 a, b;
@@ -55,6 +65,9 @@ typedef struct JoxFieldWork {
     float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
     uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
     uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
+    /* The cells that have patches, in the order of f->patches, and what their samples see. */
+    int32_t *patched;
+    JoxFieldSight *sight;
 } JoxFieldWork;
 
 /* So close to the goal, in cells, the ways of nodes are as long as their share of it: four of them
@@ -98,8 +111,18 @@ float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 
    itself is close to nine tenths of that. With least = 0 it must cross none. */
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
 
-/* Edges by cell, solids, nodes, links, and the slowness near walls. */
+/* Edges by cell, solids, nodes, links, the slowness near walls, and what patches see. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls, JoxFieldMarks **marks);
+/* A node of the four about a point, -1 where there is none or it counts for nothing, and its share.
+ */
+typedef struct JoxFieldAbout {
+    int cell;
+    float weight;
+} JoxFieldAbout;
+void jox_field_about(const JoxFieldWork *work, JoxV2 p, JoxFieldAbout about[4]);
+/* field_sight.c: which cells are blended or have a patch, and of patches all that does not depend
+   on where the goal is: what their samples see, and the ways out of solids. */
+void jox_field_look_about(JoxFieldWork *work);
 /* field_marks.c: takes over what was marked of the same edges over the same grid; false if it was
    not. Keeps it for the next time. */
 bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
@@ -108,7 +131,11 @@ void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
 void jox_field_crowd(JoxFieldWork *work, const JoxFieldCrowd *crowd);
 /* Times, lengths and directions of all nodes. */
 void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
-/* Patches of the cells at walls. */
+/* So much of the clearance ways keep from samples to nodes, as between nodes. */
+#define JOX_FIELD_KEEP 0.85f
+/* Of a cell: a sample looks no farther ahead along its way. */
+#define JOX_FIELD_AHEAD 0.75f
+/* The ways of the samples of patches. */
 void jox_field_patch(JoxFieldWork *work);
 
 #endif

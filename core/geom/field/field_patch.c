@@ -4,34 +4,16 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field_parts.h"
-
-static const float KEEP = 0.85f;  /* of the clearance, as between nodes */
-static const float TOUCH = 1e-3f; /* m: samples so near an edge lie upon it, on neither side */
+#include "geom/field/field_parts.h"
 
 /* UNREACHABLE: no way leads from there; ON_EDGE: lies on an edge, on neither side of it. */
 typedef enum { UNKNOWN, FOUND, UNREACHABLE, SOLID, ON_EDGE } State;
 
 typedef struct Patching {
     JoxFieldWork *w;
-    int32_t *cell;    /* of each patch */
     uint8_t *states;  /* of each sample */
     int32_t *towards; /* the farthest sample that each follows straight */
 } Patching;
-
-static bool is_clear(const JoxFieldWork *w, int cell) {
-    if (w->node[cell] != JOX_FIELD_MIDDLE)
-        return false;
-    for (int k = 0; k < 8; k++) {
-        int other = jox_field_next(w->f, cell, k);
-        int after = jox_field_next(w->f, cell, (k + 1) & 7);
-        if (other >= 0 && (!(w->links[cell] >> k & 1) || w->node[other] != JOX_FIELD_MIDDLE))
-            return false;
-        if (other >= 0 && after >= 0 && !(w->corners[cell] >> k & 1))
-            return false;
-    }
-    return true;
-}
 
 /* ---- one sample ---- */
 
@@ -42,27 +24,24 @@ typedef struct Blend {
 } Blend;
 
 /* The way from a point, blended from the nodes of the four cells about it that it sees. */
-static Blend blend(const JoxFieldWork *w, JoxV2 p) {
+static Blend blend(const JoxFieldWork *w, JoxV2 p, JoxFieldSight sight) {
     const JoxField *f = w->f;
-    float x = (p.x - f->low.x) / f->size - 0.5f, y = (p.y - f->low.y) / f->size - 0.5f;
-    int column = (int)floorf(x), row = (int)floorf(y);
     Blend m = {.unreachable = false};
+    JoxFieldAbout about[4];
+    jox_field_about(w, p, about);
     for (int k = 0; k < 4; k++) {
-        int c = column + (k & 1), r = row + (k >> 1), cell = r * f->columns + c;
-        if (c < 0 || r < 0 || c >= f->columns || r >= f->rows || w->node[cell] == JOX_FIELD_BLOCKED)
+        const int cell = about[k].cell;
+        if (!(sight >> k & 1))
             continue;
-        JoxV2 node = jox_field_node(w, cell);
-        float weight = (1.0f - fabsf(x - (float)c)) * (1.0f - fabsf(y - (float)r));
-        if (weight <= 1e-4f || !jox_field_sees(w, p, node, KEEP * f->clearance))
-            continue;
+        JOX_ASSERT(cell >= 0);
         if (!(w->time[cell] < INFINITY)) {
             m.unreachable = true;
             continue;
         }
-        JoxV2 way = {f->cells[cell].x, f->cells[cell].y};
-        m.way = jox_add(m.way, jox_scale(way, weight));
-        m.length +=
-            weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], jox_sub(p, node)));
+        const float weight = about[k].weight;
+        const JoxV2 off = jox_sub(p, jox_field_node(w, cell));
+        m.way = jox_add(m.way, jox_scale((JoxV2){f->cells[cell].x, f->cells[cell].y}, weight));
+        m.length += weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], off));
         m.weight += weight;
     }
     if (m.weight > 0.0f) {
@@ -84,7 +63,7 @@ static bool by_a_node(const JoxFieldWork *w, int cell, JoxV2 p, Blend *m) {
         float far = jox_length(way), time = w->time[other] + far * w->slowness[other];
         bool reached = time < INFINITY;
         if ((reached && time >= best) || (!reached && m->unreachable) ||
-            !jox_field_sees(w, p, jox_field_node(w, other), KEEP * f->clearance))
+            !jox_field_sees(w, p, jox_field_node(w, other), JOX_FIELD_KEEP * f->clearance))
             continue;
         m->unreachable = m->unreachable || !reached;
         if (!reached)
@@ -103,51 +82,45 @@ static void set(JoxFieldPatch *patch, int s, JoxV2 way, float length) {
     patch->length[s] = length;
 }
 
-/* Straight out of matter: towards the nearest edge, or off the edge it lies upon. */
-static JoxV2 out_of_solid(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
-    JoxV2 out = jox_sub(at, p);
-    if (jox_length(out) > TOUCH)
-        return jox_unit(out);
-    return jox_unit(jox_scale(jox_left(jox_sub(f->edges[edge].b, f->edges[edge].a)), -1.0f));
+/* Whether a blend leads on, and not into a wall or a corner. */
+static bool leads_on(const JoxFieldWork *w, JoxV2 p, const Blend *m, JoxFieldSight sight) {
+    const JoxField *f = w->f;
+    const float along = jox_length(m->way), goal = f->clearance + f->size;
+    if (!(m->weight > 0.0f && along > (m->length < goal ? JOX_FIELD_ARRIVED : 0.2f)))
+        return false;
+    if (sight & JOX_SIGHT_OPEN)
+        return true;
+    const float look = jox_minf(JOX_FIELD_AHEAD * f->size, m->length);
+    const JoxV2 ahead = jox_add(p, jox_scale(m->way, look / along));
+    return jox_field_sees(w, p, ahead, m->length < goal ? 0.0f : JOX_FIELD_KEEP * f->clearance);
 }
 
-static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
+static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s,
+                   JoxFieldSight sight) {
     const JoxField *f = w->f;
-    JoxV2 p = jox_field_sample(f, cell, s), at = p;
-    uint32_t edge = 0;
-    float near = jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, &edge);
-    float half = 0.5f * f->size / (float)JOX_FIELD_SIDE;
-    if (near < 1.5f * half) /* more than half its diagonal */
-        patch->cut |= (uint16_t)(1 << s);
-    set(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
-    if (w->solid[cell] >> s & 1) {
-        if (patch->count == 0)
-            return UNKNOWN; /* no edge near: it follows a neighbour later */
-        set(patch, s, out_of_solid(f, p, at, edge), INFINITY);
+    const JoxV2 p = jox_field_sample(f, cell, s);
+    patch->length[s] = INFINITY;
+    if (sight & JOX_SIGHT_DEEP)
+        return UNKNOWN;
+    if (sight & JOX_SIGHT_SOLID)
         return SOLID;
-    }
-    if (near < TOUCH) {
-        patch->on_edge |= (uint16_t)(1 << s);
+    if (patch->on_edge >> s & 1)
         return ON_EDGE;
-    }
-    Blend m = blend(w, p);
-    float along = jox_length(m.way), goal = f->clearance + f->size;
-    if (m.weight > 0.0f && along < JOX_FIELD_ARRIVED && m.length < f->size) {
+    Blend m = blend(w, p, sight);
+    if (m.weight > 0.0f && jox_length(m.way) < JOX_FIELD_ARRIVED && m.length < f->size) {
         set(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
         return FOUND;
     }
-    bool fits = m.weight > 0.0f && along > (m.length < goal ? JOX_FIELD_ARRIVED : 0.2f);
-    if (fits) { /* but not where such ways lead into a wall or a corner */
-        float look = jox_minf(0.75f * f->size, m.length);
-        JoxV2 ahead = jox_add(p, jox_scale(m.way, look / along));
-        fits = jox_field_sees(w, p, ahead, m.length < goal ? 0.0f : KEEP * f->clearance);
-    }
-    if (!fits && !by_a_node(w, cell, p, &m))
+    if (!leads_on(w, p, &m, sight) && !by_a_node(w, cell, p, &m))
         return m.unreachable ? UNREACHABLE : UNKNOWN;
     m.way = jox_unit(m.way);
-    if (near < f->clearance && m.length > goal) /* and off the wall */
+    if (sight & JOX_SIGHT_BY_WALL && m.length > f->clearance + f->size) { /* and off the wall */
+        JoxV2 at = p;
+        const float near =
+            jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, NULL);
         m.way = jox_unit(
             jox_add(m.way, jox_scale(jox_sub(p, at), (1.0f - near / f->clearance) / near)));
+    }
     set(patch, s, m.way, m.length);
     return FOUND;
 }
@@ -158,7 +131,7 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s)
 static int32_t beside(const Patching *g, int32_t sample, int side) {
     const JoxField *f = g->w->f;
     int32_t patch = sample / JOX_FIELD_SAMPLES;
-    int s = sample % JOX_FIELD_SAMPLES, cell = g->cell[patch];
+    int s = sample % JOX_FIELD_SAMPLES, cell = g->w->patched[patch];
     int x = s % JOX_FIELD_SIDE + JOX_FIELD_RING[2 * side][0];
     int y = s / JOX_FIELD_SIDE + JOX_FIELD_RING[2 * side][1];
     if (x < 0 || y < 0 || x == JOX_FIELD_SIDE || y == JOX_FIELD_SIDE) {
@@ -173,12 +146,12 @@ static int32_t beside(const Patching *g, int32_t sample, int side) {
 }
 
 static JoxV2 place_of(const Patching *g, int32_t sample) {
-    return jox_field_sample(g->w->f, g->cell[sample / JOX_FIELD_SAMPLES],
+    return jox_field_sample(g->w->f, g->w->patched[sample / JOX_FIELD_SAMPLES],
                             sample % JOX_FIELD_SAMPLES);
 }
 
 static bool is_matter(const Patching *g, int32_t sample) {
-    return g->w->solid[g->cell[sample / JOX_FIELD_SAMPLES]] >> sample % JOX_FIELD_SAMPLES & 1;
+    return g->w->solid[g->w->patched[sample / JOX_FIELD_SAMPLES]] >> sample % JOX_FIELD_SAMPLES & 1;
 }
 
 /* Sample j follows i, or straight what i follows if nothing is between; and keeps off walls. */
@@ -252,37 +225,28 @@ static void lead_out(JoxFieldWork *w) {
     jox_free(queue);
 }
 
+/* Whether some cells lie in solids, off all edges: then they have no patch, and are not blended. */
+static bool any_is_deep(const JoxFieldWork *w) {
+    for (int i = 0; i < w->count; i++)
+        if (w->f->cells[i].patch == JOX_FIELD_PLAIN && !jox_field_has_edges(w, i))
+            return true;
+    return false;
+}
+
 void jox_field_patch(JoxFieldWork *w) {
     JoxField *f = w->f;
+    const size_t samples = (size_t)f->patch_count * JOX_FIELD_SAMPLES;
     Patching g = {.w = w};
-    bool deep = false;
-    for (int i = 0; i < w->count; i++) {
-        bool clear = is_clear(w, i), edges = jox_field_has_edges(w, i);
-        f->cells[i].patch = clear ? JOX_FIELD_CLEAR : JOX_FIELD_PLAIN;
-        deep = deep || (!clear && !edges);
-        if (clear || !edges)
-            continue;
-        JOX_RESERVE(f->patches, f->patch_capacity, f->patch_count + 1);
-        f->cells[i].patch = (int32_t)f->patch_count;
-        f->patches[f->patch_count++] =
-            (JoxFieldPatch){.first = w->first[i], .count = w->first[i + 1] - w->first[i]};
+    g.towards = jox_alloc(samples + 1, sizeof *g.towards);
+    g.states = jox_alloc(samples + 1, 1);
+    for (size_t k = 0; k < samples; k++) {
+        const size_t p = k / JOX_FIELD_SAMPLES;
+        g.states[k] = (uint8_t)judge(w, &f->patches[p], w->patched[p], (int)(k % JOX_FIELD_SAMPLES),
+                                     w->sight[k]);
     }
-    g.cell = jox_alloc((size_t)f->patch_count + 1, sizeof *g.cell);
-    g.towards = jox_alloc((size_t)f->patch_count + 1, JOX_FIELD_SAMPLES * sizeof *g.towards);
-    g.states = jox_alloc((size_t)f->patch_count + 1, JOX_FIELD_SAMPLES);
-    for (int i = 0; i < w->count; i++) {
-        int32_t p = f->cells[i].patch;
-        if (p < 0)
-            continue;
-        g.cell[p] = i;
-        for (int s = 0; s < JOX_FIELD_SAMPLES; s++)
-            g.states[p * JOX_FIELD_SAMPLES + s] = (uint8_t)judge(w, &f->patches[p], i, s);
-    }
-    JOX_ASSERT(f->patch_count <= (uint32_t)w->count);
     follow_all(&g);
-    if (deep)
+    if (any_is_deep(w))
         lead_out(w);
-    jox_free(g.cell);
     jox_free(g.states);
     jox_free(g.towards);
 }

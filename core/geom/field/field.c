@@ -1,10 +1,10 @@
-#include "geom/field.h"
+#include "geom/field/field.h"
 
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 
 static const float MOST_CELLS = 4000000.0f;
 static const float LEAST_CELL = 0.1f, MOST_CELL = 2.0f; /* m */
@@ -76,6 +76,8 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_free(work.y);
     jox_free(work.links);
     jox_free(work.corners);
+    jox_free(work.patched);
+    jox_free(work.sight);
     return f;
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 
 const int JOX_FIELD_RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                   {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
@@ -286,6 +286,7 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
         link_cell(w, i);
     for (int i = 0; i < w->count; i++)
         span_corners(w, i);
+    jox_field_look_about(w);
     if (marks)
         jox_field_remember(w, marks);
 }

@@ -2,7 +2,7 @@
    box, and those in a ninth of a cell that an edge of a wall passes, are left to field.c. */
 #include <math.h>
 
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 #include "simd/vectors.h"
 
 enum {

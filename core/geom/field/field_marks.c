@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 
 struct JoxFieldMarks {
     JoxV2 low;
@@ -16,13 +16,17 @@ struct JoxFieldMarks {
     uint16_t *solid;
     float *slowness; /* near walls */
     uint8_t *node, *links, *corners;
+    JoxFieldPatch *patches; /* without ways, but for those out of solids */
+    uint32_t patch_count;
+    int32_t *patch, *patched;
+    JoxFieldSight *sight;
 };
 
 void jox_field_marks_free(JoxFieldMarks *m) {
     if (!m)
         return;
-    void *const owned[] = {m->edges,    m->refs, m->first, m->solid,
-                           m->slowness, m->node, m->links, m->corners};
+    void *const owned[] = {m->edges, m->refs,    m->first,   m->solid, m->slowness, m->node,
+                           m->links, m->corners, m->patches, m->patch, m->patched,  m->sight};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
     jox_free(m);
@@ -55,6 +59,12 @@ bool jox_field_recall(JoxFieldWork *w, const JoxFieldMarks *m) {
     memcpy(w->node, m->node, count);
     memcpy(w->links, m->links, count);
     memcpy(w->corners, m->corners, count);
+    for (size_t i = 0; i < count; i++)
+        f->cells[i].patch = m->patch[i];
+    f->patch_count = f->patch_capacity = m->patch_count;
+    f->patches = copy(m->patches, m->patch_count, sizeof *f->patches);
+    w->patched = copy(m->patched, m->patch_count, sizeof *w->patched);
+    w->sight = copy(m->sight, (size_t)m->patch_count * JOX_FIELD_SAMPLES, sizeof *w->sight);
     return true;
 }
 
@@ -71,7 +81,8 @@ void jox_field_remember(const JoxFieldWork *w, JoxFieldMarks **marks) {
                          .columns = f->columns,
                          .rows = f->rows,
                          .edge_count = f->edge_count,
-                         .ref_count = f->ref_count};
+                         .ref_count = f->ref_count,
+                         .patch_count = f->patch_count};
     m->edges = copy(f->edges, f->edge_count, sizeof *f->edges);
     m->refs = copy(f->refs, f->ref_count, sizeof *f->refs);
     m->first = copy(w->first, count + 1, sizeof *w->first);
@@ -80,5 +91,11 @@ void jox_field_remember(const JoxFieldWork *w, JoxFieldMarks **marks) {
     m->node = copy(w->node, count, 1);
     m->links = copy(w->links, count, 1);
     m->corners = copy(w->corners, count, 1);
+    m->patch = jox_alloc(count, sizeof *m->patch);
+    for (size_t i = 0; i < count; i++)
+        m->patch[i] = f->cells[i].patch;
+    m->patches = copy(f->patches, f->patch_count, sizeof *m->patches);
+    m->patched = copy(w->patched, f->patch_count, sizeof *m->patched);
+    m->sight = copy(w->sight, (size_t)f->patch_count * JOX_FIELD_SAMPLES, sizeof *m->sight);
     *marks = m;
 }

@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field_parts.h"
+#include "geom/field/field_parts.h"
 
 static const float SEED_CELLS = 4.5f; /* so near the goal, ways are straight and lengths exact */
 static const float STRAIGHT = 0.97f;  /* cosine of how far two slopes may differ */

@@ -1,0 +1,109 @@
+/* Which cells have patches, and what the nine samples of each see between the walls: all that does
+   not change from one field over the same walls to the next. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "geom/field/field_parts.h"
+
+static const float TOUCH = 1e-3f; /* m: samples so near an edge lie upon it, on neither side */
+
+static bool is_clear(const JoxFieldWork *w, int cell) {
+    if (w->node[cell] != JOX_FIELD_MIDDLE)
+        return false;
+    for (int k = 0; k < 8; k++) {
+        int other = jox_field_next(w->f, cell, k);
+        int after = jox_field_next(w->f, cell, (k + 1) & 7);
+        if (other >= 0 && (!(w->links[cell] >> k & 1) || w->node[other] != JOX_FIELD_MIDDLE))
+            return false;
+        if (other >= 0 && after >= 0 && !(w->corners[cell] >> k & 1))
+            return false;
+    }
+    return true;
+}
+
+void jox_field_about(const JoxFieldWork *w, JoxV2 p, JoxFieldAbout about[4]) {
+    const JoxField *f = w->f;
+    const float x = (p.x - f->low.x) / f->size - 0.5f, y = (p.y - f->low.y) / f->size - 0.5f;
+    const int column = (int)floorf(x), row = (int)floorf(y);
+    for (int k = 0; k < 4; k++) {
+        const int c = column + (k & 1), r = row + (k >> 1), cell = r * f->columns + c;
+        const float weight = (1.0f - fabsf(x - (float)c)) * (1.0f - fabsf(y - (float)r));
+        const bool within = c >= 0 && r >= 0 && c < f->columns && r < f->rows;
+        const bool counts = within && w->node[cell] != JOX_FIELD_BLOCKED && weight > 1e-4f;
+        about[k] = (JoxFieldAbout){counts ? cell : -1, weight};
+    }
+}
+
+/* Straight out of matter: towards the nearest edge, or off the edge it lies upon. */
+static JoxV2 out_of_solid(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
+    JoxV2 out = jox_sub(at, p);
+    if (jox_length(out) > TOUCH)
+        return jox_unit(out);
+    return jox_unit(jox_scale(jox_left(jox_sub(f->edges[edge].b, f->edges[edge].a)), -1.0f));
+}
+
+/* Of the four nodes about a point, those that it sees (bits). */
+static uint16_t nodes_seen(const JoxFieldWork *w, JoxV2 p) {
+    JoxFieldAbout about[4];
+    uint16_t seen = 0;
+    jox_field_about(w, p, about);
+    for (int k = 0; k < 4; k++)
+        if (about[k].cell >= 0 && jox_field_sees(w, p, jox_field_node(w, about[k].cell),
+                                                 JOX_FIELD_KEEP * w->f->clearance))
+            seen |= (uint16_t)(1 << k);
+    return seen;
+}
+
+static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
+    const JoxField *f = w->f;
+    JoxV2 p = jox_field_sample(f, cell, s), at = p;
+    uint32_t edge = 0;
+    float near = jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, &edge);
+    float half = 0.5f * f->size / (float)JOX_FIELD_SIDE;
+    if (near < 1.5f * half) /* more than half its diagonal */
+        patch->cut |= (uint16_t)(1 << s);
+    if (w->solid[cell] >> s & 1) {
+        if (patch->count == 0)
+            return JOX_SIGHT_DEEP; /* no edge near: it follows a neighbour later */
+        JoxV2 out = out_of_solid(f, p, at, edge);
+        patch->x[s] = out.x;
+        patch->y[s] = out.y;
+        return JOX_SIGHT_SOLID;
+    }
+    if (near < TOUCH) {
+        patch->on_edge |= (uint16_t)(1 << s);
+        return 0;
+    }
+    JoxFieldSight sight = nodes_seen(w, p);
+    if (near < f->clearance)
+        sight |= JOX_SIGHT_BY_WALL;
+    if (near > JOX_FIELD_AHEAD * f->size + JOX_FIELD_KEEP * f->clearance + TOUCH)
+        sight |= JOX_SIGHT_OPEN;
+    return sight;
+}
+
+void jox_field_look_about(JoxFieldWork *w) {
+    JoxField *f = w->f;
+    for (int i = 0; i < w->count; i++) {
+        bool clear = is_clear(w, i), edges = jox_field_has_edges(w, i);
+        f->cells[i].patch = clear ? JOX_FIELD_CLEAR : JOX_FIELD_PLAIN;
+        if (clear || !edges)
+            continue;
+        JOX_RESERVE(f->patches, f->patch_capacity, f->patch_count + 1);
+        f->cells[i].patch = (int32_t)f->patch_count;
+        f->patches[f->patch_count++] =
+            (JoxFieldPatch){.first = w->first[i], .count = w->first[i + 1] - w->first[i]};
+    }
+    JOX_ASSERT(f->patch_count <= (uint32_t)w->count);
+    w->patched = jox_alloc((size_t)f->patch_count + 1, sizeof *w->patched);
+    w->sight = jox_alloc((size_t)f->patch_count + 1, JOX_FIELD_SAMPLES * sizeof *w->sight);
+    for (int i = 0; i < w->count; i++) {
+        const int32_t p = f->cells[i].patch;
+        if (p < 0)
+            continue;
+        w->patched[p] = i;
+        for (int s = 0; s < JOX_FIELD_SAMPLES; s++)
+            w->sight[p * JOX_FIELD_SAMPLES + s] = look(w, &f->patches[p], i, s);
+    }
+}
