@@ -13,12 +13,6 @@ static const float SLOWING = 0.5f; /* more s/m right at a wall */
 /* A way round a corner cuts a little into the clearance between two nodes. */
 static const float CORNER = 0.85f;
 
-void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last) {
-    float a = floorf((from - low) / size), b = floorf((to - low) / size);
-    *first = a > (float)most ? most : a > 0.0f ? (int)a : 0;
-    *last = b < (float)most ? (b < 0.0f ? -1 : (int)b) : most - 1;
-}
-
 /* ---- edges by cell ---- */
 
 static void collect(JoxField *f, const JoxWalls *walls) {
@@ -133,62 +127,6 @@ static void fill_solids(JoxFieldWork *w, const JoxWalls *walls) {
         if (walls->rings[r].solid)
             fill_solid(w, walls, &walls->rings[r], x);
     jox_free(x);
-}
-
-/* ---- distances and sight ---- */
-
-float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 p, JoxV2 *at,
-                        uint32_t *edge) {
-    float least = INFINITY;
-    for (uint32_t k = first; k < last; k++) {
-        const JoxFieldEdge *e = &f->edges[f->refs[k]];
-        JoxV2 q = jox_segment_nearest(e->a, e->b, p);
-        float d2 = jox_length2(jox_sub(p, q));
-        if (d2 < least) {
-            least = d2;
-            if (at)
-                *at = q;
-            if (edge)
-                *edge = f->refs[k];
-        }
-    }
-    return least < INFINITY ? sqrtf(least) : INFINITY;
-}
-
-static float point_segment2(JoxV2 a, JoxV2 b, JoxV2 p) {
-    return jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
-}
-
-static bool edge_hides(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
-    if (jox_maxf(p.x, q.x) + least < jox_minf(e->a.x, e->b.x) ||
-        jox_minf(p.x, q.x) - least > jox_maxf(e->a.x, e->b.x) ||
-        jox_maxf(p.y, q.y) + least < jox_minf(e->a.y, e->b.y) ||
-        jox_minf(p.y, q.y) - least > jox_maxf(e->a.y, e->b.y))
-        return false;
-    float own2 = point_segment2(e->a, e->b, p);
-    if (own2 < 1e-6f)
-        return false; /* p lies upon it: seen from both its sides */
-    if (jox_segment_crossing(e->a, e->b, p, q) != 0)
-        return true;
-    float allowed2 = jox_minf(least * least, 0.81f * own2);
-    return point_segment2(e->a, e->b, q) < allowed2 || point_segment2(p, q, e->a) < allowed2 ||
-           point_segment2(p, q, e->b) < allowed2;
-}
-
-bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
-    const JoxField *f = w->f;
-    int steps = (int)ceilf(jox_length(jox_sub(q, p)) / f->size), before = -1;
-    for (int k = 0; k <= steps; k++) {
-        JoxV2 at = jox_add(p, jox_scale(jox_sub(q, p), steps ? (float)k / (float)steps : 0.0f));
-        int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
-        int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
-        int cell = r * f->columns + c;
-        for (uint32_t i = w->first[cell]; cell != before && i < w->first[cell + 1]; i++)
-            if (edge_hides(&f->edges[f->refs[i]], p, q, least))
-                return false;
-        before = cell;
-    }
-    return true;
 }
 
 /* ---- nodes and links ---- */

@@ -1,5 +1,5 @@
-/* Which cells have patches, and what the nine samples of each see between the walls: all that does
-   not change from one field over the same walls to the next. */
+/* What is near, and what can be seen between walls: which cells have patches, and of the nine
+   samples of each all that does not change from one field over the same walls to the next. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -7,6 +7,70 @@
 #include "geom/field/field_parts.h"
 
 static const float TOUCH = 1e-3f; /* m: samples so near an edge lie upon it, on neither side */
+
+/* ---- sight ---- */
+
+void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last) {
+    float a = floorf((from - low) / size), b = floorf((to - low) / size);
+    *first = a > (float)most ? most : a > 0.0f ? (int)a : 0;
+    *last = b < (float)most ? (b < 0.0f ? -1 : (int)b) : most - 1;
+}
+
+float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 p, JoxV2 *at,
+                        uint32_t *edge) {
+    float least = INFINITY;
+    for (uint32_t k = first; k < last; k++) {
+        const JoxFieldEdge *e = &f->edges[f->refs[k]];
+        JoxV2 q = jox_segment_nearest(e->a, e->b, p);
+        float d2 = jox_length2(jox_sub(p, q));
+        if (d2 < least) {
+            least = d2;
+            if (at)
+                *at = q;
+            if (edge)
+                *edge = f->refs[k];
+        }
+    }
+    return least < INFINITY ? sqrtf(least) : INFINITY;
+}
+
+static float point_segment2(JoxV2 a, JoxV2 b, JoxV2 p) {
+    return jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
+}
+
+static bool edge_hides(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
+    if (jox_maxf(p.x, q.x) + least < jox_minf(e->a.x, e->b.x) ||
+        jox_minf(p.x, q.x) - least > jox_maxf(e->a.x, e->b.x) ||
+        jox_maxf(p.y, q.y) + least < jox_minf(e->a.y, e->b.y) ||
+        jox_minf(p.y, q.y) - least > jox_maxf(e->a.y, e->b.y))
+        return false;
+    float own2 = point_segment2(e->a, e->b, p);
+    if (own2 < 1e-6f)
+        return false; /* p lies upon it: seen from both its sides */
+    if (jox_segment_crossing(e->a, e->b, p, q) != 0)
+        return true;
+    float allowed2 = jox_minf(least * least, 0.81f * own2);
+    return point_segment2(e->a, e->b, q) < allowed2 || point_segment2(p, q, e->a) < allowed2 ||
+           point_segment2(p, q, e->b) < allowed2;
+}
+
+bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
+    const JoxField *f = w->f;
+    int steps = (int)ceilf(jox_length(jox_sub(q, p)) / f->size), before = -1;
+    for (int k = 0; k <= steps; k++) {
+        JoxV2 at = jox_add(p, jox_scale(jox_sub(q, p), steps ? (float)k / (float)steps : 0.0f));
+        int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
+        int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
+        int cell = r * f->columns + c;
+        for (uint32_t i = w->first[cell]; cell != before && i < w->first[cell + 1]; i++)
+            if (edge_hides(&f->edges[f->refs[i]], p, q, least))
+                return false;
+        before = cell;
+    }
+    return true;
+}
+
+/* ---- patches ---- */
 
 static bool is_clear(const JoxFieldWork *w, int cell) {
     if (w->node[cell] != JOX_FIELD_MIDDLE)
