@@ -292,9 +292,10 @@ reference: all
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
            scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:core/cli/jostle.1
-# Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
+# Unit tests alone, each in a process of its own: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(B)/units
-	@$(B)/units $(notdir $(UNIT))
+	@failed=0; for u in $(notdir $(UNIT)); do $(B)/units $$u || failed=$$((failed + 1)); done; \
+	    echo "$(words $(UNIT)) tests, $$failed failed"; [ $$failed = 0 ]
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
