@@ -7,7 +7,11 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/internal.h"
+#include "force/kernels.h"
+
+#define X(name, isa) [isa] = jox_start_packets_##name,
+static JoxStartKernel *const STARTS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
@@ -22,18 +26,7 @@ typedef struct Pass {
 static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    const JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass];
-    const float dt = (float)f->step.dt;
-    for (uint32_t i = begin; i < end; i++) {
-        float lightness = 1.0f / mass[i];
-        f->lightness[i] = lightness;
-        JoxV2 force = jox_moving_force(a, i);
-        JoxV2 begins = {a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt};
-        /* What is no number stays with whom it came from, who is named when the step has ended. */
-        bool finite = isfinite(begins.x) && isfinite(begins.y);
-        f->work[i] = finite ? begins : jox_v2(0.0f, 0.0f);
-    }
+    STARTS[f->isa](f, begin, end);
 }
 
 static inline void move_by(JoxV2 *velocity, JoxV2 normal, float change) {
@@ -140,8 +133,8 @@ static void begin_solve(JoxForces *f) {
 }
 
 void jox_contacts_solve(JoxForces *f) {
-    JOX_RESERVE(f->work, f->work_capacity, f->step.agents->count);
-    JOX_RESERVE(f->lightness, f->lightness_capacity, f->step.agents->count);
+    JOX_RESERVE(f->work, f->work_capacity, f->step.agents->count + JOX_LANES);
+    JOX_RESERVE(f->lightness, f->lightness_capacity, f->step.agents->count + JOX_LANES);
     begin_solve(f);
     f->totals.passes = 0;
     float enough = f->options.tolerance * (float)f->step.dt, most = INFINITY;

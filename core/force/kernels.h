@@ -18,6 +18,12 @@ typedef void JoxFindKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxFindKernel jox_find_packets_##name;
 JOX_ISAS(X)
 #undef X
+/* What the solve of contacts begins with, of agents [begin, end): `work` and `lightness`, which
+   have room for whole blocks of JOX_LANES. */
+typedef void JoxStartKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxStartKernel jox_start_packets_##name;
+JOX_ISAS(X)
+#undef X
 /* Equations 10 to 12 of agents [begin, end), whole blocks of JOX_LANES, in physical mode. */
 typedef void JoxSumKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxSumKernel jox_sum_packets_##name;

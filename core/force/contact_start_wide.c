@@ -1,0 +1,30 @@
+/* The kernel of what the solve of contacts begins with: a lane is an agent. */
+#include <float.h>
+
+#include "force/kernels.h"
+#include "force/pushes_lanes.h"
+
+static inline JoxMask is_finite(JoxFloats x) {
+    return jf_le(jf_abs(x), jf_set(FLT_MAX));
+}
+
+/* The velocities that all but contacts gives by the end of the step, and 1 / mass. What is no
+   number stays with whom it came from, who is named when the step has ended. */
+void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
+    const JoxAgents *a = f->step.agents;
+    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const JoxFloats lightness = jf_div(jf_set(1.0f), jf_load(a->param[JOX_PARAM_mass] + i));
+        const JoxVector unheld =
+            jox_unheld_lanes(a, i, jox_others_lanes(a, i), jox_stands_lanes(a, i));
+        const JoxVector force = jv_add(jv_load(a->ext_x, a->ext_y, i), unheld);
+        const JoxVector change = jv_scale(jv_scale(force, lightness), dt);
+        const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
+        const JoxMask finite = jm_and(is_finite(begins.x), is_finite(begins.y));
+        float x[JOX_WIDTH], y[JOX_WIDTH];
+        jf_store(f->lightness + i, lightness);
+        jv_store(x, y, 0, jv_select(finite, begins, (JoxVector){zero, zero}));
+        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+            f->work[i + lane] = (JoxV2){x[lane], y[lane]};
+    }
+}
