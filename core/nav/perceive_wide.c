@@ -36,8 +36,8 @@ typedef struct Packet {
     float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
     float scale[JOX_LANES];            /* from squared distances to fixed point, 1/m2 */
     uint32_t count[JOX_LANES];         /* within the radius */
-    uint32_t index[JOX_LANES * LIST];  /* lists, lane after lane */
-    float distance2[JOX_LANES * LIST]; /* m2 */
+    uint32_t index[JOX_WIDTH * LIST];  /* lists, lane after lane */
+    float distance2[JOX_WIDTH * LIST]; /* m2 */
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
 } Packet;
 
@@ -257,6 +257,8 @@ static Found read_keys(const Packet *packet, JoxInts most) {
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxFloats key = packet->keys[k], next = packet->keys[k + 1];
         const JoxMask wanted = ji_less(ji_set((int32_t)k), most), there = jf_lt(key, none);
+        if (!jm_bits(there))
+            break; /* of a sparse crowd */
         f.count = ji_select(jm_and(wanted, there), ji_set((int32_t)k + 1), f.count);
         JoxMask last = jm_and(ji_equal(most, ji_set((int32_t)k + 1)), there);
         f.full = jm_or(f.full, last);
@@ -290,6 +292,8 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_bytes(p->out->count + packet->first, mask, f->count);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask kept = jm_and(mask, ji_less(ji_set((int32_t)k), f->count));
+        if (!jm_bits(kept))
+            break;
         const size_t at = jox_neighbour_at(p->out, packet->first, k);
         const JoxInts listed = listed_at(jf_bits(packet->keys[k]));
         store_floats(p->out->distance2 + at, kept, jf_pick(packet->distance2, listed));
