@@ -6,6 +6,7 @@ set -u
 cd "$(dirname "$0")/../.."
 B=${B:-build/fuzz} TIME=${TIME:-60}
 . tests/fuzz/seeds.sh
+[ -w /dev/shm ] && export TMPDIR=${TMPDIR:-/dev/shm} # a file for each input: a disk would be waited for
 status=0
 mkdir -p "$B/findings"
 TIMEFORMAT='%U %S'

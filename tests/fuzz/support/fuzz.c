@@ -10,7 +10,7 @@
 #include "base/text.h"
 
 enum { PATHS = 4 };
-static char folder[64];
+static char folder[128];
 
 void fuzz_failed(const char *condition, const char *file, int line) {
     fprintf(stderr, "%s:%d: does not hold: %s\n", file, line, condition);
@@ -42,7 +42,10 @@ const char *fuzz_path(const char *name) {
     static char paths[PATHS][256];
     static int next;
     if (!*folder) {
-        strcpy(folder, "/tmp/jostle-fuzz-XXXXXX");
+        const char *outer = getenv("TMPDIR");
+        if (!outer || !*outer || strlen(outer) > sizeof folder / 2)
+            outer = "/tmp";
+        snprintf(folder, sizeof folder, "%s/jostle-fuzz-XXXXXX", outer);
         if (!mkdtemp(folder))
             abort();
         atexit(remove_folder);
