@@ -96,6 +96,7 @@ static bool ends_with(const char *path, const char *ending) {
 static void read_target(JoxModsFind *f, JoxModPatch *patch) {
     JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
     files->plain = true;
+    files->role = JOX_YAML_PATCH;
     JoxYaml *root =
         jox_yaml_load(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
     const JoxYaml *target = jox_yaml_get(root, "patch");
@@ -171,6 +172,7 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     char *path = jox_mods_join(r->arena, folder, "mod.yaml");
     JoxYamlFiles *files = jox_arena_take(r->arena, 1, sizeof *files);
     files->plain = true;
+    files->role = JOX_YAML_MOD;
     size_t errors = r->diagnostics->errors;
     JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
                         ? jox_yaml_load(r->arena, path, NULL, 0, files, r->diagnostics)

@@ -105,6 +105,7 @@ mod later "load_after: [zeta]" stander.lua 'return patch "stander" { defaults = 
 mod zeta "" stander.lua 'return patch "stander" { defaults = { mass = 80 } }'
 on; (cd "$tree" && "$program" mod list scenes/yard.yaml) | grep -q '^3. later'; verdict "load_after comes after" $?
 mod later "apii: 1" ; says "a misspelt key of mod.yaml" 3 "later/mod.yaml:4:1: unknown key 'apii'" bash -c "cd $tree && $program mod check scenes/mods/later"
+: >"$tree/scenes/mods/later/mod.yaml"; says "an empty one is spoken of as what it is" 3 "later/mod.yaml:1:1: this file of a mod is empty. Example: {name: calm," bash -c "cd $tree && $program mod check scenes/mods/later"
 printf 'name: later\nversion: 1.0\napi: 2\n' >"$tree/scenes/mods/later/mod.yaml"; says "another api" 3 "later/mod.yaml:3:6: api must be from 1 to 1" bash -c "cd $tree && $program mod check scenes/mods/later"
 rm -r "$tree/scenes/mods/later" "$tree/scenes/mods/zeta"
 mod links ""; ln -s /etc/passwd "$tree/scenes/mods/links/patches/stander.lua"

@@ -203,6 +203,7 @@ typedef struct Parse {
     yaml_parser_t parser;
     yaml_event_t events[DEEPEST + 3]; /* by depth; one that is not in use is all zero */
     const char *path, *text;
+    JoxYamlRole role;
     size_t length; /* of the text */
     Anchor anchors[256];
     uint32_t anchor_count;
@@ -219,6 +220,22 @@ static void fail(Parse *p, JoxPosition at, const char *code, const char *text, c
     if (!p->failed)
         jox_diag_error(p->diagnostics, at, code, hint, "%s", text);
     p->failed = true;
+}
+
+/* Of a text that is no map. */
+static void fail_whole(Parse *p, bool empty) {
+    static const struct {
+        const char *empty, *other, *hint;
+    } SAY[] = {
+        [JOX_YAML_SCENE] = {"the scene is empty", "a scene must be a map of keys",
+                            "See scenes/circle.yaml"},
+        [JOX_YAML_MOD] = {"this file of a mod is empty", "a mod.yaml must be a map of keys",
+                          "Example: {name: calm, version: 1.0.0, api: 1}"},
+        [JOX_YAML_PATCH] = {"this patch is empty", "a patch must be a map of keys",
+                            "Example: {patch: tawaf, duration: 60}"},
+    };
+    fail(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
+         empty ? SAY[p->role].empty : SAY[p->role].other, SAY[p->role].hint);
 }
 
 /* Whether a line is indented by a tab, of which YAML allows none there. */
@@ -380,7 +397,7 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
                       event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_SCALAR_EVENT;
         if (starts && root)
             fail(p, mark(p, event->start_mark, event->end_mark), "bad-yaml",
-                 "a scene is one document; this is a second", NULL);
+                 "a file is one document; this is a second", NULL);
         if (starts && !p->failed)
             root = parse_node(p, event, 0);
         else
@@ -390,11 +407,8 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
     }
     jox_let_go(p);
     release_parse(p);
-    if (!p->failed && (!root || root->kind != JOX_YAML_MAP)) {
-        fail(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
-             root ? "a scene must be a map of keys" : "the scene is empty",
-             "See scenes/circle.yaml");
-    }
+    if (!p->failed && (!root || root->kind != JOX_YAML_MAP))
+        fail_whole(p, !root);
     return p->failed ? NULL : root;
 }
 
@@ -471,6 +485,7 @@ static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t
     parse->arena = arena;
     parse->diagnostics = diagnostics;
     parse->path = file->path;
+    parse->role = files->role;
     JoxYaml *root = parse_text(parse, file->text, length);
     jox_free(parse);
     if (root)

@@ -32,9 +32,12 @@ typedef struct JoxYamlFile {
     char *text;
     size_t length;
 } JoxYamlFile;
+/* What messages call a file. */
+typedef enum JoxYamlRole { JOX_YAML_SCENE, JOX_YAML_MOD, JOX_YAML_PATCH } JoxYamlRole;
 typedef struct JoxYamlFiles {
     JoxYamlFile items[64];
     uint32_t count;
+    JoxYamlRole role;
     bool
         plain; /* of a mod, which is not trusted: only files beside it are included, and no links */
 } JoxYamlFiles;
