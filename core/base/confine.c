@@ -106,6 +106,14 @@ bool jox_confine_limits(const JoxConfines *confines) {
            (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory, 0));
 }
 
+size_t jox_confine_memory_left(void) {
+    struct rlimit now;
+    const size_t size = size_now();
+    if (getrlimit(RLIMIT_AS, &now) != 0 || now.rlim_cur == RLIM_INFINITY)
+        return 0;
+    return now.rlim_cur > size ? now.rlim_cur - size : 1;
+}
+
 bool jox_confine(const JoxConfines *confines) {
     const JoxConfining can = jox_confine_can();
     const bool good = limit(RLIMIT_CORE, 0, 0) && jox_confine_limits(confines) &&

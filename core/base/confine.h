@@ -41,4 +41,7 @@ bool jox_confine(const JoxConfines *confines);
 /* Of these the limits alone: memory, processor time, sizes and numbers of files. */
 bool jox_confine_limits(const JoxConfines *confines);
 
+/* Bytes that this process may take yet by its limit of memory, 1 at least; 0: it has none. */
+size_t jox_confine_memory_left(void);
+
 #endif

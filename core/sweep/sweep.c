@@ -312,7 +312,7 @@ static bool go(Sweep *s, char **summary, JoError *error) {
     const uint32_t jobs = s->def->jobs ? s->def->jobs : each ? each : 1;
     s->heard = jox_alloc(s->plan.variant_count, sizeof *s->heard);
     s->begun = jox_clock_wall();
-    JoxChildren *children = jox_children_create(jobs);
+    JoxChildren *children = jox_children_create(jobs < s->count ? jobs : s->count ? s->count : 1);
     const bool good = run_all(s, children, error);
     jox_children_free(children);
     show_progress(s, 0, true);

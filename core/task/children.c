@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/confine.h"
 #include "base/file.h"
 #include "base/mem.h"
 
@@ -27,6 +28,7 @@ typedef struct Child {
 struct JoxChildren {
     Child *all;
     uint32_t most, count;
+    size_t memory; /* bytes that each may take besides what it has; 0: any */
 };
 
 static void forget(JoxChildren *c, Child *child) {
@@ -54,6 +56,7 @@ JoxChildren *jox_children_create(uint32_t most) {
     JoxChildren *c = jox_alloc(1, sizeof *c);
     c->all = jox_alloc(most, sizeof *c->all);
     c->most = most;
+    c->memory = most > 1 ? jox_confine_memory_left() / most : 0;
     return jox_hold(c, end_all);
 }
 
@@ -75,7 +78,8 @@ uint32_t jox_children_count(const JoxChildren *c) {
 }
 
 /* Does not return. */
-static void work_on(const Child *child, pid_t parent, JoxChildWork *work, void *context) {
+static void work_on(const Child *child, size_t memory, pid_t parent, JoxChildWork *work,
+                    void *context) {
     JoxRecovery recovery;
     JoxText result = {0};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -88,6 +92,7 @@ static void work_on(const Child *child, pid_t parent, JoxChildWork *work, void *
     dup2(nothing, 0);
     dup2(nothing, 1);
     dup2(child->said, 2);
+    jox_confine_limits(&(JoxConfines){.memory = memory, .works = true});
     jox_heap_use(NULL);
     jox_recovery_push(&recovery);
     if (setjmp(recovery.jump) != 0)
@@ -109,7 +114,7 @@ bool jox_children_start(JoxChildren *c, uint64_t job, JoxChildWork *work, void *
     fflush(NULL);
     const pid_t process = fresh.result >= 0 && fresh.said >= 0 ? fork() : -1;
     if (process == 0)
-        work_on(&fresh, parent, work, context);
+        work_on(&fresh, c->memory, parent, work, context);
     if (process < 0) {
         const int why = errno;
         close(fresh.result);

@@ -10,8 +10,8 @@
 
 typedef struct JoxChildren JoxChildren;
 
-/* At most so many at once. Those that run are ended with the heap that fails (mem.h), or with this
-   process. Never NULL. */
+/* At most so many at once, among which the memory is shared that this process may take yet. Those
+   that run are ended with the heap that fails (mem.h), or with this process. Never NULL. */
 JoxChildren *jox_children_create(uint32_t most);
 /* Ends those that run. */
 void jox_children_free(JoxChildren *children);

@@ -106,6 +106,11 @@ kill $runs; wait $runs
 bounded "a sweep has its limits" $runs
 alike "  and so has each of its runs" $runs
 kill $runs; wait $runs
+memory_of() { limits_of "$1" | sed -n 's/Max address space \([0-9]*\).*/\1/p'; }
+shares() { local of=$(memory_of "$(child_of "$1")"); [ -n "$of" ] && [ "$((of * 9 / 5))" -lt "$(memory_of "$1")" ]; }
+"$program" sweep inner/large.yaml --seeds 2 --for 1e6 --jobs 2 --out inner/sweep.sqlite --quiet 2>/dev/null & runs=$!
+soon shares $runs; verdict "  but for memory, which those that run at once share" $?
+kill $runs; wait $runs
 says "a run of a sweep that takes all its processor time says so, and is one that failed" 1 \
     "large.yaml, seed 1 failed: it took the processor time that its process may" \
     prlimit --cpu=6 "$program" sweep inner/large.yaml --seeds 1 --for 1e6 --out inner/late.sqlite
