@@ -177,6 +177,8 @@ static void say_ended(CliVetted *what, int end, int status, const struct rusage 
         jox_text_printf(
             why, "was ended from outside, as systems that run out of memory do (it had %ld MB)",
             usage->ru_maxrss >> 10);
+    else if (number == SIGINT || number == SIGTERM)
+        jox_text_add(why, "was interrupted");
     else if (number == SIGSYS)
         jox_text_add(why, "tried to start a program or to reach the network");
     else if (number)

@@ -6,6 +6,8 @@
 #include "base/guard.h"
 #include "run/run.h"
 
+enum { MOST_ALIKE = 20 }; /* variants that are refused for one reason, before any loads */
+
 JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant, uint64_t seed) {
     JoSceneDef scene = def->scene;
     const char **sets = jox_alloc(scene.override_count + variant->set_count + 1, sizeof *sets);
@@ -61,10 +63,27 @@ static char *reason_of(const JoError *error) {
     return text.data;
 }
 
+/* Whether to go on reading after `read` variants, of which `alike` were refused for one reason and
+   none loaded: thousands that fail alike would be read for minutes. */
+static bool is_to_go_on(const JoSweepDef *def, uint32_t alike, uint32_t read, uint32_t all,
+                        JoError *error) {
+    if (def->stop && __atomic_load_n(def->stop, __ATOMIC_RELAXED)) {
+        jox_error(error, JO_FAILED,
+                  "interrupted while it read the variants, %u of %u; none was run", read, all);
+        return false;
+    }
+    if (alike < MOST_ALIKE || read == all)
+        return true;
+    jox_error(error, JO_INPUT,
+              "the first %u of %u variants do not load, all for the same reason: %s", alike, all,
+              "mend that, or give others first");
+    return false;
+}
+
 bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
                            const char *const *names, JoxOverlay *files, char **refused,
                            JoError *error) {
-    uint32_t loaded = 0, first = plan->variant_count;
+    uint32_t loaded = 0, alike = 0, first = plan->variant_count;
     for (uint32_t v = 0; v < plan->variant_count; v++) {
         JoError why = {0};
         if (def->only && (def->only - 1) / plan->seeds != v)
@@ -73,6 +92,8 @@ bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
         const bool good = is_vetted(def, &scene, &why) && load(def, &scene, files, &why);
         jox_free((void *)(uintptr_t)scene.overrides);
         loaded += good;
+        if (!is_to_go_on(def, 0, v, plan->variant_count, error))
+            return false;
         if (good)
             continue;
         if (why.code == JO_FAILED) { /* not for what it says */
@@ -81,6 +102,9 @@ bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
         }
         refused[v] = reason_of(&why);
         first = v < first ? v : first;
+        alike += loaded == 0 && alike == v && !strcmp(refused[v], refused[0]);
+        if (!is_to_go_on(def, alike, v + 1, plan->variant_count, error))
+            return false;
     }
     files->sealed = true;
     if (loaded == 0 && !def->only)

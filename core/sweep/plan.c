@@ -1,5 +1,6 @@
 /* Which runs a sweep has: every combination of the values that its settings take. */
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/guard.h"
@@ -41,14 +42,24 @@ static bool add_value(JoxSweepAxis *axis, const char *set, const char *from, con
     if (from == to)
         return refuse(error, set, "a value of the list is empty: PATH=A,B,C");
     char *value = jox_strndup(from, (size_t)(to - from));
-    for (uint32_t v = 0; v < axis->count; v++)
-        if (strcmp(axis->values[v], value) == 0) {
-            jox_free(value);
-            return refuse(error, set, "a value stands in the list twice");
-        }
     JOX_RESERVE(axis->values, axis->capacity, axis->count + 1);
     axis->values[axis->count++] = value;
     return true;
+}
+
+static int compare_values(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static bool has_twice(const JoxSweepAxis *axis) {
+    char **sorted = jox_alloc(axis->count, sizeof *sorted);
+    bool twice = false;
+    memcpy(sorted, axis->values, axis->count * sizeof *sorted);
+    qsort(sorted, axis->count, sizeof *sorted, compare_values);
+    for (uint32_t v = 1; v < axis->count; v++)
+        twice |= strcmp(sorted[v - 1], sorted[v]) == 0;
+    jox_free(sorted);
+    return twice;
 }
 
 static bool read_axis(JoxSweepAxis *axis, const char *set, JoError *error) {
@@ -63,8 +74,9 @@ static bool read_axis(JoxSweepAxis *axis, const char *set, JoError *error) {
         if (!add_value(axis, set, at, end, error))
             return false;
         if (!*end)
-            return true;
+            break;
     }
+    return !has_twice(axis) || refuse(error, set, "a value stands in the list twice");
 }
 
 static bool read_axes(JoxSweepPlan *plan, const char *const *sets, size_t count, JoError *error) {
@@ -157,12 +169,36 @@ static bool same_line(const char *a, const char *b) {
     return !a == !b && n == m && strncmp(a ? a : "", b ? b : "", n) == 0;
 }
 
-/* Whether the variants differ in what they set a path to. */
-static bool differs(const char *const *keys, uint32_t count, const char *path, size_t length) {
-    for (uint32_t k = 1; k < count; k++)
-        if (!same_line(line_of(keys[k], path, length), line_of(keys[0], path, length)))
+/* The paths that keys set, each once. */
+typedef struct Path {
+    const char *text;
+    size_t length;
+    bool differs; /* keys differ in what they set it to */
+} Path;
+typedef struct Paths {
+    const char *const *keys;
+    uint32_t key_count;
+    Path *items;
+    size_t count, capacity;
+} Paths;
+
+static bool differ(const Paths *paths, const char *path, size_t length) {
+    const char *first = line_of(paths->keys[0], path, length);
+    for (uint32_t k = 1; k < paths->key_count; k++)
+        if (!same_line(line_of(paths->keys[k], path, length), first))
             return true;
     return false;
+}
+
+/* Whether the variants differ in what they set a path to: found out once for each. */
+static bool differs(Paths *paths, const char *path, size_t length) {
+    for (size_t p = 0; p < paths->count; p++)
+        if (paths->items[p].length == length && !memcmp(paths->items[p].text, path, length))
+            return paths->items[p].differs;
+    JOX_RESERVE(paths->items, paths->capacity, paths->count + 1);
+    Path *fresh = &paths->items[paths->count++];
+    *fresh = (Path){path, length, differ(paths, path, length)};
+    return fresh->differs;
 }
 
 /* Where the last name of a path that ends at `end` begins. */
@@ -182,15 +218,14 @@ static const char *tail_of(const char *path, size_t length) {
 }
 
 /* Whether another path of the key that makes a difference has the same end. */
-static bool shares_tail(const char *const *keys, uint32_t count, const char *key, const char *path,
-                        size_t length) {
+static bool shares_tail(Paths *paths, const char *key, const char *path, size_t length) {
     const char *tail = tail_of(path, length);
     const size_t size = (size_t)(path + length - tail);
     for (const char *line = key; *line;) {
         const size_t n = strcspn(line, "=");
         const char *other = tail_of(line, n);
         if (line != path && (size_t)(line + n - other) == size && memcmp(other, tail, size) == 0 &&
-            differs(keys, count, line, n))
+            differs(paths, line, n))
             return true;
         line += strcspn(line, "\n");
         line += *line == '\n';
@@ -199,13 +234,13 @@ static bool shares_tail(const char *const *keys, uint32_t count, const char *key
 }
 
 void jox_sweep_names(const char *const *keys, uint32_t count, char **names) {
+    Paths paths = {.keys = keys, .key_count = count};
     for (uint32_t k = 0; k < count; k++) {
         JoxText name = {0};
         for (const char *line = keys[k]; *line;) {
             const size_t n = strcspn(line, "="), all = strcspn(line, "\n");
-            if (differs(keys, count, line, n)) {
-                const char *from =
-                    shares_tail(keys, count, keys[k], line, n) ? line : tail_of(line, n);
+            if (differs(&paths, line, n)) {
+                const char *from = shares_tail(&paths, keys[k], line, n) ? line : tail_of(line, n);
                 jox_text_printf(&name, "%s%.*s", name.length ? ", " : "", (int)(line + all - from),
                                 from);
             }
@@ -214,4 +249,5 @@ void jox_sweep_names(const char *const *keys, uint32_t count, char **names) {
         }
         names[k] = name.data ? name.data : jox_strdup("");
     }
+    jox_free(paths.items);
 }

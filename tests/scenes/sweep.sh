@@ -84,6 +84,13 @@ grep -q 'seed 1 failed: its process was ended by signal 9' "$work/out"; verdict 
 expect "a path that is none" 3 "Did you mean 'count'?" "$program" sweep $scene --set groups.hall.cuont=1,2 --out x.sqlite
 expect "  of variants that are named" 3 "the variant count=few does not load" "$program" sweep $scene --set 'groups.hall.count=few,a lot' --out x.sqlite
 [ ! -e x.sqlite ]; verdict "  no file is made" $?
+many=$(seq -s, 20000)
+expect "thousands that fail alike are not all read" 3 "the first 20 of 20000 variants do not load, all for the same reason" timeout 60 "$program" sweep $scene --set groups.hall.cuont="$many" --out x.sqlite --quiet
+[ "$(grep -c 'cuont' "$work/out")" -le 20 ]; verdict "  nor said" $?
+timeout -s INT 2 "$program" sweep $scene --set groups.hall.count="$many" --out x.sqlite --quiet 2>err & pid=$!
+( sleep 20; kill -KILL $pid 2>/dev/null ) & guard=$!
+wait $pid; kill $guard 2>/dev/null
+grep -q 'interrupted while it read the variants, [0-9]* of 20000; none was run' err && [ ! -e x.sqlite ]; verdict "thousands that load are read until one interrupts" $?
 expect "one variant that does not load is a row" 1 "3 runs with figures, 3 failed" "$program" sweep $scene --set 'groups.hall.count=a lot,5' --steps 1 --seeds 3 --out partly.sqlite
 [ "$(sqlite3 partly.sqlite "select count(*) from run join variant on id = variant where settings like '%a lot' and state = 'failed' and reason like '%it does not load: %a lot%'")" = 3 ]; verdict "  that says why" $?
 expect "  and of the rest there is a page" 0 "partly: count=5" "$program" compare partly.sqlite whole.sqlite --base 2 --out partly

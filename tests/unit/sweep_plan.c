@@ -4,10 +4,12 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "base/clock.h"
 #include "base/format/pieces.h"
 #include "base/mem.h"
 #include "sweep/sweep.h"
@@ -76,6 +78,28 @@ static void names_say_what_differs(void **state) {
     check_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
 }
 
+/* Each name compared with every other would take minutes. */
+static void names_of_many_take_no_longer_each(void **state) {
+    enum { MANY = 50000, BYTES = 48 };
+    (void)state;
+    char *bytes = jox_alloc(MANY, BYTES);
+    const char **keys = jox_alloc(MANY, sizeof *keys);
+    char **names = jox_alloc(MANY, sizeof *names);
+    for (uint32_t k = 0; k < MANY; k++) {
+        keys[k] = bytes + (size_t)k * BYTES;
+        snprintf(bytes + (size_t)k * BYTES, BYTES, "a.b=5\na.c=6\na.n=%u\nc.b=7", k);
+    }
+    const double begun = jox_clock_cpu();
+    jox_sweep_names(keys, MANY, names);
+    assert_true(jox_clock_cpu() - begun < 5.0);
+    assert_string_equal(names[MANY - 1], "n=49999");
+    for (uint32_t k = 0; k < MANY; k++)
+        jox_free(names[k]);
+    jox_free(names);
+    jox_free(keys);
+    jox_free(bytes);
+}
+
 static void curves_and_fields_come_back(void **state) {
     (void)state;
     char curve_name[] = "people inside", field_name[] = "density", unit[] = "1/m2", none[] = "";
@@ -112,6 +136,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_combination_is_a_variant),
                                        cmocka_unit_test(lists_that_are_none_are_refused),
                                        cmocka_unit_test(names_say_what_differs),
+                                       cmocka_unit_test(names_of_many_take_no_longer_each),
                                        cmocka_unit_test(curves_and_fields_come_back)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
