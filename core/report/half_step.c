@@ -31,8 +31,7 @@ static bool same_files(const JoScene *a, const JoScene *b) {
 static bool begin_report(JoScene *scene, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
-    jox_run_collect_danger(scene);
-    return true;
+    return jox_run_collect_danger(scene, error);
 }
 
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {

@@ -40,8 +40,7 @@ static bool begin(void *self, JoScene *scene, const void *folder, JoError *error
     }
     r->scene = scene;
     r->folder = jox_strdup(folder);
-    jox_run_collect_danger(scene);
-    return true;
+    return jox_run_collect_danger(scene, error);
 }
 
 static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, JoError *error) {

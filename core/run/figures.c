@@ -19,9 +19,10 @@ static void *held(const JoScene *scene, const JoxListenerKind *kind) {
     return self ? *self : NULL;
 }
 
-static void collect(JoScene *scene, const JoxListenerKind *kind, const void *options) {
-    if (!jox_run_listener(scene, kind))
-        jox_run_listen(scene, kind, options, NULL);
+/* False with `error` where a resumed scene has nothing sound of it. */
+static bool collect(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                    JoError *error) {
+    return jox_run_listener(scene, kind) || jox_run_listen(scene, kind, options, error);
 }
 
 /* ---- regions: in every scene that has some ---- */
@@ -64,7 +65,7 @@ static const JoxListenerKind REGIONS = {.name = "speeds of regions",
 
 void jox_run_collect_regions(JoScene *scene) {
     if (scene->spec->region_count)
-        collect(scene, &REGIONS, NULL);
+        collect(scene, &REGIONS, NULL, NULL);
 }
 
 const JoxRegions *jox_run_regions(const JoScene *scene) {
@@ -106,8 +107,8 @@ static const JoxListenerKind LOCAL = {.name = "density",
                                       .goes_on = true,
                                       .release = local_release};
 
-void jox_run_collect_local(JoScene *scene) {
-    collect(scene, &LOCAL, NULL);
+bool jox_run_collect_local(JoScene *scene, JoError *error) {
+    return collect(scene, &LOCAL, NULL, error);
 }
 
 const JoxLocal *jox_run_local(const JoScene *scene) {
@@ -115,8 +116,8 @@ const JoxLocal *jox_run_local(const JoScene *scene) {
 }
 
 const JoxLocal *jox_run_want_pressure(JoScene *scene) {
-    jox_run_collect_local(scene);
-    jox_local_want_pressure(held(scene, &LOCAL));
+    if (jox_run_collect_local(scene, NULL))
+        jox_local_want_pressure(held(scene, &LOCAL));
     return jox_run_local(scene);
 }
 
@@ -176,12 +177,11 @@ static const JoxListenerKind DANGER = {.name = "danger",
 
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
     DangerArea area = {low, high};
-    collect(scene, &DANGER, &area);
+    collect(scene, &DANGER, &area, NULL);
 }
 
-void jox_run_collect_danger(JoScene *scene) {
-    jox_run_collect_local(scene);
-    collect(scene, &DANGER, NULL);
+bool jox_run_collect_danger(JoScene *scene, JoError *error) {
+    return jox_run_collect_local(scene, error) && collect(scene, &DANGER, NULL, error);
 }
 
 const JoxDanger *jox_run_danger(const JoScene *scene) {

@@ -169,7 +169,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
         if (!def->no_density)
-            jox_run_collect_local(scene);
+            jox_run_collect_local(scene, NULL);
         jox_run_collect_standing(scene);
         jox_run_collect_probes(scene);
     }

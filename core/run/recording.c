@@ -200,6 +200,8 @@ static void list_sections(void *self, JoxSections *s) {
     Recording *r = self;
     size_t shapes = r->shape_capacity, borne = r->borne_capacity;
     JOX_SECTION(s, "every", r->every);
+    if (r->every == 0)
+        jox_sections_fail(s, "every", "frames are a step apart at least");
     JOX_SECTION(s, "base", r->base);
     JOX_SECTION(s, "next", r->next);
     JOX_SECTION_ARRAY(s, "shapes", r->shapes, shapes, r->shape_capacity);

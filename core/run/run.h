@@ -188,10 +188,11 @@ void jox_run_free_frame(JoScene *scene);
    every step where that is longer. */
 bool jox_run_is_due(const JoScene *scene, double interval);
 /* Attaches what collects figures, if it is not there yet, from here on; and what has
-   been collected so far, or NULL. Regions and probes: of scenes that have some. */
+   been collected so far, or NULL. Regions and probes: of scenes that have some. False with `error`
+   where the checkpoint that the scene was resumed from has something of it that is not sound. */
 void jox_run_collect_regions(JoScene *scene);
-void jox_run_collect_local(JoScene *scene);
-void jox_run_collect_danger(JoScene *scene);
+bool jox_run_collect_local(JoScene *scene, JoError *error);
+bool jox_run_collect_danger(JoScene *scene, JoError *error);
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
 const JoxRegions *jox_run_regions(const JoScene *scene);
 /* Local densities, which every run samples that is not told to do without. */

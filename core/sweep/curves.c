@@ -130,8 +130,8 @@ static const JoxListenerKind CURVES = {.name = "curves and fields",
                                        .release = release};
 
 bool jox_sweep_collect(JoScene *scene, double seconds, JoError *error) {
-    jox_run_collect_danger(scene); /* and densities, before the curves are drawn of them */
-    return jox_run_listen(scene, &CURVES, &seconds, error) != NULL;
+    return jox_run_collect_danger(scene, error) && /* and densities, of which curves are drawn */
+           jox_run_listen(scene, &CURVES, &seconds, error);
 }
 
 /* ---- fields ---- */
