@@ -21,8 +21,10 @@ typedef struct Scene {
     JoScene *scene; /* NULL: closed */
     char *said;     /* what the library said since it was last asked, MOST_SAID bytes at most */
     size_t said_length;
-    int heard; /* registry: the function that texts for people are given to, or LUA_NOREF */
+    bool recorded; /* or was */
 } Scene;
+/* Its user value is the function that texts for people are given to, or nil: not in the registry,
+   from which one that knows the scene would never be collected. */
 
 /* ---- messages and errors ---- */
 
@@ -40,16 +42,17 @@ static void hear(void *context, const char *text) {
     s->said_length += length;
 }
 
-/* Gives what was said to `message`, or to stderr. */
-static void tell(lua_State *L, Scene *s) {
+/* Gives what was said by the scene at `at` of the stack to `message`, which may do anything with
+   the scene, or to stderr. */
+static void tell(lua_State *L, Scene *s, int at) {
     if (!s->said_length)
         return;
-    if (s->heard == LUA_NOREF) {
+    if (lua_getiuservalue(L, at, 1) != LUA_TFUNCTION) {
+        lua_pop(L, 1);
         fputs(s->said, stderr);
         s->said_length = 0;
         return;
     }
-    lua_rawgeti(L, LUA_REGISTRYINDEX, s->heard);
     lua_pushlstring(L, s->said, s->said_length);
     s->said_length = 0;
     lua_call(L, 1, 0);
@@ -72,7 +75,7 @@ static JoWorld *world_at(lua_State *L) {
 }
 
 static int done(lua_State *L, Scene *s, bool good, const JoError *error) {
-    tell(L, s);
+    tell(L, s, 1);
     if (!good)
         return fail(L, error);
     lua_settop(L, 1); /* the scene, for the next call */
@@ -140,6 +143,15 @@ static void refuse_others(lua_State *L) {
     }
 }
 
+/* An option that is a whole number, at the top of the stack. */
+static lua_Integer whole(lua_State *L, const char *name) {
+    int good = 0;
+    const lua_Integer number = lua_tointegerx(L, -1, &good);
+    if (!good)
+        luaL_error(L, "%s must be a whole number", name);
+    return number;
+}
+
 /* jostle.scene(PATH [, {seed = 1, step = 0.05, threads = 1, isa = "avx2", mods = {...},
    set = {["groups.people.count"] = 50}, message = function(text) end}]) */
 static int load(lua_State *L) {
@@ -156,11 +168,11 @@ static int load(lua_State *L) {
     refuse_others(L);
     lua_newtable(L); /* 3: keeps the texts of sets */
     if ((def.has_seed = option(L, "seed", LUA_TNUMBER)))
-        def.seed = (uint64_t)luaL_checkinteger(L, -1);
+        def.seed = (uint64_t)whole(L, "seed");
     if ((def.has_dt = option(L, "step", LUA_TNUMBER)))
         def.dt = lua_tonumber(L, -1);
     if (option(L, "threads", LUA_TNUMBER)) {
-        const lua_Integer threads = luaL_checkinteger(L, -1);
+        const lua_Integer threads = whole(L, "threads");
         luaL_argcheck(L, threads >= 1 && threads <= 64, 2, "threads are 1 to 64");
         def.threads = (uint32_t)threads;
     }
@@ -172,13 +184,11 @@ static int load(lua_State *L) {
     def.mods = mods;
     if (option(L, "mods", LUA_TTABLE))
         def.mod_count = read_list(L, mods);
-    Scene *s = lua_newuserdatauv(L, sizeof *s, 0);
-    *s = (Scene){.heard = LUA_NOREF};
+    Scene *s = lua_newuserdatauv(L, sizeof *s, 1);
+    *s = (Scene){0};
     luaL_setmetatable(L, TYPE);
-    if (option(L, "message", LUA_TFUNCTION))
-        s->heard = luaL_ref(L, LUA_REGISTRYINDEX);
-    else
-        lua_pop(L, 1);
+    option(L, "message", LUA_TFUNCTION);
+    lua_setiuservalue(L, -2, 1);
     def.message = hear;
     def.message_context = s;
     s->scene = jo_scene_load(&def, &error);
@@ -190,15 +200,16 @@ static int load(lua_State *L) {
     }
     if (!s->scene)
         return fail(L, &error);
-    tell(L, s);
+    tell(L, s, lua_gettop(L));
     return 1;
 }
 
-static void release(lua_State *L, Scene *s) {
-    jo_scene_free(s->scene);
+static void release(Scene *s) {
+    JoScene *scene = s->scene;
+    s->scene = NULL;
+    jo_scene_free(scene);
     free(s->said);
-    luaL_unref(L, LUA_REGISTRYINDEX, s->heard);
-    *s = (Scene){.heard = LUA_NOREF};
+    *s = (Scene){0};
 }
 
 /* scene:close() ends its recording, too, and says what went wrong with that. */
@@ -206,12 +217,13 @@ static int close(lua_State *L) {
     Scene *s = luaL_checkudata(L, 1, TYPE);
     JoError error = {0};
     const bool good = !s->scene || jo_scene_finish(s->scene, &error);
-    release(L, s);
+    tell(L, s, 1);
+    release(s);
     return good ? 0 : fail(L, &error);
 }
 
 static int collect(lua_State *L) {
-    release(L, luaL_checkudata(L, 1, TYPE));
+    release(luaL_checkudata(L, 1, TYPE));
     return 0;
 }
 
@@ -233,12 +245,12 @@ static int advance(lua_State *L, Scene *s, uint64_t steps) {
     bool good = true;
     for (uint64_t k = 0; k < steps && good; k++) {
         good = jo_scene_step(s->scene, &error);
-        if (s->said_length)
-            tell(L, s);
+        tell(L, s, 1);
+        luaL_argcheck(L, s->scene, 1, "the scene was closed while it was stepped");
+        const char *failure = jo_world_failure(jo_scene_world(s->scene));
+        if (good && failure)
+            return luaL_error(L, "%s", failure);
     }
-    const char *failure = jo_world_failure(jo_scene_world(s->scene));
-    if (good && failure)
-        return luaL_error(L, "%s", failure);
     return done(L, s, good, &error);
 }
 
@@ -284,8 +296,10 @@ static int record(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
     const double every = luaL_optnumber(L, 3, 0);
-    luaL_argcheck(L, every >= 0, 3, "a frame each so many seconds");
-    const bool good = jo_scene_record(s->scene, luaL_checkstring(L, 2), every, &error);
+    const char *path = luaL_checkstring(L, 2);
+    luaL_argcheck(L, every >= 0 && every <= 1e6, 3, "a frame each so many seconds, 0 to 1e6");
+    luaL_argcheck(L, !s->recorded, 1, "the scene is recorded already");
+    const bool good = s->recorded = jo_scene_record(s->scene, path, every, &error);
     return done(L, s, good, &error);
 }
 
@@ -342,15 +356,15 @@ static void push_number(lua_State *L, const JoColumn *column, uint32_t agent) {
 
 /* scene:column(NAME): an array of numbers, as of jo_world_column; those of `id` have its order. */
 static int column(lua_State *L) {
-    const JoWorld *world = world_at(L);
     const char *name = luaL_checkstring(L, 2);
-    const JoColumn found = jo_world_column(world, name);
+    const uint32_t room = jo_world_agent_count(world_at(L));
+    lua_createtable(L, (int)room, 0); /* may close the scene: by what is collected then */
+    const JoColumn found = jo_world_column(world_at(L), name);
     bool known = found.data != NULL;
     for (uint32_t n = 0; !known && jo_column_name(n); n++)
         known = strcmp(jo_column_name(n), name) == 0;
     if (!known)
         return luaL_error(L, "there is no column '%s'", name);
-    lua_createtable(L, (int)found.count, 0);
     for (uint32_t i = 0; found.data && i < found.count; i++) {
         push_number(L, &found, i);
         lua_rawseti(L, -2, (lua_Integer)i + 1);
@@ -360,26 +374,26 @@ static int column(lua_State *L) {
 
 /* scene:agents(): a table for each, in ascending id. */
 static int agents(lua_State *L) {
-    const JoWorld *world = world_at(L);
-    const uint32_t n = jo_world_agent_count(world);
+    const uint32_t n = jo_world_agent_count(world_at(L));
     JoAgent *handles = lua_newuserdatauv(L, (n + 1) * sizeof *handles, 0);
-    const uint32_t have = jo_world_agents(world, handles, n);
+    const uint32_t have = jo_world_agents(world_at(L), handles, n);
     lua_createtable(L, (int)have, 0);
     for (uint32_t i = 0; i < have; i++) {
-        const JoAgentState a = jo_agent_state(world, handles[i]);
+        lua_createtable(L, 0, 7);
+        /* What is collected may close or step the scene: it is asked for after each table. */
+        const JoAgentState a = jo_agent_state(world_at(L), handles[i]);
+        lua_pushstring(L, a.state);
+        lua_setfield(L, -2, "state");
         const struct {
             const char *name;
             double value;
         } numbers[] = {{"x", a.x}, {"y", a.y}, {"vx", a.vx}, {"vy", a.vy}, {"load", a.load}};
-        lua_createtable(L, 0, 7);
         lua_pushinteger(L, a.id);
         lua_setfield(L, -2, "id");
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
             lua_pushnumber(L, numbers[k].value);
             lua_setfield(L, -2, numbers[k].name);
         }
-        lua_pushstring(L, a.state);
-        lua_setfield(L, -2, "state");
         lua_rawseti(L, -2, (lua_Integer)i + 1);
     }
     return 1;

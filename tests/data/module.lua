@@ -61,6 +61,32 @@ fails("a probe that there is not", "no probe 'p'", gate.probe, gate, "p")
 gate:close()
 check("a recording is there", (io.open(folder .. "/module.sqlite", "rb") or { read = function() end }):read(6) == "SQLite")
 
+-- Programs that close a scene while it is used.
+local victim
+victim = jostle.scene(folder .. "/module.yaml", { message = function() if victim then victim:close() end end })
+victim:open("gate"):run(6)
+fails("closed by its own message", "was closed while it was stepped", function() victim:signal("stop"):run(1) end)
+local crowd = jostle.scene("scenes/circle.yaml")
+for _ = 1, 100 do setmetatable({}, { __gc = function() crowd:close() end }) end
+collectgarbage "restart"
+fails("closed by what is collected while it is read", "is closed", function()
+  for _ = 1, 1000 do crowd:agents() end
+end)
+local kept = setmetatable({}, { __mode = "v" })
+do
+  local own
+  own = jostle.scene("scenes/catch.yaml", { message = function() return own end })
+  kept[1] = own
+end
+collectgarbage() collectgarbage()
+check("a scene whose message knows it is collected", kept[1] == nil)
+local again = jostle.scene("scenes/catch.yaml")
+fails("a recording twice", "recorded already", function()
+  again:record(folder .. "/a.sqlite"):record(folder .. "/b.sqlite")
+end)
+fails("frames too far apart", "0 to 1e6", scene.record, scene, folder .. "/c.sqlite", 1e9)
+fails("a seed that is no whole number", "seed must be a whole number", jostle.scene, "scenes/catch.yaml", { seed = 1 / 0 })
+
 -- What is closed stays so; what is forgotten is collected.
 do local last <close> = jostle.scene("scenes/catch.yaml"); last:step() end
 for _ = 1, 20 do jostle.scene("scenes/catch.yaml"):step() end
