@@ -1,0 +1,394 @@
+/* Bytes as calls of jostle.h by who heeds nothing that it asks for: odd numbers, handles and names,
+   NULL, in any order, on a scene, on a world that was made by hand and on none, and from within a
+   message. Each is answered, and reported where it is misuse; no expectation of the engine's own is
+   broken, and the people of a world that goes on are somewhere. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "support/fuzz.h"
+
+static const char SCENE[] =
+    "jostle: 1\n"
+    "places: {hall: {polygon: [[0, 0], [6, 0], [6, 6], [0, 6]]}, exit: {point: [7, 3]}}\n"
+    "walls: [{line: [[0, 0], [6, 0]], name: gate}]\n"
+    "bodies: [{name: ball, shape: {sphere: {radius: 0.2}}, at: [4, 4, 0.2], mass: 1, tags: [ball]},"
+    " {name: door, shape: {box: {size: [1, 0.2, 2]}}, at: [2, 5, 1], kinematic: true}]\n"
+    "groups: {a: {behaviour: talker.lua, count: 5, in: hall}}\n"
+    "probes: {all: {log: true}}\n";
+static const char TALKER[] =
+    "local mine = memory { hits = 0 }\n"
+    "return machine { name = \"talker\", version = 1, start = \"Go\", states = {\n"
+    "  Go = { steer = seek \"exit\", lasts = 0.1, on_enter = function(me) print \"go\" end,\n"
+    "    { to = \"Stop\", when = lasted | heard \"go\" } },\n"
+    "  Stop = { steer = hold, lasts = 0.1, { to = \"Go\", when = lasted } } } }\n";
+
+enum { MOST_CALLS = 60, MOST_HANDLES = 12, ROOM = 8 };
+
+typedef struct Caller {
+    const uint8_t *at, *end;
+    JoScene *scene;
+    JoWorld *made;
+    JoAgent agents[MOST_HANDLES];
+    JoBody bodies[MOST_HANDLES];
+    uint32_t agent_count, body_count;
+    void *saved;
+    size_t saved_size;
+    bool within; /* a message */
+} Caller;
+
+/* ---- what is given ---- */
+
+static uint8_t byte(Caller *c) {
+    return c->at < c->end ? *c->at++ : 0;
+}
+
+static double number(Caller *c) {
+    static const double ODD[] = {0,   -0.0,  NAN,    INFINITY, -INFINITY, 1e300,  -1e300, 1e39,
+                                 1e9, -1e9,  1e6,    -1e6,     10000,     -10000, 9999.9, 1e-300,
+                                 0.5, 0.001, 5e-324, 100,      -100,      500};
+    const uint8_t b = byte(c);
+    return b < 22 ? ODD[b] : (b - 128) / 16.0;
+}
+
+static const char *name(Caller *c) {
+    static char longest[5000];
+    static const char *const NAMES[] = {
+        NULL,   "",     "a",         "ball", "door",         "gate",        "hall", "exit", "Go",
+        "Stop", "hits", "speed",     "push", "talker",       "x\ny",        "\xff", "mine", "id",
+        "x",    "load", "direction", "goal", "push 0 1e9 0", "spawn a 1 1", "tags", longest};
+    memset(longest, 'x', sizeof longest - 1);
+    return NAMES[byte(c) % (sizeof NAMES / sizeof *NAMES)];
+}
+
+static JoWorld *world(Caller *c) {
+    const uint8_t b = byte(c);
+    return b == 255 ? NULL : b % 2 && c->scene ? jo_scene_world(c->scene) : c->made;
+}
+
+static JoScene *scene(Caller *c) {
+    return byte(c) == 255 ? NULL : c->scene;
+}
+
+static JoAgent agent(Caller *c) {
+    const uint8_t b = byte(c);
+    return b < 200 && c->agent_count ? c->agents[b % c->agent_count]
+                                     : (JoAgent){b == 255 ? UINT32_MAX : b - 200u, b % 3};
+}
+
+static JoBody body(Caller *c) {
+    const uint8_t b = byte(c);
+    return b < 200 && c->body_count ? c->bodies[b % c->body_count]
+                                    : (JoBody){b == 255 ? UINT32_MAX : b - 200u, b % 3};
+}
+
+static void keep_agent(Caller *c, JoAgent a) {
+    c->agents[c->agent_count++ % MOST_HANDLES] = a;
+    c->agent_count = c->agent_count < MOST_HANDLES ? c->agent_count : MOST_HANDLES;
+}
+
+static void keep_body(Caller *c, JoBody b) {
+    c->bodies[c->body_count++ % MOST_HANDLES] = b;
+    c->body_count = c->body_count < MOST_HANDLES ? c->body_count : MOST_HANDLES;
+}
+
+static const double *numbers(Caller *c, double *out, int count) {
+    for (int n = 0; n < count; n++)
+        out[n] = number(c);
+    return byte(c) == 255 ? NULL : out;
+}
+
+/* ---- calls ---- */
+
+static void make(Caller *c) {
+    JoError error = {0};
+    double xy[ROOM];
+    JoWorld *w = world(c);
+    JoAgentDef person = jo_default_agent_def();
+    JoBodyDef thing = jo_default_body_def();
+    switch (byte(c) % 5) {
+    case 0:
+        jo_world_add_solid(w, numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        return;
+    case 1:
+        jo_world_add_line(w, numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        return;
+    case 2:
+        person.x = number(c), person.y = number(c);
+        (&person.radius)[byte(c) % 8] = number(c);
+        keep_agent(c, jo_world_add_agent(w, byte(c) == 255 ? NULL : &person, &error));
+        return;
+    case 3:
+        thing.shape = (JoShape)(byte(c) % 5);
+        thing.x = number(c), thing.y = number(c), thing.mass = number(c);
+        thing.size[byte(c) % 3] = number(c);
+        thing.kinematic = byte(c) % 2;
+        if (byte(c) % 4 == 0)
+            thing.path = (JoPath){xy,        byte(c) % 3, (JoPathEnd)(byte(c) % 4),
+                                  number(c), number(c),   number(c)};
+        numbers(c, xy, 6);
+        keep_body(c, jo_world_add_body(w, &thing, &error));
+        return;
+    default:
+        keep_agent(c, jo_world_spawn(w, name(c), number(c), number(c), &error));
+    }
+}
+
+static void act_on_agent(Caller *c) {
+    JoError error = {0};
+    JoWorld *w = world(c);
+    const JoAgent a = agent(c);
+    double value = 0;
+    switch (byte(c) % 10) {
+    case 0:
+        jo_world_remove_agent(w, a);
+        return;
+    case 1:
+        jo_agent_teleport(w, a, number(c), number(c), &error);
+        return;
+    case 2:
+        jo_agent_set_goal(w, a, name(c), &error);
+        return;
+    case 3:
+        jo_agent_set_state(w, a, name(c), &error);
+        return;
+    case 4:
+        jo_agent_set_memory(w, a, name(c), number(c), &error);
+        return;
+    case 5:
+        jo_agent_set_parameter(w, a, name(c), number(c), &error);
+        return;
+    case 6:
+        jo_agent_memory(w, a, name(c), byte(c) % 8 ? &value : NULL);
+        return;
+    case 7:
+        jo_agent_parameter(w, a, name(c), byte(c) % 8 ? &value : NULL);
+        return;
+    case 8:
+        jo_agent_set_preferred(w, a, number(c), number(c));
+        return;
+    default:
+        jo_agent_apply_force(w, a, number(c), number(c));
+    }
+}
+
+static void act_on_body(Caller *c) {
+    JoError error = {0};
+    double one[4], two[4];
+    JoWorld *w = world(c);
+    const JoBody b = body(c);
+    switch (byte(c) % 6) {
+    case 0:
+        jo_body_impulse(w, b, numbers(c, one, 3), numbers(c, two, 3), &error);
+        return;
+    case 1:
+        jo_body_place(w, b, numbers(c, one, 3), numbers(c, two, 4), &error);
+        return;
+    case 2:
+        jo_body_set_velocity(w, b, numbers(c, one, 3), numbers(c, two, 3), &error);
+        return;
+    case 3:
+        jo_body_remove(w, b, &error);
+        return;
+    case 4:
+        keep_body(c, jo_world_find_body(w, name(c)));
+        return;
+    default:
+        keep_body(c, jo_world_body_at(w, byte(c)));
+    }
+}
+
+static void act_on_world(Caller *c) {
+    JoError error = {0};
+    double xy[ROOM];
+    JoWorld *w = world(c);
+    switch (byte(c) % 7) {
+    case 0:
+        jo_world_add_wall(w, name(c), numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        return;
+    case 1:
+        jo_world_remove_wall(w, name(c), &error);
+        return;
+    case 2:
+        jo_world_open_wall(w, name(c), byte(c) % 2, &error);
+        return;
+    case 3:
+        jo_world_signal(w, name(c), &error);
+        return;
+    case 4:
+        jo_free(c->saved);
+        c->saved = jo_world_snapshot(w, &c->saved_size, &error);
+        return;
+    case 5:
+        if (c->saved)
+            jo_world_restore(w, c->saved, c->saved_size - byte(c) % 2, &error);
+        return;
+    default:
+        if (!c->within)
+            jo_world_step(w, byte(c) % 4);
+    }
+}
+
+static void ask_of_agents(Caller *c, const JoWorld *w) {
+    JoAgent all[ROOM];
+    const JoAgent a = agent(c);
+    const uint32_t had = jo_world_agents(w, all, byte(c) % (ROOM + 1));
+    for (uint32_t n = 0; n < had && n < ROOM; n++)
+        keep_agent(c, all[n]);
+    const JoAgentState state = jo_agent_state(w, a);
+    FUZZ_CHECK(!state.state || strlen(state.state) < 1000);
+    jo_agent_is_live(w, a);
+    keep_agent(c, jo_world_agent_of(w, byte(c)));
+}
+
+static void ask_of_names(const JoWorld *w, uint32_t number) {
+    jo_world_group_name(w, number);
+    jo_world_machine_name(w, number);
+    jo_world_state_name(w, number, number);
+    jo_world_state_name(w, 0, number);
+    jo_world_signal_name(w, number);
+    jo_world_place_name(w, number);
+    jo_world_body_name(w, number);
+    jo_column_name(number);
+}
+
+static void ask(Caller *c) {
+    double one[2], two[2], out[2 * ROOM], length;
+    uint32_t ids[ROOM];
+    JoWorld *w = world(c);
+    const uint8_t what = byte(c) % 9, odd = byte(c);
+    if (what == 0)
+        ask_of_agents(c, w);
+    if (what == 1)
+        ask_of_names(w, odd < 250 ? odd : UINT32_MAX - odd);
+    if (what == 2)
+        jo_world_column(w, name(c));
+    if (what == 3)
+        jo_world_events(w);
+    if (what == 4)
+        jo_world_neighbours(w, number(c), number(c), number(c), odd % 2 ? ids : NULL, NULL,
+                            odd % (ROOM + 1));
+    if (what == 5)
+        jo_world_cast(w, numbers(c, one, 2), numbers(c, two, 2), number(c), odd);
+    if (what == 6)
+        jo_world_path(w, number(c), number(c), name(c), odd % 8 ? out : NULL, odd % (ROOM + 1),
+                      odd % 3 ? &length : NULL);
+    if (what == 7)
+        jo_world_density(w, number(c), number(c));
+    if (what == 8) {
+        jo_world_walls(w, out, odd % (ROOM / 2 + 1));
+        jo_body_outline(w, body(c), out, odd % (ROOM + 1));
+        jo_body_state(w, body(c));
+        jo_body_is_live(w, body(c));
+    }
+}
+
+static void act_on_scene(Caller *c) {
+    JoError error = {0};
+    double one[3], two[3], three[3];
+    JoScene *s = scene(c);
+    const uint8_t what = byte(c) % 12;
+    if (what < 4 && !c->within)
+        jo_scene_step(s, &error);
+    if (what == 4)
+        jo_scene_throw(s, name(c), numbers(c, one, 3), numbers(c, two, 3), numbers(c, three, 3),
+                       &error);
+    if (what == 5)
+        jo_scene_open_wall(s, name(c), byte(c) % 2, &error);
+    if (what == 6)
+        jo_scene_signal(s, name(c), &error);
+    if (what == 7)
+        jo_scene_input(s, name(c), &error);
+    if (what == 8)
+        jo_scene_trace(s, byte(c));
+    if (what == 9)
+        jo_free(jo_scene_inspect(s, byte(c)));
+    if (what == 10) {
+        jo_free(jo_scene_summary(s));
+        jo_free(jo_scene_troubles(s));
+        jo_free(jo_scene_closing(s));
+        jo_free(jo_scene_probe_table(s, byte(c)));
+        jo_scene_stats(s);
+    }
+    if (what == 11 && !c->within && byte(c) > 250)
+        jo_scene_finish(s, &error);
+}
+
+static void call(Caller *c) {
+    static void (*const CALLS[])(Caller *) = {make,         act_on_agent, act_on_body,
+                                              act_on_world, ask,          act_on_scene};
+    CALLS[byte(c) % (sizeof CALLS / sizeof *CALLS)](c);
+}
+
+/* ---- the whole ---- */
+
+/* A message comes within a step: what is called there changes the world between two stages. */
+static void hear(void *context, const char *text) {
+    Caller *c = context;
+    (void)text;
+    if (c->within || !c->scene)
+        return;
+    c->within = true;
+    call(c);
+    c->within = false;
+}
+
+/* Misuse is told of; what else does not hold is a finding. */
+static void judge(const char *condition, const char *path, int line) {
+    char text[512];
+    FILE *file = fopen(path, "r");
+    bool misuse = !file;
+    for (int n = 1; file && n <= line + 3 && fgets(text, sizeof text, file); n++)
+        misuse |= n >= line - 4 && strstr(text, "JOX_REQUIRE");
+    if (file)
+        fclose(file);
+    if (!misuse)
+        fuzz_failed(condition, path, line);
+}
+
+static JoScene *load(Caller *c, bool resumable) {
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    fuzz_write("talker.lua", TALKER, strlen(TALKER));
+    def.path = fuzz_path("calls.yaml");
+    def.text = SCENE;
+    def.text_length = strlen(SCENE);
+    def.named_mods_only = true;
+    def.resumable = resumable;
+    def.threads = 1;
+    def.message = hear;
+    def.message_context = c;
+    JoScene *loaded = jo_scene_load(&def, &error);
+    FUZZ_CHECK(loaded);
+    return loaded;
+}
+
+static void check_people(const JoWorld *w) {
+    JoAgent all[64];
+    const uint32_t count = jo_world_agents(w, all, 64);
+    for (uint32_t n = 0; n < count && !jo_world_failure(w); n++)
+        FUZZ_CHECK(isfinite(jo_agent_state(w, all[n]).x) && isfinite(jo_agent_state(w, all[n]).vy));
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    JoWorldDef def = jo_default_world_def();
+    Caller c = {.at = data, .end = data + size};
+    JoError error = {0};
+    jo_set_assert_handler(judge);
+    c.made = jo_world_create(&def, &error);
+    c.scene = load(&c, byte(&c) % 2);
+    for (int n = 0; n < MOST_CALLS && c.at < c.end; n++)
+        call(&c);
+    jo_world_step(c.made, 2);
+    check_people(c.made);
+    jo_scene_step(c.scene, &error);
+    check_people(jo_scene_world(c.scene));
+    JoScene *over = c.scene;
+    c.scene = NULL;
+    jo_scene_free(over);
+    jo_world_free(c.made);
+    jo_free(c.saved);
+    jo_set_assert_handler(NULL);
+    return 0;
+}
