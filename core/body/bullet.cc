@@ -2,9 +2,11 @@
 #include "body/bullet.h"
 
 #include <new>
+#include <numeric>
 #include <string.h>
 
 static const float REACH = 10000.0f;
+static const uint32_t FEW_WALLS = 2000;
 
 static void release_bodies(void *bodies) {
     jox_bullet_free_heap(static_cast<JoxBodies *>(bodies)->heap);
@@ -21,14 +23,12 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
 }
 
 /* Its user index is negative and its own: -1 the ground, then the walls. */
-static btRigidBody *add_static(JoxBodies *b, btCollisionShape *shape, const btTransform &at,
-                               int index) {
+static btRigidBody *make_static(btCollisionShape *shape, const btTransform &at, int index) {
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape);
     info.m_startWorldTransform = at;
     info.m_friction = info.m_restitution = 1;
     btRigidBody *body = new btRigidBody(info);
     body->setUserIndex(index);
-    b->world->addRigidBody(body);
     return body;
 }
 
@@ -69,7 +69,8 @@ static void make_world(JoxBodies *b) {
     if (!b->def.ground)
         return;
     b->ground_shape = new btStaticPlaneShape(btVector3(0, 0, 1), 0);
-    b->ground = add_static(b, b->ground_shape, btTransform::getIdentity(), -1);
+    b->ground = make_static(b->ground_shape, btTransform::getIdentity(), -1);
+    b->world->addRigidBody(b->ground);
 }
 
 static void drop_static(JoxBodies *b, btRigidBody *body) {
@@ -85,6 +86,17 @@ void jox_bodies_drop_walls(JoxBodies *b) {
     }
     b->wall_count = 0;
     jox_wall_grid_free(&b->wall_grid);
+}
+
+/* Bullet's tree of boxes is not balanced: one next to the other, each would hang below the last,
+   and every further one would go down all of them. Many are put in from all over the plan. */
+static void add_walls(JoxBodies *b) {
+    const uint32_t n = b->wall_count;
+    uint64_t step = n > FEW_WALLS ? uint64_t(n * 0.618034) | 1u : 1;
+    while (std::gcd(step, uint64_t(n)) > 1)
+        step += 2;
+    for (uint32_t k = 0; k < n; k++)
+        b->world->addRigidBody(b->walls[k * step % n]);
 }
 
 /* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
@@ -108,9 +120,10 @@ static void raise_walls(JoxBodies *b) {
             jox_reserve(b->walls, b->wall_capacity, b->wall_count + 1);
             int index = -2 - int(b->wall_count);
             b->walls[b->wall_count++] =
-                add_static(b, new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
+                make_static(new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
         }
     }
+    add_walls(b);
 }
 
 void jox_bodies_ensure(JoxBodies *b) {

@@ -103,3 +103,6 @@ says "a pipe in place of a recording or of a sweep's file" 3 "it is no regular f
 says "walls that are too long in all" 3 "walls are over 2000 km long" "$program" run s.yaml --quiet --steps 2
 { echo 'jostle: 1'; echo "$group"; echo 'events:'; seq -f '  - {at: 1, signal: s%.0f}' 60000; } >s.yaml
 timeout 120 prlimit --cpu=$((8 * ${SLOWER:-1})) "$program" run s.yaml --quiet --steps 2 >out 2>&1; verdict "very many signals" $?
+awk 'BEGIN {printf "POLYGON (("; for (i = 0; i <= 100000; i++) {a = i % 100000 * 6.283185307179586 / 100000; printf "%s%.4f %.4f", i ? ", " : "", 100 * cos(a), 100 * sin(a)}; print "))"}' >round.wkt
+printf 'jostle: 1\nwalls: [{file: round.wkt}]\nbodies: [{shape: {sphere: {radius: 0.2}}, at: [0, 0, 0.2], mass: 1}]\n%s\n' "$group" >s.yaml
+timeout 120 prlimit --cpu=$((15 * ${SLOWER:-1})) "$program" run s.yaml --quiet --steps 2 >out 2>&1; verdict "a body among walls of 100,000 corners" $?
