@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "live/replay.h"
 #include "record/trajectory_reader.h"
 #include "scene/walls/wall_file.h"
 
@@ -60,8 +61,44 @@ static void plan(const char *path) {
     fuzz_end_diagnostics(&diagnostics);
 }
 
+/* All that a live page is sent of a frame. */
+static void show_frame(JoxReplay *replay, uint32_t frame) {
+    const JoxLiveSession session = {.speed = 1};
+    JoxText text = {0};
+    JoxBytes bytes = {0};
+    FUZZ_CHECK(jox_replay_show(replay, frame, &text) || text.length > 0);
+    jox_replay_scene(replay, &text);
+    jox_replay_status(replay, &session, 1, &text);
+    for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++)
+        jox_replay_frame(replay, (JoxLiveColour)c, &bytes);
+    jox_replay_people(replay, &bytes);
+    for (int f = 0; f < JOX_LIVE_FIELDS; f++)
+        jox_replay_field(replay, (JoxLiveField)f, &bytes);
+    jox_text_free(&text);
+    jox_bytes_free(&bytes);
+}
+
+static void on_a_page(const char *path) {
+    JoxDiagnostics diagnostics = {0};
+    const JoxReplayDef def = {.recording = path, .options = OPTIONS};
+    JoxReplay *replay = jox_replay_open(&def, &diagnostics);
+    FUZZ_CHECK((replay != NULL) == (diagnostics.errors == 0));
+    fuzz_end_diagnostics(&diagnostics);
+    if (!replay)
+        return;
+    const uint32_t frames = jox_replay_frames(replay);
+    const uint32_t from = jox_replay_find(replay, jox_replay_time(replay, frames / 2));
+    FUZZ_CHECK(from < frames);
+    for (uint32_t f = from; f < frames && f < from + 3; f++)
+        show_frame(replay, f);
+    jox_replay_forget(replay);
+    show_frame(replay, 0);
+    jox_replay_close(replay);
+}
+
 void fuzz_recording(const char *path) {
     by_frames(path);
+    on_a_page(path);
     whole(path);
     plan(path);
 }
