@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/sort.h"
@@ -176,6 +177,7 @@ const char *jox_file_why(int number) {
 }
 
 bool jo_write(const char *path, const char *text, JoError *error) {
+    JOX_REQUIRE(path && text, false);
     JOX_GUARD (NULL, error)
         return false;
     FILE *file = jox_file_replace(path);

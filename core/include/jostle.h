@@ -217,7 +217,9 @@ JO_API uint64_t jo_world_hash(const JoWorld *world);
 
 typedef struct JoScene JoScene;
 
-/* Receives text for people: diagnostics with their source line, warnings, reload notices. */
+/* Receives text for people: diagnostics with their source line, warnings, reload notices. It is
+   called from within a call: of a scene that is being stepped it may ask, and to change, step or
+   free it is misuse. */
 typedef void JoMessage(void *context, const char *text);
 
 typedef struct JoSceneDef {

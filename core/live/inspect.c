@@ -212,7 +212,7 @@ bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
 }
 
 char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
-    JOX_REQUIRE(scene, NULL);
+    JOX_REQUIRE(scene && !scene->def.dry, NULL);
     JOX_GUARD (scene->heap, NULL)
         return NULL;
     JoxText out = {0};

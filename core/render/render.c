@@ -71,7 +71,8 @@ static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
             ? "one picture shows one moment: --at T; or --out FOLDER, or FILE.mp4, for many"
         : series && isfinite(def->at)
             ? "--at asks for one picture, --out for many: --out FILE.png, or --from and --until"
-        : !(def->fps >= 0.0 && def->fps <= 1000.0) ? "--fps is above 0, up to 1000"
+        : !(def->fps == 0.0 || (def->fps >= 0.001 && def->fps <= 1000.0))
+            ? "--fps is from 0.001 to 1000"
         : kind != SVG && !jox_canvas_has_images()
             ? "this build makes no images, as it was made without cairo (CAIRO=0): --out FILE.svg"
         : (def->width || def->height) && (def->width < LEAST_SIDE || def->width > MOST_SIDE ||
@@ -224,6 +225,7 @@ static bool end(Job *job, double fps, bool good, JoError *error) {
     JoxText why = {0};
     if (job->video && !jox_video_close(job->video, &why) && good)
         good = fail(error, &why);
+    jox_text_free(&why);
     if (!good)
         return false;
     char path[1100];

@@ -35,7 +35,7 @@ static bool begin_report(JoScene *scene, JoError *error) {
 }
 
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
-    JOX_REQUIRE(def && scene, NULL);
+    JOX_REQUIRE(def && scene && !scene->def.dry, NULL);
     if (scene->input_path || scene->acted_on) {
         jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
         return NULL;

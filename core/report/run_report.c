@@ -216,14 +216,16 @@ void jox_run_subject_free(JoxSubject *s) {
 }
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
-    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &REPORT), false);
+    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &REPORT),
+                false);
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_run_listen(scene, &REPORT, directory, error) != NULL;
 }
 
 bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
-    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &DATA), false);
+    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &DATA),
+                false);
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_run_listen(scene, &DATA, directory, error) != NULL;

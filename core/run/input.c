@@ -60,7 +60,7 @@ static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
 }
 
 bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
-    JOX_REQUIRE(scene && line && !scene->finished, false);
+    JOX_REQUIRE(scene && line && !scene->finished && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
     JoxInputEntry entry;
@@ -105,7 +105,7 @@ static bool named(JoScene *scene, JoxInputVerb verb, const char *what, const cha
 
 bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
                     const double velocity[3], const double spin[3], JoError *error) {
-    JOX_REQUIRE(scene && body, false);
+    JOX_REQUIRE(scene && body && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
     JoxInputEntry entry = {.verb = JOX_INPUT_THROW, .names = {(char *)body}, .here = !from};
@@ -119,14 +119,14 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
 }
 
 bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
-    JOX_REQUIRE(scene && wall, false);
+    JOX_REQUIRE(scene && wall && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
     return named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall, error);
 }
 
 bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
-    JOX_REQUIRE(scene && name, false);
+    JOX_REQUIRE(scene && name && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
     return named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);

@@ -41,7 +41,7 @@ void jox_run_log_origin(JoScene *scene) {
 }
 
 bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    JOX_REQUIRE(scene && !scene->world->busy && path && !scene->log && !scene->finished, false);
     JOX_GUARD (scene->heap, error)
         return false;
     struct stat info;
@@ -57,7 +57,7 @@ bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error) {
 }
 
 bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    JOX_REQUIRE(scene && !scene->world->busy && path && !scene->log && !scene->finished, false);
     JOX_GUARD (scene->heap, error)
         return false;
     const JoWorld *world = scene->world;

@@ -424,7 +424,7 @@ static void release_scene(void *scene) {
 
 JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                            JoError *error) {
-    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path && jox_run_is_whole(def), NULL);
     JoxHeap *heap = jox_heap_create();
     JoScene *scene = heap ? load_guarded(def, diagnosed, context, heap, error) : NULL;
     if (!heap || jox_heap_has_failed(heap)) {
@@ -477,6 +477,7 @@ static void free_guarded(JoScene *scene) {
 void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
+    JOX_REQUIRE(!scene->world || !scene->world->busy, );
     if (!scene->owns_heap) {
         free_scene(scene);
         return;
@@ -488,7 +489,7 @@ void jo_scene_free(JoScene *scene) {
 }
 
 JoWorld *jo_scene_world(JoScene *scene) {
-    JOX_REQUIRE(scene, NULL);
+    JOX_REQUIRE(scene && !scene->def.dry, NULL);
     return scene->world;
 }
 

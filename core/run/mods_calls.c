@@ -18,7 +18,7 @@ static const char *const SWITCHES[] = {
 };
 
 char *jo_mods_list(const JoSceneDef *def) {
-    JOX_REQUIRE(def, NULL);
+    JOX_REQUIRE(def && jox_run_is_whole(def), NULL);
     JOX_GUARD (NULL, NULL)
         return NULL;
     JoxDiagnostics diagnostics = {0};
@@ -92,7 +92,7 @@ static bool turn(const char *scene, const char *mod, bool on, bool *found, JoErr
 }
 
 bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error) {
-    JOX_REQUIRE(def && mod, false);
+    JOX_REQUIRE(def && jox_run_is_whole(def) && mod, false);
     /* Without a scene: the user's mods, then those of scenes here. */
     const char *const places[] = {def->path, def->path ? NULL : "./scene",
                                   def->path ? NULL : "scenes/scene"};
@@ -152,7 +152,7 @@ static uint32_t count_lines(const char *text) {
 }
 
 char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
-    JOX_REQUIRE(def && def->path && path, NULL);
+    JOX_REQUIRE(def && jox_run_is_whole(def) && def->path && path, NULL);
     JOX_GUARD (NULL, error)
         return NULL;
     JoxDiagnostics diagnostics = {0};

@@ -60,7 +60,7 @@ static const JoxListenerKind PROGRESS = {
     .name = "progress", .size = sizeof(Progress), .begin = begin, .frame = show, .end = say_costs};
 
 void jo_scene_show_progress(JoScene *scene, double until) {
-    JOX_REQUIRE(scene, );
+    JOX_REQUIRE(scene && !scene->world->busy, );
     if (until > 0.0 && !jox_run_listener(scene, &PROGRESS))
         jox_run_listen(scene, &PROGRESS, &until, NULL);
 }
@@ -77,7 +77,7 @@ static bool say_trace(void *self, JoScene *scene, JoError *error) {
 static const JoxListenerKind TRACE = {.name = "trace", .size = 1, .frame = say_trace};
 
 void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
-    JOX_REQUIRE(scene, );
+    JOX_REQUIRE(scene && !scene->world->busy, );
     scene->world->machines.traces = true;
     scene->world->machines.trace_id = agent_id;
     if (!jox_run_listener(scene, &TRACE))

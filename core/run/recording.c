@@ -225,13 +225,14 @@ static bool record(JoScene *scene, const Target *target, JoError *error) {
 }
 
 bool jo_scene_record(JoScene *scene, const char *path, double every, JoError *error) {
-    JOX_REQUIRE(scene && path && every >= 0.0 && every <= 1e6 &&
+    JOX_REQUIRE(scene && !scene->world->busy && path && every >= 0.0 && every <= 1e6 &&
                     !jox_run_listener(scene, &RECORDING),
                 false);
     return record(scene, &(Target){path, every > 0.0 ? every : FRAME, false}, error);
 }
 
 bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+    JOX_REQUIRE(scene && !scene->world->busy && path && !jox_run_listener(scene, &RECORDING),
+                false);
     return record(scene, &(Target){path, 0.0, true}, error);
 }

@@ -116,7 +116,7 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
 }
 
 bool jo_scene_watch(JoScene *scene, JoError *error) {
-    JOX_REQUIRE(scene, false);
+    JOX_REQUIRE(scene && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
     if (scene->reload && scene->reload->watch)

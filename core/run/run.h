@@ -87,6 +87,8 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
 /* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found
    that are left out, as is a mod with a patch that names no target. */
 JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics);
+/* Whether nothing is missing of its lists, and of the threads that it gives. */
+bool jox_run_is_whole(const JoSceneDef *def);
 JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
                                 JoxDiagnostics *diagnostics);
 /* link.c: machines of the scene's groups, and of those that they may become; false if one does not

@@ -7,6 +7,21 @@
 #include "run/run.h"
 
 /* The def's overrides, with seed and step as two more. */
+static bool has_all(const char *const *texts, size_t count) {
+    for (size_t t = 0; t < count; t++)
+        if (!texts || !texts[t])
+            return false;
+    return true;
+}
+
+bool jox_run_is_whole(const JoSceneDef *def) {
+    for (size_t f = 0; f < def->file_count; f++)
+        if (!def->files || !def->files[f].path || (!def->files[f].text && def->files[f].length))
+            return false;
+    return (!def->jobs || def->jobs->run) && has_all(def->overrides, def->override_count) &&
+           has_all(def->mods, def->mod_count);
+}
+
 JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
                                 JoxDiagnostics *diagnostics) {
     char seed[32], step[48];

@@ -4,10 +4,7 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-bool jo_scene_step(JoScene *scene, JoError *error) {
-    JOX_REQUIRE(scene && !scene->finished, false);
-    JOX_GUARD (scene->heap, error)
-        return false;
+static bool step(JoScene *scene, JoError *error) {
     jox_run_inputs(scene);
     jox_run_reload(scene);
     const bool stepped = jox_world_step(scene->world);
@@ -30,8 +27,20 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     return jox_run_tell_frame(scene, error) && jox_run_logged(scene, error);
 }
 
+bool jo_scene_step(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene && !scene->finished && !scene->def.dry && !scene->world->busy, false);
+    JOX_GUARD (scene->heap, error) {
+        scene->world->busy = false;
+        return false;
+    }
+    scene->world->busy = true; /* messages come from within */
+    const bool good = step(scene, error);
+    scene->world->busy = false;
+    return good;
+}
+
 bool jo_scene_finish(JoScene *scene, JoError *error) {
-    JOX_REQUIRE(scene, false);
+    JOX_REQUIRE(scene && !(scene->world && scene->world->busy), false);
     JOX_GUARD (scene->heap, error)
         return false;
     if (scene->finished)

@@ -83,6 +83,8 @@ static bool read_axes(JoxSweepPlan *plan, const char *const *sets, size_t count,
     plan->axes = jox_alloc(count + 1, sizeof *plan->axes);
     for (size_t s = 0; s < count; s++) {
         JoxSweepAxis *axis = &plan->axes[plan->axis_count++];
+        if (!sets || !sets[s])
+            return refuse(error, "NULL", "is no setting");
         if (!read_axis(axis, sets[s], error))
             return false;
         for (uint32_t a = 0; a + 1 < plan->axis_count; a++)

@@ -82,8 +82,11 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     jox_heap_use(before);
 }
 
-static void run_job(void *pool, uint32_t worker) {
-    run_chunks(pool, worker);
+/* Of a program's threads, which may count on beyond what they were told. */
+static void run_job(void *data, uint32_t worker) {
+    JoxPool *pool = data;
+    if (worker < pool->threads)
+        run_chunks(pool, worker);
 }
 
 /* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a
@@ -272,6 +275,10 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
     if (pool->jobs) {
         const uint32_t most = pool->chunks < pool->threads ? pool->chunks : pool->threads;
         pool->jobs->run(pool->jobs->context, most, run_job, pool);
+        if (atomic_load(&pool->next) < pool->chunks) {
+            jox_assert_failed("JoJobs.run calls each job", __FILE__, __LINE__);
+            run_chunks(pool, 0);
+        }
     } else {
         atomic_store(&pool->gate, OPEN);
         start_round(pool, pool->chunks - 1);

@@ -75,7 +75,7 @@ static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) 
 }
 
 JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == WORLD_COOKIE, NULL);
+    JOX_REQUIRE(def && def->cookie == WORLD_COOKIE && (!def->jobs || def->jobs->run), NULL);
     if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
         !within("threads", "threads", def->threads, 0, 64, error) ||
         !within("gravity", "m/s2", def->gravity, -100, 100, error) ||
@@ -117,7 +117,7 @@ static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, 
 }
 
 bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error) {
-    JOX_REQUIRE(world && xy, false);
+    JOX_REQUIRE(world && !world->busy && xy, false);
     JOX_GUARD (world->heap, error)
         return false;
     JoxV2 *points = read_points(world, xy, count, 3, error);
@@ -136,7 +136,7 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
 }
 
 bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error) {
-    JOX_REQUIRE(world && xy, false);
+    JOX_REQUIRE(world && !world->busy && xy, false);
     JOX_GUARD (world->heap, error)
         return false;
     JoxV2 *points = read_points(world, xy, count, 2, error);
@@ -191,7 +191,7 @@ JoAgent jox_world_handle(const JoWorld *world, uint32_t index) {
 }
 
 JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
-    JOX_REQUIRE(world && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
+    JOX_REQUIRE(world && !world->busy && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
     double values[JOX_PARAM_COUNT];
     JOX_GUARD (world->heap, error)
         return (JoAgent){0};
@@ -239,7 +239,7 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
 }
 
 void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy) {
-    JOX_REQUIRE(world && fabs(vx) <= 1e6 && fabs(vy) <= 1e6, );
+    JOX_REQUIRE(world && !world->busy && fabs(vx) <= 1e6 && fabs(vy) <= 1e6, );
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
@@ -273,7 +273,7 @@ static JoxBodyPath path_of(const JoBodyDef *def) {
 }
 
 JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
-    JOX_REQUIRE(world && def && def->cookie == BODY_COOKIE, (JoBody){0});
+    JOX_REQUIRE(world && !world->busy && def && def->cookie == BODY_COOKIE, (JoBody){0});
     static const JoxShapeKind KINDS[] = {[JO_SPHERE] = JOX_SHAPE_SPHERE,
                                          [JO_BOX] = JOX_SHAPE_BOX,
                                          [JO_CYLINDER] = JOX_SHAPE_CYLINDER};
@@ -360,11 +360,15 @@ JoStats jo_world_stats(const JoWorld *world) {
 }
 
 void jo_world_step(JoWorld *world, uint32_t steps) {
-    JOX_REQUIRE(world, );
-    JOX_GUARD (world->heap, NULL)
+    JOX_REQUIRE(world && !world->busy, );
+    JOX_GUARD (world->heap, NULL) {
+        world->busy = false;
         return;
+    }
+    world->busy = true;
     for (uint32_t i = 0; i < steps && jox_world_step(world); i++)
         continue;
+    world->busy = false;
 }
 
 const char *jo_world_failure(const JoWorld *world) {

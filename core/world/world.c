@@ -101,6 +101,7 @@ static void free_guarded(JoWorld *world) {
 void jo_world_free(JoWorld *world) {
     if (!world)
         return;
+    JOX_REQUIRE(!world->busy, );
     if (!world->owns_heap) {
         free_world(world);
         return;

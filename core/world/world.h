@@ -119,6 +119,7 @@ typedef struct JoxWorldScratch {
 struct JoWorld {
     JoxHeap *heap; /* that it allocates from: its own, or that of its scene */
     bool owns_heap;
+    bool busy; /* within a step: who is told something may look, and change nothing */
     JoxWorldModel model;
     JoxWorldState state;
     JoxWorldScratch scratch;

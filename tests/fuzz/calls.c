@@ -225,8 +225,7 @@ static void act_on_world(Caller *c) {
             jo_world_restore(w, c->saved, c->saved_size - byte(c) % 2, &error);
         return;
     default:
-        if (!c->within)
-            jo_world_step(w, byte(c) % 4);
+        jo_world_step(w, byte(c) % 4);
     }
 }
 
@@ -289,7 +288,7 @@ static void act_on_scene(Caller *c) {
     double one[3], two[3], three[3];
     JoScene *s = scene(c);
     const uint8_t what = byte(c) % 12;
-    if (what < 4 && !c->within)
+    if (what < 4)
         jo_scene_step(s, &error);
     if (what == 4)
         jo_scene_throw(s, name(c), numbers(c, one, 3), numbers(c, two, 3), numbers(c, three, 3),
@@ -311,8 +310,10 @@ static void act_on_scene(Caller *c) {
         jo_free(jo_scene_probe_table(s, byte(c)));
         jo_scene_stats(s);
     }
-    if (what == 11 && !c->within && byte(c) > 250)
+    if (what == 11 && byte(c) > 250)
         jo_scene_finish(s, &error);
+    if (what == 11 && c->within)
+        jo_scene_free(s);
 }
 
 static void call(Caller *c) {
@@ -323,7 +324,7 @@ static void call(Caller *c) {
 
 /* ---- the whole ---- */
 
-/* A message comes within a step: what is called there changes the world between two stages. */
+/* A message comes within a step: what would change its world is misuse there. */
 static void hear(void *context, const char *text) {
     Caller *c = context;
     (void)text;

@@ -197,6 +197,165 @@ static void a_missing_scene_is_an_error(void **state) {
     assert_non_null(strstr(error.file, "scene.yaml"));
 }
 
+/* ---- scenes ---- */
+
+static const char SCENE[] = "jostle: 1\n"
+                            "groups: {one: {behaviour: own.lua, at: [[0, 0], [2, 0]]}}\n";
+static const char OWN[] = "return machine { name = \"own\", version = 1, start = \"A\", states = {"
+                          " A = { steer = hold, on_enter = function() print \"here\" end } } }\n";
+static const JoFile FILES[] = {{"far/s.yaml", SCENE, sizeof SCENE - 1},
+                               {"far/own.lua", OWN, sizeof OWN - 1}};
+
+static JoSceneDef scene_def(JoMessage *message, void *context) {
+    JoSceneDef def = jo_default_scene_def();
+    def.path = "far/s.yaml";
+    def.files = FILES;
+    def.file_count = 2;
+    def.files_only = true;
+    def.threads = 1;
+    def.message = message;
+    def.message_context = context;
+    return def;
+}
+
+typedef struct Told {
+    JoScene *scene; /* NULL: not yet loaded */
+    int times;
+} Told;
+
+/* Tries what changes a world, and the end of it. */
+static void meddle(void *context, const char *text) {
+    Told *told = context;
+    JoScene *scene = told->scene;
+    (void)text;
+    if (!scene)
+        return;
+    JoWorld *world = jo_scene_world(scene);
+    const JoAgentDef agent = jo_default_agent_def();
+    const JoBodyDef body = jo_default_body_def();
+    JoAgent first;
+    told->times++;
+    assert_int_equal(jo_world_agents(world, &first, 1), 1);
+    assert_true(jo_agent_is_live(world, first));
+    const int before = reports;
+    jo_world_remove_agent(world, first);
+    assert_true(jo_world_add_agent(world, &agent, NULL).generation == 0);
+    assert_true(jo_world_add_body(world, &body, NULL).generation == 0);
+    assert_false(jo_world_signal(world, "x", NULL));
+    assert_false(jo_scene_signal(scene, "x", NULL));
+    assert_false(jo_scene_input(scene, "spawn one 5 5", NULL));
+    assert_false(jo_scene_step(scene, NULL));
+    assert_false(jo_scene_finish(scene, NULL));
+    jo_world_step(world, 1);
+    jo_scene_free(scene);
+    assert_int_equal(reports - before, 10);
+}
+
+static void messages_change_nothing_within_a_step(void **state) {
+    (void)state;
+    Told told = {0};
+    const JoSceneDef def = scene_def(meddle, &told);
+    JoScene *scene = jo_scene_load(&def, NULL);
+    assert_non_null(scene);
+    told.scene = scene;
+    for (int s = 0; s < 3; s++)
+        assert_true(jo_scene_step(scene, NULL));
+    assert_true(told.times > 0);
+    assert_int_equal(jo_world_agent_count(jo_scene_world(scene)), 2);
+    assert_true(jo_scene_signal(scene, "x", NULL)); /* between steps it may */
+    jo_scene_free(scene);
+}
+
+static void quiet(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+static void texts_that_are_missing_are_reported(void **state) {
+    (void)state;
+    const char *const none[] = {NULL, "{}"};
+    const JoFile nameless = {NULL, "x", 1}, textless = {"x", NULL, 1};
+    const JoJobs idle = {0};
+    for (int n = 0; n < 6; n++) {
+        JoSceneDef def = scene_def(quiet, NULL);
+        def.overrides = n == 0 ? none : NULL;
+        def.override_count = n == 0 || n == 1;
+        def.mods = n == 2 ? none : NULL;
+        def.mod_count = n == 2;
+        def.files = n == 3 ? &nameless : n == 4 ? &textless : FILES;
+        def.file_count = n == 3 || n == 4 ? 1 : 2;
+        def.jobs = n == 5 ? &idle : NULL;
+        assert_null(jo_scene_load(&def, NULL));
+    }
+    assert_null(jo_summaries_aggregate(none, 2, NULL));
+    assert_false(jo_write(NULL, "x", NULL));
+    assert_false(jo_write("x", NULL, NULL));
+    assert_int_equal(reports, 9);
+    JoError error = {0};
+    JoSweepDef sweep = jo_default_sweep_def();
+    sweep.scene = scene_def(quiet, NULL);
+    sweep.sets = none;
+    sweep.set_count = 1;
+    assert_int_equal(jo_sweep_runs(&sweep, &error), 0);
+    assert_int_equal(error.code, JO_USAGE);
+}
+
+/* What is dry has nobody. */
+static void dry_scenes_do_not_run(void **state) {
+    (void)state;
+    JoSceneDef def = scene_def(quiet, NULL);
+    def.dry = true;
+    JoScene *scene = jo_scene_load(&def, NULL);
+    assert_non_null(scene);
+    assert_false(jo_scene_step(scene, NULL));
+    assert_null(jo_scene_world(scene));
+    assert_null(jo_scene_summary(scene));
+    assert_null(jo_scene_inspect(scene, 0));
+    assert_null(jo_scene_half_step(&def, scene, NULL));
+    assert_int_equal(reports, 5);
+    jo_scene_free(scene);
+}
+
+static void run_none(void *context, uint32_t count, void (*job)(void *data, uint32_t n),
+                     void *data) {
+    (void)context, (void)count, (void)job, (void)data;
+}
+
+static void run_more(void *context, uint32_t count, void (*job)(void *data, uint32_t n),
+                     void *data) {
+    (void)context;
+    for (uint32_t n = 0; n < count + 70; n++)
+        job(data, n);
+}
+
+static uint64_t hash_of(const JoJobs *jobs) {
+    JoWorldDef def = jo_default_world_def();
+    def.threads = 4;
+    def.jobs = jobs;
+    JoWorld *world = jo_world_create(&def, NULL);
+    JoAgentDef agent = jo_default_agent_def();
+    for (int n = 0; n < 3000; n++) {
+        agent.x = n % 60 * 0.5;
+        agent.y = n / 60 * 0.5;
+        const JoAgent added = jo_world_add_agent(world, &agent, NULL);
+        jo_agent_set_preferred(world, added, 1, 0);
+    }
+    jo_world_step(world, 3);
+    const uint64_t hash = jo_world_hash(world);
+    jo_world_free(world);
+    return hash;
+}
+
+static void jobs_that_are_not_done_are_done(void **state) {
+    (void)state;
+    const JoJobs none = {run_none, NULL}, more = {run_more, NULL};
+    const uint64_t hash = hash_of(NULL);
+    assert_true(hash_of(&more) == hash);
+    assert_int_equal(reports, 0);
+    assert_true(hash_of(&none) == hash);
+    assert_true(reports > 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(null_worlds_are_reported_and_harmless, set_up, tear_down),
@@ -209,6 +368,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(stepping_an_empty_world_is_fine, set_up, tear_down),
         cmocka_unit_test_setup_teardown(parameters_are_checked, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_missing_scene_is_an_error, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(messages_change_nothing_within_a_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(texts_that_are_missing_are_reported, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(dry_scenes_do_not_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(jobs_that_are_not_done_are_done, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -280,7 +280,7 @@ static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
 }
 
 char *jo_scene_summary(const JoScene *scene) {
-    JOX_REQUIRE(scene, NULL);
+    JOX_REQUIRE(scene && !scene->def.dry, NULL);
     if (jox_heap_has_failed(scene->heap))
         return NULL;
     JOX_GUARD (NULL, NULL)
@@ -323,6 +323,8 @@ char *jo_scene_summary(const JoScene *scene) {
 
 char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error) {
     JOX_REQUIRE(summaries || count == 0, NULL);
+    for (size_t s = 0; s < count; s++)
+        JOX_REQUIRE(summaries[s], NULL);
     JOX_GUARD (NULL, error)
         return NULL;
     JoxText out = {0};

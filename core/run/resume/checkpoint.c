@@ -185,7 +185,8 @@ static const JoxListenerKind CHECKPOINTS = {.name = "checkpoints",
 
 bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every, const char *note,
                          JoError *error) {
-    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &CHECKPOINTS), false);
+    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &CHECKPOINTS),
+                false);
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_run_listen(scene, &CHECKPOINTS, &(JoxCheckpointDef){directory, note, every},

@@ -65,7 +65,7 @@ static bool act_by_name(JoWorld *world, JoxInputVerb verb, const char *name, con
 /* ---- people ---- */
 
 JoAgent jo_world_spawn(JoWorld *world, const char *group, double x, double y, JoError *error) {
-    JOX_REQUIRE(world && group, (JoAgent){0});
+    JOX_REQUIRE(world && !world->busy && group, (JoAgent){0});
     if (!act_by_name(world, JOX_INPUT_SPAWN, group, (double[]){x, y}, 2, error))
         return (JoAgent){0};
     const JoxAgents *a = &world->state.agents;
@@ -73,34 +73,34 @@ JoAgent jo_world_spawn(JoWorld *world, const char *group, double x, double y, Jo
 }
 
 void jo_world_remove_agent(JoWorld *world, JoAgent agent) {
-    JOX_REQUIRE(world, );
+    JOX_REQUIRE(world && !world->busy, );
     act_on_agent(world, agent, JOX_INPUT_REMOVE, NULL, NULL, 0, NULL);
 }
 
 bool jo_agent_teleport(JoWorld *world, JoAgent agent, double x, double y, JoError *error) {
-    JOX_REQUIRE(world, false);
+    JOX_REQUIRE(world && !world->busy, false);
     return act_on_agent(world, agent, JOX_INPUT_TELEPORT, NULL, (double[]){x, y}, 2, error);
 }
 
 bool jo_agent_set_goal(JoWorld *world, JoAgent agent, const char *place, JoError *error) {
-    JOX_REQUIRE(world && place, false);
+    JOX_REQUIRE(world && !world->busy && place, false);
     return act_on_agent(world, agent, JOX_INPUT_GOAL, place, NULL, 0, error);
 }
 
 bool jo_agent_set_state(JoWorld *world, JoAgent agent, const char *state, JoError *error) {
-    JOX_REQUIRE(world && state, false);
+    JOX_REQUIRE(world && !world->busy && state, false);
     return act_on_agent(world, agent, JOX_INPUT_STATE, state, NULL, 0, error);
 }
 
 bool jo_agent_set_memory(JoWorld *world, JoAgent agent, const char *name, double value,
                          JoError *error) {
-    JOX_REQUIRE(world && name, false);
+    JOX_REQUIRE(world && !world->busy && name, false);
     return act_on_agent(world, agent, JOX_INPUT_MEMORY, name, &value, 1, error);
 }
 
 bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value,
                             JoError *error) {
-    JOX_REQUIRE(world && name, false);
+    JOX_REQUIRE(world && !world->busy && name, false);
     return act_on_agent(world, agent, JOX_INPUT_PARAMETER, name, &value, 1, error);
 }
 
@@ -129,7 +129,7 @@ bool jo_agent_parameter(const JoWorld *world, JoAgent agent, const char *name, d
 
 void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
     const double most = world && world->record ? 1e4 : 1e6; /* what a line of the log can say */
-    JOX_REQUIRE(world && fabs(fx) <= most && fabs(fy) <= most, );
+    JOX_REQUIRE(world && !world->busy && fabs(fx) <= most && fabs(fy) <= most, );
     if (world->record) {
         act_on_agent(world, agent, JOX_INPUT_PUSH, NULL, (double[]){fx, fy}, 2, NULL);
         return;
@@ -144,7 +144,7 @@ void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
 /* ---- bodies ---- */
 
 JoBody jo_world_body_at(const JoWorld *world, uint32_t slot) {
-    JOX_REQUIRE(world, (JoBody){0});
+    JOX_REQUIRE(world && !world->busy, (JoBody){0});
     const uint32_t id =
         jox_heap_has_failed(world->heap) ? JOX_NO_BODY : jox_bodies_id(world->state.bodies, slot);
     JoBody body = {0};
@@ -154,7 +154,7 @@ JoBody jo_world_body_at(const JoWorld *world, uint32_t slot) {
 }
 
 JoBody jo_world_find_body(const JoWorld *world, const char *name) {
-    JOX_REQUIRE(world && name, (JoBody){0});
+    JOX_REQUIRE(world && !world->busy && name, (JoBody){0});
     if (!*name || jox_heap_has_failed(world->heap))
         return (JoBody){0};
     return jo_world_body_at(world, jox_bodies_find_name(world->state.bodies, name));
@@ -167,24 +167,24 @@ bool jo_body_is_live(const JoWorld *world, JoBody body) {
 
 bool jo_body_impulse(JoWorld *world, JoBody body, const double impulse[3], const double point[3],
                      JoError *error) {
-    JOX_REQUIRE(world && impulse, false);
+    JOX_REQUIRE(world && !world->busy && impulse, false);
     return act_on_body(world, body, JOX_INPUT_IMPULSE, impulse, point, 3, error);
 }
 
 bool jo_body_place(JoWorld *world, JoBody body, const double at[3], const double turn[4],
                    JoError *error) {
-    JOX_REQUIRE(world && at, false);
+    JOX_REQUIRE(world && !world->busy && at, false);
     return act_on_body(world, body, JOX_INPUT_PLACE, at, turn, 4, error);
 }
 
 bool jo_body_set_velocity(JoWorld *world, JoBody body, const double velocity[3],
                           const double spin[3], JoError *error) {
-    JOX_REQUIRE(world && velocity, false);
+    JOX_REQUIRE(world && !world->busy && velocity, false);
     return act_on_body(world, body, JOX_INPUT_VELOCITY, velocity, spin, 3, error);
 }
 
 bool jo_body_remove(JoWorld *world, JoBody body, JoError *error) {
-    JOX_REQUIRE(world, false);
+    JOX_REQUIRE(world && !world->busy, false);
     return act_on_body(world, body, JOX_INPUT_DELETE, NULL, NULL, 0, error);
 }
 
@@ -192,7 +192,7 @@ bool jo_body_remove(JoWorld *world, JoBody body, JoError *error) {
 
 bool jo_world_add_wall(JoWorld *world, const char *name, const double *xy, size_t count,
                        JoError *error) {
-    JOX_REQUIRE(world && name && xy, false);
+    JOX_REQUIRE(world && !world->busy && name && xy, false);
     if (count == 2 || count == 4)
         return act_by_name(world, JOX_INPUT_WALL, name, xy, 2 * (uint32_t)count, error);
     jox_error(error, JO_INPUT, "a wall that is added has 2 or 4 points, not %zu", count);
@@ -200,16 +200,16 @@ bool jo_world_add_wall(JoWorld *world, const char *name, const double *xy, size_
 }
 
 bool jo_world_remove_wall(JoWorld *world, const char *name, JoError *error) {
-    JOX_REQUIRE(world && name, false);
+    JOX_REQUIRE(world && !world->busy && name, false);
     return act_by_name(world, JOX_INPUT_UNWALL, name, NULL, 0, error);
 }
 
 bool jo_world_open_wall(JoWorld *world, const char *name, bool open, JoError *error) {
-    JOX_REQUIRE(world && name, false);
+    JOX_REQUIRE(world && !world->busy && name, false);
     return act_by_name(world, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, name, NULL, 0, error);
 }
 
 bool jo_world_signal(JoWorld *world, const char *name, JoError *error) {
-    JOX_REQUIRE(world && name, false);
+    JOX_REQUIRE(world && !world->busy && name, false);
     return act_by_name(world, JOX_INPUT_SIGNAL, name, NULL, 0, error);
 }

@@ -129,7 +129,7 @@ static void read_presence(const JoWorld *w, JoxHappened *h) {
 }
 
 JoEvents jo_world_events(JoWorld *world) {
-    JOX_REQUIRE(world, (JoEvents){0});
+    JOX_REQUIRE(world && !world->busy, (JoEvents){0});
     JoxHappened *h = &world->scratch.happened;
     const JoxAgents *a = &world->state.agents;
     JOX_GUARD (world->heap, NULL)

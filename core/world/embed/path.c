@@ -90,7 +90,7 @@ static uint32_t walk_to(JoWorld *w, double x, double y, const char *place, doubl
 
 uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, double *xy,
                        uint32_t capacity, double *length) {
-    JOX_REQUIRE(world && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
+    JOX_REQUIRE(world && !world->busy && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
     JOX_GUARD (world->heap, NULL)
         return 0;
     return walk_to(world, x, y, place, xy, capacity, length);
@@ -99,7 +99,7 @@ uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, do
 /* ---- snapshots ---- */
 
 void *jo_world_snapshot(JoWorld *world, size_t *size, JoError *error) {
-    JOX_REQUIRE(world && size, NULL);
+    JOX_REQUIRE(world && !world->busy && size, NULL);
     *size = 0;
     JOX_GUARD (world->heap, error)
         return NULL;
@@ -113,7 +113,7 @@ void *jo_world_snapshot(JoWorld *world, size_t *size, JoError *error) {
 }
 
 bool jo_world_restore(JoWorld *world, const void *data, size_t size, JoError *error) {
-    JOX_REQUIRE(world && data, false);
+    JOX_REQUIRE(world && !world->busy && data, false);
     JOX_GUARD (world->heap, error)
         return false;
     world->scratch.happened.tick = 0; /* what was seen is of another time */
