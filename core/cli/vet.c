@@ -153,6 +153,10 @@ static double used(const struct rusage *usage) {
     return (double)(user.tv_sec + system.tv_sec) + 1e-6 * (double)(user.tv_usec + system.tv_usec);
 }
 
+/* The system counts a limit by its ticks, and tells times by clocks: where processors are shared
+   with others, a process may be ended for its time at nine tenths of it and less. */
+static const double LATE = 0.75;
+
 /* Says at which file the child ended, and why. A process ends by SIGKILL at its last second, too,
    which its times tell from a kill. */
 static void say_ended(CliVetted *what, int end, int status, const struct rusage *usage,
@@ -162,7 +166,7 @@ static void say_ended(CliVetted *what, int end, int status, const struct rusage 
                        : what->edited && !what->edited->scene ? what->edited->behaviours[0]
                                                               : what->def->path;
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    const bool late = used(usage) > 0.95 * allowed();
+    const bool late = used(usage) > LATE * allowed();
     JoxText *why = &what->why;
     snprintf(what->file, sizeof what->file, "%s", file);
     jox_text_printf(why, "reading this %s ", what->edited ? "file" : "scene");
