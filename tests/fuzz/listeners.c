@@ -201,7 +201,7 @@ static void go_on(JoScene *scene, bool report, bool draw) {
 }
 
 /* What fonts take is kept by their library. */
-const char *__lsan_default_suppressions(void);
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig";
 }
