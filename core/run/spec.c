@@ -6,7 +6,6 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-/* The def's overrides, with seed and step as two more. */
 static bool has_all(const char *const *texts, size_t count) {
     for (size_t t = 0; t < count; t++)
         if (!texts || !texts[t])
@@ -22,6 +21,7 @@ bool jox_run_is_whole(const JoSceneDef *def) {
            has_all(def->mods, def->mod_count);
 }
 
+/* The def's overrides, with seed and step as two more. */
 JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
                                 JoxDiagnostics *diagnostics) {
     char seed[32], step[48];

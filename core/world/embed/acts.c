@@ -144,7 +144,7 @@ void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
 /* ---- bodies ---- */
 
 JoBody jo_world_body_at(const JoWorld *world, uint32_t slot) {
-    JOX_REQUIRE(world && !world->busy, (JoBody){0});
+    JOX_REQUIRE(world, (JoBody){0});
     const uint32_t id =
         jox_heap_has_failed(world->heap) ? JOX_NO_BODY : jox_bodies_id(world->state.bodies, slot);
     JoBody body = {0};
@@ -154,7 +154,7 @@ JoBody jo_world_body_at(const JoWorld *world, uint32_t slot) {
 }
 
 JoBody jo_world_find_body(const JoWorld *world, const char *name) {
-    JOX_REQUIRE(world && !world->busy && name, (JoBody){0});
+    JOX_REQUIRE(world && name, (JoBody){0});
     if (!*name || jox_heap_has_failed(world->heap))
         return (JoBody){0};
     return jo_world_body_at(world, jox_bodies_find_name(world->state.bodies, name));
