@@ -130,6 +130,8 @@ int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
 typedef struct CliRunFiles {
     const char *report, *data, *record, *log, *checkpoints, *summary;
 } CliRunFiles;
+/* What each plain Lua function of the run's behaviours cost, to stderr. */
+void cli_profile(const JoScene *scene);
 /* The last lines of a run: what it comes to, and where its files are. */
 void cli_closing(const JoScene *scene, const CliRunFiles *files);
 

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/noun.h"
 #include "cli/cli.h"
 
 void cli_closing(const JoScene *scene, const CliRunFiles *files) {
@@ -29,4 +30,38 @@ void cli_closing(const JoScene *scene, const CliRunFiles *files) {
     jox_text_free(&text);
     jox_text_free(&lines);
     jo_free(closing);
+}
+
+static void print_cost(const JoLuaCost *cost, double stepping) {
+    fprintf(stderr, "  %-52.100s %10llu calls %8.0f ns each %9.2f ms %6.2f %%%s\n", cost->where,
+            (unsigned long long)cost->calls,
+            cost->calls ? cost->seconds * 1e9 / (double)cost->calls : 0.0, cost->seconds * 1e3,
+            stepping > 0.0 ? 100.0 * cost->seconds / stepping : 0.0,
+            cost->suspended  ? "  suspended"
+            : cost->failures ? "  failed at times"
+                             : "");
+}
+
+void cli_profile(const JoScene *scene) {
+    JoLuaCosts *costs = jo_scene_lua_costs(scene);
+    for (uint32_t first = 0, last; costs && first < costs->count; first = last) {
+        const JoLuaCost *items = costs->items;
+        uint64_t calls = 0;
+        double seconds = 0.0;
+        char functions[JOX_NOUN], told[JOX_NOUN];
+        for (last = first; last < costs->count && !strcmp(items[last].file, items[first].file);
+             last++) {
+            calls += items[last].calls;
+            seconds += items[last].seconds;
+        }
+        fprintf(stderr, "%s (%s): %s, %s, %.2f ms, %.2f %% of the steps\n", items[first].behaviour,
+                items[first].file, jox_noun(functions, last - first, "plain function"),
+                jox_noun(told, calls, "call"), seconds * 1e3,
+                costs->stepping > 0.0 ? 100.0 * seconds / costs->stepping : 0.0);
+        for (uint32_t k = first; k < last; k++)
+            print_cost(&items[k], costs->stepping);
+    }
+    if (costs && costs->count == 0)
+        fputs("no behaviour has a plain function\n", stderr);
+    jo_free(costs);
 }

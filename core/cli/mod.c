@@ -11,22 +11,75 @@ typedef struct Mods {
 
 static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def), CLI_TRUSTED_OPTION(Mods)};
 
+static void print_taken(uint32_t number, const JoMod *mod) {
+    printf("%u. %s %s%s%s (%s; %s)\n", number, mod->name, mod->version, *mod->title ? ": " : "",
+           mod->title, mod->folder, mod->on == JO_MOD_ON ? "on" : "named");
+    for (uint32_t p = 0; p < mod->patch_count; p++) {
+        const JoModPatch *patch = &mod->patches[p];
+        printf("     %s %s %s\n", patch->replaces ? "replaces" : "patches",
+               patch->behaviour ? "behaviour" : "scene", *patch->target ? patch->target : "?");
+    }
+    for (uint32_t s = 0; s < mod->setting_count; s++) {
+        const JoModSetting *set = &mod->settings[s];
+        printf("     %s = %g %s (%g to %g)%s%s\n", set->name, set->value, set->unit, set->least,
+               set->greatest, *set->meaning ? ": " : "", set->meaning);
+    }
+}
+
 static int list(const JoSceneDef *def) {
-    char *text = jo_mods_list(def);
-    fputs(text ? text : "", stdout);
-    jo_free(text);
+    static const char *const SWITCHES[] = {
+        [JO_MOD_OFF] = "off",
+        [JO_MOD_CHANGED] = "off, as it has changed since it was turned on",
+        [JO_MOD_ON] = "on, but not taken",
+    };
+    JoMods *mods = jo_mods_list(def);
+    for (uint32_t m = 0; mods && m < mods->count; m++) {
+        const JoMod *mod = &mods->items[m];
+        if (mod->taken)
+            print_taken(m + 1, mod);
+        else
+            printf("%s: %s %s%s%s (%s)\n", SWITCHES[mod->on], mod->name, mod->version,
+                   *mod->title ? ": " : "", mod->title, mod->folder);
+    }
+    if (mods && mods->count == 0)
+        puts("no mods found");
+    jo_free(mods);
     return JO_OK;
+}
+
+enum { LONGEST_SHOWN = 60 }; /* bytes of a value */
+
+static void print_setting(const JoSetting *setting) {
+    const char *value = setting->removes ? "taken away" : setting->value;
+    size_t shown = strlen(value);
+    if (setting->by == JO_SET_DEFAULT) {
+        printf("  the default: %s%s%s\n", value, *setting->unit ? " " : "", setting->unit);
+        return;
+    }
+    const bool cut = shown > LONGEST_SHOWN;
+    shown = cut ? LONGEST_SHOWN - 3 : shown;
+    while (cut && ((unsigned char)value[shown] & 0xc0) == 0x80)
+        shown--; /* no half of a letter */
+    printf("  %s:%d:%d: %.*s%s", setting->file, setting->line, setting->column, (int)shown, value,
+           cut ? "..." : "");
+    if (*setting->mod)
+        printf("   (mod %s %s)", setting->mod, setting->version);
+    putchar('\n');
 }
 
 static int why(const JoSceneDef *def, const char *path) {
     JoError error = {0};
-    char *text = jo_mods_why(def, path, &error);
-    if (!text) {
+    JoSettings *settings = jo_mods_why(def, path, &error);
+    if (!settings) {
         cli_failed(&cli_mod, &error, false);
         return JO_INPUT;
     }
-    fputs(text, stdout);
-    jo_free(text);
+    puts(path);
+    for (uint32_t s = 0; s < settings->count; s++)
+        print_setting(&settings->items[s]);
+    if (settings->count > 1)
+        puts("  the last one counts");
+    jo_free(settings);
     return JO_OK;
 }
 

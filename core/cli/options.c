@@ -282,11 +282,12 @@ int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error) 
 }
 
 bool cli_troubled(const CliCommand *command, const JoScene *scene) {
-    char *which = jo_scene_troubles(scene);
-    if (which)
-        fprintf(stderr, "jostle %s: %s\n", command->name, which);
-    jo_free(which);
-    return which != NULL;
+    JoTroubles *troubles = jo_scene_troubles(scene);
+    const bool any = troubles && troubles->count > 0;
+    for (uint32_t t = 0; any && t < troubles->count; t++)
+        fprintf(stderr, "jostle %s: %s\n", command->name, troubles->items[t].text);
+    jo_free(troubles);
+    return any;
 }
 
 void cli_print(void *context, const char *text) {

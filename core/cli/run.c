@@ -202,11 +202,8 @@ static int simulate(Run *run, char **summary) {
                                           .log = run->log,
                                           .checkpoints = run->folder,
                                           .summary = run->summary});
-    if (run->profile) {
-        char *profile = jo_scene_lua_profile(scene);
-        fputs(profile ? profile : "", stderr);
-        jo_free(profile);
-    }
+    if (run->profile)
+        cli_profile(scene);
     jo_scene_free(scene);
     return status;
 }

@@ -53,8 +53,8 @@ typedef struct JoError {
 typedef void JoAssertHandler(const char *condition, const char *file, int line);
 JO_API void jo_set_assert_handler(JoAssertHandler *handler);
 
-/* Frees text that the library returned. NULL is fine. */
-JO_API void jo_free(void *text);
+/* Frees what the library returned: a text, or a struct with all that it points to. NULL is fine. */
+JO_API void jo_free(void *result);
 
 /* ---- worlds built by hand ---------------------------------------------------------------- */
 
@@ -245,7 +245,7 @@ typedef struct JoSceneDef {
                          anew at each 128th step, so that their state can be saved exactly there; the
                          order of Bullet's contacts changes by that */
     bool no_density;  /* densities are not sampled, which takes time, until a report asks for them:
-                         "density_max" of the summary is null */
+                         "density_max" of the figures is none */
     bool dry;         /* all is read and compiled, and nobody is placed: for jo_scene_free, and
                          jo_scene_try, alone */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
@@ -334,40 +334,6 @@ typedef struct JoStats {
 JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */
 JO_API const char *jo_stage_name(int stage);
-/* One JSON object with the figures of the run so far; free with jo_free. They do not depend on what
-   is reported or recorded, which may add some. "density_max" is the greatest density of any place
-   and time, people per m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s
-   (JoSceneDef.no_density: null). */
-JO_API char *jo_scene_summary(const JoScene *scene);
-/* The name of the n-th probe of the scene, from 0; NULL behind the last. */
-JO_API const char *jo_scene_probe_name(const JoScene *scene, uint32_t n);
-/* What it has measured so far, as the table that a report writes: CSV, whose first line has names
-   with units in brackets; free with jo_free. NULL where there is no such probe. */
-JO_API char *jo_scene_probe_table(const JoScene *scene, uint32_t n);
-/* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
-   "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,
-   coordinates and texts are not. Free with jo_free. */
-JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
-
-/* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
-   order, and the others that were found, on or off, as text; free with jo_free. */
-JO_API char *jo_mods_list(const JoSceneDef *def);
-/* Turns a mod on or off for all later runs: its folder, or its name where it lies beside the scene
-   of def->path or in the user's data directory (path NULL: also in mods/ or scenes/mods/). That is
-   kept in the user's configuration with a hash of what the mod holds: when that changes, the mod is
-   off until it is turned on again. False with `error`. */
-JO_API bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error);
-/* Who set a value: "tawaf.Circle.push" of a behaviour, or, with def->path, "groups.red.count" of
-   the scene: every place in order, the last one wins. NULL with `error` where there is no such
-   path. */
-JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
-/* A sentence on each function of a behaviour that is suspended, since it failed too often, and on
-   people who were lost (JoLost): the run went on, but not as it was written. NULL where there is
-   nothing of the kind; free with jo_free. */
-JO_API char *jo_scene_troubles(const JoScene *scene);
-/* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
-JO_API char *jo_scene_lua_profile(const JoScene *scene);
-
 #ifdef __cplusplus
 }
 #endif
@@ -375,5 +341,6 @@ JO_API char *jo_scene_lua_profile(const JoScene *scene);
 #include "jostle_act.h"
 #include "jostle_host.h"
 #include "jostle_read.h"
+#include "jostle_tell.h"
 
 #endif

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -136,7 +137,22 @@ class WorldRef {
 struct Free {
     void operator()(JoWorld *world) const noexcept { jo_world_free(world); }
     void operator()(JoScene *scene) const noexcept { jo_scene_free(scene); }
-    void operator()(char *text) const noexcept { jo_free(text); }
+    template <class T> void operator()(T *told) const noexcept { jo_free(told); }
+};
+
+// A struct of jostle_tell.h, which frees itself: told->items[0].
+template <class T> class Told {
+  public:
+    // Throws std::bad_alloc for NULL.
+    explicit Told(T *told) : told_(told) {
+        if (!told)
+            throw std::bad_alloc();
+    }
+    const T *operator->() const noexcept { return told_.get(); }
+    const T *get() const noexcept { return told_.get(); }
+
+  private:
+    std::unique_ptr<T, Free> told_;
 };
 
 // A world that is made by hand.
@@ -196,10 +212,14 @@ class Scene {
         JoError error{};
         detail::require(jo_scene_input(get(), line.c_str(), &error), error);
     }
-    // Of the whole run, as JSON.
-    std::string summary() const {
-        const std::unique_ptr<char, Free> text(jo_scene_summary(get()));
-        return text ? text.get() : "";
+    // Of the run so far; what it returns may outlive the scene.
+    Told<JoFigures> figures() const { return Told<JoFigures>(jo_scene_figures(get())); }
+    Told<JoTroubles> troubles() const { return Told<JoTroubles>(jo_scene_troubles(get())); }
+    // Of a probe by its number; throws std::out_of_range where there is none.
+    Told<JoTable> probe(std::uint32_t n) const {
+        if (!jo_scene_probe_name(get(), n))
+            throw std::out_of_range("the scene has no such probe");
+        return Told<JoTable>(jo_scene_probe_table(get(), n));
     }
 
   private:

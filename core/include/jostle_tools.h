@@ -15,6 +15,14 @@ extern "C" {
    is the reason alone. */
 JO_API bool jo_write(const char *path, const char *text, JoError *error);
 
+/* The figures of a run so far (jo_scene_figures) as the file that `jostle run --summary` writes,
+   one JSON object; free with jo_free. */
+JO_API char *jo_scene_summary(const JoScene *scene);
+/* From several such files: {"runs", "given": {PATH: value, or a list by run where they differ},
+   "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,
+   coordinates and texts are not. Free with jo_free. */
+JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
+
 /* What a run comes to so far, as a paragraph: who left and who is in which state, hits and the
    like, who stood still, warnings. Free with jo_free. */
 JO_API char *jo_scene_closing(const JoScene *scene);

@@ -148,7 +148,7 @@ static bool run(JoxScenePage *s, JoError *error) {
     jox_live_page_run(&s->page, def->stop);
     if (def->summary)
         *def->summary = jo_scene_summary(s->scene);
-    char *troubles = jo_scene_troubles(s->scene);
+    char *troubles = jox_run_troubles(s->scene);
     if (s->failed)
         jox_error(error, JO_FAILED, "%s", s->failure);
     else if (troubles)

@@ -10,8 +10,7 @@
 #include "lua/language/script.h"
 #include "lua/loader.h"
 
-enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is suspended */
-enum { TIMED = 16 };          /* one call in so many is timed */
+enum { TIMED = 16 }; /* one call in so many is timed */
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     JOX_ASSERT(!machines || machines->agents);
@@ -22,18 +21,6 @@ void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *compla
 
 uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
-}
-
-void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
-    for (uint32_t v = 0; v < lua->script_count; v++) {
-        const JoxScript *script = lua->scripts[v];
-        for (uint32_t h = 0; script && h < script->hook_count; h++)
-            if (script->hooks[h].suspended)
-                jox_text_printf(
-                    out, "%sbehaviour %.200s was suspended: %.200s failed %d times within a second",
-                    out->length ? "; " : "", script->vm.sources[0]->path, script->hooks[h].where,
-                    MOST_FAILURES);
-    }
 }
 
 void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) {
@@ -91,13 +78,13 @@ static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *wh
         new_second(lua, script, hook, second);
     lua->failures++;
     hook->failures++;
-    if (++hook->second_failures == MOST_FAILURES) {
+    if (++hook->second_failures == JOX_MOST_FAILURES) {
         hook->suspended = true;
         snprintf(
             text, sizeof text,
             "%.200s: %.200s: it failed %d times within a second and is suspended until the file "
             "is reloaded; agents stay in their states\n",
-            script->machine->path, hook->where, MOST_FAILURES);
+            script->machine->path, hook->where, JOX_MOST_FAILURES);
         say(lua, text);
         return;
     }
@@ -243,17 +230,18 @@ double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *c
     return seconds;
 }
 
-void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out) {
+bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost) {
     const JoxScript *script = jox_lua_script(lua, machine);
-    for (uint32_t h = 0; script && h < script->hook_count; h++) {
-        const JoxHook *hook = &script->hooks[h];
-        double each = hook->timed ? hook->seconds / (double)hook->timed : 0.0;
-        double all = each * (double)hook->calls;
-        jox_text_printf(out, "  %-52.100s %10llu calls %8.0f ns each %9.2f ms %6.2f %%%s\n",
-                        hook->where, (unsigned long long)hook->calls, each * 1e9, all * 1e3,
-                        wall > 0.0 ? 100.0 * all / wall : 0.0,
-                        hook->suspended  ? "  suspended"
-                        : hook->failures ? "  failed at times"
-                                         : "");
-    }
+    if (!script || n >= script->hook_count)
+        return false;
+    const JoxHook *hook = &script->hooks[n];
+    *cost = (JoLuaCost){
+        .behaviour = machine->name,
+        .file = machine->path,
+        .where = hook->where,
+        .calls = hook->calls,
+        .failures = hook->failures,
+        .seconds = hook->timed ? hook->seconds / (double)hook->timed * (double)hook->calls : 0.0,
+        .suspended = hook->suspended};
+    return true;
 }

@@ -8,14 +8,17 @@
 #include "lua/vm/limits.h"
 #include "machine/run.h"
 
+/* Failures of a function in a simulated second, with which it is suspended. */
+enum { JOX_MOST_FAILURES = 100 };
+
 /* NULL if anything is wrong; every error (up to 20) is then in `diagnostics`, and nothing changed.
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics);
 /* Who set a path of the machine ("Circle.push", "defaults.speed", "Circle.Exit.chance"), the first
-   first, a line each: value, file and line, and the mod; false if nobody did. */
+   first; false if nobody did. */
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
-                 const JoxScope *scope, JoxText *out);
+                 const JoxScope *scope, JoSetVisit *visit, void *context);
 /* What set a canonical path of the machine last: "defaults.speed", "states.Circle.push",
    "states.Circle.@Exit.when" (a transition by its id). */
 typedef struct JoxWritten {
@@ -80,14 +83,12 @@ void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *section
 /* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
  */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
-/* A line per function: where it stands, calls, time each and in all, and its share of `wall` s. */
-void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out);
+/* What its n-th function cost, with texts of the machine; false behind the last. */
+bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);
 /* Path of the behaviour whose functions take so much longer than their instructions explain that
    the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
 const char *jox_lua_stalled(const JoxLua *lua);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
-/* Appends a sentence for each function that is suspended, as it failed too often. */
-void jox_lua_suspended(const JoxLua *lua, JoxText *out);
 
 #endif

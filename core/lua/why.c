@@ -7,6 +7,8 @@
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 
+enum { LONGEST = 400 }; /* bytes of a value that are told */
+
 /* The text of a value as written, on one line and without comments; cut after `most` bytes. */
 static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {
     JOX_ASSERT(path->first <= path->last && path->last <= source->token_count);
@@ -40,13 +42,31 @@ typedef struct Setting {
     bool removes;
 } Setting;
 
-/* What is done with the places that are found: each is printed to `out` where that is given, and
+/* What is done with the places that are found: each is told to `visit` where that is given, and
    the last one is kept. */
 typedef struct Settings {
     const JoxScope *scope;
-    JoxText *out;
+    JoSetVisit *visit;
+    void *context;
     Setting last;
 } Settings;
+
+static void tell(const Setting *setting, const Settings *to) {
+    JoxText value = {0};
+    const bool is_mod = setting->mod >= 0 && (uint32_t)setting->mod < to->scope->mod_count;
+    if (!setting->removes)
+        print_value(setting->source, setting->path, LONGEST, &value);
+    to->visit(to->context,
+              &(JoSetting){.by = is_mod ? JO_SET_MOD : JO_SET_BEHAVIOUR,
+                           .value = value.data,
+                           .file = setting->source->path,
+                           .line = setting->key->line,
+                           .column = setting->key->column,
+                           .mod = is_mod ? to->scope->mods[setting->mod].name : NULL,
+                           .version = is_mod ? to->scope->mods[setting->mod].version : NULL,
+                           .removes = setting->removes});
+    jox_text_free(&value);
+}
 
 /* Adds the place where a path is written in a source. False if it is not written there. */
 static bool take_place(const JoxScript *script, uint32_t source, const char *path, int32_t mod,
@@ -56,18 +76,8 @@ static bool take_place(const JoxScript *script, uint32_t source, const char *pat
         return false;
     const JoxToken *key = &script->vm.sources[source]->tokens[found->key];
     to->last = (Setting){script->vm.sources[source], found, key, mod, removes};
-    if (!to->out)
-        return true;
-    jox_text_printf(to->out, "  %s:%d:%d: ", script->vm.sources[source]->path, key->line,
-                    key->column);
-    if (removes)
-        jox_text_add(to->out, "taken away");
-    else
-        print_value(script->vm.sources[source], found, 60, to->out);
-    if (mod >= 0 && (uint32_t)mod < to->scope->mod_count)
-        jox_text_printf(to->out, "   (mod %s %s)", to->scope->mods[mod].name,
-                        to->scope->mods[mod].version);
-    jox_text_add(to->out, "\n");
+    if (to->visit)
+        tell(&to->last, to);
     return true;
 }
 
@@ -113,14 +123,14 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
 }
 
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
-                 const JoxScope *scope, JoxText *out) {
+                 const JoxScope *scope, JoSetVisit *visit, void *context) {
     const JoxScript *script = jox_lua_script(lua, machine);
     char canonical[256];
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
     if (!script)
         return false;
-    Settings to = {.scope = scope, .out = out};
+    Settings to = {.scope = scope, .visit = visit, .context = context};
     int count = take_all(script, machine, path, &to);
     snprintf(canonical, sizeof canonical, "states.%.240s", path);
     if (!count)
@@ -141,8 +151,11 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
         count = take_all(script, machine, canonical, &to);
     }
     if (!count) {
-        jox_text_printf(out, "  the engine's default: %g %s\n", jox_parameters[parameter].value,
-                        jox_parameters[parameter].unit);
+        char number[32];
+        snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
+        visit(context, &(JoSetting){.by = JO_SET_DEFAULT,
+                                    .value = number,
+                                    .unit = jox_parameters[parameter].unit});
         count = 1;
     }
     return true;
@@ -155,7 +168,7 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
     *out = (JoxWritten){0};
     if (!script || take_all(script, machine, path, &to) == 0 || to.last.removes)
         return false;
-    print_value(to.last.source, to.last.path, 400, &out->text);
+    print_value(to.last.source, to.last.path, LONGEST, &out->text);
     out->file = to.last.source->path;
     out->line = to.last.key->line;
     out->column = to.last.key->column;

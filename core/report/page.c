@@ -125,7 +125,7 @@ static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) 
 
 /* What a reader can rely on; what went wrong. */
 static void put_caveats(FILE *out, const JoScene *scene) {
-    char *troubles = jo_scene_troubles(scene);
+    char *troubles = jox_run_troubles(scene);
     if (troubles)
         jox_html_statement(out, "What went wrong.", troubles);
     jo_free(troubles);

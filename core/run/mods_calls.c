@@ -1,4 +1,4 @@
-/* The public calls about mods: listed, turned on and off, asked who set what. */
+/* The public calls about mods: listed, and turned on and off. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -7,56 +7,79 @@
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/pack.h"
 #include "run/run.h"
 #include "scene/mods_on.h"
 
-/* How the list says it of those that are not taken. */
-static const char *const SWITCHES[] = {
-    [JOX_MOD_OFF] = "off",
-    [JOX_MOD_CHANGED] = "off, as it has changed since it was turned on",
-    [JOX_MOD_ON] = "on, but not taken",
-};
+/* ---- listed ---- */
 
-char *jo_mods_list(const JoSceneDef *def) {
+enum { HEAD, ITEMS, PATCHES, SETTINGS }; /* parts of a pack */
+
+static void add_patches(JoxPack *pack, const JoxMod *mod) {
+    for (uint32_t p = 0; p < mod->patch_count; p++) {
+        JoModPatch *patch = jox_pack_add(pack, PATCHES, sizeof *patch);
+        patch->behaviour = mod->patches[p].lua;
+        patch->replaces = mod->patches[p].replaces;
+        jox_pack_text(pack, PATCHES, &patch->target,
+                      mod->patches[p].target ? mod->patches[p].target : "");
+    }
+}
+
+static void add_settings(JoxPack *pack, const JoxMod *mod) {
+    for (uint32_t s = 0; s < mod->setting_count; s++) {
+        const JoxModSetting *from = &mod->settings[s];
+        JoModSetting *to = jox_pack_add(pack, SETTINGS, sizeof *to);
+        *to =
+            (JoModSetting){.value = from->value, .least = from->least, .greatest = from->greatest};
+        jox_pack_text(pack, SETTINGS, &to->name, from->name);
+        jox_pack_text(pack, SETTINGS, &to->unit, from->unit);
+        jox_pack_text(pack, SETTINGS, &to->meaning, from->meaning);
+    }
+}
+
+static void add_mod(JoxPack *pack, const JoxMod *mod, bool taken) {
+    static const JoModSwitch SWITCHES[] = {
+        [JOX_MOD_OFF] = JO_MOD_OFF, [JOX_MOD_CHANGED] = JO_MOD_CHANGED, [JOX_MOD_ON] = JO_MOD_ON};
+    JoMod *item = jox_pack_add(pack, ITEMS, sizeof *item);
+    item->on = SWITCHES[mod->on];
+    item->taken = taken;
+    jox_pack_text(pack, ITEMS, &item->name, mod->name);
+    jox_pack_text(pack, ITEMS, &item->version, mod->version);
+    jox_pack_text(pack, ITEMS, &item->title, mod->title);
+    jox_pack_text(pack, ITEMS, &item->folder, mod->folder);
+    if (!taken)
+        return;
+    item->patch_count = mod->patch_count;
+    item->setting_count = mod->setting_count;
+    jox_pack_list(pack, ITEMS, &item->patches, PATCHES);
+    jox_pack_list(pack, ITEMS, &item->settings, SETTINGS);
+    add_patches(pack, mod);
+    add_settings(pack, mod);
+}
+
+JoMods *jo_mods_list(const JoSceneDef *def) {
     JOX_REQUIRE(def && jox_run_is_whole(def), NULL);
     JOX_GUARD (NULL, NULL)
         return NULL;
     JoxDiagnostics diagnostics = {0};
+    JoxPack pack = {0};
     JoxMods *mods = jox_run_find_mods(def, 0, &diagnostics);
-    JoxText out = {0};
-    for (uint32_t m = 0; m < mods->count; m++) {
-        const JoxMod *mod = &mods->items[m];
-        jox_text_printf(&out, "%u. %s %s%s%s (%s; %s)\n", m + 1, mod->name, mod->version,
-                        *mod->title ? ": " : "", mod->title, mod->folder,
-                        mod->on == JOX_MOD_ON ? "on" : "named");
-        for (uint32_t p = 0; p < mod->patch_count; p++)
-            jox_text_printf(&out, "     %s %s %s\n",
-                            mod->patches[p].replaces ? "replaces" : "patches",
-                            mod->patches[p].lua ? "behaviour" : "scene",
-                            mod->patches[p].target ? mod->patches[p].target : "?");
-        for (uint32_t s = 0; s < mod->setting_count; s++) {
-            const JoxModSetting *set = &mod->settings[s];
-            jox_text_printf(&out, "     %s = %g %s (%g to %g)%s%s\n", set->name, set->value,
-                            set->unit, set->least, set->greatest, *set->meaning ? ": " : "",
-                            set->meaning);
-        }
-    }
+    JoMods *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    for (uint32_t m = 0; m < mods->count; m++)
+        add_mod(&pack, &mods->items[m], true);
     for (uint32_t f = 0; f < mods->found_count; f++) {
         bool taken = false;
         for (uint32_t m = 0; m < mods->count; m++)
             taken |= mods->number[m] == f;
         if (!taken)
-            jox_text_printf(&out, "%s: %s %s%s%s (%s)\n", SWITCHES[mods->found[f].on],
-                            mods->found[f].name, mods->found[f].version,
-                            *mods->found[f].title ? ": " : "", mods->found[f].title,
-                            mods->found[f].folder);
+            add_mod(&pack, &mods->found[f], false);
     }
-    if (mods->found_count == 0)
-        jox_text_add(&out, "no mods found\n");
-    jox_diag_print(&diagnostics, &out);
-    jox_diag_free(&diagnostics);
+    head->taken = mods->count;
+    head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoMod));
     jox_mods_free(mods);
-    return jox_disown(out.data);
+    jox_run_report(def->message, def->message_context, &diagnostics, NULL);
+    return jox_disown(jox_pack_end(&pack));
 }
 
 /* ---- on and off ---- */
@@ -108,84 +131,4 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
               "lies beside",
               mod);
     return false;
-}
-
-/* ---- why ---- */
-
-/* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
-static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
-    const JoxSceneSpec *spec = scene->spec;
-    bool found = jox_scene_why(spec, path, out);
-    for (uint32_t c = 0; c < spec->changes.count; c++) {
-        const JoxPatchChange *change = &spec->changes.items[c];
-        const char *rest;
-        if (!jox_patch_leads(change, path, &rest))
-            continue;
-        const JoxMod *mod = &scene->mods->items[change->mod];
-        jox_text_printf(out, "  %s:%d:%d: %s   (mod %s %s)\n", change->position.file,
-                        change->position.line, change->position.column,
-                        change->removes ? "taken away" : "set", mod->name, mod->version);
-        found = true;
-    }
-    found |= jox_scene_why_set(spec, path, out);
-    return found || jox_scene_why_default(spec, path, out);
-}
-
-/* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
-static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
-    const JoxMachineRun *machines = &scene->world->machines;
-    for (uint32_t m = 0; m < machines->set->count; m++) {
-        const char *stem = jox_path_name(machines->set->items[m]->path);
-        size_t n = strlen(name);
-        if (strcmp(machines->set->items[m]->name, name) == 0 ||
-            (strncmp(stem, name, n) == 0 && stem[n] == '.'))
-            return machines->set->items[m];
-    }
-    return NULL;
-}
-
-static uint32_t count_lines(const char *text) {
-    uint32_t lines = 0;
-    for (; *text; text++)
-        lines += *text == '\n';
-    return lines;
-}
-
-char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
-    JOX_REQUIRE(def && jox_run_is_whole(def) && def->path && path, NULL);
-    JOX_GUARD (NULL, error)
-        return NULL;
-    JoxDiagnostics diagnostics = {0};
-    JoxText out = {0};
-    JoScene *scene = jox_run_load(def, &diagnostics);
-    if (!scene) {
-        jox_run_report(def->message, def->message_context, &diagnostics, error);
-        return NULL;
-    }
-    char name[128];
-    size_t n = strcspn(path, ".");
-    snprintf(name, sizeof name, "%.*s", (int)(n < 127 ? n : 127), path);
-    const JoxMachine *machine = find_behaviour(scene, name);
-    jox_text_printf(&out, "%s\n", path);
-    bool found =
-        machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1, &scene->scope, &out)
-                : why_scene(scene, path, &out);
-    if (!found) {
-        const JoxMachineRun *machines = &scene->world->machines;
-        const char *names[JOX_MOST_MACHINES];
-        for (uint32_t m = 0; m < machines->set->count; m++)
-            names[m] = machines->set->items[m]->name;
-        const char *near = jox_suggest(name, names, machines->set->count);
-        jox_error(error, JO_INPUT,
-                  machine ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
-                            "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
-                          : "neither the scene nor a behaviour or a mod sets '%s'%s%s",
-                  path, near ? "; did you mean " : "", near ? near : "");
-        jox_text_free(&out);
-    } else if (count_lines(out.data) > 2) { /* the path, and more than one place */
-        jox_text_add(&out, "  the last one counts\n");
-    }
-    jo_scene_free(scene);
-    jox_diag_free(&diagnostics);
-    return jox_disown(out.data);
 }

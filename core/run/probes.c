@@ -1,9 +1,5 @@
 /* The scene's probes, which look at the frames of a run. */
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "base/assert.h"
-#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -85,24 +81,4 @@ const char *jo_scene_probe_name(const JoScene *scene, uint32_t n) {
     JOX_REQUIRE(scene, NULL);
     const JoxProbe *probe = jox_run_probe(scene, n);
     return probe ? jox_probe_def(probe)->name : NULL;
-}
-
-char *jo_scene_probe_table(const JoScene *scene, uint32_t n) {
-    JOX_REQUIRE(scene, NULL);
-    const JoxProbe *probe = jox_run_probe(scene, n);
-    char *text = NULL, *copy = NULL;
-    size_t length = 0;
-    FILE *file = probe ? open_memstream(&text, &length) : NULL;
-    if (!file)
-        return NULL;
-    jox_probe_csv(probe, file);
-    if (fclose(file) == 0) {
-        JOX_GUARD (NULL, NULL) {
-            free(text);
-            return NULL;
-        }
-        copy = jox_disown(jox_strndup(text, length));
-    }
-    free(text);
-    return copy;
 }

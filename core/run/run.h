@@ -71,6 +71,9 @@ void jox_run_say(const JoScene *scene, const char *format, ...)
 /* Sends diagnostics as text, fills `error` from the first error, and frees them. */
 void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics, JoError *error);
 
+/* results/tell.c: what jo_scene_troubles tells, in one sentence; NULL: nothing. To be freed. */
+char *jox_run_troubles(const JoScene *scene);
+
 /* Writes to stderr, and makes room where a line of progress stands. */
 void jox_run_to_stderr(void *context, const char *text);
 /* Calls a `message` of the program's (NULL: to stderr); that of the scene. */

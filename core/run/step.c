@@ -1,7 +1,6 @@
 /* One step of a running scene, and its end. */
 #include "base/assert.h"
 #include "base/guard.h"
-#include "base/mem.h"
 #include "run/run.h"
 
 static bool step(JoScene *scene, JoError *error) {
@@ -48,19 +47,4 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     scene->finished = true;
     bool good = !scene->world || jox_run_tell_end(scene, error);
     return jox_run_end_log(scene, good ? error : NULL) && good;
-}
-
-char *jo_scene_troubles(const JoScene *scene) {
-    JOX_REQUIRE(scene, NULL);
-    JoxText text = {0};
-    const JoxStatistics *s = &scene->world->state.statistics;
-    jox_lua_suspended(scene->lua, &text);
-    if (s->people_lost)
-        jox_text_printf(&text, "%s%llu times the numbers of somebody went wrong, who was %s",
-                        text.length ? "; " : "", (unsigned long long)s->people_lost,
-                        scene->spec->lost_people == JO_LOST_REMOVE ? "removed"
-                                                                   : "put back, at rest");
-    if (text.data)
-        jox_text_clean(text.data);
-    return text.data;
 }

@@ -167,9 +167,11 @@ const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_
 /* Append where the scene's own files write the value of a path ("groups.red.count"; items of lists
    by name or number), where it was set for the run, and what it is by default: false where that is
    nowhere. */
-bool jox_scene_why(const JoxSceneSpec *scene, const char *path, JoxText *out);
-bool jox_scene_why_set(const JoxSceneSpec *scene, const char *path, JoxText *out);
-bool jox_scene_why_default(const JoxSceneSpec *scene, const char *path, JoxText *out);
+bool jox_scene_why(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit, void *context);
+bool jox_scene_why_set(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
+                       void *context);
+bool jox_scene_why_default(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
+                           void *context);
 /* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
  */
 void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);

@@ -5,8 +5,6 @@
 #include "base/mem.h"
 #include "scene/internal.h"
 
-enum { LONGEST_SHOWN = 60 };
-
 /* Takes the first part off a path of "groups.red.count". */
 static const char *take(const char **path, char part[64]) {
     const size_t length = strcspn(*path, ".");
@@ -27,48 +25,50 @@ static const JoxYaml *find(const JoxYaml *node, const char *path) {
     return node;
 }
 
-static void tell(const JoxYaml *node, JoxText *out) {
-    jox_text_printf(out, "  %s:%d:%d: ", node->position.file, node->position.line,
-                    node->position.column);
-    if (node->kind == JOX_YAML_SCALAR)
-        jox_text_printf(out, "%.*s\n", LONGEST_SHOWN, node->text);
-    else
-        jox_text_printf(out, "%s of %u\n", node->kind == JOX_YAML_MAP ? "a table" : "a list",
-                        node->count);
+static void tell(const JoxYaml *node, JoSetBy by, JoSetVisit *visit, void *context) {
+    char list[40];
+    snprintf(list, sizeof list, "%s of %u", node->kind == JOX_YAML_MAP ? "a table" : "a list",
+             node->count);
+    visit(context, &(JoSetting){.by = by,
+                                .value = node->kind == JOX_YAML_SCALAR ? node->text : list,
+                                .file = node->position.file,
+                                .line = node->position.line,
+                                .column = node->position.column});
 }
 
-bool jox_scene_why(const JoxSceneSpec *spec, const char *path, JoxText *out) {
+bool jox_scene_why(const JoxSceneSpec *spec, const char *path, JoSetVisit *visit, void *context) {
     const JoxYaml *node = find(spec->own, path);
     if (node)
-        tell(node, out);
+        tell(node, JO_SET_SCENE, visit, context);
     return node != NULL;
 }
 
-bool jox_scene_why_set(const JoxSceneSpec *spec, const char *path, JoxText *out) {
+bool jox_scene_why_set(const JoxSceneSpec *spec, const char *path, JoSetVisit *visit,
+                       void *context) {
     const JoxYaml *node = find(spec->tree, path);
     if (!node || strcmp(node->position.file, JOX_LOAD_OVERRIDE) != 0)
         return false;
-    tell(node, out);
+    tell(node, JO_SET_OVERRIDE, visit, context);
     return true;
 }
 
-static bool tell_default(const JoxKey *key, JoxText *out) {
+static bool tell_default(const JoxKey *key, JoSetVisit *visit, void *context) {
     if (!*key->standard || *key->standard == '!')
         return false;
-    jox_text_printf(out, "  the default: %s%s%s\n", key->standard, *key->unit ? " " : "",
-                    key->unit);
+    visit(context, &(JoSetting){.by = JO_SET_DEFAULT, .value = key->standard, .unit = key->unit});
     return true;
 }
 
 /* Follows the table of keys along the path: in "group*" and "event[]" one part is a name or a
    number, which must be there; a table may be absent. */
-bool jox_scene_why_default(const JoxSceneSpec *spec, const char *path, JoxText *out) {
+bool jox_scene_why_default(const JoxSceneSpec *spec, const char *path, JoSetVisit *visit,
+                           void *context) {
     char owner[32] = "scene", part[64];
     const JoxYaml *node = spec->tree;
     for (;;) {
         const JoxKey *key = jox_key_find(&jox_scene_format, owner, take(&path, part));
         if (!key || !*path)
-            return key && tell_default(key, out);
+            return key && tell_default(key, visit, context);
         if (!key->of)
             return false;
         node = item_of(node, part);

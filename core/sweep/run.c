@@ -46,7 +46,7 @@ static bool simulate(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pie
         add_text(pieces, "summary", summary);
         add_text(pieces, "plan", plan.data);
         jox_sweep_put_collected(scene, pieces);
-        *troubles = jo_scene_troubles(scene);
+        *troubles = jox_run_troubles(scene);
     } else if (good) {
         jox_memory_error(error);
         good = false;

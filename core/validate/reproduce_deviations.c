@@ -69,17 +69,19 @@ static void shorten(const char *path, char out[512]) {
 
 /* ---- behaviours ---- */
 
+static void keep_last(void *context, const JoSetting *setting) {
+    JoxText *out = context;
+    out->length = 0;
+    jox_text_add(out, setting->value ? setting->value : "");
+    if (setting->unit && *setting->unit)
+        jox_text_printf(out, " %s", setting->unit);
+}
+
 /* The value of a path of the machine as it is written, in the last of the places that set it. */
 static void written(const Deviations *d, const JoxMachine *machine, const char *path,
                     JoxText *out) {
     static const JoxScope ANY = {0};
-    JoxText all = {0};
-    if (jox_lua_why(d->lua, machine, path, &ANY, &all) && all.length > 1) {
-        all.data[--all.length] = 0; /* the end of the last line */
-        const char *line = strrchr(all.data, '\n'), *at = strstr(line ? line : all.data, ": ");
-        jox_text_add(out, at ? at + 2 : "");
-    }
-    jox_text_free(&all);
+    jox_lua_why(d->lua, machine, path, &ANY, keep_last, out);
 }
 
 /* Whether a value is the engine's: machines keep what they do not set as an own value of each

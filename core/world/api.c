@@ -23,8 +23,8 @@ void jo_set_assert_handler(JoAssertHandler *handler) {
     jox_assert_set_handler(handler);
 }
 
-void jo_free(void *text) {
-    jox_free(text);
+void jo_free(void *result) {
+    jox_free(result);
 }
 
 /* False, with an error that names the field and its range, if `value` is outside it or NaN. */

@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <cjson/cJSON.h>
-
 #include "jostle.h"
 
 static const char TYPE[] = "jostle.scene";
@@ -399,63 +397,91 @@ static int agents(lua_State *L) {
     return 1;
 }
 
-/* An item of JSON; null is not there. */
-static void push_json(lua_State *L, const cJSON *item) {
-    luaL_checkstack(L, 4, "the figures are nested too deep");
-    if (cJSON_IsBool(item))
-        lua_pushboolean(L, cJSON_IsTrue(item));
-    else if (cJSON_IsString(item))
-        lua_pushstring(L, item->valuestring);
-    else if (cJSON_IsNumber(item) && item->valuedouble == floor(item->valuedouble) &&
-             fabs(item->valuedouble) < 9e15)
-        lua_pushinteger(L, (lua_Integer)item->valuedouble);
-    else if (cJSON_IsNumber(item))
-        lua_pushnumber(L, item->valuedouble);
-    else if (cJSON_IsArray(item) || cJSON_IsObject(item)) {
-        lua_Integer n = 0;
+/* ---- what a run comes to ---- */
+
+/* A figure; one that is not known is nil. */
+static void push_figure(lua_State *L, const JoFigure *figure) {
+    if (figure->kind == JO_FIGURE_TABLE || figure->kind == JO_FIGURE_LIST)
         lua_newtable(L);
-        for (const cJSON *child = item->child; child; child = child->next) {
-            push_json(L, child);
-            if (cJSON_IsArray(item))
-                lua_rawseti(L, -2, ++n);
-            else
-                lua_setfield(L, -2, child->string);
-        }
-    } else
+    else if (figure->kind == JO_FIGURE_TRUTH)
+        lua_pushboolean(L, figure->number != 0.0);
+    else if (figure->kind == JO_FIGURE_TEXT)
+        lua_pushstring(L, figure->text);
+    else if (figure->kind != JO_FIGURE_NUMBER)
         lua_pushnil(L);
+    else if (figure->number == floor(figure->number) && fabs(figure->number) < 9e15)
+        lua_pushinteger(L, (lua_Integer)figure->number);
+    else
+        lua_pushnumber(L, figure->number);
 }
 
-static int push_decoded(lua_State *L) {
-    push_json(L, lua_touserdata(L, 1));
+/* Figures in their order, as tables within each other; the one of depth d lies in the table at d
+   places above the base. */
+static int push_figures(lua_State *L) {
+    const JoFigures *figures = lua_touserdata(L, 1);
+    const int base = lua_gettop(L);
+    lua_newtable(L);
+    for (uint32_t k = 0; k < figures->count; k++) {
+        const JoFigure *figure = &figures->items[k];
+        lua_settop(L, base + figure->depth);
+        luaL_checkstack(L, 4, "the figures are nested too deep");
+        push_figure(L, figure);
+        lua_pushvalue(L, -1);
+        if (figure->name)
+            lua_setfield(L, -3, figure->name);
+        else
+            lua_rawseti(L, -3, (lua_Integer)lua_rawlen(L, -3) + 1);
+    }
+    lua_settop(L, base + 1);
     return 1;
+}
+
+/* The columns of a table by name and unit, as lists. */
+static int push_table(lua_State *L) {
+    const JoTable *table = lua_touserdata(L, 1);
+    lua_newtable(L);
+    for (uint32_t c = 0; c < table->column_count; c++) {
+        const JoTableColumn *column = &table->columns[c];
+        if (*column->unit)
+            lua_pushfstring(L, "%s [%s]", column->name, column->unit);
+        else
+            lua_pushstring(L, column->name);
+        lua_createtable(L, (int)table->row_count, 0);
+        for (uint32_t r = 0; r < table->row_count; r++) {
+            if (column->texts)
+                lua_pushstring(L, column->texts[r]);
+            else
+                lua_pushnumber(L, column->numbers[r]);
+            lua_rawseti(L, -2, (lua_Integer)r + 1);
+        }
+        lua_rawset(L, -3);
+    }
+    return 1;
+}
+
+/* What `push` makes of a struct that the library returned, which is freed in any case. */
+static int push_told(lua_State *L, lua_CFunction push, void *told) {
+    if (!told)
+        return luaL_error(L, "out of memory");
+    lua_pushcfunction(L, push);
+    lua_pushlightuserdata(L, told);
+    const int status = lua_pcall(L, 1, 1, 0);
+    jo_free(told);
+    return status == LUA_OK ? 1 : lua_error(L);
 }
 
 /* scene:summary(): the figures of the run so far, as tables. */
 static int summary(lua_State *L) {
-    char *text = jo_scene_summary(scene_at(L)->scene);
-    cJSON *json = text ? cJSON_Parse(text) : NULL;
-    jo_free(text);
-    if (!json)
-        return luaL_error(L, "out of memory");
-    lua_pushcfunction(L, push_decoded); /* memory may be out: then `json` is still freed */
-    lua_pushlightuserdata(L, json);
-    const int status = lua_pcall(L, 1, 1, 0);
-    cJSON_Delete(json);
-    return status == LUA_OK ? 1 : lua_error(L);
+    return push_told(L, push_figures, jo_scene_figures(scene_at(L)->scene));
 }
 
-/* scene:probe(NAME): its table as CSV. */
+/* scene:probe(NAME): what it has measured, as lists by column. */
 static int probe(lua_State *L) {
     const JoScene *scene = scene_at(L)->scene;
     const char *name = luaL_checkstring(L, 2);
-    for (uint32_t n = 0; jo_scene_probe_name(scene, n); n++) {
-        if (strcmp(jo_scene_probe_name(scene, n), name) != 0)
-            continue;
-        char *table = jo_scene_probe_table(scene, n);
-        lua_pushstring(L, table ? table : "");
-        jo_free(table);
-        return 1;
-    }
+    for (uint32_t n = 0; jo_scene_probe_name(scene, n); n++)
+        if (strcmp(jo_scene_probe_name(scene, n), name) == 0)
+            return push_told(L, push_table, jo_scene_probe_table(scene, n));
     return luaL_error(L, "the scene has no probe '%s'", name);
 }
 

@@ -54,7 +54,10 @@ file:close()
 local said = {}
 local gate = jostle.scene(folder .. "/module.yaml", { message = function(t) said[#said + 1] = t end })
 gate:record(folder .. "/module.sqlite", 0.5):open("gate"):run(6):signal("stop"):run(1)
-check("a gate is opened, and passed", gate:probe("passed"):find "passed" or #gate:probe "passed" > 40)
+local passed = gate:probe "passed"
+check("a gate is opened, and passed", #passed["time [s]"] == 4 and passed.passages[4] == 4)
+local figures = gate:summary()
+check("figures nest as in the file", figures.probes.passed.passages == 4 and figures.inputs[1].path:find "module.yaml" and #figures.mods == 0)
 check("a signal is heard", gate:agents()[1].state == "Stop")
 check("what behaviours print is heard", table.concat(said):find "halted")
 fails("a probe that there is not", "no probe 'p'", gate.probe, gate, "p")

@@ -20,6 +20,12 @@ int main() {
         std::printf("t = %.1f s: %zu within 2 m of (%.2f, %.2f), %u transitions, %u touches\n", world.time(),
                     world.neighbours(at.x, at.y, 2).size(), at.x, at.y, transitions, touches);
 
+        const auto figures = scene.figures();
+        std::printf("%g people, %g transitions in all, %u troubles\n", jo_figure(figures.get(), "agents"),
+                    jo_figure(figures.get(), "events.transitions"), scene.troubles()->count);
+        if (jo_figure(figures.get(), "events.transitions") < transitions || figures->count < 40)
+            return 1;
+
         jostle::World plain;
         JoAgentDef person = jo_default_agent_def();
         jo_agent_set_preferred(plain.get(), plain.add(person), 1, 0);

@@ -24,7 +24,7 @@ says "why: of a table that the scene leaves out" 0 "the default: physical" "$JOS
 says "why: of what an included file says" 0 "scenes/tawaf.yaml:" "$JOSTLE" mod why step scenes/tawaf-few.yaml
 says "why: no such key" 3 "neither the scene nor a behaviour or a mod sets 'groups.rad.at'" "$JOSTLE" mod why groups.rad.at scenes/dodgeball.yaml
 says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
-says "why: the engine's default" 0 "the engine's default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
+says "why: the engine's default" 0 "the default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
 says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -

@@ -127,6 +127,15 @@ static bool use_scene(JoScene *scene, JoError *error) {
     if (!summary)
         return no_memory(error);
     jo_free(summary);
+    JoFigures *figures = jo_scene_figures(scene);
+    JoTroubles *troubles = figures ? jo_scene_troubles(scene) : NULL;
+    JoLuaCosts *costs = troubles ? jo_scene_lua_costs(scene) : NULL;
+    const bool complete = figures && troubles && costs;
+    jo_free(figures);
+    jo_free(troubles);
+    jo_free(costs);
+    if (!complete)
+        return no_memory(error);
     char *seen = jo_scene_inspect(scene, 0);
     if (!seen)
         return no_memory(error);

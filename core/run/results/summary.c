@@ -141,28 +141,6 @@ static void add_lua(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-char *jo_scene_lua_profile(const JoScene *scene) {
-    JOX_REQUIRE(scene, NULL);
-    JOX_GUARD (NULL, NULL)
-        return NULL;
-    const JoWorld *world = scene->world;
-    JoxText out = {0};
-    for (uint32_t m = 0; m < world->model.machines.count; m++) {
-        const JoxMachine *machine = world->model.machines.items[m];
-        uint64_t calls;
-        char functions[JOX_NOUN], told[JOX_NOUN];
-        double seconds = jox_lua_seconds(scene->lua, machine, &calls);
-        jox_text_printf(&out, "%s (%s): %s, %s, %.2f ms, %.2f %% of the steps\n", machine->name,
-                        machine->path, jox_noun(functions, machine->hook_count, "plain function"),
-                        jox_noun(told, calls, "call"), seconds * 1e3,
-                        world->state.statistics.wall_s > 0
-                            ? 100.0 * seconds / world->state.statistics.wall_s
-                            : 0.0);
-        jox_lua_profile(scene->lua, machine, world->state.statistics.wall_s, &out);
-    }
-    return jox_disown(out.data);
-}
-
 static void add_file(JoxJson *json, const char *path, const char *sha256) {
     jox_json_object(json, NULL);
     jox_json_string(json, "path", path);

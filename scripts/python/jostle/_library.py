@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import os
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Iterator
 
 from ._declarations import ffi
 
-__all__ = ["Error", "check", "ffi", "lib", "named", "text_of"]
+__all__ = ["Error", "check", "ffi", "lib", "named", "text_of", "told"]
 
 
 def _candidates() -> list[str]:
@@ -62,12 +63,13 @@ def text_of(pointer: Any) -> str:
     return ffi.string(pointer).decode("utf-8", "replace") if pointer else ""
 
 
-def taken(pointer: Any) -> Optional[str]:
-    """A C string that the caller frees; None for NULL."""
+@contextmanager
+def told(pointer: Any) -> Iterator[Any]:
+    """A struct of jostle_tell.h, which is freed at the end of the block."""
     if not pointer:
-        return None
+        raise MemoryError("out of memory")
     try:
-        return text_of(pointer)
+        yield pointer
     finally:
         lib.jo_free(pointer)
 

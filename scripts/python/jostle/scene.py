@@ -1,7 +1,6 @@
 """A scene that runs, its agents and bodies."""
 from __future__ import annotations
 
-import io
 import json
 import sys
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 
 from ._events import Events, events_of
-from ._library import Error, check, ffi, lib, named, taken, text_of
+from ._library import Error, check, ffi, lib, named, text_of, told
 from .show import Picture, live_page, picture_of
 
 __all__ = ["Agent", "Body", "Scene"]
@@ -349,17 +348,25 @@ class Scene:
     def summary(self) -> dict:
         """The figures of the run so far, as `jostle run --summary` gives them."""
         self._live()
-        return json.loads(taken(lib.jo_scene_summary(self._scene)) or "{}")
+        with told(lib.jo_scene_figures(self._scene)) as figures:
+            return _nested(figures.items[0:figures.count])
+
+    def troubles(self) -> list:
+        """Sentences on what did not go as it was written: functions that failed too often, people who were lost."""
+        self._live()
+        with told(lib.jo_scene_troubles(self._scene)) as troubles:
+            return [text_of(trouble.text) for trouble in troubles.items[0:troubles.count]]
 
     def probes(self) -> dict:
-        """The table of each probe by its name: a dict of arrays by column, as "time [s]"."""
+        """The table of each probe by its name: a dict of arrays by column, as "time [s]"; texts as arrays of objects."""
         self._live()
         tables, n = {}, 0
         while True:
             name = text_of(lib.jo_scene_probe_name(self._scene, n))
             if not name:
                 return tables
-            tables[name] = _table(taken(lib.jo_scene_probe_table(self._scene, n)) or "")
+            with told(lib.jo_scene_probe_table(self._scene, n)) as table:
+                tables[name] = _table(table)
             n += 1
 
     # ---- looking at it ----
@@ -381,14 +388,40 @@ class Scene:
             f"<jostle.Scene {self.path!r}, {len(self)} agents, t = {self.time:.2f} s>")
 
 
-def _table(text: str) -> dict:
-    """A CSV text with a line of names."""
-    head, _, rest = text.partition("\n")
-    names = [name.strip() for name in head.split(",")]
-    if not rest.strip():
-        return {name: np.empty(0) for name in names}
-    values = np.genfromtxt(io.StringIO(rest), delimiter=",", ndmin=2)
-    return {name: values[:, n] for n, name in enumerate(names)}
+def _nested(figures: Sequence[Any]) -> dict:
+    """Figures in their order, as dicts and lists within each other."""
+    top: dict = {}
+    open_: list = [top]
+    for figure in figures:
+        del open_[figure.depth:]
+        kind = figure.kind
+        value: Any = ({} if kind == lib.JO_FIGURE_TABLE else [] if kind == lib.JO_FIGURE_LIST
+                      else text_of(figure.text) if kind == lib.JO_FIGURE_TEXT
+                      else bool(figure.number) if kind == lib.JO_FIGURE_TRUTH
+                      else _number(figure.number) if kind == lib.JO_FIGURE_NUMBER else None)
+        if isinstance(open_[-1], dict):
+            open_[-1][text_of(figure.name)] = value
+        else:
+            open_[-1].append(value)
+        if isinstance(value, (dict, list)):
+            open_.append(value)
+    return top
+
+
+def _number(number: float) -> Union[int, float]:
+    return int(number) if number.is_integer() and abs(number) < 2**53 else number
+
+
+def _table(table: Any) -> dict:
+    """The columns of a table by name and unit, as arrays."""
+    columns = {}
+    for column in table.columns[0:table.column_count]:
+        name, unit = text_of(column.name), text_of(column.unit)
+        numbers = np.array([column.numbers[row] for row in range(table.row_count)], dtype=float)
+        values = numbers if not column.texts else np.array(
+            [text_of(column.texts[row]) for row in range(table.row_count)], dtype=object)
+        columns[f"{name} [{unit}]" if unit else name] = values
+    return columns
 
 
 class Agent:

@@ -139,6 +139,10 @@ def test_what_a_run_leaves(path):
     assert scene.summary()["agents"] == 4
     table = scene.probes()["line"]
     assert len(table) > 1 and all(isinstance(column, np.ndarray) for column in table.values())
+    assert table["time [s]"].dtype == float and len({len(column) for column in table.values()}) == 1
+    summary = scene.summary()
+    assert isinstance(summary["events"]["hits"], int) and summary["mods"] == [] and len(summary["hash"]) == 16
+    assert [entry["path"] for entry in summary["inputs"]][0] == str(path) and scene.troubles() == []
     recording = jostle.Recording(path.parent / "run.sqlite")
     assert recording.fps == 10 and set(recording["id"]) == {0, 1, 2, 3}
     frames = list(recording.frames())

@@ -1,0 +1,141 @@
+/* What a probe has measured, as a table of columns: read from the CSV that a report writes of it.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "base/pack.h"
+#include "jostle_tools.h"
+#include "run/run.h"
+
+enum { HEAD, COLUMNS, NUMBERS, TEXTS }; /* parts of the pack */
+
+/* The CSV of a probe; to be freed by `free`. NULL where memory is out. */
+static char *csv_of(const JoxProbe *probe) {
+    char *text = NULL;
+    size_t length = 0;
+    FILE *file = open_memstream(&text, &length);
+    if (!file)
+        return NULL;
+    jox_probe_csv(probe, file);
+    if (fclose(file) == 0)
+        return text;
+    free(text);
+    return NULL;
+}
+
+/* Cells of a table, row by row; the first row has names. */
+typedef struct Cells {
+    char **items; /* in the text */
+    size_t count, capacity;
+    uint32_t columns;
+} Cells;
+
+/* Takes a cell from *at on and ends it in place; whether it is the last of its line. */
+static bool take_cell(char **at, char **cell) {
+    char *from = *at, *to;
+    if (*from == '"') { /* doubled quotes within */
+        *cell = to = ++from;
+        while (*from && !(*from == '"' && from[1] != '"')) {
+            from += *from == '"';
+            *to++ = *from++;
+        }
+        from += *from == '"';
+    } else {
+        *cell = from;
+        from += strcspn(from, ",\n");
+        to = from;
+    }
+    const bool last = *from != ',';
+    *at = from + (*from != 0);
+    *to = 0;
+    return last;
+}
+
+static void read_cells(char *text, Cells *cells) {
+    while (*text) {
+        if (*text == '\n') { /* parts blocks of a map */
+            text++;
+            continue;
+        }
+        uint32_t columns = 0;
+        bool last = false;
+        while (!last) {
+            JOX_RESERVE(cells->items, cells->capacity, cells->count + 1);
+            last = take_cell(&text, &cells->items[cells->count++]);
+            columns++;
+        }
+        cells->columns = cells->columns ? cells->columns : columns;
+        JOX_ASSERT(columns == cells->columns);
+    }
+}
+
+static bool is_number(const char *cell, double *number) {
+    char *end;
+    *number = strtod(cell, &end);
+    if (*cell && !*end)
+        return true;
+    *number = NAN;
+    return false;
+}
+
+/* Adds the column `c`: "name [unit]" in the first row. */
+static void add_column(const Cells *cells, uint32_t c, uint32_t rows, JoxPack *pack) {
+    char *name = cells->items[c], *unit = strchr(name, '[');
+    JoTableColumn *column = jox_pack_add(pack, COLUMNS, sizeof *column);
+    if (unit) {
+        unit[strcspn(unit, "]")] = 0;
+        *unit++ = 0;
+    }
+    for (size_t n = strlen(name); n > 0 && name[n - 1] == ' '; n--)
+        name[n - 1] = 0;
+    jox_pack_text(pack, COLUMNS, &column->name, name);
+    jox_pack_text(pack, COLUMNS, &column->unit, unit ? unit : "");
+    jox_pack_list(pack, COLUMNS, &column->numbers, NUMBERS);
+    bool texts = false;
+    for (uint32_t r = 1; r <= rows; r++) {
+        double *number = jox_pack_add(pack, NUMBERS, sizeof *number);
+        const char *cell = cells->items[(size_t)r * cells->columns + c];
+        texts |= !is_number(cell, number) && *cell;
+    }
+    if (!texts)
+        return;
+    jox_pack_list(pack, COLUMNS, &column->texts, TEXTS);
+    for (uint32_t r = 1; r <= rows; r++) {
+        const char **text = jox_pack_add(pack, TEXTS, sizeof *text);
+        jox_pack_text(pack, TEXTS, text, cells->items[(size_t)r * cells->columns + c]);
+    }
+}
+
+static JoTable *table_of(char *text) {
+    Cells cells = {0};
+    JoxPack pack = {0};
+    JoTable *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    read_cells(text, &cells);
+    head->column_count = cells.columns;
+    head->row_count = cells.columns ? (uint32_t)(cells.count / cells.columns) - 1 : 0;
+    jox_pack_list(&pack, HEAD, &head->columns, COLUMNS);
+    for (uint32_t c = 0; c < head->column_count; c++)
+        add_column(&cells, c, head->row_count, &pack);
+    jox_free(cells.items);
+    return jox_pack_end(&pack);
+}
+
+JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n) {
+    JOX_REQUIRE(scene, NULL);
+    const JoxProbe *probe = jox_run_probe(scene, n);
+    char *text = probe ? csv_of(probe) : NULL;
+    if (!text)
+        return NULL;
+    JOX_GUARD (NULL, NULL) {
+        free(text);
+        return NULL;
+    }
+    JoTable *table = jox_disown(table_of(text));
+    free(text);
+    return table;
+}

@@ -1,0 +1,146 @@
+/* What a run comes to, as structs for the program that embeds it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/format/json.h"
+#include "base/guard.h"
+#include "base/pack.h"
+#include "jostle_tools.h"
+#include "run/run.h"
+
+enum { HEAD, ITEMS }; /* parts of a pack */
+
+/* ---- figures ---- */
+
+static JoFigureKind kind_of(JoxJsonKind kind) {
+    static const JoFigureKind KINDS[] = {
+        [JOX_JSON_NULL] = JO_FIGURE_NONE,     [JOX_JSON_BOOL] = JO_FIGURE_TRUTH,
+        [JOX_JSON_NUMBER] = JO_FIGURE_NUMBER, [JOX_JSON_TEXT] = JO_FIGURE_TEXT,
+        [JOX_JSON_OBJECT] = JO_FIGURE_TABLE,  [JOX_JSON_ARRAY] = JO_FIGURE_LIST,
+    };
+    return KINDS[kind];
+}
+
+static bool add_figure(void *context, const JoxJsonItem *item) {
+    JoxPack *pack = context;
+    JoFigure *figure = jox_pack_add(pack, ITEMS, sizeof *figure);
+    figure->kind = kind_of(item->kind);
+    figure->depth = item->depth;
+    figure->number =
+        item->kind == JOX_JSON_NUMBER || item->kind == JOX_JSON_BOOL ? item->number : (double)NAN;
+    jox_pack_text(pack, ITEMS, &figure->path, item->path);
+    jox_pack_text(pack, ITEMS, &figure->name, item->key);
+    jox_pack_text(pack, ITEMS, &figure->text, item->text);
+    return true;
+}
+
+/* The file and this cannot differ: the figures are read off what the file would say. */
+JoFigures *jo_scene_figures(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    char *text = jo_scene_summary(scene);
+    if (!text)
+        return NULL;
+    JOX_GUARD (NULL, NULL) {
+        jox_free(text);
+        return NULL;
+    }
+    JoxPack pack = {0};
+    JoFigures *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    jox_json_read(text, jox_json_own_files, add_figure, &pack);
+    head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoFigure));
+    JoFigures *figures = jox_disown(jox_pack_end(&pack));
+    jox_free(text);
+    return figures;
+}
+
+double jo_figure(const JoFigures *figures, const char *path) {
+    JOX_REQUIRE(figures && path, NAN);
+    for (uint32_t k = 0; k < figures->count; k++)
+        if (strcmp(figures->items[k].path, path) == 0)
+            return figures->items[k].number;
+    return NAN;
+}
+
+/* ---- costs and troubles ---- */
+
+JoLuaCosts *jo_scene_lua_costs(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
+    JoxPack pack = {0};
+    JoLuaCosts *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    head->stepping = scene->world->state.statistics.wall_s;
+    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
+        JoLuaCost cost;
+        for (uint32_t h = 0;
+             jox_lua_cost(scene->lua, scene->world->model.machines.items[m], h, &cost); h++) {
+            JoLuaCost *item = jox_pack_add(&pack, ITEMS, sizeof *item);
+            *item = cost;
+            jox_pack_text(&pack, ITEMS, &item->behaviour, cost.behaviour);
+            jox_pack_text(&pack, ITEMS, &item->file, cost.file);
+            jox_pack_text(&pack, ITEMS, &item->where, cost.where);
+            head->count++;
+        }
+    }
+    return jox_disown(jox_pack_end(&pack));
+}
+
+static void add_trouble(JoxPack *pack, JoTroubles *head, JoTroubleKind kind, uint64_t count,
+                        const char *file, JoxText *text) {
+    JoTrouble *item = jox_pack_add(pack, ITEMS, sizeof *item);
+    item->kind = kind;
+    item->count = count;
+    jox_text_clean(text->data);
+    jox_pack_text(pack, ITEMS, &item->file, file);
+    jox_pack_text(pack, ITEMS, &item->text, text->data);
+    head->count++;
+    jox_text_free(text);
+}
+
+static void add_suspended(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
+    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
+        JoLuaCost cost;
+        for (uint32_t h = 0;
+             jox_lua_cost(scene->lua, scene->world->model.machines.items[m], h, &cost); h++) {
+            JoxText text = {0};
+            if (!cost.suspended)
+                continue;
+            jox_text_printf(
+                &text, "behaviour %.200s was suspended: %.200s failed %d times within a second",
+                cost.file, cost.where, JOX_MOST_FAILURES);
+            add_trouble(pack, head, JO_TROUBLE_SUSPENDED, JOX_MOST_FAILURES, cost.file, &text);
+        }
+    }
+}
+
+JoTroubles *jo_scene_troubles(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
+    const JoxStatistics *s = &scene->world->state.statistics;
+    JoxPack pack = {0};
+    JoxText text = {0};
+    JoTroubles *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    add_suspended(scene, &pack, head);
+    if (s->people_lost) {
+        jox_text_printf(&text, "%llu times the numbers of somebody went wrong, who was %s",
+                        (unsigned long long)s->people_lost,
+                        scene->spec->lost_people == JO_LOST_REMOVE ? "removed"
+                                                                   : "put back, at rest");
+        add_trouble(&pack, head, JO_TROUBLE_LOST, s->people_lost, "", &text);
+    }
+    return jox_disown(jox_pack_end(&pack));
+}
+
+char *jox_run_troubles(const JoScene *scene) {
+    JoxText text = {0};
+    JoTroubles *troubles = jo_scene_troubles(scene);
+    for (uint32_t t = 0; troubles && t < troubles->count; t++)
+        jox_text_printf(&text, "%s%s", t ? "; " : "", troubles->items[t].text);
+    jo_free(troubles);
+    return text.data;
+}

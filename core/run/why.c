@@ -1,0 +1,108 @@
+/* Who sets a value of a scene or of its behaviours: `mod why`. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/format/path.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "base/pack.h"
+#include "run/run.h"
+
+enum { HEAD, ITEMS }; /* parts of a pack */
+
+static void add_setting(void *context, const JoSetting *from) {
+    JoxPack *pack = context;
+    JoSetting *to = jox_pack_add(pack, ITEMS, sizeof *to);
+    *to = (JoSetting){
+        .by = from->by, .line = from->line, .column = from->column, .removes = from->removes};
+    jox_pack_text(pack, ITEMS, &to->value, from->value ? from->value : "");
+    jox_pack_text(pack, ITEMS, &to->unit, from->unit ? from->unit : "");
+    jox_pack_text(pack, ITEMS, &to->file, from->file ? from->file : "");
+    jox_pack_text(pack, ITEMS, &to->mod, from->mod ? from->mod : "");
+    jox_pack_text(pack, ITEMS, &to->version, from->version ? from->version : "");
+}
+
+/* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
+static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
+    const JoxSceneSpec *spec = scene->spec;
+    bool found = jox_scene_why(spec, path, add_setting, pack);
+    for (uint32_t c = 0; c < spec->changes.count; c++) {
+        const JoxPatchChange *change = &spec->changes.items[c];
+        const char *rest;
+        if (!jox_patch_leads(change, path, &rest))
+            continue;
+        const JoxMod *mod = &scene->mods->items[change->mod];
+        add_setting(pack, &(JoSetting){.by = JO_SET_MOD,
+                                       .value = change->removes ? "" : "set",
+                                       .file = change->position.file,
+                                       .line = change->position.line,
+                                       .column = change->position.column,
+                                       .mod = mod->name,
+                                       .version = mod->version,
+                                       .removes = change->removes});
+        found = true;
+    }
+    found |= jox_scene_why_set(spec, path, add_setting, pack);
+    return found || jox_scene_why_default(spec, path, add_setting, pack);
+}
+
+/* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
+static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const char *stem = jox_path_name(machines->set->items[m]->path);
+        size_t n = strlen(name);
+        if (strcmp(machines->set->items[m]->name, name) == 0 ||
+            (strncmp(stem, name, n) == 0 && stem[n] == '.'))
+            return machines->set->items[m];
+    }
+    return NULL;
+}
+
+/* Says that nothing sets the path, and what may have been meant. */
+static void not_set(const JoScene *scene, const char *path, const char *name, bool of_behaviour,
+                    JoError *error) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    const char *names[JOX_MOST_MACHINES];
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        names[m] = machines->set->items[m]->name;
+    const char *near = jox_suggest(name, names, machines->set->count);
+    jox_error(error, JO_INPUT,
+              of_behaviour ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
+                             "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
+                           : "neither the scene nor a behaviour or a mod sets '%s'%s%s",
+              path, near ? "; did you mean " : "", near ? near : "");
+}
+
+JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
+    JOX_REQUIRE(def && jox_run_is_whole(def) && def->path && path, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
+    JoxDiagnostics diagnostics = {0};
+    JoScene *scene = jox_run_load(def, &diagnostics);
+    if (!scene) {
+        jox_run_report(def->message, def->message_context, &diagnostics, error);
+        return NULL;
+    }
+    char name[128];
+    size_t n = strcspn(path, ".");
+    snprintf(name, sizeof name, "%.*s", (int)(n < 127 ? n : 127), path);
+    const JoxMachine *machine = find_behaviour(scene, name);
+    JoxPack pack = {0};
+    JoSettings *head = jox_pack_add(&pack, HEAD, sizeof *head);
+    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    const bool found = machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1,
+                                                        &scene->scope, add_setting, &pack)
+                               : why_scene(scene, path, &pack);
+    head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoSetting));
+    JoSettings *settings = jox_pack_end(&pack);
+    if (!found) {
+        not_set(scene, path, name, machine != NULL, error);
+        jox_free(settings);
+        settings = NULL;
+    }
+    jo_scene_free(scene);
+    jox_diag_free(&diagnostics);
+    return jox_disown(settings);
+}

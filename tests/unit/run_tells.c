@@ -1,0 +1,254 @@
+/* What a program is told of a run and of its files, as structs (jostle_tell.h). */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "jostle_tools.h"
+
+static char folder[64];
+
+static void put(const char *name, const char *text) {
+    char path[160];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static const char SCENE[] =
+    "jostle: 1\n"
+    "duration: 4\n"
+    "places: {goal: {point: [5, 0], radius: 1}}\n"
+    "groups: {people: {behaviour: walk.lua, at: [[0, 0], [1, 2]], set: {speed: 1.5}}}\n"
+    "probes:\n"
+    "  line: {flow: [[2, 5], [2, -5]]}\n"
+    "  log: {log: true}\n";
+static const char WALK[] =
+    "return machine { name = \"walk\", version = 1, start = \"Go\", defaults = { speed = 1 },\n"
+    "  states = { Go = { steer = seek \"goal\", on_enter = function(me) local x = nil + 1 end,\n"
+    "    { to = \"Stop\", when = inside \"goal\" } }, Stop = { steer = hold } } }\n";
+
+static void make_files(void) {
+    char path[160];
+    snprintf(folder, sizeof folder, "/tmp/jostle-tells-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    put("a.yaml", SCENE);
+    put("walk.lua", WALK);
+    for (int k = 0; k < 3; k++) {
+        snprintf(path, sizeof path, "%s%s", folder,
+                 (const char *[]){"/mods", "/mods/fast", "/mods/fast/patches"}[k]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    put("mods/fast/mod.yaml",
+        "name: fast\nversion: 1.2\ntitle: Fast\napi: 1\n"
+        "settings: {pace: {value: 2, least: 1, greatest: 3, unit: m/s, meaning: how fast}}\n");
+    put("mods/fast/patches/walk.lua",
+        "return patch \"walk\" { defaults = { speed = settings.pace } }\n");
+}
+
+static void unmake_files(void) {
+    char command[200];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+static void say_nothing(void *context, const char *text) {
+    (void)context, (void)text;
+}
+
+static JoSceneDef def_of(char path[160]) {
+    JoSceneDef def = jo_default_scene_def();
+    snprintf(path, 160, "%s/a.yaml", folder);
+    def.path = path;
+    def.message = say_nothing;
+    return def;
+}
+
+static JoScene *run(uint32_t steps) {
+    char path[160];
+    JoSceneDef def = def_of(path);
+    JoError error = {0};
+    JoScene *scene = jo_scene_load(&def, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    for (uint32_t s = 0; s < steps; s++)
+        assert_true(jo_scene_step(scene, &error));
+    return scene;
+}
+
+static const JoFigure *find(const JoFigures *figures, const char *path) {
+    for (uint32_t k = 0; k < figures->count; k++)
+        if (strcmp(figures->items[k].path, path) == 0)
+            return &figures->items[k];
+    fail_msg("there is no figure %s", path);
+    return NULL;
+}
+
+static void figures_are_those_of_the_file(void **state) {
+    (void)state;
+    JoScene *scene = run(80);
+    char *file = jo_scene_summary(scene), hash[24];
+    JoFigures *figures = jo_scene_figures(scene);
+    snprintf(hash, sizeof hash, "%016llx",
+             (unsigned long long)jo_world_hash(jo_scene_world(scene)));
+    jo_scene_free(scene); /* they outlive it */
+    assert_float_equal(jo_figure(figures, "agents"), 2, 0);
+    assert_float_equal(jo_figure(figures, "simulated_s"), 4, 1e-9);
+    assert_true(isnan(jo_figure(figures, "no.such")));
+    assert_true(isnan(jo_figure(figures, "hash")));
+    assert_string_equal(find(figures, "hash")->text, hash);
+    const JoFigure *events = find(figures, "events"), *hits = find(figures, "events.hits");
+    assert_int_equal(events->kind, JO_FIGURE_TABLE);
+    assert_int_equal(events->depth, 1);
+    assert_int_equal(hits->depth, 2);
+    assert_string_equal(hits->name, "hits");
+    assert_int_equal(find(figures, "inputs")->kind, JO_FIGURE_LIST);
+    assert_null(find(figures, "inputs.0")->name);
+    assert_string_equal(find(figures, "inputs.0.path")->name, "path");
+    assert_non_null(strstr(file, hash));
+    jo_free(figures);
+    jo_free(file);
+}
+
+static void tables_of_probes(void **state) {
+    (void)state;
+    JoScene *scene = run(80);
+    assert_string_equal(jo_scene_probe_name(scene, 0), "line");
+    assert_null(jo_scene_probe_name(scene, 2));
+    assert_null(jo_scene_probe_table(scene, 2));
+    JoTable *line = jo_scene_probe_table(scene, 0), *log = jo_scene_probe_table(scene, 1);
+    jo_scene_free(scene);
+    assert_int_equal(line->column_count, 5);
+    assert_int_equal(line->row_count, 2);
+    assert_string_equal(line->columns[0].name, "time");
+    assert_string_equal(line->columns[0].unit, "s");
+    assert_string_equal(line->columns[3].name, "passages");
+    assert_string_equal(line->columns[3].unit, "");
+    assert_float_equal(line->columns[3].numbers[1], 2, 0);
+    assert_true(isnan(line->columns[4].numbers[0])); /* no one before the first */
+    assert_null(line->columns[0].texts);
+    assert_string_equal(log->columns[1].name, "what");
+    assert_non_null(log->columns[1].texts);
+    assert_true(log->row_count > 0 && *log->columns[1].texts[0]);
+    assert_string_equal(log->columns[3].texts[0], "people");
+    jo_free(line);
+    jo_free(log);
+}
+
+/* One function, which fails once for each of the two. */
+static void costs_and_troubles(void **state) {
+    (void)state;
+    JoScene *scene = run(4);
+    JoLuaCosts *costs = jo_scene_lua_costs(scene);
+    JoTroubles *troubles = jo_scene_troubles(scene);
+    assert_int_equal(costs->count, 1);
+    assert_string_equal(costs->items[0].behaviour, "walk");
+    assert_non_null(strstr(costs->items[0].file, "/walk.lua"));
+    assert_non_null(strstr(costs->items[0].where, "on_enter"));
+    assert_int_equal(costs->items[0].calls, 2);
+    assert_int_equal(costs->items[0].failures, 2);
+    assert_false(costs->items[0].suspended);
+    assert_true(costs->stepping > 0.0);
+    assert_int_equal(troubles->count, 0);
+    jo_free(costs);
+    jo_free(troubles);
+    jo_scene_free(scene);
+}
+
+static void a_suspended_function_is_a_trouble(void **state) {
+    (void)state;
+    put("walk.lua", "return machine { name = \"walk\", version = 1, start = \"Go\", states = {\n"
+                    "  Go = { steer = function(me) return nil + 1, 0 end } } }\n");
+    JoScene *scene = run(0);
+    JoError error;
+    for (int k = 0; k < 10; k++)
+        assert_int_not_equal(
+            jo_world_spawn(jo_scene_world(scene), "people", 0, 3 + k, &error).generation, 0);
+    for (int s = 0; s < 40; s++)
+        assert_true(jo_scene_step(scene, &error));
+    JoTroubles *troubles = jo_scene_troubles(scene);
+    jo_scene_free(scene);
+    assert_int_equal(troubles->count, 1);
+    assert_int_equal(troubles->items[0].kind, JO_TROUBLE_SUSPENDED);
+    assert_int_equal(troubles->items[0].count, 100);
+    assert_non_null(strstr(troubles->items[0].text, "was suspended: state Go > steer"));
+    assert_non_null(strstr(troubles->items[0].file, "walk.lua"));
+    jo_free(troubles);
+    put("walk.lua", WALK);
+}
+
+static void mods_and_who_set_what(void **state) {
+    (void)state;
+    char path[160];
+    JoSceneDef def = def_of(path);
+    JoMods *mods = jo_mods_list(&def);
+    assert_int_equal(mods->taken, 0);
+    assert_int_equal(mods->count, 1);
+    assert_false(mods->items[0].taken);
+    assert_int_equal(mods->items[0].on, JO_MOD_OFF);
+    jo_free(mods);
+    const char *fast = "fast";
+    def.mods = &fast;
+    def.mod_count = 1;
+    mods = jo_mods_list(&def);
+    assert_int_equal(mods->taken, 1);
+    const JoMod *mod = &mods->items[0];
+    assert_string_equal(mod->name, "fast");
+    assert_string_equal(mod->title, "Fast");
+    assert_int_equal(mod->patch_count, 1);
+    assert_string_equal(mod->patches[0].target, "walk");
+    assert_true(mod->patches[0].behaviour && !mod->patches[0].replaces);
+    assert_int_equal(mod->setting_count, 1);
+    assert_string_equal(mod->settings[0].unit, "m/s");
+    assert_float_equal(mod->settings[0].greatest, 3, 0);
+    jo_free(mods);
+
+    JoError error = {0};
+    JoSettings *why = jo_mods_why(&def, "walk.defaults.speed", &error);
+    assert_non_null(why);
+    assert_int_equal(why->count, 2);
+    assert_int_equal(why->items[0].by, JO_SET_BEHAVIOUR);
+    assert_string_equal(why->items[0].value, "1");
+    assert_int_equal(why->items[0].line, 1);
+    assert_int_equal(why->items[1].by, JO_SET_MOD);
+    assert_string_equal(why->items[1].mod, "fast");
+    assert_string_equal(why->items[1].version, "1.2");
+    jo_free(why);
+    why = jo_mods_why(&def, "walk.Go.push_reach", &error);
+    assert_int_equal(why->count, 1);
+    assert_int_equal(why->items[0].by, JO_SET_DEFAULT);
+    assert_string_equal(why->items[0].value, "0.1");
+    assert_string_equal(why->items[0].unit, "m");
+    jo_free(why);
+    why = jo_mods_why(&def, "groups.people.set.speed", &error);
+    assert_int_equal(why->items[0].by, JO_SET_SCENE);
+    assert_int_equal(why->items[0].line, 4);
+    assert_string_equal(why->items[0].mod, "");
+    jo_free(why);
+    assert_null(jo_mods_why(&def, "groups.peple", &error));
+    assert_int_equal(error.code, JO_INPUT);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_are_those_of_the_file),
+        cmocka_unit_test(tables_of_probes),
+        cmocka_unit_test(costs_and_troubles),
+        cmocka_unit_test(a_suspended_function_is_a_trouble),
+        cmocka_unit_test(mods_and_who_set_what),
+    };
+    make_files();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    unmake_files();
+    return failed;
+}
