@@ -5,6 +5,18 @@
 #include "base/format/noun.h"
 #include "cli/cli.h"
 
+/* What of the behaviours came to nothing, a line each. */
+static void print_hints(const JoScene *scene) {
+    JoHints *hints = jo_scene_hints(scene);
+    if (hints && hints->count)
+        fputs("Hints on the behaviours:\n", stderr);
+    for (uint32_t h = 0; hints && h < hints->count; h++) {
+        const JoHint *hint = &hints->items[h];
+        fprintf(stderr, "  %s:%d: %s. %s\n", hint->file, hint->line, hint->text, hint->way_out);
+    }
+    jo_free(hints);
+}
+
 void cli_closing(const JoScene *scene, const CliRunFiles *files) {
     const struct {
         const char *what, *path, *more;
@@ -27,6 +39,7 @@ void cli_closing(const JoScene *scene, const CliRunFiles *files) {
         jox_text_add(&text, ".");
     cli_wrap(&lines, text.data, text.length, 0, 0);
     fputs(lines.data, stderr);
+    print_hints(scene);
     jox_text_free(&text);
     jox_text_free(&lines);
     jo_free(closing);

@@ -80,6 +80,31 @@ typedef struct JoTroubles {
 } JoTroubles;
 JO_API JoTroubles *jo_scene_troubles(const JoScene *scene);
 
+/* What a behaviour has that came to nothing in the run so far, and may be a mistake. */
+typedef enum JoHintKind {
+    JO_HINT_STATE,      /* nobody came into a state */
+    JO_HINT_TRANSITION, /* a transition was not taken, though somebody was always in its state */
+    JO_HINT_GOAL,       /* the same, of one that waits for who goes to a place to be there */
+    JO_HINT_CYCLE,      /* people go round states of which each lasts a step */
+    JO_HINT_SIGHT       /* a condition asks for a distance farther than anybody there saw */
+} JoHintKind;
+typedef struct JoHint {
+    JoHintKind kind;
+    const char *behaviour, *file;
+    int line;            /* of the file, from 1 */
+    const char *text;    /* a sentence, without its full stop */
+    const char *way_out; /* likewise: what to do about it */
+} JoHint;
+typedef struct JoHints {
+    const JoHint *items; /* by behaviour and line; one for each state, at most 20 */
+    uint32_t count;
+} JoHints;
+/* Of states, transitions and goals only once the scene's duration is over, of behaviours that were
+   not reloaded in the last of it, and where the condition is one of places, order, memory or
+   measured figures: those that wait for what may or may not happen (stuck, heard, hit_by, sees, and
+   the like, chances, functions) are not judged. */
+JO_API JoHints *jo_scene_hints(const JoScene *scene);
+
 /* What a plain Lua function of a behaviour cost so far. */
 typedef struct JoLuaCost {
     const char *behaviour, *file; /* its name; its file */

@@ -48,6 +48,19 @@ static void add_doors(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
+/* What of the behaviours came to nothing so far, a sentence each with its file and line. */
+static void add_hints(JoxJson *json, const JoScene *scene) {
+    JoHints *hints = jo_scene_hints(scene);
+    jox_json_array(json, "hints");
+    for (uint32_t h = 0; hints && h < hints->count; h++) {
+        const JoHint *hint = &hints->items[h];
+        jox_json_format(json, NULL, "%s:%d: %s. %s", hint->file, hint->line, hint->text,
+                        hint->way_out);
+    }
+    jox_json_end(json);
+    jo_free(hints);
+}
+
 /* What the steps since the last status came to: how fast, what failed, and time by stage in ns per
    agent-step. Where there was none: since loading. */
 static void add_costs(JoxJson *json, JoxLive *live, const JoScene *scene) {
@@ -101,5 +114,6 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     jox_json_number(&json, "density_max", jox_live_density_max(&live->grid));
     add_costs(&json, live, scene);
     add_doors(&json, scene);
+    add_hints(&json, scene);
     jox_json_end(&json);
 }

@@ -1,11 +1,13 @@
-/* How often transitions were taken, over all versions of a machine that ran. */
+/* How often transitions were taken, over all versions of a machine that ran, and how long agents
+   were in its states. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
-void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine) {
+void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine, uint32_t tick) {
     uint32_t count = 0;
     for (uint32_t s = 0; s < machine->state_count; s++) {
         JOX_ASSERT(machine->states[s].first_transition == count);
@@ -15,6 +17,35 @@ void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine) {
     if (count)
         memset(counts->taken, 0, count * sizeof *counts->taken);
     counts->taken_count = count;
+    JOX_RESERVE(counts->states, counts->state_capacity, machine->state_count);
+    memset(counts->states, 0, machine->state_count * sizeof *counts->states);
+    counts->state_count = machine->state_count;
+    counts->since = tick;
+}
+
+enum { LOOKED_AT = 16 }; /* steps between two looks at what people perceive */
+
+/* The greatest perception in a batch, m. */
+static float sight_of(const JoxMachineRun *run, const JoxBatchRange *batch) {
+    const float *perception = run->agents->param[JOX_PARAM_perception];
+    const uint32_t *agents = run->scratch->grouped + batch->begin;
+    float sight = 0.0f;
+    for (uint32_t n = 0; n < batch->count; n++)
+        sight = jox_maxf(sight, perception[agents[n]]);
+    return sight;
+}
+
+void jox_counts_spend(JoxMachineRun *run) {
+    const JoxMachineScratch *s = run->scratch;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        JoxStateCounts *counts = &run->state->counts[batch->machine].states[batch->state];
+        counts->spent += batch->count;
+        counts->steps +=
+            b == 0 || batch[-1].machine != batch->machine || batch[-1].state != batch->state;
+        if (run->tick % LOOKED_AT == 0)
+            counts->sight = fmax(counts->sight, (double)sight_of(run, batch));
+    }
 }
 
 void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
@@ -36,6 +67,7 @@ void jox_counts_free(JoxMachineCounts *counts) {
     }
     jox_free(counts->before);
     jox_free(counts->taken);
+    jox_free(counts->states);
     *counts = (JoxMachineCounts){0};
 }
 

@@ -196,8 +196,10 @@ void jox_rows_end(JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
 /* Puts a machine into a place of the set: numbers its names and transitions, widens the agents'
    rows, begins its counts. From here on it does not change. */
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);
-/* Room for the counts of a machine's transitions, with zeros. */
-void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine);
+/* Room for the counts of a machine's transitions and states, with zeros. */
+void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine, uint32_t tick);
+/* Counts who is in which state, as they are grouped. */
+void jox_counts_spend(JoxMachineRun *run);
 /* Adds to what transitions between two states, by names, have counted that are no more. */
 void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
                            uint64_t taken);

@@ -83,8 +83,18 @@ typedef struct JoxParameterEdit {
     double value;
 } JoxParameterEdit;
 
+/* What agents of this version of a machine were in a state for. */
+typedef struct JoxStateCounts {
+    uint64_t spent; /* agent-steps */
+    uint64_t steps; /* in which anybody was in it */
+    double sight;   /* m: the greatest perception of those who were, looked at in every 16th step */
+} JoxStateCounts;
+
 /* How often the transitions of a machine were taken since the start, by all agents. */
 typedef struct JoxMachineCounts {
+    JoxStateCounts *states;
+    uint32_t state_count, since; /* since: the tick at which this version began */
+    size_t state_capacity;
     uint64_t *taken; /* by number: state->first_transition + place in the state */
     uint32_t taken_count;
     size_t taken_capacity;

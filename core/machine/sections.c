@@ -29,6 +29,8 @@ static uint64_t shape_of(const JoxMachine *machine) {
 
 static void list_counts(JoxMachineCounts *counts, JoxSections *s) {
     jox_section(s, "taken", counts->taken, sizeof *counts->taken, counts->taken_count);
+    jox_section(s, "spent", counts->states, sizeof *counts->states, counts->state_count);
+    JOX_SECTION(s, "since", counts->since);
     size_t count = jox_section_count(s, "before", counts->before_count, sizeof *counts->taken);
     if (s->mode == JOX_SECTIONS_RESTORE) {
         JOX_RESERVE_ZEROED(counts->before, counts->before_capacity, count);

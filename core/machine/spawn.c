@@ -31,7 +31,7 @@ void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     number(run, machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
-    jox_counts_begin(&run->state->counts[index], machine);
+    jox_counts_begin(&run->state->counts[index], machine, run->tick);
 }
 
 uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine) {

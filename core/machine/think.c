@@ -263,6 +263,7 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
     jox_machines_scratch(run);
     jox_machines_listen(run);
     jox_machines_group(run, pool);
+    jox_counts_spend(run);
     keep_headings(run);
     if (run->set->count > 0) {
         bool views = run->bracket && any_views(run);

@@ -138,6 +138,16 @@ END
 grep -qE "line of probe (line|other) was crossed 3 times, always against the direction" "$work/out" && [ "$(grep -o 'always against' "$work/out" | wc -l)" = 1 ]; verdict "a flow that is crossed from the wrong side alone is told of" $?
 expect "a goal to which no way leads is told" 0 "warning: 14 people cannot reach street: no way leads there from" "$JOSTLE" run "$work/shut.yaml" --for 6
 grep -q "1 warning was given" <(tr '\n' ' ' <"$work/out"); verdict "as a warning" $?
+printf 'jostle: 1\nduration: 25\nplaces: {near: {point: [4, 0], radius: 1}, far: {point: [90, 0], radius: 1}}\ngroups: {g: {behaviour: hinted.lua, at: [[0, 0]]}}\n' >"$work/hinted.yaml"
+printf 'return machine { name = "hinted", version = 1, start = "Go", states = {\n  Go = { steer = seek "near",\n    { to = "Done", when = inside "far" } },\n  Done = { steer = hold } } }\n' >"$work/hinted.lua"
+expect "a run to its end hints at what came to nothing, with file and line" 0 "hinted.lua:3: nobody was ever in state 'Done'" "$JOSTLE" run "$work/hinted.yaml"
+grep -q '^Hints on the behaviours:$' "$work/out"; verdict "  under a heading" $?
+expect "one that was cut short does not" 0 "1 person" "$JOSTLE" run "$work/hinted.yaml" --for 20
+! grep -q '^Hints' "$work/out"; verdict "  nor has the heading" $?
+for scene in evacuation tour station catch rimea-10 families metro gates; do
+    "$JOSTLE" run scenes/$scene.yaml 2>&1 | grep -A9 '^Hints'
+done >"$work/hints"
+[ ! -s "$work/hints" ]; verdict "shipped scenes give no cause for hints" $?; head -5 "$work/hints"
 sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/three.yaml"
 expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed in a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"

@@ -313,6 +313,24 @@ static void transitions_of_a_second(void **state) {
     jo_scene_free(scene);
 }
 
+/* What came to nothing is told as soon as it is known: here people go to and fro in every step. */
+static void hints_come_with_the_status(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(PEOPLE(20), HEAD "\"A\", states = {"
+                                  "A = { steer = hold, { to = \"B\", when = after(0) } },"
+                                  "B = { steer = hold, { to = \"A\", when = after(0) } } } }\n");
+    JoxText text = {0};
+    jox_live_status(scene, &(JoxLiveSession){0}, &text);
+    assert_non_null(strstr(text.data, "\"hints\": []"));
+    step(scene, 40);
+    text.length = 0;
+    jox_live_status(scene, &(JoxLiveSession){0}, &text);
+    assert_non_null(strstr(text.data, "people went round 'A' -> 'B' -> 'A'"));
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
 /* Showing each step gives the state of not showing any, and a frame takes no memory. */
 static void showing_changes_nothing(void **state) {
     (void)state;
@@ -354,6 +372,7 @@ int main(void) {
         cmocka_unit_test(fields_add_up_to_the_people),
         cmocka_unit_test(crowd_pressure_is_that_of_the_run),
         cmocka_unit_test(transitions_of_a_second),
+        cmocka_unit_test(hints_come_with_the_status),
         cmocka_unit_test(showing_changes_nothing),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

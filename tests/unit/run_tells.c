@@ -239,6 +239,115 @@ static void mods_and_who_set_what(void **state) {
     assert_int_equal(error.code, JO_INPUT);
 }
 
+/* ---- hints ---- */
+
+static const char HINTS[] =
+    "jostle: 1\n"
+    "duration: 30\n"
+    "places: {goal: {point: [8, 0], radius: 1}, cell: {point: [20, 20], radius: 0.5}}\n"
+    "walls: [{line: [[18, 18], [22, 18], [22, 22], [18, 22]], closed: true}]\n"
+    "groups: {people: {behaviour: hint.lua, at: [[0, 0], [1, 2]], set: {perception: 2}}}\n";
+
+static JoHints *hints_of(const char *behaviour, double seconds) {
+    char path[160];
+    JoSceneDef def = def_of(path);
+    JoError error = {0};
+    put("hint.lua", behaviour);
+    def.text = HINTS;
+    def.text_length = sizeof HINTS - 1;
+    JoScene *scene = jo_scene_load(&def, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    while (jo_world_time(jo_scene_world(scene)) < seconds)
+        assert_true(jo_scene_step(scene, &error));
+    JoHints *hints = jo_scene_hints(scene);
+    jo_scene_free(scene);
+    assert_non_null(hints);
+    return hints;
+}
+
+static void is_hint(const JoHints *hints, uint32_t n, JoHintKind kind, int line, const char *text) {
+    if (n >= hints->count)
+        fail_msg("%u hints alone, not '%s'", hints->count, text);
+    assert_int_equal(hints->items[n].kind, kind);
+    assert_int_equal(hints->items[n].line, line);
+    if (!strstr(hints->items[n].text, text))
+        fail_msg("'%s' lacks '%s'", hints->items[n].text, text);
+    assert_non_null(strstr(hints->items[n].file, "/hint.lua"));
+    assert_true(*hints->items[n].way_out != 0);
+}
+
+#define BEGIN                                                                                      \
+    "local mine = memory { n = 0 }\nreturn machine { name = \"hint\", version = 1, start = "       \
+    "\"A\", "
+
+static void what_never_happened_is_hinted_at(void **state) {
+    (void)state;
+    static const char NEVER[] =
+        BEGIN "states = {\n"
+              "  A = { steer = seek \"goal\",\n"
+              "    { to = \"B\", when = mine.n:at_least(3) },\n"
+              "    { to = \"A\", when = mine.n:at_least(5), set = { n = 0 } },\n"
+              "    { to = \"B\", when = stuck(3) & near(\"cell\", 1) },\n"
+              "    { to = \"B\", when = inside \"cell\", chance = 0.5 } },\n"
+              "  B = { steer = hold } } }\n";
+    JoHints *hints = hints_of(NEVER, 30);
+    is_hint(hints, 0, JO_HINT_STATE, 4, "nobody was ever in state 'B'");
+    is_hint(hints, 1, JO_HINT_TRANSITION, 5, "from 'A' to 'A' was never taken in 30 s");
+    assert_int_equal(hints->count, 2);
+    jo_free(hints);
+    hints = hints_of(NEVER, 20); /* it may yet come */
+    assert_int_equal(hints->count, 0);
+    jo_free(hints);
+    hints = hints_of(BEGIN "states = {\n"
+                           "  A = { steer = seek \"goal\",\n"
+                           "    { to = \"B\", when = near(\"goal\", 2), set = { n = 3 } } },\n"
+                           "  B = { steer = hold, lasts = 1, { to = \"A\", "
+                           "when = mine.n:at_least(3) & lasted, set = { n = 0 } } } } }\n",
+                     30);
+    assert_int_equal(hints->count, 0);
+    jo_free(hints);
+}
+
+static void a_goal_that_nobody_reached_is_hinted_at(void **state) {
+    (void)state;
+    JoHints *hints = hints_of(BEGIN "states = {\n"
+                                    "  A = { steer = seek \"cell\",\n"
+                                    "    { to = \"B\", when = inside \"cell\" } },\n"
+                                    "  B = { steer = hold } } }\n",
+                              30);
+    is_hint(hints, 0, JO_HINT_GOAL, 4, "nobody in state 'A' reached 'cell' in 30 s");
+    assert_int_equal(hints->count, 1);
+    jo_free(hints);
+}
+
+static void a_cycle_without_time_is_hinted_at(void **state) {
+    (void)state;
+    JoHints *hints =
+        hints_of(BEGIN "states = {\n"
+                       "  A = { steer = hold, { to = \"B\", when = mine.n:below(9) } },\n"
+                       "  B = { steer = hold, { to = \"C\", when = mine.n:below(8) } },\n"
+                       "  C = { steer = hold, { to = \"A\", when = mine.n:below(7) } } } }\n",
+                 20);
+    is_hint(hints, 0, JO_HINT_CYCLE, 3, "people went round 'A' -> 'B' -> 'C' -> 'A'");
+    assert_int_equal(hints->count, 1);
+    jo_free(hints);
+}
+
+/* The scene gives people less sight than the behaviour counts on. */
+static void a_distance_beyond_sight_is_hinted_at(void **state) {
+    (void)state;
+    JoHints *hints = hints_of(
+        BEGIN "defaults = { perception = 10 }, states = {\n"
+              "  A = { steer = hold, { to = \"B\", when = near(nearest \"anyone\", 6) } },\n"
+              "  B = { steer = hold, { to = \"A\", when = near(nearest \"anyone\", 1.5) } } } }\n",
+        5);
+    is_hint(hints, 0, JO_HINT_SIGHT, 3,
+            "asks for 6 m, and nobody there perceived farther than 2 m");
+    assert_int_equal(hints->count, 1);
+    jo_free(hints);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_are_those_of_the_file),
@@ -246,6 +355,10 @@ int main(void) {
         cmocka_unit_test(costs_and_troubles),
         cmocka_unit_test(a_suspended_function_is_a_trouble),
         cmocka_unit_test(mods_and_who_set_what),
+        cmocka_unit_test(what_never_happened_is_hinted_at),
+        cmocka_unit_test(a_goal_that_nobody_reached_is_hinted_at),
+        cmocka_unit_test(a_cycle_without_time_is_hinted_at),
+        cmocka_unit_test(a_distance_beyond_sight_is_hinted_at),
     };
     make_files();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);

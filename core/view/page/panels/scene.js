@@ -16,9 +16,11 @@ export class ScenePage {
         this.figures = el("dl", { className: "pairs" });
         this.exits = el("dl", { className: "pairs" });
         this.exitPart = el("div", { hidden: true }, el("h2", {}, "Passed, people"), this.exits);
+        this.hints = el("ul");
+        this.hintPart = el("div", { hidden: true }, el("h2", {}, "Hints on the behaviours"), this.hints);
         fill(node, this.title, this.about, el("h2", {}, "To try"),
             el("p", { className: "faint" }, "Click a person: what it wants, sees and feels, and why. Space stops the time."), this.tries,
-            this.files, el("h2", {}, "Now"), this.figures, this.exitPart);
+            this.files, el("h2", {}, "Now"), this.figures, this.exitPart, this.hintPart);
         this.rows = new Map();
     }
 
@@ -40,9 +42,19 @@ export class ScenePage {
         if (Number.isFinite(dense)) rows["greatest density"] = `${figure(dense)} per m², level of service ${level}`;
         if (status.bodies) rows["bodies"] = figure(status.bodies);
         this.show(this.figures, rows);
+        this.showHints(status.hints ?? []);
         const flows = status.flows ?? {};
         this.exitPart.hidden = Object.keys(flows).length === 0;
         this.show(this.exits, Object.fromEntries(Object.entries(flows).map(([name, n]) => [name, figure(n)])));
+    }
+
+    /** Sentences on what came to nothing so far, of which there are none for the most part. */
+    showHints(hints) {
+        const known = hints.join("\n");
+        if (this.hinted === known) return;
+        this.hinted = known;
+        this.hintPart.hidden = hints.length === 0;
+        fill(this.hints, hints.map((hint) => el("li", {}, hint)));
     }
 
     /** Rows of names and values, of which only what changed is written anew. */
