@@ -4,6 +4,14 @@
 #include "base/guard.h"
 #include "cli/cli.h"
 
+typedef struct Reference {
+    JoSceneDef def;
+    CliList mods;
+    bool of_scene, trusted;
+} Reference;
+
+static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Reference, def), CLI_TRUSTED_OPTION(Reference)};
+
 /* Whether the help lists it. */
 static bool is_page(const char *what) {
     const size_t length = strlen(what);
@@ -15,8 +23,21 @@ static bool is_page(const char *what) {
     return false;
 }
 
-static int print_reference(const char *what) {
-    char *text = !strcmp(what, "manual") ? cli_manual() : jo_reference(what);
+/* Of mods; other pages read no file. */
+static char *mods_page(Reference *options, const char *scene) {
+    options->def.path = scene;
+    options->def.mods = options->mods.items;
+    options->def.mod_count = options->mods.count;
+    CliReach reach = {CLI_READING};
+    cli_reach_def(&reach, &options->def);
+    cli_confine_work(&reach, options->trusted);
+    return jo_mods_reference(&options->def);
+}
+
+static int print_reference(Reference *options, const char *what, const char *scene) {
+    char *text = !strcmp(what, "manual") ? cli_manual()
+                 : !strcmp(what, "mods") ? mods_page(options, scene)
+                                         : jo_reference(what);
     JoError error;
     if (!text && is_page(what)) {
         jox_memory_error(&error);
@@ -33,28 +54,40 @@ static int print_reference(const char *what) {
 }
 
 static int run(int argc, char **argv) {
+    Reference options = {.def = jo_default_scene_def()};
     CliList plain = {0};
-    int status = cli_parse(&cli_reference, argc, argv, NULL, &plain);
-    if (status == CLI_GO_ON)
-        status = print_reference(plain.count ? plain.items[0] : "behaviours");
-    cli_free(&cli_reference, NULL, &plain);
+    int status = cli_parse(&cli_reference, argc, argv, &options, &plain);
+    if (status == CLI_GO_ON) {
+        const char *what = plain.count ? plain.items[0] : "behaviours";
+        const char *scene = plain.count > 1 ? plain.items[1] : NULL;
+        status = strcmp(what, "mods") != 0 && (scene || options.mods.count)
+                     ? cli_misused(&cli_reference, "a scene and --mod go with 'mods' alone")
+                     : print_reference(&options, what, scene);
+    }
+    cli_free(&cli_reference, &options, &plain);
     return status;
 }
 
 const CliCommand cli_reference = {
     .name = "reference",
     .what = "print every word and key, for people and for editors",
-    .usage = "[WHAT]",
+    .usage = "[WHAT]\n"
+             "mods [SCENE] [--mod DIR]...",
     .about =
         "  behaviours    every word, parameter and key of behaviours, as Markdown (the default)\n"
         "  scenes        every key of scenes and mods, as Markdown\n"
         "  lua-ls        definitions for lua-language-server\n"
         "  luacheck      a standard for luacheck\n"
+        "  mods          what mods that are on or named define: behaviours, and functions and "
+        "values\n"
+        "                that others can require, with the comments before them, as Markdown\n"
         "  inputs        lines of input logs, as Markdown\n"
         "  scene-schema  JSON Schema of scenes, for yaml-language-server\n"
         "  mod-schema    JSON Schema of mod.yaml\n"
         "  manual        the manual page of this program, as roff",
+    .options = OPTIONS,
+    .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "page",
-    .most = 1,
+    .most = 2,
     .run = run,
 };

@@ -337,6 +337,10 @@ JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *err
    "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with
    jo_free. */
 JO_API char *jo_reference(const char *what);
+/* What the mods define that a run of def's scene would take (path NULL: those that are named or
+   on): their behaviours, and the functions and values of the files that others require, with the
+   comments before them, as Markdown; free with jo_free. What is wrong goes to def->message. */
+JO_API char *jo_mods_reference(const JoSceneDef *def);
 /* The reference of the scene format, as text; free with jo_free. */
 JO_API char *jo_scene_reference(void);
 

@@ -29,6 +29,21 @@ typedef struct JoxWritten {
 } JoxWritten;
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
                      const JoxScope *scope, JoxWritten *out);
+/* What a file returns to who requires it: a name of its table (of a function with its parameters),
+   or
+   "" for a value that is no table. */
+typedef struct JoxLuaExport {
+    char *name;
+    char *doc;     /* the comment before it, on one line, or NULL */
+    char kind[24]; /* "function", "a condition", "a steering", "number" */
+    int line;      /* 0 unknown */
+} JoxLuaExport;
+/* In the order of their lines; *about: the comment that the file begins with, or NULL. The file
+   runs in a state of its own; what is wrong with it goes to `diagnostics`. Free the list, and
+   *about. */
+JoxLuaExport *jox_lua_exports(JoxLua *lua, const char *path, const JoxScope *scope, uint32_t *count,
+                              char **about, JoxDiagnostics *diagnostics);
+void jox_lua_exports_free(JoxLuaExport *exports, uint32_t count);
 /* Name of the behaviour that a mod's Lua file changes, and whether it replaces it: copied into
    target; false where it names none. */
 bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,

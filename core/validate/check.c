@@ -105,6 +105,23 @@ static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatc
     return is_file(path);
 }
 
+/* Whether a mod's file loads and is for others to require: it returns no machine. */
+static bool is_library(const char *path) {
+    static const JoxScope ANY = {0};
+    JoxLua *lua = jox_lua_create(NULL);
+    JoxDiagnostics unread = {0};
+    uint32_t count;
+    char *about;
+    JoxLuaExport *exports = jox_lua_exports(lua, path, &ANY, &count, &about, &unread);
+    const bool library =
+        unread.errors == 0 && !(count == 1 && strcmp(exports[0].kind, "a machine") == 0);
+    jox_lua_exports_free(exports, count);
+    jox_free(about);
+    jox_diag_free(&unread);
+    jox_lua_free(lua);
+    return library;
+}
+
 /* What a mod's patches make of the files that they change. */
 static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics *all) {
     for (uint32_t p = 0; p < mod->patch_count; p++) {
@@ -175,7 +192,7 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
         if (is_claim(path))
             check_claim(path, &own);
-        else
+        else if (!mod || !is_library(path))
             check_behaviour(path, NULL, &own);
     } else if (named && !ends_with(path, ".lua")) {
         jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,

@@ -13,7 +13,7 @@ says "a mod beside the scenes is found by its name" 0 "1. gentle-queue 1.0.0" "$
 says "those that must be asked for are not taken" 0 "off: rough" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
 says "order: by name where none depends on the other" 0 "2. rough" "$JOSTLE" mod list scenes/tawaf.yaml "${both[@]}"
 says "a conflict names the winner and its place" 3 "rough/patches/tawaf.lua:3:17: warning: mods gentle-queue and rough both set states.ToStone.push" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
-says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/gentle-queue/patches/tawaf.lua:13; mod rough comes later and wins" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
+says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/gentle-queue/patches/tawaf.lua:14; mod rough comes later and wins" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
 says "why: the behaviour's own line" 0 ":87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
@@ -29,6 +29,11 @@ says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-que
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "without it two" 0 '"agents": 2' "$JOSTLE" run scenes/dodgeball.yaml --steps 5 --quiet --summary -
+says "what a mod defines: functions, with their parameters and the comment before them" 0 '| `has_room(place, most)` | function | Whether there is room about a place' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
+says "  and values" 0 '| `squeezed` | a condition | Who is squeezed' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
+says "  of those that are taken" 0 "No mod is taken" "$JOSTLE" reference mods scenes/tawaf.yaml
+says "  and of no other page" 2 "go with 'mods' alone" "$JOSTLE" reference scenes --mod gentle-queue
+says "a file that others require is no behaviour that lacks its machine" 0 "nothing wrong" "$JOSTLE" mod check scenes/mods/gentle-queue
 # What a mod does: nobody joins the queue where the chance is 0, many where it is 1.
 joined() { "$JOSTLE" run scenes/tawaf.yaml --set groups.pilgrims.count=1500 --set sources.0.keep=1500 --for 200 --quiet --mod gentle-queue \
     --set mods.gentle-queue.chance=$1 --set mods.gentle-queue.crowding=9 --summary - 2>/dev/null | sed -n 's/.*"ToStone": \([0-9]*\).*/\1/p'; }
@@ -77,6 +82,15 @@ echo "enabled: true" >>"$tree/scenes/mods/alpha/mod.yaml"
 says "no mod turns itself on" 3 "alpha/mod.yaml:5:10: 'enabled' is no key of a mod: none turns itself on" "$program" mod check "$tree/scenes/mods/alpha"
 rm -r "$tree/scenes/mods/alpha"
 mod alpha "" stander.lua 'return patch "stander" { defaults = { radius = 0.25 } }'
+mkdir -p "$tree/scenes/mods/alpha/behaviours"
+printf -- '-- Walks on.\nreturn machine { name = "onward", version = 1, start = "Go", states = { Go = { steer = drift(1, 0) } } }\n' >"$tree/scenes/mods/alpha/behaviours/onward.lua"
+printf -- 'return { -- no comment\n  -- Twice\n  -- as far.\n  far = function(n) return 2 * n end,\n  broad = 3 }\n' >"$tree/scenes/mods/alpha/behaviours/reach.lua"
+says "what a mod defines: a behaviour" 0 "### behaviour: alpha:onward" "$program" reference mods "$tree/scenes/yard.yaml" --mod alpha
+says "  a function in a table, with the comment of several lines" 0 '| `far(n)` | function | Twice as far. |' "$program" reference mods "$tree/scenes/yard.yaml" --mod alpha
+says "  a number without one" 0 '| `broad` | number |  |' "$program" reference mods "$tree/scenes/yard.yaml" --mod alpha
+echo 'return {' >"$tree/scenes/mods/alpha/behaviours/reach.lua"
+says "  what does not load is said, with its line" 0 "alpha/behaviours/reach.lua:2" "$program" reference mods "$tree/scenes/yard.yaml" --mod alpha
+rm -r "$tree/scenes/mods/alpha/behaviours"
 mod omega "depends: [alpha]"
 says "what a mod needs must be on or named, too" 3 "omega/mod.yaml:4:11: mod omega needs mod alpha, which is off. Turn it on: jostle mod enable" bash -c "off --mod omega"
 says "  as it is here" 0 '"mods": ["alpha 1.0", "omega 1.0"]' bash -c "off --mod omega --mod alpha"

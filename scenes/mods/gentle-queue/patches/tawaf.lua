@@ -1,4 +1,5 @@
 -- The queue at the Black Stone: who joins, and how.
+local manners = require "gentle-queue:manners"
 local mine = memory { touched = false }
 
 return patch "tawaf" {
@@ -6,11 +7,11 @@ return patch "tawaf" {
     Circle = { change = {
       ToStone = {
         when = crosses "start_line" & near("black_stone", 10)
-          & ~density("black_stone"):above(settings.crowding) & ~mine.touched,
+          & manners.has_room("black_stone", settings.crowding) & ~mine.touched,
         chance = settings.chance,
       },
     } },
     ToStone = { push = 0, perception = 3,
-      insert_before = { Circle = { to = "Circle", when = pushed:above(200), id = "squeezed" } } },
+      insert_before = { Circle = { to = "Circle", when = manners.squeezed, id = "squeezed" } } },
   },
 }
