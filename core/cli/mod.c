@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,10 +7,21 @@
 typedef struct Mods {
     JoSceneDef def;
     CliList mods;
-    bool of_scene, trusted;
+    double at;
+    uint64_t agent;
+    bool of_scene, trusted, has_at, has_agent;
 } Mods;
 
-static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def), CLI_TRUSTED_OPTION(Mods)};
+static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def),
+                                    {"agent", "ID",
+                                     "with `why`: which value it has of this agent, and what set "
+                                     "it: of a parameter (speed), of its "
+                                     "memory (hits) or of its own values",
+                                     CLI_TO(Mods, agent), CLI_GIVEN(Mods, has_agent),
+                                     CLI_RANGE(0, UINT32_MAX)},
+                                    {"at", "S", "with --agent: after S simulated seconds", "0",
+                                     CLI_TO(Mods, at), CLI_GIVEN(Mods, has_at), CLI_RANGE(0, 1e6)},
+                                    CLI_TRUSTED_OPTION(Mods)};
 
 static void print_taken(uint32_t number, const JoMod *mod) {
     printf("%u. %s %s%s%s (%s; %s)\n", number, mod->name, mod->version, *mod->title ? ": " : "",
@@ -52,6 +64,14 @@ enum { LONGEST_SHOWN = 60 }; /* bytes of a value */
 static void print_setting(const JoSetting *setting) {
     const char *value = setting->removes ? "taken away" : setting->value;
     size_t shown = strlen(value);
+    if (!isnan(setting->time))
+        printf("  t=%.2f", setting->time);
+    if (setting->by == JO_SET_FUNCTION || setting->by == JO_SET_PROGRAM) {
+        printf("  by %s",
+               setting->by == JO_SET_FUNCTION ? "a function" : "a program, an input log or a page");
+        printf(*setting->file ? ", %s:%d\n" : "\n", setting->file, setting->line);
+        return;
+    }
     if (setting->by == JO_SET_DEFAULT) {
         printf("  the default: %s%s%s\n", value, *setting->unit ? " " : "", setting->unit);
         return;
@@ -62,9 +82,18 @@ static void print_setting(const JoSetting *setting) {
         shown--; /* no half of a letter */
     printf("  %s:%d:%d: %.*s%s", setting->file, setting->line, setting->column, (int)shown, value,
            cut ? "..." : "");
+    if (*setting->where)
+        printf("   (%s)", setting->where);
     if (*setting->mod)
-        printf("   (mod %s %s)", setting->mod, setting->version);
+        printf("   (mod %s%s%s)", setting->mod, *setting->version ? " " : "", setting->version);
     putchar('\n');
+}
+
+static void print_settings(const JoSettings *settings) {
+    for (uint32_t s = 0; s < settings->count; s++)
+        print_setting(&settings->items[s]);
+    if (settings->count > 1)
+        puts("  the last one counts");
 }
 
 static int why(const JoSceneDef *def, const char *path) {
@@ -75,12 +104,49 @@ static int why(const JoSceneDef *def, const char *path) {
         return JO_INPUT;
     }
     puts(path);
-    for (uint32_t s = 0; s < settings->count; s++)
-        print_setting(&settings->items[s]);
-    if (settings->count > 1)
-        puts("  the last one counts");
+    print_settings(settings);
     jo_free(settings);
     return JO_OK;
+}
+
+/* The agent with an id, from when it is there on; it is asked about in each step, so that who
+   writes its values is known. */
+static int why_now(const Mods *options, const char *name) {
+    JoError error = {0};
+    JoSettings *settings = NULL;
+    JoScene *scene = jo_scene_load(&options->def, &error);
+    double value = 0.0;
+    if (!scene)
+        return cli_failed(&cli_mod, &error, true);
+    JoWorld *world = jo_scene_world(scene);
+    const double dt = jo_scene_stats(scene).dt;
+    const uint64_t steps = (uint64_t)(options->at / dt + 0.5);
+    bool good = true;
+    for (uint64_t n = 0; good; n++) {
+        const JoAgent agent = jo_world_agent_of(world, (uint32_t)options->agent);
+        jo_free(settings);
+        settings = agent.generation ? jo_agent_why(scene, agent, name, &value, &error) : NULL;
+        good = settings || !agent.generation;
+        if (n == steps || !good)
+            break;
+        good = jo_scene_step(scene, &error);
+    }
+    if (good && settings) {
+        const JoAgentState is =
+            jo_agent_state(world, jo_world_agent_of(world, (uint32_t)options->agent));
+        printf("%s of agent %u at %.2f s, in state %s: %.6g\n", name, is.id, jo_world_time(world),
+               is.state, value);
+        print_settings(settings);
+    } else if (good) {
+        fprintf(stderr, "jostle mod: there is no agent %llu at %.2f s\n",
+                (unsigned long long)options->agent, jo_world_time(world));
+    } else {
+        cli_failed(&cli_mod, &error, false);
+    }
+    good = good && settings;
+    jo_free(settings);
+    jo_scene_free(scene);
+    return good ? JO_OK : JO_INPUT;
 }
 
 static int enable(const JoSceneDef *def, const char *mod, bool on) {
@@ -122,6 +188,10 @@ static int run(int argc, char **argv) {
         cli_confine_work(&reach, options.trusted);
         if (!strcmp(verb, "list") && plain.count <= 2)
             status = list(&options.def);
+        else if (options.has_agent || options.has_at)
+            status = !strcmp(verb, "why") && plain.count == 3 && options.has_agent
+                         ? why_now(&options, plain.items[1])
+                         : cli_misused(&cli_mod, "--at goes with --agent, and that with why");
         else if (!strcmp(verb, "why") && plain.count == 3)
             status = why(&options.def, plain.items[1]);
         else if (turns && (plain.count == 2 || plain.count == 3))
@@ -141,6 +211,7 @@ const CliCommand cli_mod = {
     .usage = "list [SCENE] [--mod DIR]...\n"
              "enable|disable NAME|DIR [SCENE]\n"
              "why PATH SCENE [--mod DIR]...\n"
+             "why NAME SCENE --agent ID [--at S] [--mod DIR]...\n"
              "check DIR...",
     .about = "  list    the mods that a run of the scene takes, in order, what they change, their "
              "settings; and those that are off\n"
@@ -148,7 +219,7 @@ const CliCommand cli_mod = {
              "in; when its files change, it is off again\n"
              "  disable turns it off\n"
              "  why     who set a value, e.g. tawaf.Circle.push or bodies.ball.mass: every place, "
-             "the last counts\n"
+             "the last counts; with --agent, what a value of somebody is in a run and what set it\n"
              "  check   every error of mods, without running",
     .notes = "exit status: 0 done, 1 it could not be done, 2 wrong usage, 3 errors found or no "
              "such path",

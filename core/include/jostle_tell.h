@@ -164,7 +164,9 @@ typedef enum JoSetBy {
     JO_SET_BEHAVIOUR, /* the file of a behaviour, or what it requires */
     JO_SET_SCENE,     /* the scene's file, or what it includes */
     JO_SET_MOD,
-    JO_SET_OVERRIDE /* JoSceneDef.overrides */
+    JO_SET_OVERRIDE, /* JoSceneDef.overrides */
+    JO_SET_FUNCTION, /* a plain function of a behaviour, in the run */
+    JO_SET_PROGRAM   /* a program, a line of an input log or the live page, in the run */
 } JoSetBy;
 /* A place that sets a value. */
 typedef struct JoSetting {
@@ -175,6 +177,9 @@ typedef struct JoSetting {
     int line, column;          /* from 1; 0 of a default */
     const char *mod, *version; /* of a mod, else "" */
     bool removes;              /* takes the value away */
+    const char *where; /* of jo_agent_why: "defaults", "state Go", "groups.people", "to Hit" (a
+                          transition); else "" */
+    double time;       /* s: when it was set in the run; NAN: before, or not known */
 } JoSetting;
 /* Is told of one; its texts are valid within the call, and NULL stands for "". */
 typedef void JoSetVisit(void *context, const JoSetting *setting);
@@ -185,6 +190,14 @@ typedef struct JoSettings {
 /* Who sets a value: "tawaf.Circle.push" of a behaviour, or "groups.red.count" of the scene. NULL
    with `error` where there is no such path. */
 JO_API JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
+/* What a value of one agent is now, and what set it, the last one being in force: a parameter
+   ("speed"), a name of its memory ("hits"), or an own value ("court"; of one that is a place,
+   *value is its number). Who wrote memory, and who in the run set a parameter, is known from the
+   first call for this agent on, as long as it is asked for at least every 5 simulated seconds. The
+   run does not change by it. NULL with `error`, and *value as it was, where the agent is gone or
+   has no such value. */
+JO_API JoSettings *jo_agent_why(JoScene *scene, JoAgent agent, const char *name, double *value,
+                                JoError *error);
 
 #ifdef __cplusplus
 }

@@ -209,8 +209,12 @@ void jox_lua_bracket(void *context, bool begins) {
         const JoxWrite *write = &lua->writes[w];
         const uint32_t i = jox_agents_find(a, write->agent_id);
         const int32_t slot = i == JOX_NO_INDEX ? -1 : slot_now(lua->machines, i, write);
-        if (slot >= 0)
-            a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
+        if (slot < 0)
+            continue;
+        a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
+        const JoxWrote wrote = {
+            .is_memory = true, .index = (uint16_t)slot, .by = JOX_WROTE_FUNCTION};
+        jox_machines_wrote(lua->machines, i, &wrote);
     }
     lua->write_count = 0;
 }

@@ -29,6 +29,9 @@ typedef struct JoxWritten {
 } JoxWritten;
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
                      const JoxScope *scope, JoxWritten *out);
+/* Where the machine's memory of a name is declared: `memory { hits = 0 }`; its text, too. */
+bool jox_lua_memory(const JoxLua *lua, const JoxMachine *machine, const char *name,
+                    JoxWritten *out);
 /* What a file returns to who requires it: a name of its table (of a function with its parameters),
    or
    "" for a value that is no table. */

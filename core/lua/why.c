@@ -176,3 +176,45 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
         out->mod = scope->mods[to.last.mod].name;
     return true;
 }
+
+/* ---- memory ---- */
+
+/* The token of `NAME = value` in a table that begins at token `t`; NULL. */
+static const JoxToken *find_field(const JoxSource *source, size_t t, const char *name) {
+    int depth = 0;
+    for (; t + 2 < source->token_count; t++) {
+        const JoxToken *token = &source->tokens[t];
+        depth += jox_token_is(token, "{");
+        depth -= jox_token_is(token, "}");
+        if (depth == 0)
+            return NULL;
+        if (depth == 1 && token->kind == JOX_TOKEN_NAME && jox_token_is(token, name) &&
+            jox_token_is(&source->tokens[t + 1], "="))
+            return token;
+    }
+    return NULL;
+}
+
+bool jox_lua_memory(const JoxLua *lua, const JoxMachine *machine, const char *name,
+                    JoxWritten *out) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    *out = (JoxWritten){0};
+    for (size_t f = 0; script && f < script->vm.source_count; f++) {
+        const JoxSource *source = script->vm.sources[f];
+        for (size_t t = 0; t + 2 < source->token_count; t++) {
+            if (!jox_token_is(&source->tokens[t], "memory"))
+                continue;
+            t += 1 + jox_token_is(&source->tokens[t + 1], "(");
+            const JoxToken *field =
+                jox_token_is(&source->tokens[t], "{") ? find_field(source, t, name) : NULL;
+            if (!field)
+                continue;
+            jox_text_append(&out->text, field[2].text, field[2].length);
+            out->file = source->path;
+            out->line = field->line;
+            out->column = field->column;
+            return true;
+        }
+    }
+    return false;
+}

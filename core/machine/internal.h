@@ -217,6 +217,11 @@ void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, double valu
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets what people set of a machine, and its copy. */
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
+/* watch.c: notes a transition that was taken, and what actions wrote, of agents that are watched.
+ */
+void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken);
+void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
+                       uint32_t agent);
 /* grasp.c: of those given, in ascending id: they take hold, pull, and lose hold. */
 void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t count);
 /* Parameters that are expressions, pushing, approach, kicks and holds, after the transitions. */

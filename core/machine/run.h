@@ -65,8 +65,28 @@ typedef enum JoxRouteKind {
     JOX_ROUTE_KINDS
 } JoxRouteKind;
 
-/* An agent whose last transition is kept, with the reason for it. */
+/* Who wrote a value of a watched agent last. */
+typedef enum JoxWriter {
+    JOX_WROTE_TRANSITION, /* its `set`, */
+    JOX_WROTE_STATE,      /* or that of a state, on entering */
+    JOX_WROTE_FUNCTION,   /* a plain function */
+    JOX_WROTE_PROGRAM     /* between two steps: a program, an input log */
+} JoxWriter;
+typedef struct JoxWrote {
+    bool is_memory;
+    uint16_t machine, index; /* slot of its memory, or parameter */
+    JoxWriter by;
+    uint16_t state, transition; /* of the first two: of a transition that it leaves */
+    uint32_t tick;
+    char file[128]; /* of a function */
+    int line;
+} JoxWrote;
+
+/* An agent whose last transition is kept, with the reason for it, and who wrote its values. */
 typedef struct JoxWatched {
+    JoxWrote *wrote; /* one for each value that was written since it is watched */
+    uint32_t wrote_count;
+    size_t wrote_capacity;
     uint32_t agent_id;
     bool took; /* one since it is watched: then the rest says which */
     uint32_t tick;
@@ -269,6 +289,10 @@ void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i);
 /* Marks in `wanted` the ways that agents want in the states that they are in. */
 void jox_machines_ask_routes(JoxMachineRun *run);
+/* Notes who wrote a value of agent i, if it is watched. */
+void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote);
+/* Frees what is kept of one who is no longer watched. */
+void jox_watched_end(JoxWatched *watched);
 /* Appends who went where by which transition, with the values of its condition at present. */
 void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out);
 /* Lists the state of the machines. After jox_agents_sections, whose machines and states it checks

@@ -88,6 +88,8 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         if (isfinite(value))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
     }
+    if (run->watched_count)
+        jox_watch_actions(run, machine, actions, i);
     if (actions->sets_team)
         a->team[i] = actions->team;
     if (actions->sets_tags)

@@ -1,6 +1,5 @@
 /* The stage think: counters, transitions, hooks, then what the new states ask for. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -179,21 +178,6 @@ static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     call_hook(run, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
 }
 
-static void watch(const JoxMachineRun *run, const JoxTaken *taken) {
-    const JoxMachine *machine = run->set->items[taken->machine];
-    for (uint32_t n = 0; n < run->watched_count; n++) {
-        JoxWatched *watched = &run->watched[n];
-        if (watched->agent_id != taken->agent_id)
-            continue;
-        watched->took = true;
-        watched->tick = run->tick;
-        snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
-        snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
-        watched->why.length = 0;
-        jox_machines_explain(run, taken, &watched->why);
-    }
-}
-
 /* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
 static void take_transitions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
@@ -216,7 +200,7 @@ static void take_transitions(JoxMachineRun *run) {
         if (run->traces && a->id[i] == run->trace_id)
             jox_machines_explain(run, &run->taken[n], &run->trace);
         if (run->watched_count)
-            watch(run, &run->taken[n]);
+            jox_watch_taken(run, &run->taken[n]);
         call_hook(run, from->on_exit, JOX_HOOK_EXIT, i);
         jox_actions_do(run, machine, &t->does, i);
         call_hook(run, t->on_take, JOX_HOOK_TAKE, i);

@@ -19,7 +19,7 @@ static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 static void end(JoWorld *w, uint32_t n) {
     JoxInspection *all = &w->scratch.inspection;
     JOX_ASSERT(n < all->count);
-    jox_text_free(&all->watched[n].why);
+    jox_watched_end(&all->watched[n]);
     all->count--;
     memmove(&all->agents[n], &all->agents[n + 1], (all->count - n) * sizeof *all->agents);
     memmove(&all->watched[n], &all->watched[n + 1], (all->count - n) * sizeof *all->watched);
@@ -183,5 +183,5 @@ void jox_inspect_inferred(JoxInspection *all, const JoxAgents *a, const JoxForce
 
 void jox_inspection_free(JoxInspection *inspection) {
     for (uint32_t n = 0; n < inspection->count; n++)
-        jox_text_free(&inspection->watched[n].why);
+        jox_watched_end(&inspection->watched[n]);
 }

@@ -25,6 +25,12 @@ says "why: of what an included file says" 0 "scenes/tawaf.yaml:" "$JOSTLE" mod w
 says "why: no such key" 3 "neither the scene nor a behaviour or a mod sets 'groups.rad.at'" "$JOSTLE" mod why groups.rad.at scenes/dodgeball.yaml
 says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
 says "why: the engine's default" 0 "the default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
+says "why: what a value of somebody is in a run" 0 "speed of agent 9 at 3.00 s, in state Work: 1.37993" "$JOSTLE" mod why speed scenes/evacuation.yaml --agent 9 --at 3
+says "  and where it was set" 0 "(defaults)" "$JOSTLE" mod why speed scenes/evacuation.yaml --agent 9 --at 3
+says "  memory, by the scene" 0 "tawaf-few.yaml:6:43: 0   (groups.pilgrims)" "$JOSTLE" mod why laps scenes/tawaf-few.yaml --agent 8 --at 1
+says "  no such value" 3 "did you mean speed" "$JOSTLE" mod why spede scenes/evacuation.yaml --agent 9
+says "  no such agent" 3 "there is no agent 9999" "$JOSTLE" mod why speed scenes/evacuation.yaml --agent 9999
+says "  --at alone" 2 "--at goes with --agent" "$JOSTLE" mod why speed scenes/evacuation.yaml --at 3
 says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -

@@ -239,14 +239,93 @@ static void mods_and_who_set_what(void **state) {
     assert_int_equal(error.code, JO_INPUT);
 }
 
-/* ---- hints ---- */
-
+/* A scene without what its behaviour does. */
 static const char HINTS[] =
     "jostle: 1\n"
     "duration: 30\n"
     "places: {goal: {point: [8, 0], radius: 1}, cell: {point: [20, 20], radius: 0.5}}\n"
     "walls: [{line: [[18, 18], [22, 18], [22, 22], [18, 22]], closed: true}]\n"
     "groups: {people: {behaviour: hint.lua, at: [[0, 0], [1, 2]], set: {perception: 2}}}\n";
+
+/* ---- what a value is now, and who set it ---- */
+
+static const char NOW[] = "local mine = memory { n = 0, m = 0 }\n"
+                          "return machine { name = \"hint\", version = 1, start = \"A\", defaults "
+                          "= { speed = 1 }, states = {\n"
+                          "  A = { steer = hold, { to = \"B\", when = after(0.5),\n"
+                          "    set = { n = 4 } } },\n"
+                          "  B = { steer = hold, perception = 7,\n"
+                          "    on_enter = function(me)\n"
+                          "      me.m = 2\n"
+                          "    end } } }\n";
+
+static JoScene *shown;
+static JoAgent agent;
+static double value;
+
+static JoSettings *why_now(const char *name) {
+    JoError error = {0};
+    JoSettings *why = jo_agent_why(shown, agent, name, &value, &error);
+    if (!why)
+        fail_msg("%s", error.text);
+    return why;
+}
+
+/* The last of them, which counts. */
+static void was_set(const char *name, double is, JoSetBy by, int line, const char *where) {
+    JoSettings *why = why_now(name);
+    const JoSetting *last = &why->items[why->count - 1];
+    assert_float_equal(value, is, 1e-6);
+    assert_int_equal(last->by, by);
+    assert_int_equal(last->line, line);
+    assert_string_equal(last->where, where);
+    jo_free(why);
+}
+
+static void step_on(int steps) {
+    JoError error = {0};
+    for (int s = 0; s < steps; s++)
+        assert_true(jo_scene_step(shown, &error));
+}
+
+static void a_value_now_and_who_set_it(void **state) {
+    (void)state;
+    char path[160];
+    JoSceneDef def = def_of(path);
+    JoError error = {0};
+    put("hint.lua", NOW);
+    def.text = HINTS;
+    def.text_length = sizeof HINTS - 1;
+    shown = jo_scene_load(&def, &error);
+    assert_non_null(shown);
+    agent = jo_world_agent_of(jo_scene_world(shown), 1);
+    const uint64_t hash = jo_world_hash(jo_scene_world(shown));
+    was_set("speed", 1, JO_SET_BEHAVIOUR, 2, "defaults");
+    was_set("push_reach", 0.1, JO_SET_DEFAULT, 0, "defaults");
+    was_set("perception", 2, JO_SET_SCENE, 5, "groups.people");
+    was_set("n", 0, JO_SET_BEHAVIOUR, 1, "memory");
+    assert_true(jo_world_hash(jo_scene_world(shown)) == hash);
+    step_on(12);
+    was_set("n", 4, JO_SET_BEHAVIOUR, 4, "to B");
+    was_set("m", 2, JO_SET_FUNCTION, 7, "");
+    was_set("perception", 7, JO_SET_BEHAVIOUR, 5, "state B");
+    JoSettings *why = why_now("n");
+    assert_float_equal(why->items[why->count - 1].time, 0.5, 0.051);
+    assert_int_equal(why->count, 2);
+    jo_free(why);
+    assert_true(jo_agent_set_memory(jo_scene_world(shown), agent, "n", 9, &error));
+    assert_true(jo_agent_set_parameter(jo_scene_world(shown), agent, "speed", 2, &error));
+    step_on(1);
+    was_set("n", 9, JO_SET_PROGRAM, 0, "");
+    was_set("speed", 2, JO_SET_PROGRAM, 0, "");
+    assert_null(jo_agent_why(shown, agent, "spede", &value, &error));
+    assert_non_null(strstr(error.text, "did you mean speed"));
+    jo_world_remove_agent(jo_scene_world(shown), agent);
+    assert_null(jo_agent_why(shown, agent, "speed", &value, &error));
+    jo_scene_free(shown);
+}
+
+/* ---- hints ---- */
 
 static JoHints *hints_of(const char *behaviour, double seconds) {
     char path[160];
@@ -355,6 +434,7 @@ int main(void) {
         cmocka_unit_test(costs_and_troubles),
         cmocka_unit_test(a_suspended_function_is_a_trouble),
         cmocka_unit_test(mods_and_who_set_what),
+        cmocka_unit_test(a_value_now_and_who_set_it),
         cmocka_unit_test(what_never_happened_is_hinted_at),
         cmocka_unit_test(a_goal_that_nobody_reached_is_hinted_at),
         cmocka_unit_test(a_cycle_without_time_is_hinted_at),

@@ -226,6 +226,20 @@ static int me_index(lua_State *L) {
                 : luaL_error(L, "me has no '%s'", name);
 }
 
+/* Notes where a function writes a value of an agent that somebody looks at. */
+static void note_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool is_memory,
+                       int32_t index) {
+    if (!machines->watched_count)
+        return;
+    const JoxPosition at = jox_vm_place(L);
+    JoxWrote wrote = {.is_memory = is_memory,
+                      .index = (uint16_t)index,
+                      .by = JOX_WROTE_FUNCTION,
+                      .line = at.line};
+    snprintf(wrote.file, sizeof wrote.file, "%s", at.file ? at.file : "");
+    jox_machines_wrote(machines, i, &wrote);
+}
+
 static int me_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
@@ -237,6 +251,7 @@ static int me_newindex(lua_State *L) {
         const JoxAgents *a = machines->agents;
         double value = check_memory(L, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
+        note_write(L, machines, i, true, slot);
     } else if (parameter >= 0) { /* the own slots begin with the parameters */
         const JoxParameterInfo *info = &jox_parameters[parameter];
         double value = lua_type(L, 3) == LUA_TNUMBER ? lua_tonumber(L, 3) : NAN;
@@ -244,6 +259,7 @@ static int me_newindex(lua_State *L) {
             return luaL_error(L, "%s must be a number from %f to %f %s", name, info->least,
                               info->greatest, info->unit);
         jox_machines_set_own(machines, i, (uint32_t)parameter, value);
+        note_write(L, machines, i, false, parameter);
     } else if (strcmp(name, "goal") == 0) {
         int32_t place =
             lua_type(L, 3) == LUA_TSTRING

@@ -1,4 +1,5 @@
 /* Who sets a value of a scene or of its behaviours: `mod why`. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,16 +7,31 @@
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/pack.h"
-#include "run/run.h"
+#include "run/mods/settings.h"
 
 enum { HEAD, ITEMS }; /* parts of a pack */
 
-static void add_setting(void *context, const JoSetting *from) {
+void jox_settings_begin(JoxPack *pack) {
+    JoSettings *head = jox_pack_add(pack, HEAD, sizeof *head);
+    jox_pack_list(pack, HEAD, &head->items, ITEMS);
+}
+
+JoSettings *jox_settings_end(JoxPack *pack) {
+    const size_t count = jox_pack_length(pack, ITEMS) / sizeof(JoSetting);
+    JoSettings *settings = jox_pack_end(pack);
+    settings->count = (uint32_t)count;
+    return settings;
+}
+
+void jox_settings_add(void *context, const JoSetting *from) {
     JoxPack *pack = context;
     JoSetting *to = jox_pack_add(pack, ITEMS, sizeof *to);
-    *to = (JoSetting){
-        .by = from->by, .line = from->line, .column = from->column, .removes = from->removes};
+    *to = (JoSetting){.by = from->by,
+                      .line = from->line,
+                      .column = from->column,
+                      .removes = from->removes,
+                      .time = from->where ? from->time : (double)NAN};
+    jox_pack_text(pack, ITEMS, &to->where, from->where ? from->where : "");
     jox_pack_text(pack, ITEMS, &to->value, from->value ? from->value : "");
     jox_pack_text(pack, ITEMS, &to->unit, from->unit ? from->unit : "");
     jox_pack_text(pack, ITEMS, &to->file, from->file ? from->file : "");
@@ -26,25 +42,25 @@ static void add_setting(void *context, const JoSetting *from) {
 /* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
 static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
     const JoxSceneSpec *spec = scene->spec;
-    bool found = jox_scene_why(spec, path, add_setting, pack);
+    bool found = jox_scene_why(spec, path, jox_settings_add, pack);
     for (uint32_t c = 0; c < spec->changes.count; c++) {
         const JoxPatchChange *change = &spec->changes.items[c];
         const char *rest;
         if (!jox_patch_leads(change, path, &rest))
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
-        add_setting(pack, &(JoSetting){.by = JO_SET_MOD,
-                                       .value = change->removes ? "" : "set",
-                                       .file = change->position.file,
-                                       .line = change->position.line,
-                                       .column = change->position.column,
-                                       .mod = mod->name,
-                                       .version = mod->version,
-                                       .removes = change->removes});
+        jox_settings_add(pack, &(JoSetting){.by = JO_SET_MOD,
+                                            .value = change->removes ? "" : "set",
+                                            .file = change->position.file,
+                                            .line = change->position.line,
+                                            .column = change->position.column,
+                                            .mod = mod->name,
+                                            .version = mod->version,
+                                            .removes = change->removes});
         found = true;
     }
-    found |= jox_scene_why_set(spec, path, add_setting, pack);
-    return found || jox_scene_why_default(spec, path, add_setting, pack);
+    found |= jox_scene_why_set(spec, path, jox_settings_add, pack);
+    return found || jox_scene_why_default(spec, path, jox_settings_add, pack);
 }
 
 /* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
@@ -90,13 +106,11 @@ JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error)
     snprintf(name, sizeof name, "%.*s", (int)(n < 127 ? n : 127), path);
     const JoxMachine *machine = find_behaviour(scene, name);
     JoxPack pack = {0};
-    JoSettings *head = jox_pack_add(&pack, HEAD, sizeof *head);
-    jox_pack_list(&pack, HEAD, &head->items, ITEMS);
+    jox_settings_begin(&pack);
     const bool found = machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1,
-                                                        &scene->scope, add_setting, &pack)
+                                                        &scene->scope, jox_settings_add, &pack)
                                : why_scene(scene, path, &pack);
-    head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoSetting));
-    JoSettings *settings = jox_pack_end(&pack);
+    JoSettings *settings = jox_settings_end(&pack);
     if (!found) {
         not_set(scene, path, name, machine != NULL, error);
         jox_free(settings);

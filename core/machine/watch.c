@@ -1,0 +1,79 @@
+/* What is kept of agents that somebody looks at: their last transition, and who wrote their values.
+   No step reads it. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "machine/internal.h"
+
+void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
+    const JoxMachine *machine = run->set->items[taken->machine];
+    for (uint32_t n = 0; n < run->watched_count; n++) {
+        JoxWatched *watched = &run->watched[n];
+        if (watched->agent_id != taken->agent_id)
+            continue;
+        watched->took = true;
+        watched->tick = run->tick;
+        snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
+        snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
+        watched->why.length = 0;
+        jox_machines_explain(run, taken, &watched->why);
+    }
+}
+
+void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote) {
+    for (uint32_t n = 0; n < run->watched_count; n++) {
+        JoxWatched *watched = &run->watched[n];
+        uint32_t k = 0;
+        if (watched->agent_id != run->agents->id[i])
+            continue;
+        while (k < watched->wrote_count && (watched->wrote[k].is_memory != wrote->is_memory ||
+                                            watched->wrote[k].machine != run->agents->machine[i] ||
+                                            watched->wrote[k].index != wrote->index))
+            k++;
+        if (k == watched->wrote_count) {
+            JOX_RESERVE(watched->wrote, watched->wrote_capacity, k + 1);
+            watched->wrote_count++;
+        }
+        watched->wrote[k] = *wrote;
+        watched->wrote[k].machine = run->agents->machine[i];
+        watched->wrote[k].tick = run->tick;
+    }
+}
+
+/* Whose actions they are: of a transition, or of a state. */
+static JoxWrote writer_of(const JoxMachine *machine, const JoxActions *actions) {
+    JoxWrote wrote = {.is_memory = true, .by = JOX_WROTE_STATE};
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        const JoxState *state = &machine->states[s];
+        if (&state->enters == actions)
+            wrote.state = (uint16_t)s;
+        for (uint32_t t = 0; t < state->transition_count; t++)
+            if (&state->transitions[t].does == actions) {
+                wrote.by = JOX_WROTE_TRANSITION;
+                wrote.state = (uint16_t)s;
+                wrote.transition = (uint16_t)t;
+            }
+    }
+    return wrote;
+}
+
+void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
+                       uint32_t i) {
+    bool watched = false;
+    for (uint32_t n = 0; n < run->watched_count; n++)
+        watched |= run->watched[n].agent_id == run->agents->id[i];
+    if (!watched || actions->set_count == 0)
+        return;
+    JoxWrote wrote = writer_of(machine, actions);
+    for (uint32_t n = 0; n < actions->set_count; n++) {
+        wrote.index = (uint16_t)actions->set[n].slot;
+        jox_machines_wrote(run, i, &wrote);
+    }
+}
+
+void jox_watched_end(JoxWatched *watched) {
+    jox_text_free(&watched->why);
+    jox_free(watched->wrote);
+    *watched = (JoxWatched){0};
+}

@@ -1,0 +1,15 @@
+/* Places that set a value, as they are told (JoSettings). */
+#ifndef JOX_RUN_MODS_SETTINGS_H
+#define JOX_RUN_MODS_SETTINGS_H
+
+#include "base/pack.h"
+#include "run/run.h"
+
+/* Begins the list in a pack. */
+void jox_settings_begin(JoxPack *pack);
+/* Adds one (a JoSetVisit; the context is the pack). */
+void jox_settings_add(void *pack, const JoSetting *setting);
+/* Ends it; the caller's. */
+JoSettings *jox_settings_end(JoxPack *pack);
+
+#endif
