@@ -147,6 +147,13 @@ bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
    passed over. Returns how many were passed over or clamped. */
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
 
+/* What these impulses and the hits of a step came to for a body since the last
+   jox_bodies_count_impulses: impulse, N s, and angular impulse about its centre of mass, N m s; of
+   a body that nothing pushes zeros. False where there is no such body. */
+bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], double turn[3]);
+/* They are counted from zero from here on. */
+void jox_bodies_count_impulses(JoxBodies *bodies);
+
 /* Momentum of all moving bodies, with what the next step is still to give them, kg m/s. */
 void jox_bodies_momentum(const JoxBodies *bodies, double out[3]);
 

@@ -472,6 +472,7 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
         btVector3 lasting = p * impulses[i].lasting;
         r->body->activate(true);
         r->body->applyImpulse(p - lasting, arm);
+        jox_row_count_impulse(r, p, arm);
         r->lasting = jox_v3(jox_bt(r->lasting) + lasting);
         r->lasting_turn = jox_v3(jox_bt(r->lasting_turn) + arm.cross(lasting));
         if (r->bonds)

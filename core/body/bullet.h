@@ -76,6 +76,8 @@ struct JoxRow {
     JoxV3 force;                 /* over the next step, N */
     JoxV3 lasting, lasting_turn; /* impulse and angular impulse spread over the step that is next:
                                     scratch, N s and N m s */
+    double given[6]; /* scratch: what impulses came to since it was last asked to begin anew, N s,
+                        and about the centre of mass, N m s */
     bool grounded, swept;
     int activation;      /* scratch: Bullet's state of sleep */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
@@ -226,6 +228,8 @@ static inline JoxRow *jox_row_of(const JoxBodies *b, uint32_t row) {
 static inline btTransform jox_row_frame(const JoxRow *row) {
     return row->body->getWorldTransform() * row->shape.frame.inverse();
 }
+/* Counts an impulse at an arm from the centre of mass among those that a body was given. */
+void jox_row_count_impulse(JoxRow *row, const btVector3 &impulse, const btVector3 &arm);
 /* An impulse upon a bonded body, at a point of the world. */
 void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
 /* After a substep: what ground, walls and bodies did to bonded ones. After a step: what broke. */

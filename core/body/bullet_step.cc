@@ -52,6 +52,7 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
     btVector3 before = r->body->getLinearVelocity();
     float was_x = d->vx, was_y = d->vy;
     r->body->applyImpulse(n * j, arm);
+    jox_row_count_impulse(r, n * j, arm);
     if (r->bonds)
         jox_row_add_impulse(r, at.getOrigin() + arm, n * j);
     d->vx -= j * n.x() / d->mass;

@@ -72,6 +72,15 @@ void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity) {
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force) {
     return (void)bodies, (void)row, (void)force, false;
 }
+bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], double turn[3]) {
+    (void)bodies, (void)row;
+    for (int i = 0; i < 3; i++)
+        impulse[i] = turn[i] = 0.0;
+    return false;
+}
+void jox_bodies_count_impulses(JoxBodies *bodies) {
+    (void)bodies;
+}
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count) {
     return (void)bodies, (void)impulses, count;
 }

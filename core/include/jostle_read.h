@@ -150,6 +150,15 @@ JO_API uint32_t jo_world_walls(const JoWorld *world, double *out, uint32_t capac
    has 24. */
 JO_API uint32_t jo_body_outline(const JoWorld *world, JoBody body, double *xy, uint32_t capacity);
 
+/* What people gave a body in the last step by pressing, hitting and kicking: the impulse, N s, and
+   the angular impulse about its centre of mass, N m s (either may be NULL). Of a static or
+   kinematic body zeros, as nothing pushes it. False, and zeros, for a stale handle.
+
+   So a program whose bodies move in a world of its own lets people push them: each has a like body
+   here, which is put where it is before each step (jo_body_place, jo_body_set_velocity), and gives
+   it what came of it. jostle_bullet.hpp does so for a btDynamicsWorld. */
+JO_API bool jo_body_pushed(const JoWorld *world, JoBody body, double impulse[3], double turn[3]);
+
 /* ---- snapshots --------------------------------------------------------------------------- */
 
 /* All that the future of a world depends on, as bytes; free with jo_free. NULL with `error`: with

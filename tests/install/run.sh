@@ -24,6 +24,9 @@ done
 g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror tests/install/loop.cpp $(pkg-config --cflags --libs jostle) -o "$dir/loop-cpp" &&
     (cd "$top/share/jostle" && LD_LIBRARY_PATH=$top/lib "$dir/loop-cpp") >"$dir/said" 2>&1
 verdict "the example in C++" $? ; tail -2 "$dir/said"
+g++ -std=c++17 -Wall -Wextra -Werror tests/install/bullet.cpp $(pkg-config --cflags jostle) $(pkg-config --cflags bullet | sed 's/-I/-isystem /g') \
+    $(pkg-config --libs jostle bullet) -o "$dir/bullet" && LD_LIBRARY_PATH=$top/lib "$dir/bullet" >"$dir/said" 2>&1
+verdict "bodies of a Bullet world of the program's own are pushed as Jostle's are, and push" $? ; cat "$dir/said"
 # The engine alone needs no cairo, no web server; the headers alone name no other's folder.
 ! LC_ALL=C ldd "$top/lib/libjostle.so.0" | grep -qE 'cairo|websockets|ssl|X11|fontconfig'
 verdict "the library needs what the engine needs" $? ; LC_ALL=C ldd "$top/lib/libjostle.so.0" | awk '{print "    " $1}'

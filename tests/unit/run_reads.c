@@ -231,6 +231,45 @@ static void density_is_a_gaussian_that_walls_stop(void **state) {
     jo_scene_free(scene);
 }
 
+/* Without friction a body's momentum is what people gave it, by presses and by its own hit. */
+static void what_people_give_a_body(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        return;
+    JoWorldDef def = jo_default_world_def();
+    world = jo_world_create(&def, &error);
+    JoAgentDef person = jo_default_agent_def();
+    person.x = -1.0;
+    person.push = 100;
+    jo_agent_set_preferred(world, jo_world_add_agent(world, &person, &error), 1.3, 0);
+    JoBodyDef box = jo_default_body_def();
+    box.friction = 0;
+    box.mass = 30;
+    box.z = 0.5;
+    const JoBody crate = jo_world_add_body(world, &box, &error);
+    box.kinematic = true;
+    box.y = 1.5;
+    const JoBody door = jo_world_add_body(world, &box, &error);
+    double sum = 0.0, impulse[3], turn[3];
+    for (int s = 0; s < 60; s++) {
+        jo_world_step(world, 1);
+        assert_true(jo_body_pushed(world, crate, impulse, turn));
+        sum += impulse[0];
+        assert_true(jo_body_pushed(world, door, turn, NULL));
+        assert_true(turn[0] == 0.0 && turn[1] == 0.0);
+    }
+    assert_true(sum > 5.0);
+    assert_float_equal(sum, 30.0 * jo_body_state(world, crate).vx, 0.01 * sum);
+    /* What the program gives is none of it. */
+    jo_world_step(world, 40);
+    assert_true(jo_body_impulse(world, crate, (double[]){300, 0, 0}, NULL, &error));
+    jo_world_step(world, 20);
+    assert_true(jo_body_pushed(world, crate, impulse, NULL) && impulse[0] == 0.0);
+    assert_true(jo_body_remove(world, crate, &error));
+    assert_false(jo_body_pushed(world, crate, impulse, NULL));
+    jo_world_free(world);
+}
+
 static void a_snapshot_goes_on_to_the_bit(void **state) {
     (void)state;
     scene = load_own(PLAIN PLACES PEOPLE_OF, OWN);
@@ -261,6 +300,7 @@ int main(void) {
         cmocka_unit_test(questions_have_exact_answers),
         cmocka_unit_test(ways_lead_round_walls),
         cmocka_unit_test(density_is_a_gaussian_that_walls_stop),
+        cmocka_unit_test(what_people_give_a_body),
         cmocka_unit_test(a_snapshot_goes_on_to_the_bit),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

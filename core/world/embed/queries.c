@@ -260,3 +260,17 @@ uint32_t jo_body_outline(const JoWorld *world, JoBody body, double *xy, uint32_t
     }
     return count;
 }
+
+bool jo_body_pushed(const JoWorld *world, JoBody body, double impulse[3], double turn[3]) {
+    JOX_REQUIRE(world, false);
+    double given[3], turned[3];
+    const uint32_t row = jox_world_find_body(world, body);
+    const bool found = jox_bodies_given(world->state.bodies, row, given, turned);
+    for (int k = 0; k < 3; k++) {
+        if (impulse)
+            impulse[k] = given[k];
+        if (turn)
+            turn[k] = turned[k];
+    }
+    return found;
+}
