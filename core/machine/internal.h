@@ -92,6 +92,10 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot
 /* Whether body `row` is the target, or bears its tag; false of -1. */
 bool jox_target_means(const JoxMachineRun *run, uint32_t agent, int32_t index, int32_t row);
 float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t index);
+/* What a person or an input log asks of the agent: its wanted velocity, m/s; (0, 0): nothing. Its
+   size. */
+JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t agent);
+float jox_driven(const JoxMachineRun *run, uint32_t agent);
 /* Free distance ahead, m. */
 float jox_headway(const JoxMachineRun *run, uint32_t agent);
 

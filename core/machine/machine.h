@@ -50,6 +50,8 @@ enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
     X(x, , "m", "position east", a->x[i])                                                          \
     X(y, , "m", "position north", a->y[i])                                                         \
     X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
+    X(driven, , "m/s", "speed that a person or an input log asks of the agent (`player`); 0: none", \
+      jox_driven(run, i))                                                                          \
     X(time, , "s", "simulated time", run->tick * run->dt)
 #define JOX_MEASURED(X) JOX_MEASURED_OTHERS(X) JOX_MEASURED_WORDS(X)
 /* clang-format on */

@@ -339,7 +339,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts holders time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours driven time density headway eagerness pushed compression load contacts holders time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

@@ -23,6 +23,12 @@ for seed in 1 2; do
     hurried=$(arrival $seed 44) polite=$(arrival $seed 45)
     between "hurried-polite: the hurried one is faster, seed $seed" "$(awk -v a="$hurried" -v b="${polite:-30}" 'BEGIN {print b - a}')" 3 30
 done
+# Dodge-ball whose player is left alone: a kick is never longer in coming than a minute.
+for seed in 1 2 3; do
+    "$JOSTLE" run scenes/dodgeball.yaml --for 600 --seed $seed --data "$work/game" --quiet
+    between "dodge-ball as shipped goes on for ten minutes, seed $seed: the longest time without a kick, s" \
+        "$(awk -F, '$2 == "kicks" {d = $1 - last; if (d > most) most = d; last = $1} END {d = 600 - last; print (d > most ? d : most)}' "$work/game/actions.csv")" 0.1 60
+done
 summary catch >"$work/s"
 between "catch: balls are taken and thrown" "$(event throws <"$work/s")" 20 500
 between "catch: and hit" "$(event hits <"$work/s")" 3 500

@@ -164,10 +164,7 @@ JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
 
 static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
     float speed = jox_maxf(run->agents->param[JOX_PARAM_speed][i], 1e-3f);
-    for (uint32_t k = 0; k < run->input_count; k++)
-        if (run->inputs[k].agent_id == run->agents->id[i])
-            return jox_scale((JoxV2){run->inputs[k].vx, run->inputs[k].vy}, 1.0f / speed);
-    return (JoxV2){0.0f, 0.0f};
+    return jox_scale(jox_player_wants(run, i), 1.0f / speed);
 }
 
 JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
