@@ -143,8 +143,9 @@ void jox_bodies_carry(JoxBodies *bodies, uint32_t row, JoxV3 centre, JoxV3 veloc
 void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity);
 /* Acts at the centre of mass throughout the next step, N; adds to what was given before. */
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
-/* Applied in the order given. Rows that are dead or static and impulses that are not finite are
-   passed over. Returns how many were passed over or clamped. */
+/* Applied in the order given; a kinematic body feels them, and does not move by them. Rows that are
+   dead or static and impulses that are not finite are passed over. Returns how many were passed
+   over or clamped. */
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
 
 /* What these impulses and the hits of a step came to for a body since the last

@@ -457,6 +457,11 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
     for (uint32_t i = 0; i < count; i++) {
         btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
         JoxRow *r = jox_row_of(b, impulses[i].object);
+        if (r && r->kinematic && jox_finite(p) && jox_finite(at)) { /* felt, and no more */
+            r->felt = jox_v3(jox_bt(r->felt) + p);
+            jox_row_count_impulse(r, p, at - r->body->getWorldTransform().getOrigin());
+            continue;
+        }
         if (!r || r->shape.mass <= 0 || !jox_finite(p) || !jox_finite(at)) {
             odd++;
             continue;

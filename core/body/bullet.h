@@ -85,7 +85,10 @@ struct JoxRow {
     float before[16];    /* scratch: where the substep began, a transform as OpenGL has it */
     bool kinematic;      /* no mass, and moved by its velocity, or along its path */
     JoxBodyPath path;    /* of the centre of mass; its points are owned */
-    double path_time;    /* s, since it began */
+    double path_time;    /* s, since it began: how far along it is */
+    double stands;       /* s: so long it still stands, having met somebody */
+    bool goes_back;      /* along the path, to where its leg began */
+    JoxV3 felt;          /* scratch: impulses of people in this step, N s */
     bool held;           /* by an agent */
     uint32_t holder;
     /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
@@ -215,6 +218,10 @@ void jox_row_leave_path(JoxRow *row);
 /* Before a substep: velocities with which it leads along paths. After a step: those with which
    bodies go on, for whoever sees them. */
 void jox_bodies_drive(JoxBodies *bodies, float dt);
+/* Before a step of dt: those that met with what they may not press harder stand, or go back. */
+void jox_bodies_feel(JoxBodies *bodies, float dt);
+/* What a body on a path that moves may press people with, N; 0: no limit. */
+float jox_row_most_force(const JoxRow *row);
 void jox_bodies_driven(JoxBodies *bodies);
 /* The shape of bonded blocks; NULL with a sentence in `error`. */
 JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);

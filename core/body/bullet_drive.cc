@@ -1,6 +1,7 @@
 /* Bodies that move by velocities of their own: kinematic ones. */
 #include "body/bullet.h"
 
+#include <algorithm>
 #include <cstring>
 
 static void set_velocity(JoxRow *r, const double v[3]) {
@@ -27,7 +28,62 @@ void jox_row_set_path(JoxRow *r, const JoxBodyPath *path) {
 void jox_row_leave_path(JoxRow *r) {
     jox_free(r->path.points);
     r->path = JoxBodyPath();
-    r->path_time = 0;
+    r->path_time = r->stands = 0;
+    r->goes_back = false;
+}
+
+/* ---- what stands in its way ---- */
+
+static const double STANDS = 0.25; /* s, until it tries once more */
+
+/* How it goes on from where it is, m/s. */
+static btVector3 going(const JoxRow *r) {
+    const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
+    const float way = r->stands > 0 ? 0.0f : r->goes_back ? -1.0f : 1.0f;
+    return way *
+           btVector3(float(spot.velocity[0]), float(spot.velocity[1]), float(spot.velocity[2]));
+}
+
+float jox_row_most_force(const JoxRow *r) {
+    const bool limited = r->path.count && r->path.most > 0;
+    return limited && going(r).length2() > 0 ? float(r->path.most) : 0;
+}
+
+/* Whether people bear in the step of dt what it presses with at most, against how it goes. */
+static bool is_obstructed(const JoxRow *r, float dt) {
+    const btVector3 way = going(r);
+    if (!(r->path.most > 0) || !(way.length2() > 0))
+        return false;
+    return -jox_bt(r->felt).dot(way.normalized()) >= 0.99f * float(r->path.most) * dt;
+}
+
+void jox_bodies_feel(JoxBodies *b, float dt) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (!r->path.count)
+            continue;
+        if (is_obstructed(r, dt)) {
+            r->goes_back |= r->path.reopens;
+            r->stands = STANDS;
+        }
+        r->felt = JoxV3{0, 0, 0};
+    }
+}
+
+/* On by dt along its path, or back; what stands only waits. */
+static void go_on(JoxRow *r, double dt) {
+    if (r->stands > 0) {
+        r->stands = r->stands > dt ? r->stands - dt : 0;
+    } else if (r->goes_back) {
+        const double began = jox_path_leg_began(&r->path, r->path_time);
+        r->path_time = std::max(began, r->path_time - dt);
+        if (r->path_time == began) { /* there it waits, as it did before it set out */
+            r->path_time = std::max(0.0, began - r->path.wait);
+            r->goes_back = false;
+        }
+    } else {
+        r->path_time += dt;
+    }
 }
 
 void jox_row_make_kinematic(JoxRow *r) {
@@ -51,7 +107,7 @@ void jox_bodies_drive(JoxBodies *b, float dt) {
         if (!r->kinematic)
             continue;
         if (r->path.count) { /* to where it has to be, whatever was rounded so far */
-            r->path_time += dt;
+            go_on(r, double(dt));
             const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
             const btVector3 &at = r->body->getWorldTransform().getOrigin();
             double v[3];
@@ -67,6 +123,6 @@ void jox_bodies_driven(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
         if (r->path.count)
-            set_velocity(r, jox_path_spot(&r->path, r->path_time).velocity);
+            r->body->setLinearVelocity(going(r));
     }
 }

@@ -86,6 +86,10 @@ static void put_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow 
     record->path_after = r->path.after;
     record->path_wait = r->path.wait;
     record->path_time = r->path_time;
+    record->path_most = r->path.most;
+    record->path_stands = r->stands;
+    record->path_reopens = r->path.reopens;
+    record->path_back = r->goes_back;
     jox_reserve(image->path_points, image->path_point_capacity, image->path_point_count + numbers);
     if (numbers)
         memcpy(image->path_points + image->path_point_count, r->path.points,
@@ -227,11 +231,18 @@ static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRec
     r->shape = shape;
     r->kinematic = record->still == JOX_BODY_KINEMATIC;
     if (record->path_count) {
-        const JoxBodyPath path = {
-            image->path_points + at.path, record->path_count, record->path_end,
-            record->path_speed,           record->path_after, record->path_wait};
+        const JoxBodyPath path = {image->path_points + at.path,
+                                  record->path_count,
+                                  record->path_end,
+                                  record->path_speed,
+                                  record->path_after,
+                                  record->path_wait,
+                                  record->path_most,
+                                  record->path_reopens != 0};
         jox_row_set_path(r, &path);
         r->path_time = record->path_time;
+        r->stands = record->path_stands;
+        r->goes_back = record->path_back != 0;
     }
     r->grounded = record->grounded != 0;
     r->swept = record->swept != 0;

@@ -148,6 +148,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     for (uint32_t k = 0; k < b->live; k++)
         if (b->rows[b->order[k]].body->isActive())
             b->rows[b->order[k]].grounded = false;
+    jox_bodies_feel(b, dt);
     uint32_t n = substeps(b, dt);
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
@@ -284,6 +285,7 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     o->swept = r->swept;
     o->tags = r->tags;
     o->velocity = jox_v3(r->body->getLinearVelocity());
+    o->most_force = jox_row_most_force(r);
     o->spin = jox_v3(r->body->getAngularVelocity());
     o->held = r->held;
     o->holder = r->holder;

@@ -5,7 +5,7 @@
 
 #include "base/mem.h"
 
-_Static_assert(sizeof(JoxBodyRecord) == 360, "a body's record has no padding");
+_Static_assert(sizeof(JoxBodyRecord) == 384, "a body's record has no padding");
 _Static_assert(sizeof(JoxBodyPartRecord) == 104, "a part's record has no padding");
 _Static_assert(sizeof(JoxBlockRecord) == 88, "a block's record has no padding");
 _Static_assert(sizeof(JoxContactRecord) == 64, "a contact's record has no padding");
@@ -155,9 +155,13 @@ static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, u
                               r->path_end,
                               r->path_speed,
                               r->path_after,
-                              r->path_wait};
+                              r->path_wait,
+                              r->path_most,
+                              r->path_reopens != 0};
     return r->path_count <= JOX_PATH_POINTS && r->still == JOX_BODY_KINEMATIC &&
-           !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time);
+           !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time) &&
+           r->path_stands >= 0.0 && isfinite(r->path_stands) && r->path_reopens <= 1 &&
+           r->path_back <= 1;
 }
 
 static bool all_within(const float *values, uint32_t count, float most) {

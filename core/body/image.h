@@ -32,6 +32,8 @@ typedef struct JoxBodyRecord {
     double block_size[3], origin[3], block_mass, peak_load;
     uint32_t path_count, path_end; /* points; 0: no path */
     double path_speed, path_after, path_wait, path_time;
+    double path_most, path_stands;
+    uint32_t path_reopens, path_back;
 } JoxBodyRecord;
 
 typedef struct JoxBodyPartRecord {

@@ -5,8 +5,9 @@
 
 #include "base/assert.h"
 
-static const double FASTEST = 100.0; /* m/s */
-static const double LONGEST = 1e9;   /* s, of a wait */
+static const double FASTEST = 100.0;  /* m/s */
+static const double LONGEST = 1e9;    /* s, of a wait */
+static const double MOST_FORCE = 1e6; /* N */
 
 static const double *point(const JoxBodyPath *p, uint32_t n) {
     return p->points + 3 * (size_t)(n % p->count);
@@ -24,6 +25,8 @@ const char *jox_path_wrong(const JoxBodyPath *p) {
         return "the speed of a path must be above 0 and at most 100 m/s";
     if (!(p->after >= 0.0 && p->after <= LONGEST) || !(p->wait >= 0.0 && p->wait <= LONGEST))
         return "a body on a path waits for 0 to 1e9 s";
+    if (!(p->most >= 0.0 && p->most <= MOST_FORCE) || (p->reopens && !(p->most > 0.0)))
+        return "a body on a path presses with up to 1e6 N; one that reopens has such a limit";
     if (p->end > JO_PATH_ROUND)
         return "the end of a path is unknown";
     for (uint32_t k = 0; k < 3 * p->count; k++)
@@ -88,4 +91,20 @@ JoxPathSpot jox_path_spot(const JoxBodyPath *p, double time) {
         left -= way + p->wait;
     }
     return spot_on(p, legs - 1, leg_time(p, legs - 1), true);
+}
+
+double jox_path_leg_began(const JoxBodyPath *p, double time) {
+    const uint32_t legs = legs_of(p);
+    double began = p->after, round = 0.0;
+    for (uint32_t n = 0; n < legs; n++)
+        round += leg_time(p, n) + p->wait;
+    if (p->end != JO_PATH_STAY && time > p->after)
+        began += floor((time - p->after) / round) * round;
+    for (uint32_t n = 0; n + 1 < legs; n++) {
+        const double next = began + leg_time(p, n) + p->wait;
+        if (!(time >= next))
+            break;
+        began = next;
+    }
+    return began;
 }

@@ -17,6 +17,8 @@ typedef struct JoxBodyPath {
     double speed;   /* m/s */
     double after;   /* s until it starts */
     double wait;    /* s at each point that it comes to */
+    double most;    /* N: what it presses people with at most as it moves; 0: no limit */
+    bool reopens; /* goes back to where the leg began where it would press harder; else it stands */
 } JoxBodyPath;
 
 typedef struct JoxPathSpot {
@@ -27,5 +29,8 @@ typedef struct JoxPathSpot {
 const char *jox_path_wrong(const JoxBodyPath *path);
 /* `time`: s since the body was made. */
 JoxPathSpot jox_path_spot(const JoxBodyPath *path, double time);
+
+/* The time at which the leg that it is on, or that it came to the end of last, began, s. */
+double jox_path_leg_began(const JoxBodyPath *path, double time);
 
 #endif

@@ -72,6 +72,7 @@ typedef struct JoxTouch {
     JoxV2 normal;
     JoxV3 point;
     float gap, target, mass, impulse; /* m, m/s, kg, N s */
+    float most;                       /* N s: of a body that presses with no more */
 } JoxTouch;
 
 /* An agent's end of a contact with another. */

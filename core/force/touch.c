@@ -88,6 +88,8 @@ void jox_touches_collect(JoxForces *f) {
         f->touch_first[f->touch[t].agent] = t;
 }
 
+static const float AHEAD = 0.7f; /* cosine to how a body moves, of what it moves towards */
+
 float jox_touch_speed_before(const JoxForces *f, const JoxTouch *t) {
     const JoxObject *body = &f->step.objects->rows[t->object];
     const JoxV3 at = t->point, c = body->position;
@@ -109,6 +111,19 @@ static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
                   (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
 }
 
+/* What a contact presses with at most, N s: a body that limits its force as it moves shares that
+   among those whom it moves towards. */
+static float most_of(const JoxForces *f, const JoxTouch *t) {
+    const JoxObject *body = &f->step.objects->rows[t->object];
+    const JoxV2 way = jox_unit((JoxV2){body->velocity.x, body->velocity.y});
+    uint32_t met = 0;
+    if (!(body->most_force > 0.0f) || !(jox_dot(way, t->normal) > AHEAD))
+        return INFINITY;
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        met += f->touch[k].object == t->object && jox_dot(way, f->touch[k].normal) > AHEAD;
+    return body->most_force * (float)f->step.dt / (float)met;
+}
+
 void jox_touches_begin(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     size_t kept = 0;
@@ -125,7 +140,9 @@ void jox_touches_begin(JoxForces *f) {
         t->mass = 1.0f / (1.0f / a->param[JOX_PARAM_mass][t->agent] + give);
         t->target =
             jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
-        t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
+        t->most = most_of(f, t);
+        t->impulse = jox_minf(
+            t->most, jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object));
         JOX_ASSERT(t->mass > 0.0f);
     }
     for (uint32_t k = 0; k < f->touch_count; k++)
@@ -141,7 +158,7 @@ float jox_touches_pass(JoxForces *f) {
         JoxTouch *t = &f->touch[k];
         float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
         float before = t->impulse;
-        t->impulse = jox_maxf(0.0f, before + (t->target - speed) * t->mass);
+        t->impulse = jox_clampf(before + (t->target - speed) * t->mass, 0.0f, t->most);
         most = jox_maxf(most, fabsf(t->impulse - before));
         add_impulse(f, t, t->impulse - before);
     }
@@ -159,13 +176,15 @@ void jox_touches_finish(JoxForces *f) {
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
         f->kept_touches.items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
-        if (!(t->impulse > 0.0f) || !(f->step.objects->rows[t->object].inverse_mass > 0.0f))
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        const bool moves = body->inverse_mass > 0.0f;
+        if (!(t->impulse > 0.0f) || !(moves || body->kinematic)) /* that feels it, and no more */
             continue;
         JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
         JoxV2 impulse = jox_scale(t->normal, t->impulse);
-        totals->touched_x += (double)impulse.x;
-        totals->touched_y += (double)impulse.y;
-        totals->touched += t->impulse;
+        totals->touched_x += moves ? (double)impulse.x : 0.0;
+        totals->touched_y += moves ? (double)impulse.y : 0.0;
+        totals->touched += moves ? (double)t->impulse : 0.0;
         jox_force_add_impulse(f, a->id[t->agent], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
                               t->point, f->options.literal ? 0.0f : f->motions[t->object].held);
     }

@@ -39,6 +39,7 @@ typedef struct JoxObject {
     float round;
     float low, high; /* heights that the footprint covers within the band, m */
     float restitution, friction;
+    float most_force; /* N: of one that is kinematic and moves, what it presses with; 0: no limit */
 } JoxObject;
 
 /* An impulse on a body at a point, both in world coordinates: N s and m. The share `lasting` acts

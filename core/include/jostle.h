@@ -173,6 +173,9 @@ typedef struct JoPath {
     JoPathEnd end;
     double speed;       /* m/s, 0.001 to 100 */
     double after, wait; /* s: until it starts; at each point that it comes to */
+    double force_limit; /* N: what it presses people with at most as it moves; 0: no limit */
+    bool reopens;       /* with a limit: where people bear it, it goes back to where its leg began,
+                           waits and sets out again; else it stands, and tries again each 0.25 s */
 } JoPath;
 typedef struct JoBodyDef {
     JoShape shape;

@@ -151,8 +151,8 @@ JO_API uint32_t jo_world_walls(const JoWorld *world, double *out, uint32_t capac
 JO_API uint32_t jo_body_outline(const JoWorld *world, JoBody body, double *xy, uint32_t capacity);
 
 /* What people gave a body in the last step by pressing, hitting and kicking: the impulse, N s, and
-   the angular impulse about its centre of mass, N m s (either may be NULL). Of a static or
-   kinematic body zeros, as nothing pushes it. False, and zeros, for a stale handle.
+   the angular impulse about its centre of mass, N m s (either may be NULL). A kinematic body
+   does not move by it; of a static one zeros. False, and zeros, for a stale handle.
 
    So a program whose bodies move in a world of its own lets people push them: each has a like body
    here, which is put where it is before each step (jo_body_place, jo_body_set_velocity), and gives

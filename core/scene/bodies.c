@@ -135,6 +135,13 @@ static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDef *def) 
                         "a body on a path moves at the speed of the path");
     if (def->kinematic)
         def->mass = def->density = 0;
+    if (!isfinite(def->path.most)) /* not given */
+        def->path.most = 0;
+    if (def->path.reopens && !(def->path.most > 0.0))
+        jox_scene_error(
+            r, path, "bad-body", "force_limit: 150",
+            "a body on a path reopens where it would press harder than its force_limit: "
+            "it has none");
     if (def->path.count)
         memcpy(def->path.points, def->position, sizeof def->position);
 }

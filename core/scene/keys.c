@@ -198,6 +198,8 @@ static const JoxKey KEYS[] = {
     {"path", "speed", NUMBER, "m/s", 0.001, 100, "!", TO(JoxLoadBody, body.def.path.speed), .meaning = "all along it"},
     {"path", "after", NUMBER, "s", 0, 1e6, "0", TO(JoxLoadBody, body.def.path.after), .meaning = "time until it starts"},
     {"path", "wait", NUMBER, "s", 0, 1e6, "0", TO(JoxLoadBody, body.def.path.wait), .meaning = "at each point that it comes to"},
+    {"path", "force_limit", NUMBER, "N", 1, 1e6, "", TO(JoxLoadBody, body.def.path.most), .meaning = "what it presses people with at most as it moves, all of them together: where they bear that it stands, and tries again each quarter of a second (doors of trains: 150 N); no limit unless given"},
+    {"path", "reopens", BOOL, "", 0, 0, "false", TO(JoxLoadBody, body.def.path.reopens), .meaning = "with `force_limit`: it goes back to where its leg began, waits there as it did, and sets out once more"},
     {"path", "end", TEXT, "", 0, 0, "stay", TO(JoxLoadBody, body.def.path.end), .choices = "stay|back|round",
      .meaning = "at the last point: it stays, goes back the way it came and to and fro for ever, or on to the first and round"},
     {"shape", "box", TABLE, "", 0, 0, "", SAME_STRUCT, KIND(JOX_SHAPE_BOX), .of = "box", .meaning = "a cuboid"},
@@ -405,7 +407,7 @@ static const JoxOwner OWNERS[] = {
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people unless its mass is 0 or it is `kinematic`.",
      .size = sizeof(JoxLoadBody)},
     {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z.", .size = 0},
-    {"path", "path", "What stands in the way of a body on a path is pushed along or squeezed: nothing stops it. Programs that set its velocity "
+    {"path", "path", "What stands in the way of a body on a path is pushed along or squeezed: nothing stops it, unless it has a `force_limit`. Programs that set its velocity "
      "or place it end the path.", .size = 0},
     {"shape", "Shapes", "A shape is a map with one key, its kind.",
      .size = sizeof(JoxShape), .kind = AT(JoxShape, kind), .wrong_kind = "bad-shape", .hint = "{sphere: {radius: 0.1}}"},

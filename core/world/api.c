@@ -266,7 +266,9 @@ static JoxBodyPath path_of(const JoBodyDef *def) {
                         .end = (uint32_t)p->end,
                         .speed = p->speed,
                         .after = p->after,
-                        .wait = p->wait};
+                        .wait = p->wait,
+                        .most = p->force_limit,
+                        .reopens = p->reopens};
     memcpy(path.points, (double[]){def->x, def->y, def->z}, 3 * sizeof *path.points);
     memcpy(path.points + 3, p->points, 3 * (size_t)p->count * sizeof *path.points);
     return path;

@@ -44,6 +44,24 @@ static void paths_lead_where_they_say(void **state) {
     expect_spot(&p, 3 + 3 + sqrt(5.0) + 1, 2, 0, 2, 0);
 }
 
+static void legs_begin_when_they_do(void **state) {
+    (void)state;
+    double points[] = {0, 0, 1, 4, 0, 1, 4, 2, 1}; /* 2 s and 1 s, each with a wait of 1 s */
+    JoxBodyPath p = {.points = points, .count = 3, .speed = 2, .after = 3, .wait = 1};
+    const struct {
+        uint32_t end;
+        double time, began;
+    } at[] = {{JO_PATH_STAY, 1, 3},   {JO_PATH_STAY, 4, 3},     {JO_PATH_STAY, 5.5, 3},
+              {JO_PATH_STAY, 6.5, 6}, {JO_PATH_STAY, 100, 6},   {JO_PATH_BACK, 8.5, 8},
+              {JO_PATH_BACK, 11, 10}, {JO_PATH_BACK, 13.5, 13}, {JO_PATH_BACK, 26.5, 26}};
+    for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
+        p.end = at[k].end;
+        const double began = jox_path_leg_began(&p, at[k].time);
+        if (!(fabs(began - at[k].began) < 1e-9))
+            fail_msg("at %g s the leg began at %g s, not %g s", at[k].time, began, at[k].began);
+    }
+}
+
 static JoxBodies *create(void) {
     JoxBodiesDef def = jox_bodies_def();
     return jox_bodies_create(&def);
@@ -94,7 +112,7 @@ static void it_pushes_and_is_not_pushed(void **state) {
     assert_float_equal(pose_of(b, pushed).velocity.x, 0.5, 0.05);
     assert_float_equal(pose_of(b, mover).mass, 0.0, 0.0);
     const JoxImpulse hard = {.object = mover, .point = {3, 0, 1}, .impulse = {-1e4f, 0, 0}};
-    assert_int_equal(jox_bodies_impulses(b, &hard, 1), 1);
+    assert_int_equal(jox_bodies_impulses(b, &hard, 1), 0); /* felt, and no more */
     assert_false(jox_bodies_force(b, mover, (JoxV3){-1e4f, 0, 0}));
     assert_false(jox_bodies_hold(b, mover, 1));
     step_for(b, 1);
@@ -219,6 +237,7 @@ static void refuses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(paths_lead_where_they_say),
+                                       cmocka_unit_test(legs_begin_when_they_do),
                                        cmocka_unit_test(it_pushes_and_is_not_pushed),
                                        cmocka_unit_test(it_carries_what_lies_upon_it),
                                        cmocka_unit_test(it_turns_about_its_middle),

@@ -83,8 +83,13 @@ static void fill(JoxBodies *b) {
     JoxBodyDef door = box, bar = box;
     double points[] = {3, 5, 0.3, 5, 3, 0.3, 8, 5, 0.6};
     door.kinematic = true;
-    door.path =
-        (JoxBodyPath){.points = points, .count = 3, .end = JO_PATH_BACK, .speed = 0.7, .wait = 0.6};
+    door.path = (JoxBodyPath){.points = points,
+                              .count = 3,
+                              .end = JO_PATH_BACK,
+                              .speed = 0.7,
+                              .wait = 0.6,
+                              .most = 200,
+                              .reopens = true};
     add(b, door, "door", 3, 5, 0.3);
     bar.shape.size[0] = 4;
     bar.kinematic = true;
@@ -103,6 +108,13 @@ static void act(JoxBodies *b, uint32_t tick) {
         jox_bodies_impulses(b, pushes, 1);
     if (tick > SAVED + 40 && tick < SAVED + 60)
         jox_bodies_impulses(b, pushes + 1, 1);
+    JoxPose door;
+    if (tick >= SAVED - 40 && tick % 7 == 0 &&
+        jox_bodies_pose(b, jox_bodies_find_name(b, "door"), &door)) { /* it meets somebody */
+        JoxImpulse met = {.object = jox_bodies_find_name(b, "door"), .point = door.centre};
+        met.impulse = (JoxV3){-90.0f * door.velocity.x, -90.0f * door.velocity.y, 0};
+        jox_bodies_impulses(b, &met, 1);
+    }
     uint32_t ball = jox_bodies_find_name(b, "ball"), tin = jox_bodies_find_name(b, "tin");
     if (tick == SAVED - 20)
         jox_bodies_hold(b, ball, 7);
@@ -318,6 +330,8 @@ static void broken_images_are_refused(void **state) {
                    {&door->still, 3},
                    {&door->path_count, 4},
                    {&door->path_end, JO_PATH_ROUND + 1},
+                   {&door->path_back, 2},
+                   {(uint32_t *)&door->path_most + 1, 0xbff00000},
                    {&door->motion[9], 0x7e967699},                  /* 1e38 m */
                    {&door->motion[25], 0x501502f9},                 /* 1e10 m/s */
                    {(uint32_t *)&door->path_speed + 1, 0xbff00000}, /* -1 or so */

@@ -12,6 +12,7 @@
 #include "body/body.h"
 #include "jostle.h"
 #include "jostle_act.h"
+#include "jostle_read.h"
 
 typedef struct Meeting {
     JoWorld *world;
@@ -160,10 +161,83 @@ static void programs_give_it_a_path(void **state) {
     jo_world_free(m.world);
 }
 
+/* A leaf of a door that shuts upon somebody who stands before a wall: what it presses with at most,
+   N; where it is in the end, and farthest. */
+typedef struct Squeeze {
+    double most, farthest, last;
+} Squeeze;
+
+static Squeeze squeeze(double limit, bool reopens) {
+    JoError error = {0};
+    JoWorldDef def = jo_default_world_def();
+    JoWorld *world = jo_world_create(&def, &error);
+    const double wall[] = {1.2, -0.5, 1.2, 0.5, 1.4, 0.5, 1.4, -0.5}, through[] = {0.7, 0, 1};
+    assert_true(jo_world_add_solid(world, wall, 4, &error));
+    JoAgentDef person = jo_default_agent_def();
+    person.x = 0.5;
+    jo_world_add_agent(world, &person, &error);
+    JoBodyDef leaf = jo_default_body_def();
+    leaf.size[0] = 1;
+    leaf.size[1] = 0.1;
+    leaf.size[2] = 2;
+    leaf.x = -0.7;
+    leaf.z = 1;
+    leaf.kinematic = true;
+    leaf.path = (JoPath){.points = through,
+                         .count = 1,
+                         .speed = 0.5,
+                         .wait = 1,
+                         .force_limit = limit,
+                         .reopens = reopens};
+    const JoBody body = jo_world_add_body(world, &leaf, &error);
+    if (!body.generation)
+        fail_msg("%s", error.text);
+    Squeeze s = {0, -9, 0};
+    for (int step = 0; step < 90; step++) {
+        double impulse[3];
+        jo_world_step(world, 1);
+        assert_true(jo_body_pushed(world, body, impulse, NULL));
+        s.most = fmax(s.most, -impulse[0] / def.dt);
+        s.last = jo_body_state(world, body).x;
+        s.farthest = fmax(s.farthest, s.last);
+    }
+    jo_world_free(world);
+    return s;
+}
+
+static void a_door_feels_whom_it_squeezes(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    const Squeeze blind = squeeze(0, false), stands = squeeze(150, false),
+                  reopens = squeeze(150, true);
+    print_message("  blind %.0f N; with a limit %.0f N and %.0f N, and back from %.2f at %.2f m\n",
+                  blind.most, stands.most, reopens.most, reopens.farthest, reopens.last);
+    assert_true(blind.most > 1000.0);
+    assert_float_equal(blind.last, 0.7, 1e-3); /* shut, whoever stands there */
+    assert_true(stands.most > 140.0 && stands.most < 150.1);
+    assert_float_equal(stands.last, 0.3,
+                       0.03); /* it stands at the person, who stands at the wall */
+    assert_true(reopens.most > 140.0 && reopens.most < 150.1);
+    assert_true(reopens.farthest > 0.1 && reopens.farthest < 0.35);
+    assert_true(reopens.last < -0.3);
+    JoError error = {0};
+    JoWorldDef def = jo_default_world_def();
+    JoWorld *world = jo_world_create(&def, &error);
+    JoBodyDef wrong = jo_default_body_def();
+    wrong.kinematic = true;
+    wrong.path = (JoPath){.points = (double[]){5, 0, 0}, .count = 1, .speed = 1, .reopens = true};
+    assert_int_equal(jo_world_add_body(world, &wrong, &error).generation, 0);
+    assert_non_null(strstr(error.text, "limit"));
+    jo_world_free(world);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(who_stands_there_is_pushed_along), cmocka_unit_test(people_make_way),
-        cmocka_unit_test(a_bar_that_turns_sweeps_people_along), cmocka_unit_test(programs_drive_it),
-        cmocka_unit_test(programs_give_it_a_path)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(who_stands_there_is_pushed_along),
+                                       cmocka_unit_test(people_make_way),
+                                       cmocka_unit_test(a_bar_that_turns_sweeps_people_along),
+                                       cmocka_unit_test(programs_drive_it),
+                                       cmocka_unit_test(programs_give_it_a_path),
+                                       cmocka_unit_test(a_door_feels_whom_it_squeezes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -105,7 +105,7 @@ const JoxExample jox_scene_examples[] = {
      "    shape: {box: {size: [1.2, 0.1, 2]}}\n"
      "    at: [0, 3, 1]\n"
      "    kinematic: true\n"
-     "    path: {through: [[1.2, 3, 1], [0, 3, 1]], speed: 0.5 m/s, after: 5, wait: 20, end: stay}\n"
+     "    path: {through: [[1.2, 3, 1], [0, 3, 1]], speed: 0.5 m/s, after: 5, wait: 20, end: stay, force_limit: 150 N, reopens: true}\n"
      STANDER},
     {"repeat", OPENING
      "bodies:\n"
