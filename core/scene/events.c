@@ -32,15 +32,22 @@ static bool is_static(const JoxBodyDef *def) {
            (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
 }
 
+/* `done`: what is done to a body that has mass; "moved": to a kinematic one. */
 static void check_body(const JoxReader *r, const JoxYaml *name, const char *done) {
+    const bool moved = strcmp(done, "moved") == 0;
     const char *names[256];
     uint32_t count = 0;
     for (uint32_t b = 0; b < r->load->scene->body_count; b++) {
         const JoxBodyDef *def = &r->load->scene->bodies[b].def;
         if (def->name && strcmp(def->name, name->text) == 0) {
-            if (is_static(def))
+            if (moved && !def->kinematic)
+                jox_scene_error(r, name, "bad-event", "Throw or push it, or add `kinematic: true`",
+                                "the body '%.60s' is not kinematic: it has no velocity of its own",
+                                name->text);
+            else if (!moved && is_static(def))
                 jox_scene_error(r, name, "bad-event",
-                                def->kinematic ? NULL : "Give it a mass above 0",
+                                def->kinematic ? "Write move: NAME, velocity: [0.5, 0, 0]"
+                                               : "Give it a mass above 0",
                                 "the body '%.60s' is %s: it cannot be %s", name->text,
                                 def->kinematic ? "kinematic" : "static", done);
             return;
@@ -78,6 +85,8 @@ void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     }
     if (event->kind == JOX_EVENT_THROW)
         check_body(r, node, "thrown");
+    else if (event->kind == JOX_EVENT_MOVE)
+        check_body(r, node, "moved");
     else if (event->kind == JOX_EVENT_PUSH)
         check_pushed(r, node, event);
     else if (event->kind != JOX_EVENT_SIGNAL)
@@ -94,13 +103,17 @@ static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxEvent *
     bool any = false;
     for (int k = 0; k < 3; k++) {
         const JoxYaml *node = jox_yaml_get(map, KEYS[k]);
-        if (node && event->kind != JOX_EVENT_THROW)
-            jox_scene_error(r, node, "bad-event", NULL, "%s belongs to a throw", KEYS[k]);
+        if (node && event->kind != JOX_EVENT_THROW && (k == 0 || event->kind != JOX_EVENT_MOVE))
+            jox_scene_error(r, node, "bad-event", NULL, "%s belongs to a throw%s", KEYS[k],
+                            k ? " or a move" : "");
         any |= node != NULL;
     }
     if (event->kind == JOX_EVENT_THROW && !any)
         jox_scene_error(r, map, "bad-event", "velocity: [5, 0, 3]",
                         "a throw needs a velocity, a spin or a point that it is from");
+    if (event->kind == JOX_EVENT_MOVE && !any)
+        jox_scene_error(r, map, "bad-event", "velocity: [0.5, 0, 0]",
+                        "a move needs a velocity or a spin, of zeros where the body is to stand");
 }
 
 static void check_push(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {

@@ -73,6 +73,21 @@ bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
     return false;
 }
 
+bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
+                    const double spin[3], JoxText *why) {
+    const uint32_t row = find_body(world, body, why);
+    JoxPose pose;
+    if (row == JOX_NO_BODY)
+        return false;
+    if (!jox_bodies_pose(world->state.bodies, row, &pose) || !pose.kinematic) {
+        jox_text_printf(why, "the body '%.60s' is not kinematic: it can be thrown or pushed", body);
+        return false;
+    }
+    const JoxV3 v = {(float)velocity[0], (float)velocity[1], (float)velocity[2]};
+    const JoxV3 turn = {(float)spin[0], (float)spin[1], (float)spin[2]};
+    return jox_bodies_set_velocity(world->state.bodies, row, v, turn);
+}
+
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why) {
     if (jox_world_open_walls(world, wall, open) == 0) {
         const char *names[MOST_NAMES];
@@ -103,6 +118,9 @@ static void happen(JoWorld *world, const JoxEvent *event) {
     case JOX_EVENT_THROW:
         good = jox_event_throw(world, event->name, event->placed ? event->from : NULL,
                                event->velocity, event->spin, &why);
+        break;
+    case JOX_EVENT_MOVE:
+        good = jox_event_move(world, event->name, event->velocity, event->spin, &why);
         break;
     case JOX_EVENT_OPEN:
     case JOX_EVENT_CLOSE:

@@ -12,6 +12,7 @@ typedef struct JoWorld JoWorld;
 
 typedef enum JoxEventKind {
     JOX_EVENT_THROW,
+    JOX_EVENT_MOVE,
     JOX_EVENT_OPEN,
     JOX_EVENT_CLOSE,
     JOX_EVENT_SIGNAL,
@@ -43,6 +44,8 @@ void jox_world_events(JoWorld *world);
    thing or a number is out of range. `from` NULL: from where the body lies. */
 bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
                      const double velocity[3], const double spin[3], JoxText *why);
+bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
+                    const double spin[3], JoxText *why);
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why);
 bool jox_event_signal(JoWorld *world, const char *name, JoxText *why);
 

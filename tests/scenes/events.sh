@@ -62,6 +62,16 @@ wrong() { # NAME TEXT ARGS...: bad input that says so
 wrong "a wall that is not there" "there is no wall named 'est_gate'. Did you mean 'east_gate'?" --set events.2.open=est_gate
 wrong "a body that is not there" "Did you mean 'crate'?" --set events.1.throw=create
 wrong "a body that is static" "cannot be thrown" --set bodies.0.mass=0
+printf 'jostle: 1\nbodies: [{name: crate, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}, {name: lift, shape: {sphere: {radius: 1}}, kinematic: true, at: [9, 0, 1]}]\ngroups: {g: {behaviour: stander.lua, at: [[5, 5]]}}\nevents: [{at: 1, WHAT}]\n' >"$work/move.yaml"
+moves() { # NAME TEXT EVENT
+    sed "s/WHAT/$3/" "$work/move.yaml" >"$work/moved.yaml"
+    "$JOSTLE" check "$work/moved.yaml" 2>&1 | grep -qF -- "$2"; verdict "$1" $?
+}
+moves "a move of a body that is not kinematic" "is not kinematic: it has no velocity of its own" "move: crate, velocity: [1, 0, 0]"
+moves "a move without a velocity" "a move needs a velocity or a spin" "move: lift"
+moves "a move from a point" "from belongs to a throw" "move: lift, from: [0, 0, 1], velocity: [1, 0, 0]"
+moves "a throw of one that is kinematic" "Write move: NAME" "throw: lift, velocity: [1, 0, 0]"
+moves "a move as it should be" "nothing wrong" "move: lift, velocity: [1, 0, 0]"
 wrong "a time before the beginning" "at must be from 0" --set events.0.at=-2
 wrong "a start that is open without a name" "needs a name" --set walls.0.open=true
 sed 's/signal: alarm}/signal: alarms}/' $gates >"$work/deaf.yaml"
