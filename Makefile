@@ -246,11 +246,12 @@ $(B)/lib$(1).so.$(VERSION): $(B)/$(1).o
 endef
 $(foreach l,$(LIBRARIES),$(eval $(call library,$(l))))
 # The module of Lua, for programs that are run by an interpreter of theirs: `require "jostle"`.
-$(B)/lua/jostle.so: scripts/lua/jostle.c $(B)/libjostle.a
-	@mkdir -p $(@D)
-	$(call say,LUA,$@)
-	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $(@:.so=.o)
-	$(Q)$(LINK) -shared -Wl,--as-needed -Wl,--exclude-libs,ALL $(@:.so=.o) $(B)/libjostle.a -o $@ $(LIBS_jostle)
+LUA_MODULE := $(patsubst scripts/lua/%.c,$(B)/lua/%.o,$(wildcard scripts/lua/*.c))
+$(LUA_MODULE): $(B)/lua/%.o: scripts/lua/%.c Makefile
+	$(call compile,LUA,$(CC),$(CFLAGS_ALL))
+$(B)/lua/jostle.so: $(LUA_MODULE) $(B)/libjostle.a
+	$(call say,LINK,$@)
+	$(Q)$(LINK) -shared -Wl,--as-needed -Wl,--exclude-libs,ALL $(LUA_MODULE) $(B)/libjostle.a -o $@ $(LIBS_jostle)
 # A unit test is a program of its own; $(B)/units is all of them in one, which is linked once: `units NAME...`
 # runs those, in the place of their main.
 $(B)/unit/%.o: tests/unit/%.c Makefile

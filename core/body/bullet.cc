@@ -2,11 +2,9 @@
 #include "body/bullet.h"
 
 #include <new>
-#include <numeric>
 #include <string.h>
 
 static const float REACH = 10000.0f;
-static const uint32_t FEW_WALLS = 2000;
 
 static void release_bodies(void *bodies) {
     jox_bullet_free_heap(static_cast<JoxBodies *>(bodies)->heap);
@@ -20,16 +18,6 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
     b->def = *def;
     b->last_dt = 0.05f;
     return b;
-}
-
-/* Its user index is negative and its own: -1 the ground, then the walls. */
-static btRigidBody *make_static(btCollisionShape *shape, const btTransform &at, int index) {
-    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape);
-    info.m_startWorldTransform = at;
-    info.m_friction = info.m_restitution = 1;
-    btRigidBody *body = new btRigidBody(info);
-    body->setUserIndex(index);
-    return body;
 }
 
 /* Classes of Bullet that would otherwise be allocated past its own functions. */
@@ -69,68 +57,15 @@ static void make_world(JoxBodies *b) {
     if (!b->def.ground)
         return;
     b->ground_shape = new btStaticPlaneShape(btVector3(0, 0, 1), 0);
-    b->ground = make_static(b->ground_shape, btTransform::getIdentity(), -1);
+    b->ground = jox_static_make(b->ground_shape, btTransform::getIdentity(), -1);
     b->world->addRigidBody(b->ground);
-}
-
-static void drop_static(JoxBodies *b, btRigidBody *body) {
-    b->world->remove(body);
-    delete body;
-}
-
-void jox_bodies_drop_walls(JoxBodies *b) {
-    for (uint32_t i = 0; i < b->wall_count; i++) {
-        btCollisionShape *shape = b->walls[i]->getCollisionShape();
-        drop_static(b, b->walls[i]);
-        delete shape;
-    }
-    b->wall_count = 0;
-    jox_wall_grid_free(&b->wall_grid);
-}
-
-/* Bullet's tree of boxes is not balanced: one next to the other, each would hang below the last,
-   and every further one would go down all of them. Many are put in from all over the plan. */
-static void add_walls(JoxBodies *b) {
-    const uint32_t n = b->wall_count;
-    uint64_t step = n > FEW_WALLS ? uint64_t(n * 0.618034) | 1u : 1;
-    while (std::gcd(step, uint64_t(n)) > 1)
-        step += 2;
-    for (uint32_t k = 0; k < n; k++)
-        b->world->addRigidBody(b->walls[k * step % n]);
-}
-
-/* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
-static void raise_walls(JoxBodies *b) {
-    const JoxWalls *walls = &b->standing;
-    b->walls_raised = true;
-    for (uint32_t r = 0; r < walls->ring_count; r++) {
-        uint32_t first = walls->rings[r].first, n = walls->rings[r].count;
-        float tall =
-            std::isfinite(walls->rings[r].height) ? walls->rings[r].height : b->wall_height;
-        for (uint32_t i = first; i < first + n; i++) {
-            JoxV2 p = walls->vertices[i].point, d = walls->vertices[i].direction;
-            JoxV2 q = walls->vertices[walls->vertices[i].next].point;
-            if (!walls->rings[r].solid && (p.x > q.x || (p.x == q.x && p.y > q.y)))
-                continue;
-            float half = 0.5f * jox_length(jox_sub(q, p));
-            if (!(half > 0))
-                continue;
-            btTransform at(btMatrix3x3(d.x, -d.y, 0, d.y, d.x, 0, 0, 0, 1),
-                           btVector3((p.x + q.x) / 2, (p.y + q.y) / 2, tall / 2));
-            jox_reserve(b->walls, b->wall_capacity, b->wall_count + 1);
-            int index = -2 - int(b->wall_count);
-            b->walls[b->wall_count++] =
-                make_static(new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
-        }
-    }
-    add_walls(b);
 }
 
 void jox_bodies_ensure(JoxBodies *b) {
     if (!b->world)
         make_world(b);
     if (!b->walls_raised)
-        raise_walls(b);
+        jox_bodies_raise_walls(b);
 }
 
 void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
@@ -144,7 +79,7 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
     for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
         b->rows[b->order[k]].body->activate();
     if (b->live) /* else with the first body: most worlds have none */
-        raise_walls(b);
+        jox_bodies_raise_walls(b);
 }
 
 void jox_bodies_drop(JoxBodies *b, uint32_t row) {
@@ -179,7 +114,7 @@ void jox_bodies_free(JoxBodies *b) {
     if (b->world) {
         jox_bodies_drop_walls(b);
         if (b->ground)
-            drop_static(b, b->ground);
+            jox_static_drop(b, b->ground);
         JOX_ASSERT(b->world->getNumCollisionObjects() == 0);
         JOX_ASSERT(b->dispatcher->getNumManifolds() == 0);
         delete b->ground_shape;

@@ -242,7 +242,11 @@ void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &i
 /* After a substep: what ground, walls and bodies did to bonded ones. After a step: what broke. */
 void jox_bodies_gather_contacts(JoxBodies *bodies);
 void jox_bodies_break(JoxBodies *bodies, float dt);
+void jox_bodies_raise_walls(JoxBodies *bodies);
 void jox_bodies_drop_walls(JoxBodies *bodies);
+/* What never moves. Its user index is negative and its own: -1 the ground, then the walls. */
+btRigidBody *jox_static_make(btCollisionShape *shape, const btTransform &at, int index);
+void jox_static_drop(JoxBodies *bodies, btRigidBody *body);
 /* bullet_contacts.cc. Writes what the solver would begin from, and says how many; gives it to the
    contacts that are found in a world into which everything was just put. */
 uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&contacts,

@@ -172,8 +172,6 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     return distance - spot->radius - a->param[JOX_PARAM_radius][i];
 }
 
-/* Who wants to go the other way is met, not followed: avoidance sees to that. If people waited for
-   each other instead, both ways would come to rest face to face. */
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {
     for (uint32_t k = 0; k < run->input_count; k++)
         if (run->inputs[k].agent_id == run->agents->id[i])
@@ -185,6 +183,8 @@ float jox_driven(const JoxMachineRun *run, uint32_t i) {
     return jox_length(jox_player_wants(run, i));
 }
 
+/* Who wants to go the other way is met, not followed: avoidance sees to that. If people waited for
+   each other instead, both ways would come to rest face to face. */
 float jox_headway(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
