@@ -96,7 +96,7 @@ function Target:where(name, ...) end
 ---@field approach? string|jostle.Target|jostle.Number a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches
 ---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
----@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until the state is left or 1 m is between them; see `has` and `holders`
+---@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; who is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? number the greatest force with which it holds on; else 300, N
 ---@field throw? table throws the body that it carries
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes

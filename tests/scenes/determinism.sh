@@ -117,6 +117,7 @@ compare running-through --for 10
 compare evacuation --for 15
 compare catch --for 20
 compare tackle --for 8
+compare rescue --for 12
 compare station --for 12
 compare gates --for 25
 compare train-doors --for 18

@@ -220,8 +220,8 @@ const JoxTableKey jox_table_keys[] = {
      "approach = nearest \"ball\"", 0, 0},
     {"state", "kick", "table", "", "kicks a body that it touches", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s", "take = nearest \"ball\"", 0, 0},
-    {"state", "grasp", "target", "", "takes hold of somebody within 0.5 m, and pulls and is pulled until the state is left or 1 m is between them; "
-     "see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
+    {"state", "grasp", "target", "", "takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; "
+     "who is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
     {"state", "grip", "number", "N", "the greatest force with which it holds on; else 300", "grasp = nearest \"people\", grip = 400", 0, JOX_MOST_GRIP},
     {"state", "throw", "table", "", "throws the body that it carries", "throw = { nearest \"ball\", at = \"post\", speed = 6 }", 0, 0},
     {"state", "colour", "text", "", "of who is in it where people are coloured by state; else one is taken: " JOX_COLOUR_RULE,

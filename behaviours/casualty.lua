@@ -1,0 +1,19 @@
+-- Lies until two hold on to it, and lets itself be carried: it stands on no feet, so that it goes where it is pulled.
+-- By ORCA: not fit for capacities.
+memory { safe = false }
+
+return machine {
+  name = "casualty", version = 1, start = "Lie",
+  defaults = { mass = normal(75, 8) },
+
+  states = {
+    Lie = { steer = hold,
+      { to = "Carried", when = holders:at_least(2) } },
+
+    Carried = { steer = hold, damping = 0,
+      { to = "Safe", when = inside(own.refuge) },
+      { to = "Lie",  when = holders:below(2) } },
+
+    Safe = { steer = hold, set = { safe = true } },
+  },
+}
