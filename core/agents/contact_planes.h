@@ -24,7 +24,8 @@ typedef struct JoxContactPlane {
 } JoxContactPlane;
 
 typedef struct JoxContactPlanes {
-    /* Of agent i: planes[starts[i]] to planes[starts[i] + people[i] + bodies[i]], people first. */
+    /* Of agent i: planes[starts[i]] to planes[starts[i] + people[i] + bodies[i]], people first.
+       `people` and `bodies` may be read up to a whole packet behind the last agent. */
     uint32_t *starts;
     uint8_t *people, *bodies;
     JoxContactPlane *planes;

@@ -86,8 +86,8 @@ static void press(Crowd *c, bool pressed) {
     JoxAgents *a = &c->agents;
     JoxContactPlanes *t = &c->touched;
     t->starts = jox_alloc(a->count, sizeof *t->starts);
-    t->people = jox_alloc(a->count, sizeof *t->people);
-    t->bodies = jox_alloc(a->count, sizeof *t->bodies);
+    t->people = jox_alloc(a->count + JOX_LANES, sizeof *t->people);
+    t->bodies = jox_alloc(a->count + JOX_LANES, sizeof *t->bodies);
     t->planes = jox_alloc((size_t)a->count * MOST_PLANES, sizeof *t->planes);
     t->agents = pressed ? a->count : 0;
     for (uint32_t i = 0; i < a->count; i++) {
