@@ -125,8 +125,14 @@ static void make(Caller *c) {
         thing.size[byte(c) % 3] = number(c);
         thing.kinematic = byte(c) % 2;
         if (byte(c) % 4 == 0)
-            thing.path = (JoPath){xy,        byte(c) % 3, (JoPathEnd)(byte(c) % 4),
-                                  number(c), number(c),   number(c)};
+            thing.path = (JoPath){.points = xy,
+                                  .count = byte(c) % 3,
+                                  .end = (JoPathEnd)(byte(c) % 4),
+                                  .speed = number(c),
+                                  .after = number(c),
+                                  .wait = number(c),
+                                  .force_limit = number(c),
+                                  .reopens = byte(c) % 2};
         numbers(c, xy, 6);
         keep_body(c, jo_world_add_body(w, &thing, &error));
         return;
