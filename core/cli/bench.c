@@ -219,6 +219,7 @@ static void confine(const Bench *bench, const char *const *names, size_t count) 
     }
     cli_reach_output(&reach, bench->csv);
     cli_reach_output(&reach, bench->plot);
+    cli_reach_folder(&reach, "/proc/cpuinfo"); /* names the processor */
     cli_confine_work(&reach, bench->trusted);
 }
 

@@ -1,7 +1,5 @@
 /* The stage contact, equations 6 and 7: finds what touches, solves all contacts together, and gives
    the agents their contact forces. */
-#include <string.h>
-
 #include "base/assert.h"
 #include "force/internal.h"
 
@@ -35,27 +33,15 @@ static void finish_one(JoxForces *f, uint32_t i) {
     jox_load_measure(f, i);
 }
 
-/* Agents [begin, end), whom nothing presses. */
-static void finish_free(JoxForces *f, uint32_t begin, uint32_t end) {
-    JoxAgents *a = f->step.agents;
-    const size_t floats = (end - begin) * sizeof(float);
-    memset(a->contacts + begin, 0, (end - begin) * sizeof *a->contacts);
-    memset(a->contact_x + begin, 0, floats);
-    memset(a->contact_y + begin, 0, floats);
-    memset(a->compression + begin, 0, floats);
-    memset(a->load + begin, 0, floats);
-}
-
 static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
         if (jox_touch_nothing(f, i, last) && jox_loads_are_none(f, i, last))
-            finish_free(f, i, last);
-        else
-            for (uint32_t k = i; k < last; k++)
-                finish_one(f, k);
+            continue; /* what presses is nothing, as the stage began with it */
+        for (uint32_t k = i; k < last; k++)
+            finish_one(f, k);
     }
 }
 

@@ -21,19 +21,6 @@ static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
     return (const JoxFoundPair *)f->found.items + f->found_first[i];
 }
 
-/* Agents by ascending id lie anywhere in memory: what was found of those who come soon is asked for
-   while the present one is dealt with. */
-static inline void fetch_ahead(const JoxForces *f, uint32_t rank) {
-    enum { FIRST = 16, FOUND = 8 };
-    const JoxAgents *a = f->step.agents;
-    if (rank + FIRST < a->count) {
-        const uint32_t i = a->by_rank[rank + FIRST];
-        __builtin_prefetch(&f->found_first[i]);
-        __builtin_prefetch(&f->found_number[i]);
-        __builtin_prefetch(found_of(f, a->by_rank[rank + FOUND]));
-    }
-}
-
 /* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and counts
    the ends of each agent. place[n] is left with the colour of pair n. */
 static void colour_pairs(JoxForces *f) {
@@ -44,7 +31,6 @@ static void colour_pairs(JoxForces *f) {
         memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
-        fetch_ahead(f, r);
         uint32_t i = a->by_rank[r];
         const JoxFoundPair *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
@@ -104,7 +90,6 @@ void jox_contacts_lay_pairs(JoxForces *f) {
     memcpy(fill, p->starts, sizeof fill);
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
-        fetch_ahead(f, r);
         uint32_t i = a->by_rank[r];
         const JoxFoundPair *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++, n++) {

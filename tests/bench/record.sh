@@ -1,6 +1,6 @@
 #!/bin/bash
 # Times all named scenes and appends what came out to tests/bench/results/MODEL.csv, one file for each model of
-# processor, with the commit. ROUNDS and ARGS (names of scenes, --isa, --steps) may be set.
+# processor, with the commit. ROUNDS and ARGS (names of scenes, --steps) and ISA (default: avx2) may be set.
 set -eu
 cd "$(dirname "$0")/../.."
 B=${B:-build/release}
@@ -9,5 +9,5 @@ commit=$(git rev-parse --short HEAD)
 git diff --quiet HEAD -- core behaviours scenes scripts || commit=$commit+
 all="tawaf two-bottlenecks wall-breaking office dodgeball-500 running-through circle one-way-3 one-way-6
      counterflow-3 counterflow-6 arena scale-1k scale-10k scale-100k"
-"$B/jostle" bench --trusted ${ARGS:-$all} --isa "${ISA:-avx2}" --rounds "${ROUNDS:-3}" --commit "$commit" --csv "tests/bench/results/${model:-unknown}.csv" \
+"$B/jostle" bench ${ARGS:-$all} --isa "${ISA:-avx2}" --rounds "${ROUNDS:-3}" --commit "$commit" --csv "tests/bench/results/${model:-unknown}.csv" \
     --plot "$B/bench-plot"
