@@ -41,6 +41,7 @@ static const struct sock_filter READER[] = {
     READS(openat, 2), MAY(read), MAY(pread64), MAY(readv), MAY(write), MAY(writev), MAY(close),
     MAY(lseek), MAY(fstat), MAY(newfstatat), MAY(statx), MAY(faccessat), MAY(faccessat2),
     MAY(readlinkat), MAY(getdents64), MAY(getcwd), MAY(fcntl), MAY(flock), MAY(ppoll),
+    MAY(clock_nanosleep),
 #ifdef __x86_64__
     READS(open, 1), MAY(stat), MAY(lstat), MAY(access), MAY(readlink), MAY(poll), MAY(getdents),
     MAY(time), MAY(arch_prctl),

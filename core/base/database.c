@@ -38,8 +38,7 @@ static void restrict_it(sqlite3 *db) {
     for (size_t k = 0; k < sizeof OFF / sizeof *OFF; k++)
         sqlite3_db_config(db, OFF[k], 0, NULL);
     sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
-    /* What is sorted stays in memory: a confined process can make no temporary files. */
-    sqlite3_exec(db, "PRAGMA temp_store = MEMORY", NULL, NULL, NULL);
+    sqlite3_busy_timeout(db, JOX_DATABASE_PATIENCE);
     sqlite3_limit(db, SQLITE_LIMIT_LENGTH, LONGEST);
     sqlite3_limit(db, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
     /* What is sorted stays in memory: who is confined may write no other file. */

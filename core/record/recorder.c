@@ -18,6 +18,7 @@
 
 enum { FRAMES = 4, COLUMNS = 11, BATCH = 50 }; /* rows that one statement writes */
 static const double COMMITTED = 1.0;           /* s, within which frames are committed */
+enum { FOLD_PATIENCE = 500 };                  /* ms, for others to close the file at the end */
 
 typedef struct Frame {
     uint32_t number;
@@ -295,6 +296,7 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     bool good = sqlite3_open_v2(path, &r->db, how, NULL) == SQLITE_OK;
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    sqlite3_busy_timeout(r->db, JOX_DATABASE_PATIENCE);
     good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
     if (good && !jox_thread_start(&r->thread, writer, r)) {
         good = false;
@@ -463,17 +465,35 @@ bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
     return good;
 }
 
-bool jox_recorder_close(JoxRecorder *r, JoxText *error) {
+/* Makes it one file, with nothing beside it. OFF: a run that is killed now leaves no journal, which
+   those who only read could not roll back. While another program has the file open this cannot be:
+   as much as that program allows goes into the file, and the rest stays whole beside it. */
+static bool fold(JoxRecorder *r, JoxText *message) {
+    sqlite3_busy_timeout(r->db, FOLD_PATIENCE);
+    if (sqlite3_exec(r->db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
+        return true;
+    const char *path = sqlite3_db_filename(r->db, "main");
+    if (sqlite3_errcode(r->db) != SQLITE_BUSY || !path) {
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+        return false;
+    }
+    sqlite3_wal_checkpoint_v2(r->db, NULL, SQLITE_CHECKPOINT_FULL, NULL, NULL);
+    jox_text_printf(message,
+                    "the recording '%s' is whole, but another program has it open: keep '%s-wal' "
+                    "beside it until that program closes it\n",
+                    path, path);
+    return true;
+}
+
+bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
     jox_let_go(r);
     stop(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db))
         good = run(r, "COMMIT");
-    /* One file, nothing beside it. OFF: a run that is killed now leaves no journal, which those who
-       only read could not roll back. */
-    good = good && run(r, "PRAGMA journal_mode=OFF");
+    good = good && fold(r, message);
     if (!good)
-        jox_text_printf(error, "recording failed: %s", r->why);
+        jox_text_printf(message, "recording failed: %s", r->why);
     release(r);
     return good;
 }

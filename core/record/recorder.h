@@ -54,8 +54,9 @@ JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t b
                                 JoxRecordBody **body_rows);
 /* False, with a sentence in `error`, once writing has failed. */
 bool jox_recorder_put(JoxRecorder *recorder, uint32_t frame, JoxText *error);
-/* Writes what is left and closes. False with `error` if anything was lost. */
-bool jox_recorder_close(JoxRecorder *recorder, JoxText *error);
+/* Writes what is left and closes. False with a sentence in `message` if anything was lost; true
+   with one where another program has the file open, so that there is a file beside it. */
+bool jox_recorder_close(JoxRecorder *recorder, JoxText *message);
 
 /* The walkable area as well-known text: one POLYGON, the box about everything (or `low`, `high`),
    with a hole for each solid. */

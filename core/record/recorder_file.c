@@ -19,6 +19,21 @@ bool jox_is_recording(const char *path) {
     return found;
 }
 
+/* Whether another program reads a recording that a run left with a file beside it. When that
+   program closes it, SQLite takes the file beside it away by its name: it would take that of the
+   next run.
+ */
+static bool is_read_elsewhere(const char *path) {
+    sqlite3 *db = NULL;
+    const bool open = jox_database_open_to_write(path, &db);
+    if (open)
+        sqlite3_busy_timeout(db, 0);
+    const bool busy =
+        open && sqlite3_exec(db, "PRAGMA journal_mode=DELETE", NULL, NULL, NULL) == SQLITE_BUSY;
+    jox_database_close(db);
+    return busy;
+}
+
 FILE *jox_claim_recording(const char *path, JoxText *error) {
     struct stat info;
     const bool there = lstat(path, &info) == 0;
@@ -27,6 +42,14 @@ FILE *jox_claim_recording(const char *path, JoxText *error) {
         return NULL;
     }
     FILE *file = jox_file_open(path, "a");
+    if (file && there && info.st_size > 0 && is_read_elsewhere(path)) {
+        jox_text_printf(error,
+                        "another program reads the recording '%s': close it there, or record to "
+                        "another file",
+                        path);
+        jox_file_close(file);
+        return NULL;
+    }
     if (file && there) {
         for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
             JoxText side = {0};

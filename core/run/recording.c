@@ -177,11 +177,15 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
 
 static bool end(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
-    JoxText why = {0};
-    (void)scene;
-    bool good = jox_recorder_close(r->recorder, &why) || jox_run_failed(error, &why);
+    JoxText message = {0};
+    const bool good = jox_recorder_close(r->recorder, &message);
     r->recorder = NULL;
-    return good;
+    if (!good)
+        return jox_run_failed(error, &message);
+    if (message.length)
+        jox_run_say(scene, "%s", message.data);
+    jox_text_free(&message);
+    return true;
 }
 
 static void release(void *self) {

@@ -1,8 +1,11 @@
 #include "sweep/inputs.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/clock.h"
 #include "base/guard.h"
 #include "run/run.h"
 
@@ -80,12 +83,33 @@ static bool is_to_go_on(const JoSweepDef *def, uint32_t alike, uint32_t read, ui
     return false;
 }
 
-bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
-                           const char *const *names, JoxOverlay *files, char **refused,
-                           JoError *error) {
+/* Says on stderr how far the reading is, once it takes longer than people wait without a word: on a
+   terminal a line that is rewritten, and erased at last; else a line now and then. `shown`: when,
+   s of wall time; at first when the reading began. */
+static void show_reading(const JoSweepDef *def, uint32_t read, uint32_t all, double *shown) {
+    static const double FIRST = 1.0, REWRITTEN = 0.2, EACH_LINE = 10.0; /* s */
+    const bool terminal = isatty(2), last = read == all;
+    const double now = jox_clock_wall();
+    const bool any = *shown < 0.0; /* negative, once a line is there */
+    const double since = now - fabs(*shown), least = !terminal ? EACH_LINE
+                                                     : any     ? REWRITTEN
+                                                               : FIRST;
+    if (def->quiet || (last ? !(terminal && any) : since < least))
+        return;
+    *shown = -now;
+    if (last)
+        fputs("\r\033[K", stderr);
+    else
+        fprintf(stderr, "%s%u of %u variants read%s", terminal ? "\r\033[K" : "", read, all,
+                terminal ? "" : "\n");
+}
+
+static bool load_all(const JoSweepDef *def, const JoxSweepPlan *plan, const char *const *names,
+                     JoxOverlay *files, char **refused, double *shown, JoError *error) {
     uint32_t loaded = 0, alike = 0, first = plan->variant_count;
     for (uint32_t v = 0; v < plan->variant_count; v++) {
         JoError why = {0};
+        show_reading(def, v, plan->variant_count, shown);
         if (def->only && (def->only - 1) / plan->seeds != v)
             continue;
         JoSceneDef scene = jox_sweep_scene(def, &plan->variants[v], plan->first_seed);
@@ -111,6 +135,15 @@ bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
         jox_error(error, JO_INPUT, "%s%s does not load",
                   *names[first] ? "the variant " : "the scene", names[first]);
     return loaded > 0 || def->only;
+}
+
+bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
+                           const char *const *names, JoxOverlay *files, char **refused,
+                           JoError *error) {
+    double shown = jox_clock_wall();
+    const bool good = load_all(def, plan, names, files, refused, &shown, error);
+    show_reading(def, plan->variant_count, plan->variant_count, &shown);
+    return good;
 }
 
 bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,

@@ -245,7 +245,7 @@ void jox_pool_lap(JoxPool *pool, double seconds) {
         p->interval = SOON;
     } else if (p->probing) {
         p->alone = !p->alone;
-        p->interval = p->interval < SELDOM ? 2 * p->interval : SELDOM;
+        p->interval = 4 * p->interval < SELDOM ? 4 * p->interval : SELDOM;
     } else {
         p->alone = !p->alone;
         p->probed = 0.0;

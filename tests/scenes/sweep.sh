@@ -91,6 +91,25 @@ timeout -s INT 2 "$program" sweep $scene --set groups.hall.count="$many" --out x
 ( sleep 20; kill -KILL $pid 2>/dev/null ) & guard=$!
 wait $pid; kill $guard 2>/dev/null
 grep -qE 'interrupted while it read the variants, [0-9]* of 20000; none was run|reading this scene was interrupted' err && [ ! -e x.sqlite ]; verdict "thousands that load are read until one interrupts" $?
+# On a terminal: a line says how far it is, and makes way for what is said at last.
+python3 -c '
+import os, pty, signal, sys
+pid, terminal = pty.fork()
+if pid == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+said, told = b"", False
+try:
+    while True:
+        said += os.read(terminal, 65536)
+        if b"of 20000 variants read" in said and not told:
+            told = True
+            os.kill(pid, signal.SIGINT)
+except OSError: # its end
+    pass
+os.waitpid(pid, 0)
+last = said.rsplit(b"variants read", 1)
+sys.exit(not (len(last) == 2 and last[1].startswith(b"\r\x1b[K") and b"interrupted" in last[1]))
+' "$program" sweep $scene --set groups.hall.count="$many" --out x.sqlite; verdict "  with a line on a terminal that says how far it is" $?
 expect "one variant that does not load is a row" 1 "3 runs with figures, 3 failed" "$program" sweep $scene --set 'groups.hall.count=a lot,5' --steps 1 --seeds 3 --out partly.sqlite
 [ "$(sqlite3 partly.sqlite "select count(*) from run join variant on id = variant where settings like '%a lot' and state = 'failed' and reason like '%it does not load: %a lot%'")" = 3 ]; verdict "  that says why" $?
 expect "  and of the rest there is a page" 0 "partly: count=5" "$program" compare partly.sqlite whole.sqlite --base 2 --out partly

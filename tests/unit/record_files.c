@@ -220,6 +220,42 @@ static void a_position_that_is_no_number_is_an_error(void **state) {
     unlink(path);
 }
 
+/* An analyst's program has the recording open while the run ends: nothing is lost, nothing fails.
+ */
+static void a_reader_keeps_no_recording_from_its_end(void **state) {
+    (void)state;
+    JoxText message = {0};
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &message);
+    assert_non_null(r);
+    for (uint32_t f = 0; f < 5; f++)
+        assert_true(put_frame(r, f, &message));
+    assert_true(jox_recorder_settle(r, &message));
+    sqlite3 *other;
+    sqlite3_stmt *reading;
+    assert_int_equal(sqlite3_open(path, &other), SQLITE_OK);
+    sqlite3_prepare_v2(other, "SELECT frame FROM trajectory_data", -1, &reading, NULL);
+    assert_int_equal(sqlite3_step(reading), SQLITE_ROW);
+    assert_true(put_frame(r, 5, &message));
+    assert_true(jox_recorder_close(r, &message));
+    assert_non_null(strstr(message.data, "is whole, but another program has it open"));
+    jox_text_free(&message);
+    /* The next run would lose its own file beside it to that program. */
+    JoxRecorder *next = jox_recorder_open(path, 20, WKT, &message);
+    assert_null(next);
+    assert_non_null(strstr(message.data, "another program reads the recording"));
+    jox_text_free(&message);
+    sqlite3_finalize(reading);
+    sqlite3_prepare_v2(other, "SELECT max(frame) FROM frame_data", -1, &reading, NULL);
+    assert_int_equal(sqlite3_step(reading), SQLITE_ROW);
+    assert_int_equal(sqlite3_column_int(reading, 0), 5);
+    sqlite3_finalize(reading);
+    sqlite3_close(other);
+    char beside[256];
+    snprintf(beside, sizeof beside, "%s-wal", path);
+    assert_int_equal(access(beside, F_OK), -1);
+    unlink(path);
+}
+
 enum { PEOPLE = 60 };
 
 static void density_is_that_of_the_people(void **state) {
@@ -442,6 +478,7 @@ int main(void) {
         cmocka_unit_test(density_is_that_of_the_people),
         cmocka_unit_test(walkable_area_as_text),
         cmocka_unit_test(walkable_area_of_a_plan),
+        cmocka_unit_test(a_reader_keeps_no_recording_from_its_end),
         cmocka_unit_test(figures_of_several_runs),
         cmocka_unit_test(what_is_no_figure_is_listed),
         cmocka_unit_test(speeds_per_region)};
