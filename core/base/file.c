@@ -97,6 +97,12 @@ static int open_to_write(const char *path, int flags) {
     return -1;
 }
 
+bool jox_file_has_name(FILE *file, const char *path) {
+    struct stat info, named;
+    return fstat(fileno(file), &info) == 0 && stat(path, &named) == 0 &&
+           info.st_dev == named.st_dev && info.st_ino == named.st_ino;
+}
+
 static FILE *stream(int number, const char *mode) {
     FILE *file = number >= 0 ? fdopen(number, mode) : NULL;
     if (number >= 0 && !file)

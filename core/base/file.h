@@ -17,6 +17,8 @@ FILE *jox_file_replace(const char *path);
 int jox_file_drop(FILE *file);
 /* As fclose; what could not be written whole is removed, and takes no name. */
 int jox_file_close(FILE *file);
+/* Whether an open file still has that name: not where it was removed, or replaced by another. */
+bool jox_file_has_name(FILE *file, const char *path);
 /* Claims a folder for one run: NULL with errno EBUSY where another has it. Until it is closed. */
 FILE *jox_folder_claim(const char *path);
 /* Writes all bytes to a descriptor, of a pipe for instance; false with errno. */

@@ -104,8 +104,8 @@ enum { CLI_GO_ON = -1 };
 int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain);
 void cli_free(const CliCommand *command, void *options, CliList *plain);
 
-/* From here on SIGINT and SIGTERM end the process at once, or, once it has files to finish, leave
-   their number in cli_signal the first time. */
+/* From here on SIGINT, SIGTERM and SIGHUP end the process at once, or, once it has files to finish,
+   leave their number in cli_signal the first time. SIGHUP stays ignored where it is (nohup). */
 void cli_catch_signals(bool has_files);
 extern volatile int cli_signal;
 /* As the first of them, by another one; false where the command has no files to finish. */

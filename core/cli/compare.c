@@ -293,8 +293,9 @@ const CliCommand cli_compare = {
         "tell two sides apart, that is said, and about how many seeds would.\n"
         "\n"
         "A recording is one run: a difference from it has no interval.",
-    .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input; 130 and 143: "
-             "SIGINT or SIGTERM ended it, and the same command goes on with the runs of scenes",
+    .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input; 129, 130 and "
+             "143: SIGHUP, SIGINT or SIGTERM ended it, and the same command goes on with the runs "
+             "of scenes",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "side",

@@ -108,6 +108,7 @@ static void keep(int socket, const JoSceneDef *def, const JoxOverlay *files) {
     int kind;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is for the other, which ends this one */
+    signal(SIGHUP, SIG_IGN);
     signal(SIGTERM, SIG_DFL);
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (int standard = 0; standard < 3; standard++)

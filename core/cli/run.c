@@ -367,9 +367,10 @@ const CliCommand cli_run = {
         "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), or a "
         "behaviour was suspended by its own errors and not mended and reloaded (then the run goes "
         "on to its end), 2 wrong usage, 3 bad input: "
-        "also a mod that is asked for and is not there, or does not load; 130 and 143: SIGINT or "
-        "SIGTERM ended it early, its files and figures being whole up to there. The second of them "
-        "ends it at once",
+        "also a mod that is asked for and is not there, or does not load; 129, 130 and 143: "
+        "SIGHUP, "
+        "SIGINT or SIGTERM ended it early, its files and figures being whole up to there. The "
+        "second of them ends it at once",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",

@@ -1,6 +1,6 @@
-/* What ends a command from outside. SIGINT and SIGTERM: the first asks it to end, with its files
-   whole; the second ends the process at once. Standard output that cannot be written: serving a
-   page of which nobody knows ends. */
+/* What ends a command from outside. SIGINT, SIGTERM and, where the terminal closes, SIGHUP: the
+   first asks it to end, with its files whole; the second ends the process at once. Standard output
+   that cannot be written: serving a page of which nobody knows ends. */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -31,6 +31,9 @@ void cli_catch_signals(bool has_files) {
     holds = has_files;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    struct sigaction before;
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* as by nohup */
+        sigaction(SIGHUP, &action, NULL);
 }
 
 int cli_interrupted(int status) {

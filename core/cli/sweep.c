@@ -253,7 +253,8 @@ const CliCommand cli_sweep = {
         "The sweep's own command, with the same --out, then does what is missing.",
     .notes = "exit status: 0 all runs are done, 1 some failed or went on otherwise than they were "
              "written, or the file could not be written, 2 wrong usage, 3 bad input, or a file of "
-             "other inputs; 130 and 143: SIGINT or SIGTERM ended it early, and what was done is "
+             "other inputs; 129, 130 and 143: SIGHUP, SIGINT or SIGTERM ended it early, and what "
+             "was done is "
              "kept",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

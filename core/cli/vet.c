@@ -108,6 +108,10 @@ static void read_it(const CliVetted *what, int out) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, what->edited ? SIG_IGN : SIG_DFL);
     signal(SIGTERM, SIG_DFL);
+    if (what->edited)
+        signal(SIGHUP, SIG_IGN);
+    else if (signal(SIGHUP, SIG_DFL) == SIG_IGN)
+        signal(SIGHUP, SIG_IGN);
     CliReach reach = {.memory = MEMORY, .seconds = SECONDS};
     cli_reach_def(&reach, &def);
     cli_confine(&reach);
@@ -181,7 +185,7 @@ static void say_ended(CliVetted *what, int end, int status, const struct rusage 
         jox_text_printf(
             why, "was ended from outside, as systems that run out of memory do (it had %ld MB)",
             usage->ru_maxrss >> 10);
-    else if (number == SIGINT || number == SIGTERM)
+    else if (number == SIGINT || number == SIGTERM || number == SIGHUP)
         jox_text_add(why, "was interrupted");
     else if (number == SIGSYS)
         jox_text_add(why, "tried to start a program or to reach the network");

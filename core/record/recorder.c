@@ -18,7 +18,6 @@
 
 enum { FRAMES = 4, COLUMNS = 11, BATCH = 50 }; /* rows that one statement writes */
 static const double COMMITTED = 1.0;           /* s, within which frames are committed */
-enum { FOLD_PATIENCE = 500 };                  /* ms, for others to close the file at the end */
 
 typedef struct Frame {
     uint32_t number;
@@ -137,9 +136,17 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
     return true;
 }
 
+/* Nobody could read what goes on being written to a file that has lost its name. */
+static bool has_name(JoxRecorder *r) {
+    const bool good = jox_recording_has_name(r->claimed, r->db);
+    if (!good)
+        snprintf(r->why, sizeof r->why, "the file was removed or replaced while it was written");
+    return good;
+}
+
 static bool commit(JoxRecorder *r) {
     r->committed = jox_clock_wall();
-    return write_bounds(r) && run(r, "COMMIT");
+    return write_bounds(r) && run(r, "COMMIT") && has_name(r);
 }
 
 static bool write_frame(JoxRecorder *r, const Frame *f) {
@@ -465,33 +472,17 @@ bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
     return good;
 }
 
-/* Makes it one file, with nothing beside it. OFF: a run that is killed now leaves no journal, which
-   those who only read could not roll back. While another program has the file open this cannot be:
-   as much as that program allows goes into the file, and the rest stays whole beside it. */
-static bool fold(JoxRecorder *r, JoxText *message) {
-    sqlite3_busy_timeout(r->db, FOLD_PATIENCE);
-    if (sqlite3_exec(r->db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
-        return true;
-    const char *path = sqlite3_db_filename(r->db, "main");
-    if (sqlite3_errcode(r->db) != SQLITE_BUSY || !path) {
-        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
-        return false;
-    }
-    sqlite3_wal_checkpoint_v2(r->db, NULL, SQLITE_CHECKPOINT_FULL, NULL, NULL);
-    jox_text_printf(message,
-                    "the recording '%s' is whole, but another program has it open: keep '%s-wal' "
-                    "beside it until that program closes it\n",
-                    path, path);
-    return true;
-}
-
 bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
     jox_let_go(r);
     stop(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db))
         good = run(r, "COMMIT");
-    good = good && fold(r, message);
+    good = good && has_name(r);
+    if (good && !jox_recording_fold(r->db, message)) {
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+        good = false;
+    }
     if (!good)
         jox_text_printf(message, "recording failed: %s", r->why);
     release(r);

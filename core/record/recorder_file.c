@@ -9,6 +9,8 @@
 #include "base/database.h"
 #include "base/file.h"
 
+enum { FOLD_PATIENCE = 500 }; /* ms, for others to close the file at the end */
+
 bool jox_is_recording(const char *path) {
     sqlite3 *db = NULL;
     sqlite3_stmt *statement = NULL;
@@ -65,6 +67,28 @@ FILE *jox_claim_recording(const char *path, JoxText *error) {
     if (!file)
         jox_text_printf(error, "cannot record to '%s': %s", path, jox_file_why(errno));
     return file;
+}
+
+bool jox_recording_has_name(FILE *claimed, sqlite3 *db) {
+    const char *path = sqlite3_db_filename(db, "main");
+    return path && jox_file_has_name(claimed, path);
+}
+
+/* OFF: a run that is killed now leaves no journal, which those who only read could not roll back.
+ */
+bool jox_recording_fold(sqlite3 *db, JoxText *message) {
+    sqlite3_busy_timeout(db, FOLD_PATIENCE);
+    if (sqlite3_exec(db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
+        return true;
+    const char *path = sqlite3_db_filename(db, "main");
+    if (sqlite3_errcode(db) != SQLITE_BUSY || !path)
+        return false;
+    sqlite3_wal_checkpoint_v2(db, NULL, SQLITE_CHECKPOINT_FULL, NULL, NULL);
+    jox_text_printf(message,
+                    "the recording '%s' is whole, but another program has it open: keep '%s-wal' "
+                    "beside it until that program closes it\n",
+                    path, path);
+    return true;
 }
 
 /* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths

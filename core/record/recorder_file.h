@@ -2,6 +2,7 @@
 #ifndef JOX_RECORD_RECORDER_FILE_H
 #define JOX_RECORD_RECORDER_FILE_H
 
+#include <sqlite3.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -13,6 +14,12 @@ bool jox_is_recording(const char *path);
 /* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
    for it. */
 FILE *jox_claim_recording(const char *path, JoxText *error);
+/* Whether the file that is written still has its name. */
+bool jox_recording_has_name(FILE *claimed, sqlite3 *db);
+/* Makes a recording one file, with nothing beside it, once all is committed. While another program
+   has the file open this cannot be: as much as that program allows goes into the file, the rest
+   stays whole beside it, and `message` says so. False where SQLite says why. */
+bool jox_recording_fold(sqlite3 *db, JoxText *message);
 
 /* The rows of a recording of ours, as the format has them: jostle_row holds whole numbers. */
 #define JOX_RECORDED_ROWS                                                                          \

@@ -28,9 +28,16 @@ bool jox_run_logged(const JoScene *scene, JoError *error) {
 bool jox_run_end_log(JoScene *scene, JoError *error) {
     if (!scene->log)
         return true;
+    const bool there = jox_file_has_name(scene->log, scene->log_path);
     scene->log_failed |= jox_file_close(scene->log) != 0;
     scene->log = NULL;
     bool good = jox_run_logged(scene, error);
+    if (good && !there) {
+        jox_error(error, JO_FAILED,
+                  "the input log '%.200s' was removed or replaced while it was written",
+                  scene->log_path);
+        good = false;
+    }
     jox_free(scene->log_path);
     scene->log_path = NULL;
     return good;

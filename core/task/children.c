@@ -86,6 +86,7 @@ static void work_on(const Child *child, size_t memory, pid_t parent, JoxChildWor
     if (getppid() != parent) /* which has ended meanwhile */
         _exit(1);
     signal(SIGINT, SIG_IGN); /* Ctrl-C is for the parent, which ends its children */
+    signal(SIGHUP, SIG_IGN);
     signal(SIGTERM, SIG_DFL);
     signal(SIGXCPU, SIG_DFL); /* it has no files to finish */
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);

@@ -79,6 +79,22 @@ kill -TERM $pid; wait $pid
 delete" ]
 verdict "SIGTERM: status 143; recording, figures and summary are whole" $?
 [ -z "$(find . -name '*.part')" ]; verdict "nothing is left half written" $?
+"$program" run "$scene" --quiet --for 1e6 --record hung.sqlite --summary hung.json & pid=$!
+for _ in $(seq 100); do [ -s hung.sqlite ] && break; sleep 0.1; done
+sleep 0.3; kill -HUP $pid; wait $pid
+[ $? = 129 ] && grep -q '"hash"' hung.json && [ "$(sqlite3 hung.sqlite 'PRAGMA integrity_check; PRAGMA journal_mode')" = "ok
+delete" ]
+verdict "SIGHUP, of a terminal that closes: status 129, and all is whole" $?
+sh -c 'trap "" HUP; exec "$@"' sh "$program" run "$scene" --quiet --for 1e6 --summary nohup.json & pid=$!
+sleep 1; kill -HUP $pid; sleep 0.5; kill -TERM $pid; wait $pid
+[ $? = 143 ]; verdict "  which nohup keeps from it" $?
+for lost in lost.sqlite lost.log; do
+    "$program" run "$scene" --quiet --for 1e6 --record lost.sqlite --log-input lost.log 2>err & pid=$!
+    for _ in $(seq 100); do [ -s lost.sqlite ] && [ -s lost.log ] && break; sleep 0.1; done
+    rm -f $lost*; sleep 0.2; kill -TERM $pid; wait $pid
+    [ $? = 1 ] && grep -q 'removed or replaced' err; verdict "$lost, removed while it is written: status 1" $?
+    rm -f lost.*
+done
 
 # ---- outputs in place of inputs, of each other, and of what a link leads to ----
 printf 'jostle: 1\ngroups: {g: {behaviour: own.lua, at: [[0, 0]]}}\n' >mine.yaml
