@@ -312,6 +312,8 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     if (good)
         return jox_hold(r, abandon);
     jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
+    if (wkt) /* as it is no recording, the next run would not replace it */
+        jox_recording_remove(path);
     release(r);
     return NULL;
 }

@@ -36,6 +36,17 @@ static bool is_read_elsewhere(const char *path) {
     return busy;
 }
 
+void jox_recording_remove(const char *path) {
+    static const char *const BESIDE[] = {"wal", "shm", "journal"};
+    for (size_t k = 0; k < sizeof BESIDE / sizeof *BESIDE; k++) {
+        JoxText name = {0};
+        jox_text_printf(&name, "%s-%s", path, BESIDE[k]);
+        unlink(name.data);
+        jox_text_free(&name);
+    }
+    unlink(path);
+}
+
 FILE *jox_claim_recording(const char *path, JoxText *error) {
     struct stat info;
     const bool there = lstat(path, &info) == 0;
@@ -53,13 +64,7 @@ FILE *jox_claim_recording(const char *path, JoxText *error) {
         return NULL;
     }
     if (file && there) {
-        for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
-            JoxText side = {0};
-            jox_text_printf(&side, "%s-%s", path, i ? "shm" : "wal");
-            unlink(side.data);
-            jox_text_free(&side);
-        }
-        unlink(path);
+        jox_recording_remove(path); /* with what a run that was killed left beside it */
         FILE *fresh = jox_file_open(path, "a");
         jox_file_close(file);
         file = fresh;

@@ -14,6 +14,8 @@ bool jox_is_recording(const char *path);
 /* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
    for it. */
 FILE *jox_claim_recording(const char *path, JoxText *error);
+/* Removes a recording and what lies beside it. */
+void jox_recording_remove(const char *path);
 /* Whether the file that is written still has its name. */
 bool jox_recording_has_name(FILE *claimed, sqlite3 *db);
 /* Makes a recording one file, with nothing beside it, once all is committed. While another program

@@ -146,7 +146,7 @@ says "  and says how long it took" 3 "processor time than it may (1 s)" \
     bash -c 'ulimit -t 1; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
 ends() { # NAME SIGNAL TEXT: whoever reads the scene gets the signal
     "$program" run scenes/s.yaml --quiet --steps 2 >out 2>&1 & run=$!
-    for _ in $(seq 100); do child=$(pgrep -P $run) && break; sleep 0.05; done
+    for _ in $(seq 100); do child=$(pgrep -P $run) && break; sleep 0.05; done; sleep 0.3
     kill -s "$2" "$child"; wait $run
     local got=$?
     [ $got = 3 ] && grep -qF "behaviours/endless.lua: error: reading this scene $3" out; verdict "$1" $?

@@ -68,6 +68,10 @@ says "another program's recording is not replaced" 1 "is not a recording of Jost
 [ $? = 1 ] && grep -q 'recording failed' out && [ "$(sqlite3 full.sqlite 'PRAGMA integrity_check')" = ok ]
 verdict "a disk that is full: status 1, and what there is of the recording is whole" $?
 
+(ulimit -n 6; exec "$program" run "$scene" --quiet --steps 2 --record few.sqlite) >out 2>&1
+[ $? = 1 ] && grep -q 'cannot record to' out && [ -z "$(ls few.* 2>/dev/null)" ]
+verdict "a recording that cannot be begun, as no more files may be open, leaves none" $?
+
 # ---- two runs, and signals ----
 "$program" run "$scene" --quiet --for 1e6 --record two.sqlite --log-input two.log --data two --summary two.json 2>err & pid=$!
 for _ in $(seq 100); do [ -s two.log ] && [ -d two ] && break; sleep 0.1; done
