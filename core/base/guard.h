@@ -5,6 +5,8 @@
  *         return signal_everybody(scene, name, error);
  *     }
  *
+ * Within it numbers are read and written as in C, whatever the program's locale is.
+ *
  * The statement behind JOX_GUARD is what the call does where memory is out, now or in an earlier
  * call with the same heap. The guard ends with the block in which it stands. It may stand once in a
  * function, which should do little but call: a local variable that changes below the guard has no
@@ -44,14 +46,20 @@ void jox_guard_fail(JoxGuard *guard);
 void jox_guard_close(JoxGuard *guard);
 
 /* Around a call back into the program, which runs as outside the innermost public call: with the
-   heap that was in use where that was made. A callback that stands in a public call itself may
-   leave that one too. */
+   heap and the locale that were in use where that was made. A callback that stands in a public call
+   itself may leave that one too. */
 typedef struct JoxOutside {
     JoxGuard *guard;
     JoxHeap *heap;
+    locale_t locale;
 } JoxOutside;
 JoxOutside jox_guard_leave(void);
 void jox_guard_return(JoxOutside outside);
+
+/* The locale of C, in which numbers are read and written: where a program's own has decimal commas,
+   `1.5` is read as 1. For uselocale, which sets it for the calling thread alone; where memory is
+   out, what leaves the thread's locale as it is. */
+locale_t jox_plain_locale(void);
 
 /* Fills an error, which may be NULL, with a formatted text. */
 void jox_error(JoError *error, JoCode code, const char *format, ...)

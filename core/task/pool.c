@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_host.h"
 #include "simd/pause.h"
@@ -85,8 +86,10 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
 /* Of a program's threads, which may count on beyond what they were told. */
 static void run_job(void *data, uint32_t worker) {
     JoxPool *pool = data;
+    const locale_t before = uselocale(jox_plain_locale());
     if (worker < pool->threads)
         run_chunks(pool, worker);
+    uselocale(before);
 }
 
 /* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a

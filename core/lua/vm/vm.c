@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "lua/vm/vm.h"
 
@@ -318,21 +319,6 @@ bool jox_vm_may_say(JoxVm *vm, uint32_t second) {
     return vm->complaints <= SAID;
 }
 
-/* Numbers as text and back must not depend on where the program runs. */
-static locale_t plain_locale(void) {
-    static locale_t plain;
-    locale_t seen = __atomic_load_n(&plain, __ATOMIC_ACQUIRE);
-    if (!seen) {
-        locale_t made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-        if (__atomic_compare_exchange_n(&plain, &seen, made, false, __ATOMIC_ACQ_REL,
-                                        __ATOMIC_ACQUIRE))
-            seen = made;
-        else
-            freelocale(made);
-    }
-    return seen;
-}
-
 /* What a hook may use: less where those before it in this step have used up what all may. */
 static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
     if (vm->calls == 0 || vm->step != vm->budget_step) {
@@ -355,7 +341,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     else if (!vm->untimed)
         instructions = step_budget(vm, instructions);
     vm->left = instructions;
-    locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;
+    const locale_t before = uselocale(jox_plain_locale());
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
     if (sampled) {
         vm->watch_from = jox_clock_thread();
@@ -377,8 +363,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         watch(vm, 1.0, 1e9);
     else if (sampled) /* a short one stands for others */
         watch(vm, SAMPLED, 0.1);
-    if (before)
-        uselocale(before);
+    uselocale(before);
     if (status == LUA_OK) {
         lua_remove(vm->L, handler);
         return true;

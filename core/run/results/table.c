@@ -21,7 +21,9 @@ static char *csv_of(const JoxProbe *probe) {
     FILE *file = open_memstream(&text, &length);
     if (!file)
         return NULL;
+    const locale_t before = uselocale(jox_plain_locale());
     jox_probe_csv(probe, file);
+    uselocale(before);
     if (fclose(file) == 0)
         return text;
     free(text);
