@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
@@ -109,41 +110,66 @@ static int why(const JoSceneDef *def, const char *path) {
     return JO_OK;
 }
 
-/* The agent with an id, from when it is there on; it is asked about in each step, so that who
+/* s: an agent that nobody asks about for longer is no longer watched, and who writes its values is
+   not known (jo_agent_why). */
+static const double ASKED_EACH = 2.0;
+
+/* Says that there is no such agent: when it left, where it was there, and which there are. */
+static void say_gone(const JoWorld *world, uint64_t id, double left) {
+    const uint32_t count = jo_world_agent_count(world);
+    JoAgent *agents = calloc(count ? count : 1, sizeof *agents);
+    fprintf(stderr, "jostle mod: there is no agent %llu at %.2f s", (unsigned long long)id,
+            jo_world_time(world));
+    if (left > 0.0)
+        fprintf(stderr, ": it left at %.2f s", left);
+    if (agents && jo_world_agents(world, agents, count) > 0)
+        fprintf(stderr, "; those who are there have ids from %u to %u",
+                jo_agent_state(world, agents[0]).id, jo_agent_state(world, agents[count - 1]).id);
+    else
+        fputs("; nobody is there", stderr);
+    fputs("\n", stderr);
+    free(agents);
+}
+
+/* The agent with an id, from when it is there on; it is asked about now and then, so that who
    writes its values is known. */
 static int why_now(const Mods *options, const char *name) {
     JoError error = {0};
     JoSettings *settings = NULL;
     JoScene *scene = jo_scene_load(&options->def, &error);
-    double value = 0.0;
+    double value = 0.0, asked = -INFINITY, left = 0.0;
     if (!scene)
         return cli_failed(&cli_mod, &error, true);
     JoWorld *world = jo_scene_world(scene);
-    const double dt = jo_scene_stats(scene).dt;
-    const uint64_t steps = (uint64_t)(options->at / dt + 0.5);
+    const uint64_t steps = (uint64_t)(options->at / jo_scene_stats(scene).dt + 0.5);
     bool good = true;
     for (uint64_t n = 0; good; n++) {
         const JoAgent agent = jo_world_agent_of(world, (uint32_t)options->agent);
-        jo_free(settings);
-        settings = agent.generation ? jo_agent_why(scene, agent, name, &value, &error) : NULL;
-        good = settings || !agent.generation;
+        const double now = jo_world_time(world);
+        if (!agent.generation && isfinite(asked) && left <= 0.0)
+            left = now;
+        if (agent.generation && (n == steps || now - asked >= ASKED_EACH)) {
+            jo_free(settings);
+            settings = jo_agent_why(scene, agent, name, &value, &error);
+            asked = now;
+            good = settings != NULL;
+        }
         if (n == steps || !good)
             break;
         good = jo_scene_step(scene, &error);
     }
-    if (good && settings) {
-        const JoAgentState is =
-            jo_agent_state(world, jo_world_agent_of(world, (uint32_t)options->agent));
+    const JoAgent agent = jo_world_agent_of(world, (uint32_t)options->agent);
+    if (!good) {
+        cli_failed(&cli_mod, &error, false);
+    } else if (agent.generation) {
+        const JoAgentState is = jo_agent_state(world, agent);
         printf("%s of agent %u at %.2f s, in state %s: %.6g\n", name, is.id, jo_world_time(world),
                is.state, value);
         print_settings(settings);
-    } else if (good) {
-        fprintf(stderr, "jostle mod: there is no agent %llu at %.2f s\n",
-                (unsigned long long)options->agent, jo_world_time(world));
     } else {
-        cli_failed(&cli_mod, &error, false);
+        say_gone(world, options->agent, left);
+        good = false;
     }
-    good = good && settings;
     jo_free(settings);
     jo_scene_free(scene);
     return good ? JO_OK : JO_INPUT;
