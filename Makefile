@@ -292,7 +292,7 @@ reference: all
 	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
-           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:core/cli/jostle.1
+           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:scripts/jostle.1
 # Unit tests alone, each in a process of its own: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(B)/units
 	@failed=0; for u in $(notdir $(UNIT)); do $(B)/units $$u || failed=$$((failed + 1)); done; \
@@ -313,7 +313,7 @@ install: install-built
 	install -m 644 $(HEADERS) $(D)/include/
 	install -d $(L)/lua/5.4
 	install -m 644 $(INSTALL_B)/lua/jostle.so $(L)/lua/5.4/
-	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
+	install -m 644 scripts/jostle.1 $(D)/share/man/man1/
 	$(foreach l,$(LIBRARIES),printf 'prefix=%s\nlibdir=%s\nName: %s\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -l%s\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' $(l) '$(VERSION)' $(l) '$(LIBS_$(l)) -lstdc++' > $(L)/pkgconfig/$(l).pc;)
 	install -d $(D)/share/jostle/page
 	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi

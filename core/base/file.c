@@ -64,8 +64,8 @@ static void release_file(void *file) {
 
 /* Without waiting for the other end of a pipe. For reading: regular files alone, as what is read
    from a pipe or a terminal may never come. */
-static int open_now(const char *path, int flags, struct stat *info) {
-    const int file = open(path, flags | O_NONBLOCK | O_CLOEXEC, 0666);
+static int open_now(const char *path, int flags, mode_t mode, struct stat *info) {
+    const int file = open(path, flags | O_NONBLOCK | O_CLOEXEC, mode);
     if (file < 0)
         return -1;
     const bool good = fstat(file, info) == 0;
@@ -79,10 +79,10 @@ static int open_now(const char *path, int flags, struct stat *info) {
 }
 
 /* One writer at a time: the lock goes with the open file. EBUSY where another has it, or took its
-   name meanwhile. */
-static int open_to_write(const char *path, int flags) {
+   name meanwhile. `mode`: of one that is made, as far as the process's mask allows. */
+static int open_to_write(const char *path, int flags, mode_t mode) {
     struct stat info, named;
-    const int file = open_now(path, O_WRONLY | O_CREAT | flags, &info);
+    const int file = open_now(path, O_WRONLY | O_CREAT | flags, mode, &info);
     if (file < 0 || !S_ISREG(info.st_mode))
         return file;
     const bool own = flock(file, LOCK_EX | LOCK_NB) == 0 && stat(path, &named) == 0 &&
@@ -112,8 +112,8 @@ static FILE *stream(int number, const char *mode) {
 
 FILE *jox_file_open(const char *path, const char *mode) {
     struct stat info;
-    return stream(*mode == 'r' ? open_now(path, O_RDONLY, &info)
-                               : open_to_write(path, *mode == 'a' ? O_APPEND : 0),
+    return stream(*mode == 'r' ? open_now(path, O_RDONLY, 0, &info)
+                               : open_to_write(path, *mode == 'a' ? O_APPEND : 0, 0666),
                   mode);
 }
 
@@ -125,7 +125,8 @@ FILE *jox_file_replace(const char *path) {
         errno = EISDIR;
         return NULL;
     }
-    if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode)) /* a device, a pipe, a link */
+    const bool there = lstat(path, &info) == 0;
+    if (there && !S_ISREG(info.st_mode)) /* a device, a pipe, a link */
         return jox_file_open(path, "w");
     Part *part =
         malloc(sizeof *part + 2 * length + sizeof ENDING + 1); /* no heap's: see end_file */
@@ -134,7 +135,7 @@ FILE *jox_file_replace(const char *path) {
     memcpy(part->text, path, length);
     memcpy(part->text + length, ENDING, sizeof ENDING);
     part->name = memcpy(part->text + length + sizeof ENDING, path, length + 1);
-    const int number = open_to_write(part->text, O_NOFOLLOW);
+    const int number = open_to_write(part->text, O_NOFOLLOW, there ? info.st_mode & 0777 : 0666);
     part->file = number >= 0 ? fdopen(number, "w") : NULL;
     if (!part->file) {
         const int why = errno;

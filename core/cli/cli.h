@@ -23,6 +23,7 @@
     X(render)                                                                                      \
     X(view)                                                                                        \
     X(check)                                                                                       \
+    X(migrate)                                                                                     \
     X(test)                                                                                        \
     X(new)                                                                                         \
     X(mod)                                                                                         \

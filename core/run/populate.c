@@ -6,6 +6,16 @@
 #include "base/mem.h"
 #include "run/run.h"
 
+/* What a behaviour calls a value now that it says was renamed; NULL where it has no such. */
+static const char *renamed(const JoxMachine *machine, const char *name, const char *const *names,
+                           uint32_t known) {
+    for (uint32_t r = 0; r < machine->renamed_count; r++)
+        for (uint32_t k = 0; strcmp(machine->renamed[r].from, name) == 0 && k < known; k++)
+            if (strcmp(machine->renamed[r].to, names[k]) == 0)
+                return names[k];
+    return NULL;
+}
+
 /* Names that a group sets must be known to every behaviour of its mix. */
 static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGroupValue *sets,
                         uint32_t count, bool memory, JoxDiagnostics *diagnostics) {
@@ -27,7 +37,10 @@ static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGr
             char hint[96] = "";
             if (near)
                 strcat(strcat(strcpy(hint, "Did you mean '"), near), "'?");
-            if (slot < 0)
+            const char *now = slot < 0 ? renamed(machine, sets[s].name, names, known) : NULL;
+            if (now)
+                jox_diag_renamed(diagnostics, sets[s].position, sets[s].name, now);
+            else if (slot < 0)
                 jox_diag_error(diagnostics, sets[s].position, "unknown-value", near ? hint : NULL,
                                "behaviour %s has no '%.60s'%s", machine->name, sets[s].name,
                                memory ? " in memory" : "");

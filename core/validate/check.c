@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "jostle_tools.h"
 #include "run/run.h"
+#include "validate/check.h"
 #include "validate/claims.h"
 
 enum { DEEPEST = 8, MOST_ERRORS = 10000 };
@@ -222,11 +223,16 @@ static void print(const JoxDiagnostics *all, JoxText *out) {
     jox_text_add(out, "\n");
 }
 
-static size_t check_all(const char *const *paths, size_t count, bool json, JoMessage *message,
-                        void *context) {
+JoxDiagnostics jox_check_paths(const char *const *paths, size_t count) {
     JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
     for (size_t p = 0; p < count; p++)
         check_path(paths[p], true, 0, NULL, &all);
+    return all;
+}
+
+static size_t check_all(const char *const *paths, size_t count, bool json, JoMessage *message,
+                        void *context) {
+    JoxDiagnostics all = jox_check_paths(paths, count);
     JoxText text = {0};
     if (json)
         jox_diag_json(&all, &text);

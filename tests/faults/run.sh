@@ -17,6 +17,7 @@ scene=$PWD/scenes/running-through.yaml log=$PWD/tests/data/session.input
 "$program" run "$scene" --steps 4 --quiet --record "$work/a.sqlite" --checkpoint 0.05 --checkpoint-dir "$work/saved" || exit 1
 cp -r "$work/saved" "$work/saved.first"
 "$program" sweep "$scene" --set groups.runner.set.mass=60,70 --seeds 2 --steps 2 --quiet --out "$work/runs.sqlite" || exit 1
+sed 's/runner.lua/passer.lua/' "$scene" >"$work/old.yaml" # which migrate rewrites
 mkdir -p "$work/claims" # of one that runs a scene for two steps
 cp "$scene" "$work/scene.yaml"
 cp behaviours/*.lua "$work/"
@@ -40,6 +41,7 @@ commands=(
     "report report $work/a.sqlite --summary out/s.json"
     "render render $work/a.sqlite --at 0.05 --out out/a.svg"
     "check check $scene $PWD/behaviours/walker.lua"
+    "migrate migrate out/old.yaml"
     "test test $PWD/tests/lua/customer_test.lua"
     "new new scene mine"
     "mods mod list $scene"
@@ -93,7 +95,7 @@ run() {
 # PART N COMMAND...
 once() {
     local part=$1 n=$2; shift 2
-    rm -rf out; mkdir out
+    rm -rf out; mkdir out; cp "$work/old.yaml" out
     case $part in
     memory) run env FAULT_AT="$n" LD_PRELOAD="$alloc" "$program" "$@" ;;
     *) run strace -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
@@ -102,7 +104,7 @@ once() {
 # How often a part happens in a command.
 count() {
     local part=$1; shift
-    rm -rf out; mkdir out
+    rm -rf out; mkdir out; cp "$work/old.yaml" out
     case $part in
     memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; tail -n 1 "$work/count" ;; # who ends last is the command itself
     *) run strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;

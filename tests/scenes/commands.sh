@@ -152,3 +152,33 @@ sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/
 expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed in a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
 "$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check that warns does not say that nothing is wrong" $?
+
+# ---- names that are called otherwise now ----
+mkdir -p "$work/old/behaviours" "$work/old/scenes"
+cat >"$work/old/behaviours/lib.lua" <<'LUA'
+local mine = memory { hits = 0 }
+return machine {
+  name = "lib", start = "A",
+  own = { bravery = 0.5 }, renamed = { courage = "bravery", blows = "hits" },
+  states = { A = { steer = hold, { to = "B", when = (held + mine.hits):above(0) & held:above(1) } }, -- held
+             B = { steer = hold, set = { hits = mine.hits + own.bravery } } } }
+LUA
+printf '\xef\xbb\xbf# courage\r\njostle: 1\r\ngroups:\r\n  \xc3\xa4: {behaviour: lib.lua, at: [[0, 0]], set: {courage: 0.7}, memory: {blows: 2}} # courage\r\n  b: {behaviour: lib.lua, at: [[1, 0]], set: {"courage": "uniform(0, 1)"}}\r\n' >"$work/old/scenes/a.yaml"
+chmod 640 "$work/old/scenes/a.yaml"
+cp -r "$work/old" "$work/kept"
+expect "a word that was renamed has its new name in the error" 3 "lib.lua:5:54: 'held' is called 'holders' now. \`jostle migrate FILE\` writes the new name" "$JOSTLE" check "$work/old/behaviours"
+expect "a shipped behaviour has, too" 3 "'passer' is called 'walker' now" "$JOSTLE" run scenes/bottleneck.yaml --set groups.people.behaviour=passer.lua
+expect "migrate --check changes nothing" 1 "2 names to be renamed" "$JOSTLE" migrate --check "$work/old/behaviours"
+diff -r "$work/old" "$work/kept" >/dev/null; verdict "  indeed" $?
+expect "migrate renames words, and values that a behaviour says were renamed" 0 "5 names renamed" "$JOSTLE" migrate "$work/old"
+sed -i 's/(held/(holders/; s/& held/\& holders/' "$work/kept/behaviours/lib.lua"
+sed -i 's/{courage:/{bravery:/; s/{"courage":/{"bravery":/; s/blows/hits/' "$work/kept/scenes/a.yaml"
+diff -r "$work/old" "$work/kept"; verdict "  there alone: comments, BOM and ends of lines stay" $?
+[ "$(stat -c %a "$work/old/scenes/a.yaml")" = 640 ]; verdict "  and the file's mode" $?
+expect "  and once more there is nothing to do" 0 "0 names renamed" "$JOSTLE" migrate "$work/old"
+expect "what was renamed loads" 0 "nothing wrong" "$JOSTLE" check "$work/old"
+sed -i 's/bravery:/courage:/' "$work/old/scenes/a.yaml"
+ln -s a.yaml "$work/old/scenes/link.yaml"
+"$JOSTLE" migrate "$work/old/scenes/link.yaml" >/dev/null; [ -L "$work/old/scenes/link.yaml" ] && ! grep -q 'courage:' "$work/old/scenes/a.yaml"; verdict "what a link leads to is rewritten, the link stays" $?
+mkfifo "$work/pipe.yaml"; head -c 100000 /dev/urandom >"$work/noise.yaml"
+expect "migrate: a pipe, noise and nothing" 3 "3 errors left" timeout 20 "$JOSTLE" migrate "$work/pipe.yaml" "$work/noise.yaml" "$work/nothing.yaml"

@@ -57,6 +57,16 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
     d->warnings += severity == JOX_SEVERITY_WARNING;
 }
 
+void jox_diag_renamed(JoxDiagnostics *d, JoxPosition position, const char *was, const char *now) {
+    const size_t before = d->count;
+    jox_diag_error(d, position, "renamed", "`jostle migrate FILE` writes the new name",
+                   "'%.100s' is called '%.100s' now", was, now);
+    if (d->count == before) /* there was no room */
+        return;
+    d->items[before].was = jox_strdup(was);
+    d->items[before].now = jox_strdup(now);
+}
+
 void jox_diag_attach_source(JoxDiagnostics *d, const char *file, const char *text, size_t length) {
     for (size_t i = 0; i < d->count; i++) {
         JoxDiagnostic *item = &d->items[i];
@@ -129,6 +139,8 @@ void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
         jox_json_string(&json, "code", item->code);
         jox_json_string(&json, "message", item->message);
         jox_json_string(&json, "hint", item->hint ? item->hint : "");
+        if (item->now)
+            jox_json_string(&json, "now", item->now);
         jox_json_end(&json);
     }
     jox_json_end(&json);
@@ -139,9 +151,15 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
     for (size_t i = 0; i < from->count; i++) {
         JoxDiagnostic *item = &from->items[i];
         JoxPosition position = {item->file, item->line, item->column, item->end_column};
-        if (!is_known(to, position, item->code, item->message))
-            jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
-                         item->source, "%s", item->message);
+        if (is_known(to, position, item->code, item->message))
+            continue;
+        const size_t before = to->count;
+        jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
+                     item->source, "%s", item->message);
+        if (to->count > before && item->now) {
+            to->items[before].was = jox_strdup(item->was);
+            to->items[before].now = jox_strdup(item->now);
+        }
     }
     for (size_t i = 0; i < from->count; i++) { /* what `from` did not keep remains */
         from->errors -= from->items[i].severity == JOX_SEVERITY_ERROR;
@@ -159,6 +177,8 @@ void jox_diag_free(JoxDiagnostics *d) {
         jox_free(d->items[i].hint);
         jox_free(d->items[i].context);
         jox_free(d->items[i].source);
+        jox_free(d->items[i].was);
+        jox_free(d->items[i].now);
     }
     jox_free(d->items);
     *d = (JoxDiagnostics){0};

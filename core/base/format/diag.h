@@ -24,6 +24,7 @@ typedef struct JoxDiagnostic {
     char *hint;       /* the way out, or NULL */
     char *context;    /* "machine tawaf > state ToStone > transition 2", or NULL */
     char *source;     /* the line of source, or NULL */
+    char *was, *now;  /* of a name that is called otherwise now, else NULL */
 } JoxDiagnostic;
 
 /* Zero-initialise. Keeps the first `limit` errors and as many others; counts all. */
@@ -46,6 +47,9 @@ void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition
 #define jox_diag_error(diagnostics, position, code, hint, ...)                                     \
     jox_diag_add(diagnostics, JOX_SEVERITY_ERROR, position, code, hint, NULL, NULL, __VA_ARGS__)
 
+/* An error at a name that is called otherwise now: `jostle migrate` writes the new one there. */
+void jox_diag_renamed(JoxDiagnostics *diagnostics, JoxPosition position, const char *was,
+                      const char *now);
 #define jox_diag_warn(diagnostics, position, code, hint, ...)                                      \
     jox_diag_add(diagnostics, JOX_SEVERITY_WARNING, position, code, hint, NULL, NULL, __VA_ARGS__)
 #define jox_diag_note(diagnostics, position, code, ...)                                            \
@@ -56,7 +60,8 @@ void jox_diag_attach_source(JoxDiagnostics *diagnostics, const char *file, const
                             size_t length);
 /* "file:12:7: message. hint", the source line and a caret, the context; and what was left out. */
 void jox_diag_print(const JoxDiagnostics *diagnostics, JoxText *out);
-/* A JSON array of objects: file, line, column, end, severity, code, message, hint. */
+/* A JSON array of objects: file, line, column, end, severity, code, message, hint; of
+   a name that is called otherwise now its new one, too. */
 void jox_diag_json(const JoxDiagnostics *diagnostics, JoxText *out);
 /* Moves all of `from` behind `to`, with its counts. */
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from);

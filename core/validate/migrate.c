@@ -1,0 +1,193 @@
+/* jo_migrate: names that are called otherwise now are rewritten where they stand. Which and where is
+   what jo_check finds; every other byte of a file stays as it is. */
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/format/noun.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "jostle_tools.h"
+#include "run/run.h"
+#include "validate/check.h"
+
+enum { MOST_BYTES = 64 << 20, MOST_ROUNDS = 100 };
+
+typedef struct Migration {
+    const char *const *paths;
+    size_t count;
+    bool writes;
+    JoMessage *message;
+    void *context;
+    size_t names, errors; /* renamed; left, that are something else */
+    JoError *error;
+} Migration;
+
+/* Whether a file is one of those given, or lies in a folder that is: no other is written. */
+static bool is_given(const Migration *m, const char *file) {
+    char real[PATH_MAX], given[PATH_MAX];
+    if (!realpath(file, real))
+        return false;
+    for (size_t p = 0; p < m->count; p++) {
+        const size_t length = realpath(m->paths[p], given) ? strlen(given) : 0;
+        if (length && strncmp(real, given, length) == 0 &&
+            (real[length] == 0 || real[length] == '/'))
+            return true;
+    }
+    return false;
+}
+
+/* Two ways to write the path of one file. */
+static bool is_same_file(const char *a, const char *b) {
+    struct stat x, y;
+    return strcmp(a, b) == 0 || (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev &&
+                                 x.st_ino == y.st_ino);
+}
+
+static bool is_of_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Whether a place of a line is that of a column, in letters or in bytes; a name in quotes has the
+   column of its quote. */
+static bool is_at(const char *line, const char *at, int column) {
+    const int quoted = at > line && (at[-1] == '"' || at[-1] == '\'');
+    int letters = 0;
+    for (const char *c = line; c < at; c++)
+        letters += ((unsigned char)*c & 0xc0) != 0x80;
+    const int off[] = {letters + 1 - column, (int)(at - line) + 1 - column};
+    return off[0] == 0 || off[1] == 0 || (quoted && (off[0] == 1 || off[1] == 1));
+}
+
+/* Where the name of a diagnostic stands in a text: a whole word of its line, the one whose column
+   it is, or the only one. NULL: it is not certain which. */
+static const char *find_name(const JoxDiagnostic *d, const char *text) {
+    const char *line = text, *found = NULL;
+    const size_t length = strlen(d->was);
+    for (int n = 1; n < d->line && line; n++)
+        line = (line = strchr(line, '\n')) ? line + 1 : NULL;
+    const char *end = line ? line + strcspn(line, "\n") : NULL;
+    uint32_t times = 0, exact = 0;
+    for (const char *at = line; at && at + length <= end; at++) {
+        if (strncmp(at, d->was, length) != 0 || is_of_name(at[length]) ||
+            (at > line && is_of_name(at[-1])))
+            continue;
+        const bool is = is_at(line, at, d->column);
+        if (is || exact == 0)
+            found = at;
+        exact += is;
+        times++;
+    }
+    return exact == 1 || times == 1 ? found : NULL;
+}
+
+/* The text with the new name, to be freed; NULL where it is not certain where the old one is. */
+static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *text) {
+    const char *at = find_name(d, text);
+    if (!at)
+        return NULL;
+    JoxText out = {0}, said = {0};
+    jox_text_append(&out, text, (size_t)(at - text));
+    jox_text_add(&out, d->now);
+    jox_text_add(&out, at + strlen(d->was));
+    jox_text_printf(&said, "%s:%d:%d: '%s' %s '%s'\n", d->file, d->line, d->column, d->was,
+                    m->writes ? "is now" : "is to be", d->now);
+    jox_run_message(m->message, m->context, said.data);
+    jox_text_free(&said);
+    return out.data;
+}
+
+/* Gives a file another text; false with the error. */
+static bool write_file(const Migration *m, const char *path, const char *text) {
+    FILE *file = jox_file_replace(path);
+    const size_t length = strlen(text);
+    const bool good = file && fwrite(text, 1, length, file) == length;
+    const bool whole = file && (good ? jox_file_close(file) : (jox_file_drop(file), EOF)) == 0;
+    if (!whole)
+        jox_error(m->error, JO_FAILED, "cannot write '%.300s': %s", path, jox_file_why(errno));
+    return whole;
+}
+
+/* Rewrites the names of one file, of the diagnostics from `first` on. Those of a line change each
+   other's columns: the later ones are left for the next round. */
+static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) {
+    const char *path = all->items[first].file;
+    size_t length;
+    char *text = jox_read_file(path, MOST_BYTES, &length);
+    if (!text || strlen(text) != length) { /* what holds a zero byte is no text */
+        jox_free(text);
+        return true;
+    }
+    uint32_t changed = 0;
+    for (size_t i = first; i < all->count; i++) {
+        const JoxDiagnostic *d = &all->items[i];
+        bool other = !d->now || !d->file || strcmp(d->file, path) != 0;
+        for (size_t k = first; k < i && !other; k++)
+            other = m->writes && all->items[k].now && all->items[k].line == d->line &&
+                    strcmp(all->items[k].file, path) == 0;
+        char *next = other ? NULL : rewritten(m, d, text);
+        if (!next)
+            continue;
+        changed++;
+        if (m->writes) {
+            jox_free(text);
+            text = next;
+        } else {
+            jox_free(next);
+        }
+    }
+    m->names += changed;
+    const bool good = !m->writes || !changed || write_file(m, path, text);
+    jox_free(text);
+    return good;
+}
+
+/* Whether the file of a diagnostic was dealt with before it. */
+static bool is_done(const JoxDiagnostics *all, size_t i) {
+    for (size_t k = 0; k < i; k++)
+        if (all->items[k].now && is_same_file(all->items[k].file, all->items[i].file))
+            return true;
+    return false;
+}
+
+/* One look at all that is given: what is renamed may hide what is wrong behind it. */
+static bool migrate_round(Migration *m) {
+    JoxDiagnostics all = jox_check_paths(m->paths, m->count);
+    bool good = true;
+    m->errors = all.errors;
+    for (size_t i = 0; i < all.count && good; i++) {
+        const JoxDiagnostic *d = &all.items[i];
+        m->errors -= !m->writes && d->now;
+        if (d->now && d->file && !is_done(&all, i) && is_given(m, d->file))
+            good = migrate_file(m, &all, i);
+    }
+    jox_diag_free(&all);
+    return good;
+}
+
+static bool migrate(Migration *m) {
+    size_t before;
+    int rounds = 0;
+    do {
+        before = m->names;
+        if (!migrate_round(m))
+            return false;
+    } while (m->writes && m->names > before && ++rounds < MOST_ROUNDS);
+    return true;
+}
+
+bool jo_migrate(const char *const *paths, size_t count, bool write, JoMessage *message,
+                void *context, size_t *names, size_t *errors, JoError *error) {
+    JOX_REQUIRE(paths && message && names && errors, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    Migration m = {paths, count, write, message, context, 0, 0, error};
+    const bool good = migrate(&m);
+    *names = m.names;
+    *errors = m.errors;
+    return good;
+}
