@@ -1,10 +1,11 @@
-/* jo_migrate: names that are called otherwise now are rewritten where they stand. Which and where is
-   what jo_check finds; every other byte of a file stays as it is. */
+/* jo_migrate: names that are called otherwise now are rewritten where they stand. Which and where
+   is what jo_check finds; every other byte of a file stays as it is. */
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/file.h"
@@ -44,8 +45,8 @@ static bool is_given(const Migration *m, const char *file) {
 /* Two ways to write the path of one file. */
 static bool is_same_file(const char *a, const char *b) {
     struct stat x, y;
-    return strcmp(a, b) == 0 || (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev &&
-                                 x.st_ino == y.st_ino);
+    return strcmp(a, b) == 0 ||
+           (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino);
 }
 
 static bool is_of_name(char c) {
@@ -105,7 +106,8 @@ static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *t
 static bool write_file(const Migration *m, const char *path, const char *text) {
     FILE *file = jox_file_replace(path);
     const size_t length = strlen(text);
-    const bool good = file && fwrite(text, 1, length, file) == length;
+    const bool good = file && fwrite(text, 1, length, file) == length && fflush(file) == 0 &&
+                      fsync(fileno(file)) == 0;
     const bool whole = file && (good ? jox_file_close(file) : (jox_file_drop(file), EOF)) == 0;
     if (!whole)
         jox_error(m->error, JO_FAILED, "cannot write '%.300s': %s", path, jox_file_why(errno));
