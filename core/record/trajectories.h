@@ -43,7 +43,7 @@ typedef struct JoxTrajectories {
     JoxV2 period;      /* m */
     bool has_velocity; /* the file gave it */
     JoxV2 low, high;   /* m: everyone, always */
-    JoxWalls walls;    /* outlines of the walkable area, as lines; empty unless recorded */
+    JoxWalls walls; /* those that Jostle recorded; else outlines of the walkable area, as lines */
 } JoxTrajectories;
 
 /* NULL with errors in `diagnostics`. Velocities that the file does not give are displacements over

@@ -9,7 +9,7 @@
 #include "record/recorder_file.h"
 #include "record/trajectory_reader_parts.h"
 
-enum { MOST_FRAMES = 10000000, MOST_POINTS = 100000 };
+enum { MOST_FRAMES = 10000000 };
 
 static bool wrong(JoxDiagnostics *diagnostics, const char *path, const char *hint,
                   const char *what) {
@@ -170,50 +170,6 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
     return r->rows != NULL;
 }
 
-/* "x y, x y, ..."; 0 points where it is something else. */
-static uint32_t read_points(const char *text, JoxV2 *points, uint32_t most) {
-    uint32_t count = 0;
-    for (bool more = text != NULL; more; text++) {
-        float x, y;
-        int used = 0;
-        if (count == most || sscanf(text, "%f %f%n", &x, &y, &used) != 2 || !(fabsf(x) < 1e6f) ||
-            !(fabsf(y) < 1e6f))
-            return 0;
-        points[count++] = (JoxV2){x, y};
-        text += used;
-        more = *text == ',';
-    }
-    return count;
-}
-
-/* Walls of ours, in place of the walkable area, whose outline is where nobody went. */
-static void read_walls(JoxTrajectoryReader *r) {
-    sqlite3_stmt *list =
-        prepare(r->db, "SELECT name, solid, closed, open, height, points FROM jostle_wall");
-    if (!list)
-        return;
-    JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
-    JoxWalls *walls = &r->outlines.walls;
-    jox_walls_free(walls);
-    while (sqlite3_step(list) == SQLITE_ROW) {
-        const uint32_t first = walls->ring_count;
-        const char *name = (const char *)sqlite3_column_text(list, 0);
-        const bool solid = sqlite3_column_int(list, 1), closed = sqlite3_column_int(list, 2);
-        const float given = (float)sqlite3_column_double(list, 4);
-        const float height = given > 0.0f && given < 1e6f ? given : INFINITY;
-        const char *text = (const char *)sqlite3_column_text(list, 5);
-        const uint32_t count = read_points(text, points, MOST_POINTS);
-        if (solid && count >= 3)
-            jox_walls_add_solid(walls, points, count, height);
-        else if (!solid && count >= (closed ? 3 : 2))
-            jox_walls_add_polyline(walls, points, count, closed, height);
-        if (name)
-            jox_walls_name(walls, first, name, sqlite3_column_int(list, 3));
-    }
-    sqlite3_finalize(list);
-    jox_free(points);
-}
-
 static void read_bounds(JoxTrajectoryReader *r) {
 #define BOUND(key) "SELECT CAST(value AS REAL) FROM metadata WHERE key = '" key "'"
     static const char *const QUESTIONS[] = {BOUND("xmin"), BOUND("ymin"), BOUND("xmax"),
@@ -276,7 +232,6 @@ static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajecto
     read_bounds(r);
     read_states(r);
     jox_trajectories_plan(&r->outlines, r->db);
-    read_walls(r);
     return true;
 }
 

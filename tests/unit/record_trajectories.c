@@ -326,6 +326,10 @@ static void our_recordings_keep_more(void **state) {
     assert_non_null(r);
     jox_recorder_group(r, 0, "red", 0);
     jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456);
+    JoxWalls walls = {0};
+    jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {2, 1}, {2, 3}}, 3, false, 2.5f);
+    jox_recorder_walls(r, &walls);
+    jox_walls_free(&walls);
     for (uint32_t f = 0; f < 3; f++) {
         JoxRecordBody *bodies;
         JoxRecordRow *rows = jox_recorder_take(r, 2, 0, &bodies);
@@ -355,6 +359,11 @@ static void our_recordings_keep_more(void **state) {
     assert_near(frame.load[0], 1002, 0);
     assert_near(frame.load[1], 2, 0);
     assert_near(frame.vx[1], 1, 1e-5);
+    /* The walls, not the outline of the walkable area, which need be no wall. */
+    assert_int_equal(t->walls.count, 4); /* there and back */
+    for (uint32_t v = 0; v < t->walls.count; v++)
+        assert_true(t->walls.vertices[v].point.y >= 1 && t->walls.vertices[v].point.y <= 3);
+    assert_near(t->walls.rings[0].height, 2.5, 0);
     jox_trajectories_free(t);
     /* As older versions wrote them: of loads nothing is known, of the rest all. */
     sqlite3 *db;
