@@ -202,7 +202,7 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
             put(out, row->density);
             put(out, row->gain);
             fprintf(out, ",%s,%d,%d\n", row->level < 0 ? "" : jox_levels[row->level].name,
-                    row->stop_and_go, row->congested);
+                    row->stop_and_go != 0, row->congested != 0);
         }
     return jox_plot_close(out, "danger-lines.csv", error);
 }

@@ -40,9 +40,9 @@ typedef struct JoxDangerLineRow {
     uint32_t waiting[2]; /* in sight within 10 m: on its right, on its left */
     int side;            /* the one before it: 0 its right, 1 its left */
     /* NAN where they are not known: in the first ten seconds; where nobody is. */
-    double flow, density, gain; /* 1/(m s), 1/m2, 1/s */
-    int level;                  /* -1 in the first ten seconds */
-    bool stop_and_go, congested;
+    double flow, density, gain;     /* 1/(m s), 1/m2, 1/s */
+    int level;                      /* -1 in the first ten seconds */
+    uint8_t stop_and_go, congested; /* as they are read back from a checkpoint: any byte */
 } JoxDangerLineRow;
 
 typedef struct JoxDangerLine {

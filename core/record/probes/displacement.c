@@ -11,7 +11,7 @@
 #include "record/probes/probe_parts.h"
 
 typedef struct Person {
-    bool known;
+    uint8_t known;        /* as one is read back from a checkpoint: any byte */
     float x, y;           /* m: where first seen */
     float dx, dy;         /* m: since, the way over periodic edges taken as it was */
     float base_x, base_y; /* m: mean of these while at rest */

@@ -16,7 +16,7 @@ typedef struct Crossing {
     double time; /* s */
     uint32_t key;
     int direction;
-    bool stands;       /* forward, and not taken back */
+    uint8_t stands;    /* forward, and not taken back */
     uint32_t previous; /* the same person's standing passage before this one, plus 1 */
 } Crossing;
 
@@ -212,7 +212,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     uint32_t passed = 0;
     for (uint32_t c = 0; c < f->count; c++) {
         const Crossing *s = &sorted[c];
-        passed += s->stands;
+        passed += s->stands != 0;
         fprintf(out, "%.4f,%u,%d,%u,", s->time, s->key, s->direction, passed);
         if (s->stands && isfinite(before))
             fprintf(out, "%.4f\n", s->time - before);

@@ -13,7 +13,7 @@ static const char *const WHAT[] = {"enters", "kicks", "hit"};
 typedef struct Before { /* of a person, in the frame before */
     float x, y, speed;
     uint32_t state; /* in the log's names */
-    bool known;
+    uint8_t known;  /* as one is read back from a checkpoint: any byte */
 } Before;
 
 typedef struct Action {
@@ -25,7 +25,7 @@ typedef struct Action {
     int32_t body; /* id, or -1 */
     JoxV3 at;
     float speed, gap; /* of the body, m/s; between the two, m */
-    bool lies;
+    uint8_t lies;
 } Action;
 
 typedef struct Log {
@@ -178,7 +178,8 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
             fputs(",,,,,,\n", out);
         else
             fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d\n", d->body, (double)d->at.x,
-                    (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap, d->lies);
+                    (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap,
+                    d->lies != 0);
     }
 }
 

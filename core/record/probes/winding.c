@@ -11,7 +11,7 @@
 static const double TURN = 6.283185307179586;
 
 typedef struct Turning {
-    bool known;
+    uint8_t known; /* as one is read back from a checkpoint: any byte */
     double angle, turns, least, greatest, since, until; /* rad, turns, turns, turns, s, s */
 } Turning;
 
