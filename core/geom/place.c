@@ -114,9 +114,14 @@ static bool at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) 
 static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     if (place->boxed && !jox_is_within(point, place->low, place->high))
         return false;
-    for (uint32_t i = 0; i < place->member_count; i++)
-        if (jox_place_contains(places, (uint32_t)place->members[i], point))
+    for (uint32_t i = 0; i < place->member_count; i++) {
+        const JoxPlace *member = &places[place->members[i]];
+        /* Of many exits all but one are elsewhere: that costs no call. */
+        const bool elsewhere =
+            member->kind == JOX_PLACE_POLYGON && !jox_is_within(point, member->low, member->high);
+        if (!elsewhere && jox_place_contains(places, (uint32_t)place->members[i], point))
             return true;
+    }
     return false;
 }
 
