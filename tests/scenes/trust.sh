@@ -83,7 +83,7 @@ kill -TERM $pid; wait $pid
 delete" ]
 verdict "SIGTERM: status 143; recording, figures and summary are whole" $?
 [ -z "$(find . -name '*.part')" ]; verdict "nothing is left half written" $?
-"$program" run "$scene" --quiet --for 1e6 --record hung.sqlite --summary hung.json & pid=$!
+env --default-signal=HUP "$program" run "$scene" --quiet --for 1e6 --record hung.sqlite --summary hung.json & pid=$!
 for _ in $(seq 100); do [ -s hung.sqlite ] && break; sleep 0.1; done
 sleep 0.3; kill -HUP $pid; wait $pid
 [ $? = 129 ] && grep -q '"hash"' hung.json && [ "$(sqlite3 hung.sqlite 'PRAGMA integrity_check; PRAGMA journal_mode')" = "ok
