@@ -87,7 +87,8 @@ expect "  of variants that are named" 3 "the variant count=few does not load" "$
 many=$(seq -s, 20000)
 expect "thousands that fail alike are not all read" 3 "the first 20 of 20000 variants do not load, all for the same reason" timeout 60 "$program" sweep $scene --set groups.hall.cuont="$many" --out x.sqlite --quiet
 [ "$(grep -c 'cuont' "$work/out")" -le 20 ]; verdict "  nor said" $?
-timeout -s INT 2 "$program" sweep $scene --set groups.hall.count="$many" --out x.sqlite --quiet 2>err & pid=$!
+# --foreground: else it sends the signal twice, to the process and to its group, and a second one ends it at once.
+timeout --foreground -s INT 2 "$program" sweep $scene --set groups.hall.count="$many" --out x.sqlite --quiet 2>err & pid=$!
 ( sleep 20; kill -KILL $pid 2>/dev/null ) & guard=$!
 wait $pid; kill $guard 2>/dev/null
 grep -qE 'interrupted while it read the variants, [0-9]* of 20000; none was run|reading this scene was interrupted' err && [ ! -e x.sqlite ]; verdict "thousands that load are read until one interrupts" $?
