@@ -167,6 +167,7 @@ printf '\xef\xbb\xbf# courage\r\njostle: 1\r\ngroups:\r\n  \xc3\xa4: {behaviour:
 chmod 640 "$work/old/scenes/a.yaml"
 cp -r "$work/old" "$work/kept"
 expect "a word that was renamed has its new name in the error" 3 "lib.lua:5:54: 'held' is called 'holders' now. \`jostle migrate FILE\` writes the new name" "$JOSTLE" check "$work/old/behaviours"
+expect "a key of a scene has, too" 3 "'width_eager' is called 'room_eager' now" "$JOSTLE" run scenes/bottleneck.yaml --set walking.width_eager=0.2
 expect "a shipped behaviour has, too" 3 "'passer' is called 'walker' now" "$JOSTLE" run scenes/bottleneck.yaml --set groups.people.behaviour=passer.lua
 expect "migrate --check changes nothing" 1 "2 names to be renamed" "$JOSTLE" migrate --check "$work/old/behaviours"
 diff -r "$work/old" "$work/kept" >/dev/null; verdict "  indeed" $?

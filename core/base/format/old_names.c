@@ -9,6 +9,7 @@ static const struct {
     JoxOldKind kind;
     const char *was, *now;
 } OLD[] = {
+    {JOX_OLD_KEY, "width_eager", "room_eager"},
     {JOX_OLD_WORD, "held", "holders"},
     {JOX_OLD_BEHAVIOUR, "passer", "walker"},
 };
