@@ -135,7 +135,8 @@ FILE *jox_file_replace(const char *path) {
     memcpy(part->text, path, length);
     memcpy(part->text + length, ENDING, sizeof ENDING);
     part->name = memcpy(part->text + length + sizeof ENDING, path, length + 1);
-    const int number = open_to_write(part->text, O_NOFOLLOW, there ? info.st_mode & 0777 : 0666);
+    const int number =
+        open_to_write(part->text, O_NOFOLLOW, there ? (info.st_mode & 0777) | S_IWUSR : 0666);
     part->file = number >= 0 ? fdopen(number, "w") : NULL;
     if (!part->file) {
         const int why = errno;

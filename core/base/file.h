@@ -11,8 +11,8 @@
    writer at a time: errno is EBUSY for a second one. */
 FILE *jox_file_open(const char *path, const char *mode);
 /* Opens a file to be written whole: until it is closed it is named PATH.part, and what was at the
-   path stays, and its mode with it as far as the process's mask allows. Written in place where that
-   is no regular file. */
+   path stays, and its mode with it as far as the process's mask allows; but its owner may write it.
+   Written in place where that is no regular file. */
 FILE *jox_file_replace(const char *path);
 /* Closes a file that is not whole, and removes it. */
 int jox_file_drop(FILE *file);

@@ -49,6 +49,11 @@ static bool is_same_file(const char *a, const char *b) {
            (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino);
 }
 
+/* Whether a diagnostic is of a name that was changed, in a file. */
+static bool is_renamed(const JoxDiagnostic *d) {
+    return d->now && d->file;
+}
+
 static bool is_of_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -127,9 +132,9 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
     uint32_t changed = 0;
     for (size_t i = first; i < all->count; i++) {
         const JoxDiagnostic *d = &all->items[i];
-        bool other = !d->now || !d->file || strcmp(d->file, path) != 0;
+        bool other = !is_renamed(d) || strcmp(d->file, path) != 0;
         for (size_t k = first; k < i && !other; k++)
-            other = m->writes && all->items[k].now && all->items[k].line == d->line &&
+            other = m->writes && is_renamed(&all->items[k]) && all->items[k].line == d->line &&
                     strcmp(all->items[k].file, path) == 0;
         char *next = other ? NULL : rewritten(m, d, text);
         if (!next)
@@ -151,7 +156,7 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
 /* Whether the file of a diagnostic was dealt with before it. */
 static bool is_done(const JoxDiagnostics *all, size_t i) {
     for (size_t k = 0; k < i; k++)
-        if (all->items[k].now && is_same_file(all->items[k].file, all->items[i].file))
+        if (is_renamed(&all->items[k]) && is_same_file(all->items[k].file, all->items[i].file))
             return true;
     return false;
 }
@@ -164,7 +169,7 @@ static bool migrate_round(Migration *m) {
     for (size_t i = 0; i < all.count && good; i++) {
         const JoxDiagnostic *d = &all.items[i];
         m->errors -= !m->writes && d->now;
-        if (d->now && d->file && !is_done(&all, i) && is_given(m, d->file))
+        if (is_renamed(d) && !is_done(&all, i) && is_given(m, d->file))
             good = migrate_file(m, &all, i);
     }
     jox_diag_free(&all);

@@ -87,7 +87,7 @@ bool jox_keys_check(const JoxReader *reader, const JoxYaml *map, const char *own
     for (uint32_t k = 0; k < map->count; k++)
         if (!jox_key_find(reader->format, owner, map->keys[k])) {
             const char *now = jox_old_name(JOX_OLD_KEY, map->keys[k]);
-            if (now) {
+            if (now && jox_key_find(reader->format, owner, now)) { /* elsewhere it may be a slip */
                 jox_diag_renamed(reader->diagnostics, map->key_positions[k], map->keys[k], now);
                 continue;
             }
