@@ -301,9 +301,10 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     /* One thread at a time uses it: the writer, and the others once that has nothing to write. */
     const int how = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
     bool good = sqlite3_open_v2(path, &r->db, how, NULL) == SQLITE_OK;
-    if (!good)
+    if (good)
+        sqlite3_busy_timeout(r->db, JOX_DATABASE_PATIENCE);
+    else /* where memory is out, there is no connection */
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
-    sqlite3_busy_timeout(r->db, JOX_DATABASE_PATIENCE);
     good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
     if (good && !jox_thread_start(&r->thread, writer, r)) {
         good = false;
