@@ -262,19 +262,19 @@ static void close_ranks(JoxAgents *a) {
 
 uint32_t jox_agents_compact(JoxAgents *a) {
     uint32_t kept = 0;
+    if (!a->count || (!a->removed[0] && jox_is_same_of_all(a->removed, 1, a->count)))
+        return 0;
     for (uint32_t i = 0; i < a->count; i++) {
         if (!a->removed[i])
             a->order[kept++] = i;
     }
-    uint32_t gone = a->count - kept;
-    if (gone) {
-        close_ranks(a);
-        Gather gather = {a, a->order, kept, a->count};
-        visit_columns(a, COLUMN_SCRATCH, gather_column, &gather);
-        a->count = kept;
-        reindex(a);
-        JOX_CHECK(jox_agents_check(a));
-    }
+    const uint32_t gone = a->count - kept;
+    close_ranks(a);
+    Gather gather = {a, a->order, kept, a->count};
+    visit_columns(a, COLUMN_SCRATCH, gather_column, &gather);
+    a->count = kept;
+    reindex(a);
+    JOX_CHECK(jox_agents_check(a));
     return gone;
 }
 

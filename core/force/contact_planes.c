@@ -107,10 +107,12 @@ void jox_contact_planes_make(JoxForces *f) {
     JOX_RESERVE(planes->starts, planes->starts_capacity, n);
     JOX_RESERVE(planes->people, planes->people_capacity, n + JOX_LANES);
     JOX_RESERVE(planes->bodies, planes->bodies_capacity, n + JOX_LANES);
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        planes->starts[i] = most;
-        most += f->end_starts[i + 1] - f->end_starts[i] + jox_touches_of(f, i);
+    uint32_t most = f->end_starts[n];
+    memcpy(planes->starts, f->end_starts, n * sizeof *planes->starts);
+    for (uint32_t i = 0, touches = 0; f->touch_count && i < n; i++) { /* and those with bodies */
+        planes->starts[i] += touches;
+        touches += f->touch_number[i];
+        most += f->touch_number[i];
     }
     JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
     planes->agents = n;

@@ -1,5 +1,6 @@
 /* What braced and slowing people pass on: equations 8 and 9. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "force/equations.h"
@@ -98,6 +99,12 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
                       jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
 }
 
+static inline bool all_pass_nothing(const uint8_t kinds[8]) {
+    uint64_t bytes;
+    memcpy(&bytes, kinds, sizeof bytes);
+    return bytes == JOX_PASSES_NOTHING;
+}
+
 /* Whole packets are looked at by the kernel of the run's instruction set. */
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
@@ -108,15 +115,18 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxPassing passing;
     if (whole > begin)
         KERNELS[f->isa](f, begin, whole, &passing);
+    for (uint32_t i = begin; f->options.literal && i < end; i++)
+        jox_literal_pass_on(f, chunk, i);
+    if (f->options.literal)
+        return;
+    for (uint32_t i = whole; i < end; i++)
+        passing.kind[i - begin] =
+            (uint8_t)jox_passes_on(f, i, &decay, &passing.shortfall[i - begin]);
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t at = i - begin;
-        if (f->options.literal) {
-            jox_literal_pass_on(f, chunk, i);
-            continue;
-        }
-        if (i >= whole)
-            passing.kind[at] = (uint8_t)jox_passes_on(f, i, &decay, &passing.shortfall[at]);
-        if (passing.kind[at] == JOX_PASSES_RESISTANCE)
+        if (i + 8 <= whole && all_pass_nothing(&passing.kind[at]))
+            i += 7;
+        else if (passing.kind[at] == JOX_PASSES_RESISTANCE)
             pass_resistance(f, chunk, i, passing.shortfall[at]);
         else if (passing.kind[at] == JOX_PASSES_DECELERATION)
             pass_deceleration(f, chunk, i);
@@ -130,13 +140,12 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     float kept =
         1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
     for (uint32_t i = begin; i < end; i++) {
-        if (a->inferred_x[i] == 0.0f && a->inferred_y[i] == 0.0f)
-            continue;
-        a->inferred_x[i] *= kept;
-        a->inferred_y[i] *= kept;
+        const float x = a->inferred_x[i], y = a->inferred_y[i];
         /* What is left of a force after seconds is nothing, and slow to compute with. */
-        if (fabsf(a->inferred_x[i]) + fabsf(a->inferred_y[i]) < 1e-6f)
-            a->inferred_x[i] = a->inferred_y[i] = 0.0f;
+        const bool fades =
+            fabsf(x * kept) + fabsf(y * kept) < 1e-6f && fabsf(x) + fabsf(y) > 0.0f;
+        a->inferred_x[i] = fades ? 0.0f : x * kept;
+        a->inferred_y[i] = fades ? 0.0f : y * kept;
     }
 }
 

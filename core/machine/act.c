@@ -25,6 +25,27 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
     }
 }
 
+/* Sets a column of bytes of some agents, who come by ascending index: often a whole run of them. */
+static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, uint8_t value) {
+    if (agents[count - 1] - agents[0] == count - 1) {
+        memset(column + agents[0], value, count);
+        return;
+    }
+    for (uint32_t n = 0; n < count; n++)
+        column[agents[n]] = value;
+}
+
+/* The same of four bytes each, all of them `byte`. */
+static void fill_words(void *column, const uint32_t *agents, uint32_t count, uint8_t byte) {
+    uint32_t *words = column;
+    if (agents[count - 1] - agents[0] == count - 1) {
+        memset(words + agents[0], byte, count * sizeof *words);
+        return;
+    }
+    for (uint32_t n = 0; n < count; n++)
+        words[agents[n]] = byte * 0x01010101u;
+}
+
 static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
                           JoxRegisters registers) {
     const JoxMachine *machine = run->set->items[batch->machine];
@@ -33,15 +54,14 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     if (state->push_when >= 0)
         jox_eval(run, machine, &machine->expressions[state->push_when], agents, batch->count,
                  registers);
-    for (uint32_t n = 0; n < batch->count; n++) {
-        const uint32_t i = agents[n];
-        run->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
-        run->push_nearest[i] = state->push_nearest;
-        run->agents->approach[i] = -1;
-        run->agents->approached[i] = 0;
-        if (state->grasp < 0)
-            run->agents->grasped[i] = 0; /* it lets go */
-    }
+    fill_bytes(run->push_on, agents, batch->count, 1);
+    for (uint32_t n = 0; state->push_when >= 0 && n < batch->count; n++)
+        run->push_on[agents[n]] = registers[0][n] != 0.0;
+    fill_bytes(run->push_nearest, agents, batch->count, state->push_nearest);
+    fill_words(run->agents->approach, agents, batch->count, 0xff); /* -1 */
+    fill_words(run->agents->approached, agents, batch->count, 0);
+    if (state->grasp < 0)
+        fill_words(run->agents->grasped, agents, batch->count, 0); /* it lets go */
     for (uint32_t n = 0; state->push_toward >= 0 && n < batch->count; n++) {
         const uint32_t i = agents[n];
         JoxSpot spot = jox_target_find(run, i, state->push_toward);

@@ -173,10 +173,37 @@ static void rank_queues(JoxMachineRun *run) {
     JOX_CHECK(jox_queues_check(run, list, count));
 }
 
+/* Whether all are in one state of one machine, as in many crowds. */
+static bool are_alike(const JoxAgents *a) {
+    return a->count && a->machine[0] != JOX_NO_MACHINE &&
+           jox_is_same_of_all(a->machine, sizeof *a->machine, a->count) &&
+           jox_is_same_of_all(a->state, sizeof *a->state, a->count);
+}
+
+/* How many are in each state, behind it. */
+static void count_states(const JoxAgents *a, const uint32_t *bases, bool alike, uint32_t *first) {
+    if (alike)
+        first[bases[a->machine[0]] + a->state[0] + 1] = a->count;
+    for (uint32_t i = 0; !alike && i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE)
+            first[bases[a->machine[i]] + a->state[i] + 1]++;
+}
+
+/* Lists them state by state. */
+static void list_states(const JoxAgents *a, const uint32_t *bases, bool alike, uint32_t *first,
+                        uint32_t *grouped) {
+    for (uint32_t i = 0; alike && i < a->count; i++)
+        grouped[i] = i;
+    for (uint32_t i = 0; !alike && i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE)
+            grouped[first[bases[a->machine[i]] + a->state[i]]++] = i;
+}
+
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     reserve(run, pool);
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
+    const bool alike = are_alike(a);
     uint32_t states = first_state(run, run->set->count);
     if (states + 1 > s->state_capacity) {
         s->state_capacity = states + 65;
@@ -188,18 +215,14 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     uint32_t *first = s->state_first, bases[JOX_MOST_MACHINES] = {0};
     for (uint32_t m = 0; m < run->set->count; m++)
         bases[m] = first_state(run, m);
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE)
-            first[bases[a->machine[i]] + a->state[i] + 1]++;
+    count_states(a, bases, alike, first);
     for (uint32_t k = 0; k < states; k++)
         first[k + 1] += first[k];
     s->batch_count = 0;
     for (uint32_t m = 0; m < run->set->count; m++)
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
             add_batches(s, (uint16_t)m, (uint16_t)k, first[bases[m] + k], first[bases[m] + k + 1]);
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE)
-            s->grouped[first[bases[a->machine[i]] + a->state[i]]++] = i;
+    list_states(a, bases, alike, first, s->grouped);
     rank_queues(run);
 }
 

@@ -4,6 +4,11 @@
 #include "base/assert.h"
 #include "machine/internal.h"
 
+/* A number of a place, or -1 where there is none of that number. */
+static inline int32_t among_places(const JoxMachineRun *run, int32_t place) {
+    return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
+}
+
 /* The place that a target is for one agent, or -1. */
 static inline int32_t place_of(const JoxMachineRun *run, const JoxTarget *target, uint32_t agent) {
     int32_t place = -1;
@@ -14,7 +19,7 @@ static inline int32_t place_of(const JoxMachineRun *run, const JoxTarget *target
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];
-    return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
+    return among_places(run, place);
 }
 
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
@@ -31,8 +36,15 @@ void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int3
         target && target->kind == JOX_TARGET_OWN_PLACE ? &run->agents->own[target->arg] : NULL;
     const bool same = own ? !own->each : !target || target->kind == JOX_TARGET_PLACE;
     const int32_t first = target ? place_of(run, target, agents[0]) : -1;
-    for (uint32_t n = 0; n < count; n++)
-        places[n] = same ? first : place_of(run, target, agents[n]);
+    if (same)
+        for (uint32_t n = 0; n < count; n++)
+            places[n] = first;
+    else if (own)
+        for (uint32_t n = 0; n < count; n++)
+            places[n] = among_places(run, (int32_t)own->each[agents[n]]);
+    else
+        for (uint32_t n = 0; n < count; n++)
+            places[n] = place_of(run, target, agents[n]);
 }
 
 /* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */

@@ -76,8 +76,6 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
     for (uint32_t c = 0; c < machine->counter_count; c++)
         if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
             count_circuits_of(run, machine, &machine->counters[c], agents, batch->count);
-    for (uint32_t n = 0; n < batch->count; n++)
-        run->scratch->fired[agents[n]] = -1;
     int32_t known = -1;   /* expression whose result is in register 0 */
     uint32_t nobodys = 0; /* bits of the conditions that hold for nobody */
     for (uint32_t k = 0; k < state->transition_count; k++) {
@@ -178,14 +176,28 @@ static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     call_hook(run, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
 }
 
+/* Lists those who take a transition: few do in any one step. */
+static void list_fired(JoxMachineRun *run) {
+    enum { BLOCK = 32 };
+    JoxMachineScratch *s = run->scratch;
+    const uint32_t count = run->agents->count;
+    s->list_count = 0;
+    for (uint32_t i = 0; i < count; i += BLOCK) {
+        const uint32_t end = count - i < BLOCK ? count : i + BLOCK;
+        int16_t all = -1;
+        for (uint32_t k = i; k < end; k++)
+            all &= s->fired[k];
+        for (uint32_t k = i; all >= 0 && k < end; k++)
+            if (s->fired[k] >= 0)
+                s->list[s->list_count++] = k;
+    }
+}
+
 /* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
 static void take_transitions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
-    s->list_count = 0;
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE && s->fired[i] >= 0)
-            s->list[s->list_count++] = i;
+    list_fired(run);
     jox_sort_by_id(run, s->list, s->list_count);
     JOX_RESERVE(run->taken, run->taken_capacity, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
@@ -256,6 +268,8 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         jox_machines_count_places(run);
         begin_spawned(run);
         Think think = {run};
+        if (run->agents->count) /* nobody takes any */
+            memset(run->scratch->fired, 0xff, run->agents->count * sizeof *run->scratch->fired);
         jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
         ask_functions(run);
         take_transitions(run);

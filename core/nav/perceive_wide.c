@@ -251,21 +251,21 @@ static inline JoxInts listed_at(JoxInts keys) {
 
 static Found read_keys(const Packet *packet, JoxInts most) {
     const JoxFloats none = jf_set(INFINITY);
-    const JoxMask nobody = jf_lt(none, none);
-    Found f = {nobody, nobody, most, ji_set(0), none};
-    JoxInts farthest = ji_set(0); /* key of the last wanted */
+    const JoxInts listed = ji_load(packet->count), one = ji_set(1);
+    const JoxMask few = ji_less(listed, most);
+    Found f = {jm_without(ji_less(ji_set(0), most), few), jf_lt(none, none), most,
+               ji_select(few, listed, most), none};
+    /* Of a tie, the first is wanted and the second is there. */
+    const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, one));
+    JoxInts farthest = ji_set(0), share = ji_shift_right(jf_bits(packet->keys[0]), PLACE_BITS);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
-        const JoxFloats key = packet->keys[k], next = packet->keys[k + 1];
-        const JoxMask wanted = ji_less(ji_set((int32_t)k), most), there = jf_lt(key, none);
-        if (!jm_bits(there))
+        const JoxInts at = ji_set((int32_t)k);
+        if (!jm_bits(ji_less(at, f.count)))
             break; /* of a sparse crowd */
-        f.count = ji_select(jm_and(wanted, there), ji_set((int32_t)k + 1), f.count);
-        JoxMask last = jm_and(ji_equal(most, ji_set((int32_t)k + 1)), there);
-        f.full = jm_or(f.full, last);
-        farthest = ji_select(last, jf_bits(key), farthest);
-        JoxMask same = ji_equal(ji_shift_right(jf_bits(key), PLACE_BITS),
-                                ji_shift_right(jf_bits(next), PLACE_BITS));
-        f.tied = jm_or(f.tied, jm_and(same, jm_and(wanted, jf_lt(next, none))));
+        const JoxInts next = ji_shift_right(jf_bits(packet->keys[k + 1]), PLACE_BITS);
+        f.tied = jm_or(f.tied, jm_and(ji_equal(share, next), ji_less(at, ties)));
+        share = next;
+        farthest = ji_select(ji_equal(most, ji_add(at, one)), jf_bits(packet->keys[k]), farthest);
     }
     if (jm_bits(f.full))
         f.farthest2 = jf_select(f.full, jf_pick(packet->distance2, listed_at(farthest)), none);
