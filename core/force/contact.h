@@ -11,6 +11,7 @@
 #include "simd/four.h"
 
 enum {
+    JOX_NO_COLOUR = 255,
     JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
     JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
 };
@@ -21,6 +22,8 @@ typedef struct JoxFoundPair {
     uint32_t other, other_id;
     JoxV2 normal;
     float squeeze, target, mass; /* as in JoxPair */
+    /* As laid out: its colour, and its number among the ends of either. */
+    uint8_t colour, first_end, second_end;
 } JoxFoundPair;
 typedef struct JoxFoundWall {
     uint32_t edge;
@@ -47,16 +50,19 @@ typedef struct JoxPair {
     float impulse; /* accumulated, at least 0, N s */
 } JoxPair;
 
+/* Of an agent, where in ascending ids its contacts come, and its kept impulses begin, or those of
+   who is next among these. */
+typedef struct JoxListed {
+    uint32_t pair, kept;
+} JoxListed;
+
 /* Contacts between agents, sorted by colour: no agent occurs twice in a colour, so that the
    contacts of one colour may be solved in any order, at once. */
 typedef struct JoxPairs {
     uint32_t count, colours;
-    uint32_t listed;                               /* found: entries of `place` */
     uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
     JoxPair *items;
-    uint32_t *place; /* of the contacts in ascending ids of first, then second;
-                        JOX_NO_INDEX: left out */
-    size_t capacity, place_capacity;
+    size_t capacity;
 } JoxPairs;
 
 /* An agent at the edge of a wall. */

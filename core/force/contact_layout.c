@@ -17,101 +17,132 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
     return found ? items[*at].impulse : 0.0f;
 }
 
-static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
-    return (const JoxFoundPair *)f->found.items + f->found_first[i];
+static inline JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
+    return (JoxFoundPair *)f->found.items + f->found_first[i];
 }
 
-/* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and counts
-   the ends of each agent. place[n] is left with the colour of pair n. */
+/* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and a
+   number among the ends of both. Finds where the impulses that each agent keeps begin. */
 static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
-    JoxPairs *p = &f->pairs;
-    uint32_t n = 0, sizes[JOX_CONTACT_MOST_COLOURS] = {0};
-    if (a->count)
-        memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
+    const JoxKeptImpulses *were = &f->kept_pairs;
+    uint32_t listed = 0, kept = 0;
+    memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
-        uint32_t i = a->by_rank[r];
-        const JoxFoundPair *found = found_of(f, i);
+        const uint32_t i = a->by_rank[r], id = a->rank_id[r];
+        JoxFoundPair *found = found_of(f, i);
+        while (kept < were->count && were->items[kept].id < id)
+            kept++;
+        f->listed[i] = (JoxListed){listed, kept};
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
-            uint32_t j = found[k].other;
-            uint64_t open = ~(f->colours_of[i] | f->colours_of[j]);
+            const uint32_t j = found[k].other;
+            const uint64_t open = ~(f->colours_of[i] | f->colours_of[j]);
             if (open == 0) { /* in a heap of hundreds */
-                p->place[n++] = JOX_NO_INDEX;
+                found[k].colour = JOX_NO_COLOUR;
                 continue;
             }
-            uint32_t colour = (uint32_t)__builtin_ctzll(open);
-            f->colours_of[i] |= (uint64_t)1 << colour;
-            f->colours_of[j] |= (uint64_t)1 << colour;
-            f->end_starts[i]++;
-            f->end_starts[j]++;
-            sizes[colour]++;
-            p->place[n++] = colour;
+            found[k].colour = (uint8_t)__builtin_ctzll(open);
+            f->colours_of[i] |= (uint64_t)1 << found[k].colour;
+            f->colours_of[j] |= (uint64_t)1 << found[k].colour;
+            found[k].first_end = (uint8_t)f->end_starts[i]++;
+            found[k].second_end = (uint8_t)f->end_starts[j]++;
+            listed++;
         }
     }
-    JOX_ASSERT(n == p->listed);
-    p->colours = 0;
-    uint32_t sum = 0;
-    for (uint32_t c = 0; c < JOX_CONTACT_MOST_COLOURS; c++) {
-        p->starts[c] = sum;
-        sum += sizes[c];
-        if (sizes[c])
-            p->colours = c + 1;
-    }
-    p->starts[JOX_CONTACT_MOST_COLOURS] = p->count = sum;
-    for (uint32_t i = 0, ends = 0; i <= a->count; i++) { /* to where the agent's ends begin */
-        uint32_t number = i < a->count ? f->end_starts[i] : 0;
+    uint32_t ends = 0;
+    for (uint32_t i = 0; i <= a->count; i++) { /* to where the agent's ends begin */
+        const uint32_t number = i < a->count ? f->end_starts[i] : 0;
         f->end_starts[i] = ends;
         ends += number;
     }
+    JOX_ASSERT(ends == 2 * listed);
+    f->pairs.count = listed;
 }
 
-void jox_contacts_lay_pairs(JoxForces *f) {
-    const JoxAgents *a = f->step.agents;
+static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * f->found.room;
+    const JoxFoundPair *found = (const JoxFoundPair *)f->found.items + first;
+    uint32_t *sizes = f->colour_sizes[chunk];
+    (void)end;
+    memset(sizes, 0, sizeof f->colour_sizes[chunk]);
+    for (uint32_t n = 0; n < f->found.counts[chunk]; n++)
+        if (found[n].colour != JOX_NO_COLOUR)
+            sizes[found[n].colour]++;
+}
+
+/* From how many pairs of each colour each chunk has to where its first stands. */
+static void start_colours(JoxForces *f) {
     JoxPairs *p = &f->pairs;
-    p->count = p->listed = 0;
-    for (uint32_t c = 0; c < f->chunks; c++)
-        p->listed += f->found.counts[c];
-    JOX_RESERVE(f->colours_of, f->colours_of_capacity, a->count);
-    JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)a->count + 1);
-    /* Room for a dense crowd from the start, so that no steady step grows it. */
-    uint32_t room = p->listed > 4 * a->count ? p->listed : 4 * a->count;
-    JOX_RESERVE(p->items, p->capacity, room);
-    JOX_RESERVE(p->place, p->place_capacity, room);
-    JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
-    if (!p->listed) { /* nobody touches anybody */
-        p->colours = 0;
-        memset(p->starts, 0, sizeof p->starts);
-        memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
-        return;
+    uint32_t sum = 0;
+    p->colours = 0;
+    for (uint32_t colour = 0; colour < JOX_CONTACT_MOST_COLOURS; colour++) {
+        p->starts[colour] = sum;
+        for (uint32_t chunk = 0; chunk < f->chunks; chunk++) {
+            const uint32_t size = f->colour_sizes[chunk][colour];
+            f->colour_sizes[chunk][colour] = sum;
+            sum += size;
+        }
+        if (sum > p->starts[colour])
+            p->colours = colour + 1;
     }
-    colour_pairs(f);
-    uint32_t fill[JOX_CONTACT_MOST_COLOURS], n = 0;
-    memcpy(fill, p->starts, sizeof fill);
-    size_t kept = 0;
-    for (uint32_t r = 0; r < a->count; r++) {
-        uint32_t i = a->by_rank[r];
+    JOX_ASSERT(sum == p->count);
+    p->starts[JOX_CONTACT_MOST_COLOURS] = sum;
+}
+
+/* Puts the pairs of agents [begin, end) among those of their colours, with the impulses kept. */
+static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const JoxAgents *a = f->step.agents;
+    uint32_t *next = f->colour_sizes[begin / JOX_FORCE_GRAIN];
+    for (uint32_t i = begin; i < end; i++) {
         const JoxFoundPair *found = found_of(f, i);
-        for (uint32_t k = 0; k < f->found_number[i]; k++, n++) {
-            if (p->place[n] == JOX_NO_INDEX)
+        size_t kept = f->listed[i].kept;
+        for (uint32_t k = 0; k < f->found_number[i]; k++) {
+            if (found[k].colour == JOX_NO_COLOUR)
                 continue;
-            uint32_t at = fill[p->place[n]]++, j = found[k].other;
-            p->place[n] = at;
-            p->items[at] = (JoxPair){
+            const uint32_t at = next[found[k].colour]++, j = found[k].other;
+            f->pairs.items[at] = (JoxPair){
                 i,
                 j,
                 found[k].normal,
                 found[k].target,
                 found[k].mass,
                 found[k].squeeze,
-                jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id)};
-            f->ends[f->end_starts[i]++] = (JoxEnd){at, j};
-            f->ends[f->end_starts[j]++] = (JoxEnd){at, i};
+                jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], found[k].other_id)};
+            f->ends[f->end_starts[i] + found[k].first_end] = (JoxEnd){at, j};
+            f->ends[f->end_starts[j] + found[k].second_end] = (JoxEnd){at, i};
         }
     }
-    for (uint32_t i = a->count; i-- > 0;) /* back from where the ends end */
-        f->end_starts[i + 1] = f->end_starts[i];
-    f->end_starts[0] = 0;
+}
+
+void jox_contacts_lay_pairs(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    JoxPairs *p = &f->pairs;
+    uint32_t found = 0;
+    for (uint32_t c = 0; c < f->chunks; c++)
+        found += f->found.counts[c];
+    JOX_RESERVE(f->colours_of, f->colours_of_capacity, a->count);
+    JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
+    JOX_RESERVE(f->listed, f->listed_capacity, a->count);
+    JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)a->count + 1);
+    /* Room for a dense crowd from the start, so that no steady step grows it. */
+    uint32_t room = found > 4 * a->count ? found : 4 * a->count;
+    JOX_RESERVE(p->items, p->capacity, room);
+    JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
+    if (!found) { /* nobody touches anybody */
+        p->count = p->colours = 0;
+        memset(p->starts, 0, sizeof p->starts);
+        memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
+        return;
+    }
+    colour_pairs(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, count_chunk, f);
+    start_colours(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, place_chunk, f);
 }
 
 void jox_contacts_lay_walls(JoxForces *f) {
@@ -156,19 +187,30 @@ void jox_contacts_lay_walls(JoxForces *f) {
     f->wall_group[f->wall_groups] = count;
 }
 
+/* Those of the pairs that agents [begin, end) found, in the order in which these were listed. */
+static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const uint32_t *id = f->step.agents->id;
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxFoundPair *found = found_of(f, i);
+        JoxKeptImpulse *kept = f->kept_pairs.items + f->listed[i].pair;
+        for (uint32_t k = 0; k < f->found_number[i]; k++) {
+            if (found[k].colour == JOX_NO_COLOUR)
+                continue;
+            const uint32_t at = f->ends[f->end_starts[i] + found[k].first_end].pair;
+            *kept++ =
+                (JoxKeptImpulse){id[i], found[k].other_id, f->pairs.items[at].impulse};
+        }
+    }
+}
+
 void jox_contacts_keep(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
-    const JoxPairs *p = &f->pairs;
-    JOX_RESERVE(f->kept_pairs.items, f->kept_pairs.capacity, p->count);
-    f->kept_pairs.count = 0;
-    for (uint32_t n = 0; n < p->listed; n++) {
-        if (p->place[n] == JOX_NO_INDEX)
-            continue;
-        const JoxPair *pair = &p->items[p->place[n]];
-        f->kept_pairs.items[f->kept_pairs.count++] =
-            (JoxKeptImpulse){a->id[pair->first], a->id[pair->second], pair->impulse};
-    }
-    JOX_ASSERT(f->kept_pairs.count == p->count);
+    JOX_RESERVE(f->kept_pairs.items, f->kept_pairs.capacity, f->pairs.count);
+    f->kept_pairs.count = f->pairs.count;
+    if (f->pairs.count)
+        jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_chunk, f);
     JOX_RESERVE(f->kept_walls.items, f->kept_walls.capacity, f->wall_count);
     f->kept_walls.count = f->wall_count;
     for (uint32_t k = 0; k < f->wall_count; k++)

@@ -60,6 +60,10 @@ struct JoxForces {
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
     size_t colours_of_capacity;
+    JoxListed *listed; /* per agent */
+    size_t listed_capacity;
+    uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk; then where its next stands */
+    size_t colour_size_capacity;
     JoxEnd *ends; /* of agent i: end_starts[i] to end_starts[i + 1], in an order of ids alone */
     uint32_t *end_starts;
     size_t end_capacity, end_start_capacity;
