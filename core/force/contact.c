@@ -58,8 +58,7 @@ static void finish_walls(JoxForces *f) {
 void jox_force_contact(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     jox_contacts_find(f);
-    jox_contacts_lay_pairs(f);
-    jox_contacts_lay_walls(f);
+    jox_contacts_lay(f);
     if (f->bodies)
         jox_touches_collect(f);
     f->contacts_known = true;

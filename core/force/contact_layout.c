@@ -119,45 +119,9 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     }
 }
 
-void jox_contacts_lay_pairs(JoxForces *f) {
+/* The contacts with walls, in the order of ids. */
+static void lay_walls(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
-    JoxPairs *p = &f->pairs;
-    uint32_t found = 0;
-    for (uint32_t c = 0; c < f->chunks; c++)
-        found += f->found.counts[c];
-    JOX_RESERVE(f->colours_of, f->colours_of_capacity, a->count);
-    JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
-    JOX_RESERVE(f->listed, f->listed_capacity, a->count);
-    JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)a->count + 1);
-    /* Room for a dense crowd from the start, so that no steady step grows it. */
-    uint32_t room = found > 4 * a->count ? found : 4 * a->count;
-    JOX_RESERVE(p->items, p->capacity, room);
-    JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
-    if (!found) { /* nobody touches anybody */
-        p->count = p->colours = 0;
-        memset(p->starts, 0, sizeof p->starts);
-        memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
-        return;
-    }
-    colour_pairs(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, count_chunk, f);
-    start_colours(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, place_chunk, f);
-}
-
-void jox_contacts_lay_walls(JoxForces *f) {
-    const JoxAgents *a = f->step.agents;
-    uint32_t count = 0;
-    for (uint32_t c = 0; c < f->chunks; c++)
-        count += f->found_walls.counts[c];
-    f->wall_count = 0;
-    f->wall_groups = 0;
-    if (!count) {
-        f->kept_walls.count = 0;
-        return;
-    }
-    JOX_RESERVE(f->wall, f->wall_capacity, count);
-    JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)count + 1);
     const float dt = (float)f->step.dt, *e = a->param[JOX_PARAM_restitution];
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
@@ -183,8 +147,62 @@ void jox_contacts_lay_walls(JoxForces *f) {
                 .impulse = jox_kept_impulse(&f->kept_walls, &kept, a->id[i], found[k].edge)};
         }
     }
-    JOX_ASSERT(f->wall_count == count);
-    f->wall_group[f->wall_groups] = count;
+    f->wall_group[f->wall_groups] = f->wall_count;
+}
+
+static uint32_t sum_of(const uint32_t *counts, uint32_t chunks) {
+    uint32_t sum = 0;
+    for (uint32_t c = 0; c < chunks; c++)
+        sum += counts[c];
+    return sum;
+}
+
+/* Room for `pairs` and `walls` found. */
+static void reserve(JoxForces *f, uint32_t pairs, uint32_t walls) {
+    const uint32_t agents = f->step.agents->count;
+    /* For a dense crowd from the start, so that no steady step grows it. */
+    const uint32_t room = pairs > 4 * agents ? pairs : 4 * agents;
+    JOX_RESERVE(f->colours_of, f->colours_of_capacity, agents);
+    JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
+    JOX_RESERVE(f->listed, f->listed_capacity, agents);
+    JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)agents + 1);
+    JOX_RESERVE(f->pairs.items, f->pairs.capacity, room);
+    JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
+    JOX_RESERVE(f->wall, f->wall_capacity, walls);
+    JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
+}
+
+/* What goes through all agents by ids, which one thread does: pairs, and beside them walls. */
+enum { PAIRS, WALLS, ORDERED };
+static void lay_by_id(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    for (uint32_t part = begin; part < end; part++)
+        (part == PAIRS ? colour_pairs : lay_walls)(context);
+}
+
+void jox_contacts_lay(JoxForces *f) {
+    const uint32_t agents = f->step.agents->count;
+    const uint32_t pairs = sum_of(f->found.counts, f->chunks);
+    const uint32_t walls = sum_of(f->found_walls.counts, f->chunks);
+    reserve(f, pairs, walls);
+    f->wall_count = f->wall_groups = 0;
+    f->pairs.count = f->pairs.colours = 0;
+    if (pairs && walls) {
+        jox_parallel_for(f->step.pool, ORDERED, 1, lay_by_id, f);
+    } else if (walls) {
+        lay_walls(f);
+    } else if (pairs) {
+        colour_pairs(f);
+    }
+    JOX_ASSERT(f->wall_count == walls);
+    if (pairs) {
+        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, count_chunk, f);
+        start_colours(f);
+        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_chunk, f);
+        return;
+    }
+    memset(f->pairs.starts, 0, sizeof f->pairs.starts); /* nobody touches anybody */
+    memset(f->end_starts, 0, ((size_t)agents + 1) * sizeof *f->end_starts);
 }
 
 /* Those of the pairs that agents [begin, end) found, in the order in which these were listed. */

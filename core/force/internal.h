@@ -192,8 +192,7 @@ static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const Jox
  */
 #define JOX_SQUEEZE 2000.0f
 /* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step. */
-void jox_contacts_lay_pairs(JoxForces *forces);
-void jox_contacts_lay_walls(JoxForces *forces);
+void jox_contacts_lay(JoxForces *forces);
 void jox_contacts_keep(JoxForces *forces);
 /* Impulse kept of a contact; asked for by ascending ids, with the place in the list that the last
    question left. 0 where there was none. */
