@@ -22,9 +22,13 @@ typedef struct JoxFoundPair {
     uint32_t other, other_id;
     JoxV2 normal;
     float squeeze, target, mass; /* as in JoxPair */
-    /* As laid out: its colour, and its number among the ends of either. */
-    uint8_t colour, first_end, second_end;
 } JoxFoundPair;
+/* The same one for those who lay contacts out, of as few bytes as that needs: the agent touched,
+   then the colour and the number among the ends of either. */
+typedef struct JoxPairSlot {
+    uint32_t other;
+    uint8_t colour, first_end, second_end;
+} JoxPairSlot;
 typedef struct JoxFoundWall {
     uint32_t edge;
     JoxV2 normal;

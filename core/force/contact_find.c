@@ -25,6 +25,7 @@ void jox_contacts_find(JoxForces *f) {
     uint32_t n = f->step.agents->count;
     jox_chunks_begin(&f->found, f->chunks, jox_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
                      sizeof(JoxFoundPair));
+    jox_chunks_begin(&f->slots, f->chunks, f->found.room, sizeof(JoxPairSlot));
     jox_chunks_begin(&f->found_walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
                      sizeof(JoxFoundWall));
     JOX_RESERVE(f->found_first, f->found_first_capacity, n + JOX_LANES);

@@ -147,6 +147,7 @@ static void write_each(Packet *p, uint32_t seen) {
     JoxForces *f = p->f;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
     JoxFoundPair *found = (JoxFoundPair *)f->found.items + (size_t)chunk * f->found.room;
+    JoxPairSlot *slots = (JoxPairSlot *)f->slots.items + (size_t)chunk * f->slots.room;
     JoxFoundWall *walls = (JoxFoundWall *)f->found_walls.items;
     walls += (size_t)chunk * f->found_walls.room;
     uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
@@ -158,8 +159,10 @@ static void write_each(Packet *p, uint32_t seen) {
         JOX_ASSERT(*n + p->count[lane] <= f->found.room);
         f->found_first[i] = chunk * f->found.room + *n;
         f->found_number[i] = (uint8_t)p->count[lane];
-        for (uint32_t k = 0; k < p->count[lane]; k++)
+        for (uint32_t k = 0; k < p->count[lane]; k++) {
+            slots[*n].other = p->found[lane][k].other;
             found[(*n)++] = p->found[lane][k];
+        }
         f->wall_first[i] = chunk * f->found_walls.room + *w;
         f->wall_number[i] = by_walls ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
         *w += f->wall_number[i];

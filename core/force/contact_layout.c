@@ -17,8 +17,12 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
     return found ? items[*at].impulse : 0.0f;
 }
 
-static inline JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
-    return (JoxFoundPair *)f->found.items + f->found_first[i];
+static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
+    return (const JoxFoundPair *)f->found.items + f->found_first[i];
+}
+
+static inline JoxPairSlot *slots_of(const JoxForces *f, uint32_t i) {
+    return (JoxPairSlot *)f->slots.items + f->found_first[i];
 }
 
 /* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and a
@@ -30,23 +34,24 @@ static void colour_pairs(JoxForces *f) {
     memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
-        const uint32_t i = a->by_rank[r], id = a->rank_id[r];
-        JoxFoundPair *found = found_of(f, i);
+        const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];
+        if (!number)
+            continue;
         while (kept < were->count && were->items[kept].id < id)
             kept++;
         f->listed[i] = (JoxListed){listed, kept};
-        for (uint32_t k = 0; k < f->found_number[i]; k++) {
-            const uint32_t j = found[k].other;
-            const uint64_t open = ~(f->colours_of[i] | f->colours_of[j]);
+        JoxPairSlot *slot = slots_of(f, i);
+        for (uint32_t k = 0; k < number; k++, slot++) {
+            const uint64_t open = ~(f->colours_of[i] | f->colours_of[slot->other]);
             if (open == 0) { /* in a heap of hundreds */
-                found[k].colour = JOX_NO_COLOUR;
+                slot->colour = JOX_NO_COLOUR;
                 continue;
             }
-            found[k].colour = (uint8_t)__builtin_ctzll(open);
-            f->colours_of[i] |= (uint64_t)1 << found[k].colour;
-            f->colours_of[j] |= (uint64_t)1 << found[k].colour;
-            found[k].first_end = (uint8_t)f->end_starts[i]++;
-            found[k].second_end = (uint8_t)f->end_starts[j]++;
+            slot->colour = (uint8_t)__builtin_ctzll(open);
+            f->colours_of[i] |= (uint64_t)1 << slot->colour;
+            f->colours_of[slot->other] |= (uint64_t)1 << slot->colour;
+            slot->first_end = (uint8_t)f->end_starts[i]++;
+            slot->second_end = (uint8_t)f->end_starts[slot->other]++;
             listed++;
         }
     }
@@ -63,14 +68,14 @@ static void colour_pairs(JoxForces *f) {
 static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * f->found.room;
-    const JoxFoundPair *found = (const JoxFoundPair *)f->found.items + first;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * f->slots.room;
+    const JoxPairSlot *slots = (const JoxPairSlot *)f->slots.items + first;
     uint32_t *sizes = f->colour_sizes[chunk];
     (void)end;
     memset(sizes, 0, sizeof f->colour_sizes[chunk]);
     for (uint32_t n = 0; n < f->found.counts[chunk]; n++)
-        if (found[n].colour != JOX_NO_COLOUR)
-            sizes[found[n].colour]++;
+        if (slots[n].colour != JOX_NO_COLOUR)
+            sizes[slots[n].colour]++;
 }
 
 /* From how many pairs of each colour each chunk has to where its first stands. */
@@ -100,11 +105,12 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     uint32_t *next = f->colour_sizes[begin / JOX_FORCE_GRAIN];
     for (uint32_t i = begin; i < end; i++) {
         const JoxFoundPair *found = found_of(f, i);
-        size_t kept = f->listed[i].kept;
+        const JoxPairSlot *slots = slots_of(f, i);
+        size_t kept = f->found_number[i] ? f->listed[i].kept : 0;
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
-            if (found[k].colour == JOX_NO_COLOUR)
+            if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
-            const uint32_t at = next[found[k].colour]++, j = found[k].other;
+            const uint32_t at = next[slots[k].colour]++, j = found[k].other;
             f->pairs.items[at] = (JoxPair){
                 i,
                 j,
@@ -113,8 +119,8 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
                 found[k].mass,
                 found[k].squeeze,
                 jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], found[k].other_id)};
-            f->ends[f->end_starts[i] + found[k].first_end] = (JoxEnd){at, j};
-            f->ends[f->end_starts[j] + found[k].second_end] = (JoxEnd){at, i};
+            f->ends[f->end_starts[i] + slots[k].first_end] = (JoxEnd){at, j};
+            f->ends[f->end_starts[j] + slots[k].second_end] = (JoxEnd){at, i};
         }
     }
 }
@@ -212,12 +218,13 @@ static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     const uint32_t *id = f->step.agents->id;
     for (uint32_t i = begin; i < end; i++) {
         const JoxFoundPair *found = found_of(f, i);
-        JoxKeptImpulse *kept = f->kept_pairs.items + f->listed[i].pair;
+        const JoxPairSlot *slots = slots_of(f, i);
+        uint32_t n = f->found_number[i] ? f->listed[i].pair : 0;
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
-            if (found[k].colour == JOX_NO_COLOUR)
+            if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
-            const uint32_t at = f->ends[f->end_starts[i] + found[k].first_end].pair;
-            *kept++ =
+            const uint32_t at = f->ends[f->end_starts[i] + slots[k].first_end].pair;
+            f->kept_pairs.items[n++] =
                 (JoxKeptImpulse){id[i], found[k].other_id, f->pairs.items[at].impulse};
         }
     }

@@ -44,6 +44,8 @@ void jox_forces_free(JoxForces *f) {
                      f->records,
                      f->sorted,
                      f->found.items,
+                     f->slots.items,
+                     f->slots.counts,
                      f->found.counts,
                      f->found_walls.items,
                      f->found_walls.counts,
