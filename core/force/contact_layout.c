@@ -111,14 +111,14 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
             const uint32_t at = next[slots[k].colour]++, j = found[k].other;
-            f->pairs.items[at] = (JoxPair){
-                i,
-                j,
-                found[k].normal,
-                found[k].target,
-                found[k].mass,
-                found[k].squeeze,
-                jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], found[k].other_id)};
+            f->pairs.items[at] =
+                (JoxPair){i,
+                          j,
+                          found[k].normal,
+                          found[k].target,
+                          found[k].mass,
+                          found[k].squeeze,
+                          jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], found[k].other_id)};
             f->ends[f->end_starts[i] + slots[k].first_end] = (JoxEnd){at, j};
             f->ends[f->end_starts[j] + slots[k].second_end] = (JoxEnd){at, i};
         }

@@ -142,8 +142,7 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     for (uint32_t i = begin; i < end; i++) {
         const float x = a->inferred_x[i], y = a->inferred_y[i];
         /* What is left of a force after seconds is nothing, and slow to compute with. */
-        const bool fades =
-            fabsf(x * kept) + fabsf(y * kept) < 1e-6f && fabsf(x) + fabsf(y) > 0.0f;
+        const bool fades = fabsf(x * kept) + fabsf(y * kept) < 1e-6f && fabsf(x) + fabsf(y) > 0.0f;
         a->inferred_x[i] = fades ? 0.0f : x * kept;
         a->inferred_y[i] = fades ? 0.0f : y * kept;
     }

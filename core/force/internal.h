@@ -51,9 +51,9 @@ struct JoxForces {
     bool pushed; /* `sorted` holds this step's pushes */
 
     /* Contacts: as found, by chunk, and where each agent's stand; then as they are solved. */
-    bool contacts_known; /* looked for in this step */
+    bool contacts_known;                             /* looked for in this step */
     JoxChunkList found, slots, found_walls, touches; /* slots: as found */
-    uint32_t *found_first, *wall_first; /* wall_first: once laid out, in `wall` */
+    uint32_t *found_first, *wall_first;              /* wall_first: once laid out, in `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
     bool cut; /* a list of those within touching range is: contacts are found one by one */

@@ -25,6 +25,7 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
         return;
     uint32_t n = s->capacity = run->agents->count + run->agents->count / 4 + 64;
     s->grouped = jox_realloc(s->grouped, n, sizeof *s->grouped);
+    s->in_state = jox_realloc(s->in_state, n, sizeof *s->in_state);
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->heading = jox_realloc(s->heading, n, sizeof *s->heading);
@@ -47,6 +48,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->grouped);
     jox_free(s->batches);
     jox_free(s->state_first);
+    jox_free(s->in_state);
     jox_free(s->fired);
     jox_free(s->rank);
     jox_free(s->heading);
@@ -180,23 +182,25 @@ static bool are_alike(const JoxAgents *a) {
            jox_is_same_of_all(a->state, sizeof *a->state, a->count);
 }
 
-/* How many are in each state, behind it. */
-static void count_states(const JoxAgents *a, const uint32_t *bases, bool alike, uint32_t *first) {
+/* How many are in each state, behind it. Who runs no machine is beyond the last of `states`. */
+static void count_states(JoxMachineScratch *s, const JoxAgents *a, const uint32_t *bases,
+                         uint32_t states, bool alike) {
+    uint32_t *first = s->state_first;
     if (alike)
         first[bases[a->machine[0]] + a->state[0] + 1] = a->count;
-    for (uint32_t i = 0; !alike && i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE)
-            first[bases[a->machine[i]] + a->state[i] + 1]++;
+    for (uint32_t i = 0; !alike && i < a->count; i++) {
+        const bool none = a->machine[i] == JOX_NO_MACHINE;
+        s->in_state[i] = none ? states : bases[a->machine[i]] + a->state[i];
+        first[s->in_state[i] + 1]++;
+    }
 }
 
 /* Lists them state by state. */
-static void list_states(const JoxAgents *a, const uint32_t *bases, bool alike, uint32_t *first,
-                        uint32_t *grouped) {
+static void list_states(JoxMachineScratch *s, const JoxAgents *a, bool alike) {
     for (uint32_t i = 0; alike && i < a->count; i++)
-        grouped[i] = i;
+        s->grouped[i] = i;
     for (uint32_t i = 0; !alike && i < a->count; i++)
-        if (a->machine[i] != JOX_NO_MACHINE)
-            grouped[first[bases[a->machine[i]] + a->state[i]]++] = i;
+        s->grouped[s->state_first[s->in_state[i]]++] = i;
 }
 
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
@@ -205,24 +209,24 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     const JoxAgents *a = run->agents;
     const bool alike = are_alike(a);
     uint32_t states = first_state(run, run->set->count);
-    if (states + 1 > s->state_capacity) {
+    if (states + 2 > s->state_capacity) {
         s->state_capacity = states + 65;
         s->state_first = jox_realloc(s->state_first, s->state_capacity, sizeof *s->state_first);
     }
-    memset(s->state_first, 0, (states + 1) * sizeof *s->state_first);
+    memset(s->state_first, 0, (states + 2) * sizeof *s->state_first);
     if (a->count)
         memset(s->rank, 0xff, a->count * sizeof *s->rank);
     uint32_t *first = s->state_first, bases[JOX_MOST_MACHINES] = {0};
     for (uint32_t m = 0; m < run->set->count; m++)
         bases[m] = first_state(run, m);
-    count_states(a, bases, alike, first);
+    count_states(s, a, bases, states, alike);
     for (uint32_t k = 0; k < states; k++)
         first[k + 1] += first[k];
     s->batch_count = 0;
     for (uint32_t m = 0; m < run->set->count; m++)
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
             add_batches(s, (uint16_t)m, (uint16_t)k, first[bases[m] + k], first[bases[m] + k + 1]);
-    list_states(a, bases, alike, first, s->grouped);
+    list_states(s, a, alike);
     rank_queues(run);
 }
 

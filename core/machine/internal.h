@@ -31,12 +31,13 @@ typedef struct JoxMachineScratch {
     uint32_t batch_count, batch_capacity;
     uint32_t *state_first; /* per state of all machines */
     uint32_t state_capacity;
-    int16_t *fired;  /* per agent: transition to take, -1 none */
-    uint32_t *rank;  /* per agent: place in the queue it stands in */
-    int32_t *queue;  /* per agent that queues: where */
-    JoxV2 *heading;  /* per agent: the velocity it preferred in the step before */
-    uint32_t *list;  /* agents that take something, by id */
-    uint32_t *spare; /* room to sort it */
+    uint32_t *in_state; /* per agent: number among all states, as it is grouped by them */
+    int16_t *fired;     /* per agent: transition to take, -1 none */
+    uint32_t *rank;     /* per agent: place in the queue it stands in */
+    int32_t *queue;     /* per agent that queues: where */
+    JoxV2 *heading;     /* per agent: the velocity it preferred in the step before */
+    uint32_t *list;     /* agents that take something, by id */
+    uint32_t *spare;    /* room to sort it */
     uint32_t list_count;
     JoxV2 *row;                  /* per agent that stands in a row: where in it */
     struct JoxRowEntry *entries; /* those who do */
