@@ -7,22 +7,11 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "live/page.h"
-#include "live/replay.h"
+#include "live/replay_page.h"
 #include "run/run.h"
 
 enum { RECORDING_COOKIE = 0x4a4f5652, MOST_STEPS = 100000 };
 static const double LEAP = 2.5; /* s since the last status, after which no pace is measured */
-
-typedef struct ReplayPage {
-    JoxLivePage page;
-    const JoViewRecordingDef *def;
-    JoxReplay *replay;
-    double at, from, until; /* s of the recording: now, its first and last frame */
-    double wall;            /* s of wall time when `at` was so */
-    double status_at;       /* `at` of the last status */
-    uint32_t frame;         /* that is shown; UINT32_MAX: none */
-} ReplayPage;
 
 JoViewRecordingDef jo_default_view_recording_def(void) {
     return (JoViewRecordingDef){.cookie = RECORDING_COOKIE};
@@ -30,14 +19,14 @@ JoViewRecordingDef jo_default_view_recording_def(void) {
 
 /* ---- time ---- */
 
-static void pause(ReplayPage *p, bool on) {
+static void pause(JoxReplayPage *p, bool on) {
     p->page.session.paused = on;
     p->wall = jox_clock_wall();
     p->page.last_status = 0.0;
 }
 
 /* Shows the frame of the present time. Where it cannot be read, pages are told, and it waits. */
-static void show_present(ReplayPage *p) {
+static void show_present(JoxReplayPage *p) {
     const uint32_t frame = jox_replay_find(p->replay, p->at);
     JoxText why = {0}, text = {0};
     if (frame == p->frame)
@@ -55,7 +44,7 @@ static void show_present(ReplayPage *p) {
 }
 
 /* Goes to a time from wherever it was: nobody walks there. */
-static void seek(ReplayPage *p, double time) {
+static void seek(JoxReplayPage *p, double time) {
     p->at = fmin(fmax(time, p->from), p->until);
     p->frame = UINT32_MAX;
     p->page.session.jumps++;
@@ -66,7 +55,7 @@ static void seek(ReplayPage *p, double time) {
 }
 
 static double advance(void *self, double now) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     const JoxLiveSession *session = &p->page.session;
     if (jox_view_clients(p->page.server) == 0) /* it waits for somebody to look */
         p->wall = now;
@@ -86,27 +75,27 @@ static double advance(void *self, double now) {
 /* ---- what pages are shown ---- */
 
 static JoxLiveColour first_colour(const void *self) {
-    const ReplayPage *p = self;
+    const JoxReplayPage *p = self;
     return jox_replay_colour(p->replay);
 }
 
 static JoxLiveField first_field(const void *self) {
-    const ReplayPage *p = self;
+    const JoxReplayPage *p = self;
     return jox_replay_first_field(p->replay);
 }
 
 static void describe(void *self, JoxText *out) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     jox_replay_scene(p->replay, out);
 }
 
 static uint64_t version(const void *self) {
-    const ReplayPage *p = self;
+    const JoxReplayPage *p = self;
     return jox_replay_version(p->replay);
 }
 
 static void add_status(void *self, double now, JoxText *out) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     const JoxLiveSession *session = &p->page.session;
     const double spent = now - p->page.last_status;
     /* where the last status is long past, as after a leap: what the pace will be */
@@ -118,23 +107,23 @@ static void add_status(void *self, double now, JoxText *out) {
 }
 
 static void pack_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     jox_replay_frame(p->replay, colour, out);
 }
 
 static bool pack_people(void *self, JoxBytes *out) {
-    const ReplayPage *p = self;
+    const JoxReplayPage *p = self;
     return jox_replay_people(p->replay, out);
 }
 
 static void pack_field(void *self, JoxLiveField field, JoxBytes *out) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     jox_replay_field(p->replay, field, out);
 }
 
 /* {"type": "time", ...}: where in the recording it is. */
 static void publish_time(void *self) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     JoxText *text = &p->page.text;
     text->length = 0;
     JoxJson json = jox_json_begin(text, 0);
@@ -150,7 +139,7 @@ static void publish_time(void *self) {
 /* ---- what people do ---- */
 
 static void do_pause(void *self, const JoxLiveRequest *request) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     const bool on = jox_command_bool(request->command, "on", true);
     if (!on && p->at >= p->until)
         seek(p, p->from); /* once more */
@@ -158,7 +147,7 @@ static void do_pause(void *self, const JoxLiveRequest *request) {
 }
 
 static void do_step(void *self, const JoxLiveRequest *request) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     const double n = jox_command_number(request->command, "n", 1.0);
     const uint32_t last = jox_replay_frames(p->replay) - 1;
     if (!(fabs(n) >= 1.0 && fabs(n) <= MOST_STEPS)) {
@@ -181,12 +170,12 @@ static void do_seek(void *self, const JoxLiveRequest *request) {
 }
 
 static void do_restart(void *self, const JoxLiveRequest *request) {
-    ReplayPage *p = self;
+    JoxReplayPage *p = self;
     (void)request;
     seek(p, p->from);
 }
 
-static const JoxLiveSource RECORDING = {
+const JoxLiveSource jox_replay_page_source = {
     .colour = first_colour,
     .field = first_field,
     .scene = describe,
@@ -205,8 +194,11 @@ static const JoxLiveSource RECORDING = {
 
 /* ---- the whole ---- */
 
-static bool open_recording(ReplayPage *p, JoError *error) {
+bool jox_replay_page_load(JoxReplayPage *p, JoError *error) {
     const JoViewRecordingDef *def = p->def;
+    p->page.source = &jox_replay_page_source;
+    p->page.self = p;
+    p->frame = UINT32_MAX;
     JoxDiagnostics diagnostics = {0};
     const JoxReplayDef replay = {.recording = def->recording,
                                  .scene = def->scene,
@@ -220,12 +212,15 @@ static bool open_recording(ReplayPage *p, JoError *error) {
     return true;
 }
 
+void jox_replay_page_end(JoxReplayPage *p) {
+    jox_replay_close(p->replay);
+    p->replay = NULL;
+}
+
 static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
-    ReplayPage p = {.def = def, .frame = UINT32_MAX};
-    p.page.source = &RECORDING;
-    p.page.self = &p;
+    JoxReplayPage p = {.def = def};
     const bool good =
-        open_recording(&p, error) &&
+        jox_replay_page_load(&p, error) &&
         jox_live_page_open(&p.page, def->address, def->port, def->page, def->three, error);
     if (good && def->opened)
         jox_run_message(def->opened, def->opened_context, jox_view_address(p.page.server));
@@ -235,7 +230,7 @@ static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
         jox_live_page_run(&p.page, def->stop);
     }
     jox_live_page_close(&p.page);
-    jox_replay_close(p.replay);
+    jox_replay_page_end(&p);
     return good;
 }
 
