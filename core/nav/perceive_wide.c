@@ -1,45 +1,12 @@
 /* The kernel of perceive. A lane is an agent; a packet is JOX_WIDTH consecutive agents of the
    sorted order. Each lane has a list of those within its radius: the agents of the cells within
    reach are looked at by packets, and those who are near are packed behind each other. Then the
-   lists of all lanes are put in order at once.
-
-   A key is a float that is never computed with: its bits are the squared distance as a fixed-point
-   number of 26 bits (a share of the squared radius) above the place in the list, so that min and
-   max sort both at once. Of lanes of which two keys have the same distance by these bits, these
-   are put in their exact order, ties by id; those whose lists are full search anew, one by one
-   (nearest.c). So neighbours are exact, whatever the width. */
+   lists of all lanes are put in order at once (near_lanes.h). Those whose lists are full search
+   anew, one by one (nearest.c). */
 #include <math.h>
 #include <string.h>
 
-#include "base/assert.h"
-#include "nav/kernels.h"
-#include "simd/lanes.h"
-#include "simd/order.h"
-
-enum {
-    PLACE_BITS = 5,
-    PLACES = 1 << PLACE_BITS,  /* of a list, that keys can tell */
-    LIST = PLACES + JOX_LANES, /* room: a packet may be written behind the last place */
-    RECORDS = LIST / 4,        /* four places are read at once */
-    ORDERED = 16,              /* places that are ordered by a network; more sink in */
-    FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
-    NO_KEY = 0x7f800000, /* bits of INFINITY */
-    NORMAL = 0x00800000  /* bits of the least float that is not denormal */
-};
-static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
-
-typedef struct Packet {
-    const JoxPerceive *p;
-    uint32_t first;  /* agent of lane 0 */
-    uint32_t lanes;  /* bits of those that are there */
-    uint32_t levels; /* keys that are kept: one more than the most neighbours of any lane */
-    float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
-    float scale[JOX_LANES];            /* from squared distances to fixed point, 1/m2 */
-    uint32_t count[JOX_LANES];         /* within the radius */
-    uint32_t index[JOX_WIDTH * LIST];  /* lists, lane after lane */
-    float distance2[JOX_WIDTH * LIST]; /* m2 */
-    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
-} Packet;
+#include "nav/near_lanes.h"
 
 /* Of the grid, the cells within reach of each lane. */
 typedef struct Reach {
@@ -172,106 +139,6 @@ static void list_lanes(Packet *packet, uint32_t lanes) {
         }
 }
 
-/* The lanes of which lists have more than so many places. */
-static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
-    return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
-}
-
-/* Where the list of each lane begins, in parts of which a list has so many. */
-static inline JoxInts list_of_lane(int32_t parts) {
-    return jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)parts)));
-}
-
-/* Keys of four places of all lists, from a multiple of four on. */
-static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
-                               JoxFloats keys[4]) {
-    JoxFloats distance2[4];
-    const JoxInts at = ji_add(list_of_lane(RECORDS), ji_set((int32_t)(from / 4)));
-    jf_records(packet->distance2, at, distance2);
-    JOX_UNROLL
-    for (uint32_t k = 0; k < 4; k++) {
-        const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
-        const JoxFloats key = ji_as_floats(
-            ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)(from + k))));
-        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key, jf_set(INFINITY));
-    }
-}
-
-/* The least keys of the lists, as many as there are levels. */
-static inline __attribute__((always_inline)) void order_lists(Packet *packet,
-                                                              const uint32_t levels) {
-    const JoxInts count = ji_load(packet->count);
-    const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats scale =
-        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
-    jf_store(packet->scale, scale);
-    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
-    JOX_UNROLL
-    for (uint32_t from = 0; from < ORDERED; from += 4)
-        read_places(packet, count, scale, from, keys + from);
-    keys[ORDERED] = jf_set(INFINITY);
-    jox_order_16(keys);
-    for (uint32_t from = ORDERED; from < PLACES && lists_beyond(packet, from); from += 4) {
-        JoxFloats more[4];
-        read_places(packet, count, scale, from, more);
-        for (uint32_t m = 0; m < 4; m++) {
-            JoxFloats key = more[m];
-            JOX_UNROLL
-            for (uint32_t k = 0; k < levels; k++) {
-                const JoxFloats farther = jf_max(keys[k], key);
-                keys[k] = jf_min(keys[k], key);
-                key = farther;
-            }
-        }
-    }
-    JOX_UNROLL
-    for (uint32_t k = 0; k < levels; k++)
-        packet->keys[k] = keys[k];
-}
-
-static void order_few(Packet *packet) {
-    order_lists(packet, FEW + 1);
-}
-
-static void order_many(Packet *packet) {
-    order_lists(packet, JOX_MOST_NEIGHBOURS + 1);
-}
-
-/* What the keys of a packet say, lane by lane. */
-typedef struct Found {
-    JoxMask full, tied;  /* as many as wanted; two of the same distance by the bits of their keys */
-    JoxInts most, count; /* neighbours wanted, and found */
-    JoxFloats farthest2; /* where full: of the last wanted, m2 */
-} Found;
-
-/* Where in the lists the places stand that keys of all lanes name. */
-static inline JoxInts listed_at(JoxInts keys) {
-    return ji_add(ji_and(keys, ji_set(PLACES - 1)), list_of_lane(LIST));
-}
-
-static Found read_keys(const Packet *packet, JoxInts most) {
-    const JoxFloats none = jf_set(INFINITY);
-    const JoxInts listed = ji_load(packet->count), one = ji_set(1);
-    const JoxMask few = ji_less(listed, most);
-    Found f = {jm_without(ji_less(ji_set(0), most), few), jf_lt(none, none), most,
-               ji_select(few, listed, most), none};
-    /* Of a tie, the first is wanted and the second is there. */
-    const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, one));
-    JoxInts farthest = ji_set(0), share = ji_shift_right(jf_bits(packet->keys[0]), PLACE_BITS);
-    for (uint32_t k = 0; k + 1 < packet->levels; k++) {
-        const JoxInts at = ji_set((int32_t)k);
-        if (!jm_bits(ji_less(at, f.count)))
-            break; /* of a sparse crowd */
-        const JoxInts next = ji_shift_right(jf_bits(packet->keys[k + 1]), PLACE_BITS);
-        f.tied = jm_or(f.tied, jm_and(ji_equal(share, next), ji_less(at, ties)));
-        share = next;
-        farthest = ji_select(ji_equal(most, ji_add(at, one)), jf_bits(packet->keys[k]), farthest);
-    }
-    if (jm_bits(f.full))
-        f.farthest2 = jf_select(f.full, jf_pick(packet->distance2, listed_at(farthest)), none);
-    return f;
-}
-
 static inline void store_floats(float *to, JoxMask m, JoxFloats a) {
     jf_store(to, jf_select(m, a, jf_load(to)));
 }
@@ -284,7 +151,9 @@ static inline void store_bytes(uint8_t *to, JoxMask m, JoxInts a) {
 static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloats perception) {
     const JoxPerceive *p = packet->p;
     const JoxMask mask = jm_of_bits(lanes);
-    JoxFloats reach = jf_select(f->full, jf_sqrt(f->farthest2), perception);
+    JoxFloats reach = perception;
+    if (jm_bits(f->full))
+        reach = jf_select(f->full, jf_sqrt(farthest_of(packet, f)), perception);
     JoxFloats area = jf_max(jf_mul(reach, reach), jf_set(JOX_DENSITY_LEAST));
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
@@ -295,7 +164,7 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
         if (!jm_bits(kept))
             break;
         const size_t at = jox_neighbour_at(p->out, packet->first, k);
-        const JoxInts listed = listed_at(jf_bits(packet->keys[k]));
+        const JoxInts listed = listed_at(packet->keys[k]);
         store_floats(p->out->distance2 + at, kept, jf_pick(packet->distance2, listed));
         ji_store(p->out->index + at,
                  ji_select(kept, ji_pick(packet->index, listed), ji_load(p->out->index + at)));
@@ -320,76 +189,6 @@ static void find_touching(const Packet *packet, JoxMask sees) {
         const uint32_t lane = (uint32_t)__builtin_ctz(left);
         jox_perceive_touching(p, packet->first + lane, ranges[lane]);
     }
-}
-
-/* Whether who stands at one place of a list comes before who stands at another. */
-static bool is_before(const Packet *packet, size_t one, size_t other) {
-    const uint32_t *rank = packet->p->agents->rank;
-    if (packet->distance2[one] != packet->distance2[other])
-        return packet->distance2[one] < packet->distance2[other];
-    return rank[packet->index[one]] < rank[packet->index[other]];
-}
-
-/* The keys of one lane, the nearest first: those of a packet stand JOX_WIDTH apart. */
-static inline uint32_t *key_at(uint32_t *keys, uint32_t k) {
-    return keys + (size_t)k * JOX_WIDTH;
-}
-
-/* Puts a key behind those from `from` on, up to place `at`, that it does not come before. */
-static void sink_in(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from, uint32_t at,
-                    uint32_t key) {
-    const size_t list = (size_t)lane * LIST;
-    for (;
-         at > from && is_before(packet, list + key % PLACES, list + *key_at(keys, at - 1) % PLACES);
-         at--)
-        *key_at(keys, at) = *key_at(keys, at - 1);
-    *key_at(keys, at) = key;
-}
-
-/* The last keys that are kept, from `from` on, have one distance, as others that are not kept may:
-   the first of all of these in their exact order. */
-static void settle_last(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from) {
-    const float *distance2 = packet->distance2 + (size_t)lane * LIST;
-    const uint32_t share = (*key_at(keys, from) - NORMAL) >> PLACE_BITS;
-    uint32_t n = from;
-    for (uint32_t place = 0; place < packet->count[lane]; place++) {
-        if ((uint32_t)(int32_t)(distance2[place] * packet->scale[lane]) != share)
-            continue;
-        const uint32_t key = (share << PLACE_BITS) + NORMAL + place;
-        const size_t list = (size_t)lane * LIST;
-        if (n < packet->levels)
-            sink_in(packet, lane, keys, from, n++, key);
-        else if (is_before(packet, list + place, list + *key_at(keys, n - 1) % PLACES))
-            sink_in(packet, lane, keys, from, n - 1, key);
-    }
-    JOX_ASSERT(n == packet->levels);
-}
-
-/* Puts those of one lane whose keys have the same distance in their exact order. */
-static void settle_ties(const Packet *packet, uint32_t lane, uint32_t *keys) {
-    uint32_t from = 0; /* the first of the distance at hand */
-    for (uint32_t k = 1; k < packet->levels && *key_at(keys, k) < NO_KEY; k++) {
-        const uint32_t key = *key_at(keys, k);
-        if (*key_at(keys, k - 1) >> PLACE_BITS != key >> PLACE_BITS)
-            from = k;
-        else if (k + 1 < packet->levels)
-            sink_in(packet, lane, keys, from, k, key);
-        else
-            settle_last(packet, lane, keys, from);
-    }
-}
-
-/* Settles the ties of some lanes. */
-static void settle_lanes(Packet *packet, uint32_t lanes) {
-    uint32_t keys[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
-    for (uint32_t k = 0; k < packet->levels; k++)
-        ji_store(key_at(keys, k), jf_bits(packet->keys[k]));
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(left);
-        settle_ties(packet, lane, keys + lane);
-    }
-    for (uint32_t k = 0; k < packet->levels; k++)
-        packet->keys[k] = ji_as_floats(ji_load(key_at(keys, k)));
 }
 
 /* Some lanes, whose lists have no room for all, search one by one. */
@@ -419,14 +218,12 @@ static void perceive_packet(Packet *packet) {
         list_lanes(packet, left);
         const uint32_t full = lists_beyond(packet, PLACES);
         (packet->levels <= FEW + 1 ? order_few : order_many)(packet);
-        Found f = read_keys(packet, most);
+        const Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
         const uint32_t done = full | (left & ~jm_bits(short_of));
         const uint32_t tied = done & jm_bits(f.tied) & ~full;
-        if (tied) {
+        if (tied)
             settle_lanes(packet, tied);
-            f = read_keys(packet, most);
-        }
         write(packet, &f, done & ~full, perception);
         if (full)
             search_alone(packet, full);

@@ -1,0 +1,261 @@
+/* The lists of those who are near the agents of a packet, put in order: the keys that say who comes
+   first. For kernels: part of perceive_wide.c.
+
+   A key is a float that is never computed with: its bits are the squared distance as a fixed-point
+   number of 26 bits (a share of the squared radius) above the place in the list, so that min and
+   max sort both at once. Two keys of the same distance by these bits are put in their exact order,
+   ties by id: so neighbours are exact, whatever the width. */
+#ifndef JOX_NAV_NEAR_LANES_H
+#define JOX_NAV_NEAR_LANES_H
+
+#include <math.h>
+
+#include "base/assert.h"
+#include "nav/kernels.h"
+#include "simd/lanes.h"
+#include "simd/order.h"
+
+enum {
+    PLACE_BITS = 5,
+    PLACES = 1 << PLACE_BITS,  /* of a list, that keys can tell */
+    LIST = PLACES + JOX_LANES, /* room: a packet may be written behind the last place */
+    RECORDS = LIST / 4,        /* four places are read at once */
+    ORDERED = 16,              /* places that are ordered by a network; more sink in */
+    FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
+    NO_KEY = 0x7f800000, /* bits of INFINITY */
+    NORMAL = 0x00800000  /* bits of the least float that is not denormal */
+};
+static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
+
+typedef struct Packet {
+    const JoxPerceive *p;
+    uint32_t first;  /* agent of lane 0 */
+    uint32_t lanes;  /* bits of those that are there */
+    uint32_t levels; /* keys that are kept: one more than the most neighbours of any lane */
+    float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
+    float scale[JOX_LANES];            /* from squared distances to fixed point, 1/m2 */
+    uint32_t count[JOX_LANES];         /* within the radius */
+    uint32_t index[JOX_WIDTH * LIST];  /* lists, lane after lane */
+    float distance2[JOX_WIDTH * LIST]; /* m2 */
+    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
+} Packet;
+
+/* The lanes of which lists have more than so many places. */
+static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
+    return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
+}
+
+/* Where the list of each lane begins, in parts of which a list has so many. */
+static inline JoxInts list_of_lane(int32_t parts) {
+    return jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)parts)));
+}
+
+/* Keys of four places of all lists, from a multiple of four on. */
+static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
+                               JoxFloats keys[4]) {
+    JoxFloats distance2[4];
+    const JoxInts at = ji_add(list_of_lane(RECORDS), ji_set((int32_t)(from / 4)));
+    jf_records(packet->distance2, at, distance2);
+    JOX_UNROLL
+    for (uint32_t k = 0; k < 4; k++) {
+        const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
+        const JoxFloats key = ji_as_floats(
+            ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)(from + k))));
+        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key, jf_set(INFINITY));
+    }
+}
+
+/* The least keys of the lists, as many as there are levels. */
+static inline __attribute__((always_inline)) void order_lists(Packet *packet,
+                                                              const uint32_t levels) {
+    const JoxInts count = ji_load(packet->count);
+    const JoxFloats radius = jf_load(packet->radius);
+    const JoxFloats scale =
+        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
+    jf_store(packet->scale, scale);
+    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
+    JOX_UNROLL
+    for (uint32_t from = 0; from < ORDERED; from += 4)
+        read_places(packet, count, scale, from, keys + from);
+    keys[ORDERED] = jf_set(INFINITY);
+    jox_order_16(keys);
+    for (uint32_t from = ORDERED; from < PLACES && lists_beyond(packet, from); from += 4) {
+        JoxFloats more[4];
+        read_places(packet, count, scale, from, more);
+        for (uint32_t m = 0; m < 4; m++) {
+            JoxFloats key = more[m];
+            JOX_UNROLL
+            for (uint32_t k = 0; k < levels; k++) {
+                const JoxFloats farther = jf_max(keys[k], key);
+                keys[k] = jf_min(keys[k], key);
+                key = farther;
+            }
+        }
+    }
+    JOX_UNROLL
+    for (uint32_t k = 0; k < levels; k++)
+        packet->keys[k] = keys[k];
+}
+
+static void order_few(Packet *packet) {
+    order_lists(packet, FEW + 1);
+}
+
+static void order_many(Packet *packet) {
+    order_lists(packet, JOX_MOST_NEIGHBOURS + 1);
+}
+
+/* What the keys of a packet say, lane by lane. */
+typedef struct Found {
+    JoxMask full, tied;  /* as many as wanted; two of the same distance by the bits of their keys */
+    JoxInts most, count; /* neighbours wanted, and found */
+} Found;
+
+/* Where in the lists the places stand that keys of all lanes name. */
+static inline JoxInts listed_at(JoxFloats keys) {
+    return ji_add(ji_and(jf_bits(keys), ji_set(PLACES - 1)), list_of_lane(LIST));
+}
+
+/* The bits of keys that are of distances. */
+static inline JoxInts share_of(JoxFloats keys) {
+    return ji_shift_right(jf_bits(keys), PLACE_BITS);
+}
+
+static Found read_keys(const Packet *packet, JoxInts most) {
+    const JoxInts listed = ji_load(packet->count);
+    const JoxMask few = ji_less(listed, most);
+    Found f = {jm_without(ji_less(ji_set(0), most), few), jm_of_bits(0), most,
+               ji_select(few, listed, most)};
+    /* Of a tie, the first is wanted and the second is there. */
+    const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, ji_set(1)));
+    JoxInts share = share_of(packet->keys[0]);
+    for (uint32_t k = 0; k + 1 < packet->levels; k++) {
+        const JoxInts at = ji_set((int32_t)k), next = share_of(packet->keys[k + 1]);
+        if (!jm_bits(ji_less(at, f.count)))
+            break; /* of a sparse crowd */
+        f.tied = jm_or(f.tied, jm_and(ji_equal(share, next), ji_less(at, ties)));
+        share = next;
+    }
+    return f;
+}
+
+/* The squared distance of the last neighbour wanted, m2, of lanes that are full. */
+static JoxFloats farthest_of(const Packet *packet, const Found *f) {
+    JoxFloats key = packet->keys[0];
+    for (uint32_t k = 1; k + 1 < packet->levels; k++)
+        key = jf_select(ji_equal(f->most, ji_set((int32_t)k + 1)), packet->keys[k], key);
+    return jf_pick(packet->distance2, listed_at(key));
+}
+
+/* Whether who stands at one place of a list comes before who stands at another. */
+static bool is_before(const Packet *packet, size_t one, size_t other) {
+    const uint32_t *rank = packet->p->agents->rank;
+    if (packet->distance2[one] != packet->distance2[other])
+        return packet->distance2[one] < packet->distance2[other];
+    return rank[packet->index[one]] < rank[packet->index[other]];
+}
+
+/* The keys of one lane, the nearest first: those of a packet stand JOX_WIDTH apart. */
+static inline uint32_t *key_at(uint32_t *keys, uint32_t k) {
+    return keys + (size_t)k * JOX_WIDTH;
+}
+
+/* Puts a key behind those from `from` on, up to place `at`, that it does not come before. */
+static void sink_in(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from, uint32_t at,
+                    uint32_t key) {
+    const size_t list = (size_t)lane * LIST;
+    for (;
+         at > from && is_before(packet, list + key % PLACES, list + *key_at(keys, at - 1) % PLACES);
+         at--)
+        *key_at(keys, at) = *key_at(keys, at - 1);
+    *key_at(keys, at) = key;
+}
+
+/* The last keys that are kept, from `from` on, have one distance, as others that are not kept may:
+   the first of all of these in their exact order. */
+static void settle_last(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from) {
+    const float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    const uint32_t share = (*key_at(keys, from) - NORMAL) >> PLACE_BITS;
+    uint32_t n = from;
+    for (uint32_t place = 0; place < packet->count[lane]; place++) {
+        if ((uint32_t)(int32_t)(distance2[place] * packet->scale[lane]) != share)
+            continue;
+        const uint32_t key = (share << PLACE_BITS) + NORMAL + place;
+        const size_t list = (size_t)lane * LIST;
+        if (n < packet->levels)
+            sink_in(packet, lane, keys, from, n++, key);
+        else if (is_before(packet, list + place, list + *key_at(keys, n - 1) % PLACES))
+            sink_in(packet, lane, keys, from, n - 1, key);
+    }
+    JOX_ASSERT(n == packet->levels);
+}
+
+/* Puts those of one lane whose keys have the same distance in their exact order. */
+static void settle_ties(const Packet *packet, uint32_t lane, uint32_t *keys) {
+    uint32_t from = 0; /* the first of the distance at hand */
+    for (uint32_t k = 1; k < packet->levels && *key_at(keys, k) < NO_KEY; k++) {
+        const uint32_t key = *key_at(keys, k);
+        if (*key_at(keys, k - 1) >> PLACE_BITS != key >> PLACE_BITS)
+            from = k;
+        else if (k + 1 < packet->levels)
+            sink_in(packet, lane, keys, from, k, key);
+        else
+            settle_last(packet, lane, keys, from);
+    }
+}
+
+/* Settles the ties of some lanes whose last keys may have the distance of others that are not kept,
+   one by one. */
+static void settle_alone(Packet *packet, uint32_t lanes) {
+    uint32_t keys[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
+    for (uint32_t k = 0; k < packet->levels; k++)
+        ji_store(key_at(keys, k), jf_bits(packet->keys[k]));
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        settle_ties(packet, lane, keys + lane);
+    }
+    for (uint32_t k = 0; k < packet->levels; k++)
+        packet->keys[k] = ji_as_floats(ji_load(key_at(keys, k)));
+}
+
+/* Lets two keys of each lane, of which the second follows the first, change places where they have
+   the same distance and stand in the wrong order. Returns where they did. */
+static inline JoxMask settle_pair(Packet *packet, JoxMask lanes, uint32_t first) {
+    JoxFloats *keys = packet->keys + first;
+    const JoxMask there = jm_and(lanes, jf_lt(keys[1], jf_set(INFINITY)));
+    const JoxMask tied = jm_and(there, ji_equal(share_of(keys[0]), share_of(keys[1])));
+    if (!jm_bits(tied))
+        return tied;
+    const JoxInts one = listed_at(keys[0]), other = listed_at(keys[1]), nobody = ji_set(0);
+    const uint32_t *rank = packet->p->agents->rank;
+    const JoxFloats near2 = jf_pick(packet->distance2, one);
+    const JoxFloats far2 = jf_pick(packet->distance2, other);
+    const JoxInts rank_one = ji_pick(rank, ji_select(tied, ji_pick(packet->index, one), nobody));
+    const JoxInts rank_other = ji_pick(rank, ji_select(tied, ji_pick(packet->index, other), nobody));
+    const JoxMask before =
+        jm_or(jf_lt(far2, near2), jm_and(jf_le(far2, near2), ji_less(rank_other, rank_one)));
+    const JoxMask changes = jm_and(tied, before);
+    const JoxFloats less = jf_select(changes, keys[1], keys[0]);
+    keys[1] = jf_select(changes, keys[0], keys[1]);
+    keys[0] = less;
+    return changes;
+}
+
+/* Settles the ties of some lanes: of those whose keys are all that have these distances, in lock
+   step. */
+static void settle_lanes(Packet *packet, uint32_t lanes) {
+    JOX_ASSERT(packet->levels > 1); /* else there are no ties */
+    const uint32_t last = packet->levels - 1;
+    const JoxMask cut = ji_equal(share_of(packet->keys[last]), share_of(packet->keys[last - 1]));
+    const uint32_t alone = lanes & jm_bits(cut) & lists_beyond(packet, packet->levels);
+    const JoxMask together = jm_of_bits(lanes & ~alone);
+    if (alone)
+        settle_alone(packet, alone);
+    for (uint32_t changed = lanes & ~alone; changed;) {
+        changed = 0;
+        for (uint32_t k = 0; k < last; k++)
+            changed |= jm_bits(settle_pair(packet, together, k));
+    }
+}
+
+#endif
