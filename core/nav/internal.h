@@ -38,7 +38,7 @@ struct JoxNav {
     float search; /* m, what people searched on average when they were sorted */
     /* Who went over a periodic edge since: far from where their cells are, and looked at by all who
        see an edge. More than there is room for: the agents are sorted. */
-    uint32_t strays[JOX_MOST_STRAYS], stray_count;
+    uint32_t strays[JOX_MOST_STRAYS + JOX_LANES], stray_count;
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
     uint32_t *order, *cell_of;
     uint32_t capacity;

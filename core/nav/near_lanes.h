@@ -12,8 +12,8 @@
 
 #include "base/assert.h"
 #include "nav/kernels.h"
-#include "simd/lanes.h"
 #include "simd/order.h"
+#include "simd/vectors.h"
 
 enum {
     PLACE_BITS = 5,
@@ -231,7 +231,8 @@ static inline JoxMask settle_pair(Packet *packet, JoxMask lanes, uint32_t first)
     const JoxFloats near2 = jf_pick(packet->distance2, one);
     const JoxFloats far2 = jf_pick(packet->distance2, other);
     const JoxInts rank_one = ji_pick(rank, ji_select(tied, ji_pick(packet->index, one), nobody));
-    const JoxInts rank_other = ji_pick(rank, ji_select(tied, ji_pick(packet->index, other), nobody));
+    const JoxInts rank_other =
+        ji_pick(rank, ji_select(tied, ji_pick(packet->index, other), nobody));
     const JoxMask before =
         jm_or(jf_lt(far2, near2), jm_and(jf_le(far2, near2), ji_less(rank_other, rank_one)));
     const JoxMask changes = jm_and(tied, before);

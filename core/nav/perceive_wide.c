@@ -34,15 +34,41 @@ static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     ji_store(reach->high, cells_along(jf_add(y, wide), nav->low.y, per_metre, nav->rows));
 }
 
+/* A lane that looks for others, all lanes of it alike, and its list. */
+typedef struct Seeker {
+    JoxFloats x, y, radius2; /* m, m2 */
+    JoxInts self;
+    float *distance2;
+    uint32_t *index;
+} Seeker;
+
+static inline Seeker seeker_of(Packet *packet, const Reach *reach, uint32_t lane) {
+    return (Seeker){jf_set(reach->x[lane]),
+                    jf_set(reach->y[lane]),
+                    jf_set(reach->radius2[lane]),
+                    ji_set((int32_t)(packet->first + lane)),
+                    packet->distance2 + (size_t)lane * LIST,
+                    packet->index + (size_t)lane * LIST};
+}
+
+/* Puts those of a packet of others that are there and within the radius behind the `n` first of the
+   list. Returns how many these are. */
+static inline uint32_t list_packet(const Seeker *seeker, uint32_t n, JoxVector at, JoxInts others,
+                                   JoxMask there) {
+    const JoxFloats dx = jf_sub(at.x, seeker->x), dy = jf_sub(at.y, seeker->y);
+    const JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
+    const JoxMask near = jm_without(jf_le(d2, seeker->radius2), ji_equal(others, seeker->self));
+    const uint32_t bits = jm_bits(jm_and(near, there));
+    jf_store_packed(seeker->distance2 + n, d2, bits);
+    ji_store_packed(seeker->index + n, others, bits);
+    return jm_count(bits);
+}
+
 /* Lists those within the radius of one lane, until its list is full. */
 static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
     const JoxNav *nav = packet->p->nav;
-    const float *ax = packet->p->agents->x, *ay = packet->p->agents->y;
-    const JoxFloats x = jf_set(reach->x[lane]), y = jf_set(reach->y[lane]);
-    const JoxFloats radius2 = jf_set(reach->radius2[lane]);
-    const JoxInts self = ji_set((int32_t)(packet->first + lane));
-    uint32_t *index = packet->index + (size_t)lane * LIST;
-    float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    const JoxAgents *a = packet->p->agents;
+    const Seeker seeker = seeker_of(packet, reach, lane);
     const uint32_t *left = nav->cell_first + reach->left[lane];
     const uint32_t *right = nav->cell_first + reach->right[lane] + 1;
     uint32_t n = packet->count[lane];
@@ -50,15 +76,9 @@ static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) 
         const size_t cells = (size_t)row * nav->columns;
         const uint32_t end = right[cells];
         for (uint32_t j = left[cells]; j < end && n <= PLACES; j += JOX_WIDTH) {
-            const JoxFloats dx = jf_sub(jf_load(ax + j), x), dy = jf_sub(jf_load(ay + j), y);
-            const JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
-            const JoxInts other = ji_add(ji_set((int32_t)j), ji_lane());
-            const JoxMask there = ji_less(other, ji_set((int32_t)end));
-            const JoxMask near = jm_without(jf_le(d2, radius2), ji_equal(other, self));
-            const uint32_t bits = jm_bits(jm_and(near, there));
-            jf_store_packed(distance2 + n, d2, bits);
-            ji_store_packed(index + n, other, bits);
-            n += jm_count(bits);
+            const JoxInts others = ji_add(ji_set((int32_t)j), ji_lane());
+            n += list_packet(&seeker, n, jv_load(a->x, a->y, j), others,
+                             ji_less(others, ji_set((int32_t)end)));
         }
     }
     packet->count[lane] = n;
@@ -68,13 +88,12 @@ static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) 
    not where they are, so that whoever looks there finds them far away. */
 static void list_strays(Packet *packet, const Reach *reach, uint32_t lane) {
     const JoxNav *nav = packet->p->nav;
-    const float x = reach->x[lane], y = reach->y[lane];
+    const Seeker seeker = seeker_of(packet, reach, lane);
     uint32_t n = packet->count[lane];
-    for (uint32_t k = 0; k < nav->stray_count && n <= PLACES; k++) {
-        const float dx = nav->stray_x[k] - x, dy = nav->stray_y[k] - y;
-        packet->distance2[lane * LIST + n] = dx * dx + dy * dy;
-        packet->index[lane * LIST + n] = nav->strays[k];
-        n += dx * dx + dy * dy <= reach->radius2[lane] && nav->strays[k] != packet->first + lane;
+    for (uint32_t k = 0; k < nav->stray_count && n <= PLACES; k += JOX_WIDTH) {
+        const JoxInts at = ji_add(ji_set((int32_t)k), ji_lane());
+        n += list_packet(&seeker, n, jv_load(nav->stray_x, nav->stray_y, k),
+                         ji_load(nav->strays + k), ji_less(at, ji_set((int32_t)nav->stray_count)));
     }
     packet->count[lane] = n;
 }

@@ -20,16 +20,23 @@ static JoxV2 way_along(const JoxPlace *place, JoxV2 p) {
     return best;
 }
 
+/* The way that each agent of a batch has along its place. That along one side is the same wherever
+   somebody stands: the last few are remembered, as there are mostly a few in a crowd. */
 static void along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) {
-    JoxV2 way = {0.0f, 0.0f};
-    int32_t last = -1; /* the place of which that is the way, wherever one stands */
+    enum { KNOWN = 4 };
+    const JoxAgents *a = run->agents;
+    int32_t known[KNOWN] = {-1, -1, -1, -1};
+    JoxV2 ways[KNOWN];
     for (uint32_t n = 0; n < s->count; n++) {
-        if (places[n] != last || last < 0) {
-            const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
-            const uint32_t i = s->index[n];
-            way = place ? way_along(place, (JoxV2){run->agents->x[i], run->agents->y[i]})
-                        : (JoxV2){0.0f, 0.0f};
-            last = place && place->count <= 2 ? places[n] : -1;
+        const uint32_t slot = (uint32_t)places[n] % KNOWN, i = s->index[n];
+        JoxV2 way = {0.0f, 0.0f};
+        if (places[n] >= 0 && places[n] == known[slot]) {
+            way = ways[slot];
+        } else if (places[n] >= 0) {
+            const JoxPlace *place = &run->places[places[n]];
+            way = way_along(place, (JoxV2){a->x[i], a->y[i]});
+            known[slot] = place->count <= 2 ? places[n] : -1;
+            ways[slot] = way;
         }
         s->way_x[n] = way.x;
         s->way_y[n] = way.y;
