@@ -89,18 +89,26 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     state->lasts_expression = value.kind == JOX_VALUE_EXPRESSION ? value.index : -1;
 }
 
+static bool read_flag(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    const int type = jox_read_field(L, index, key);
+    jox_read_join(full, path, key);
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL, "%s must be true or false",
+                        key);
+    const bool set = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return set;
+}
+
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index));
     char full[256];
-    int type = jox_read_field(L, index, "removes");
-    jox_read_join(full, path, "removes");
-    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
-        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL,
-                        "removes must be true or false");
-    state->removes = lua_toboolean(L, -1);
-    lua_pop(L, 1);
-    type = jox_read_field(L, index, "push_weight");
+    state->removes = read_flag(b, index, path, "removes");
+    state->lies = read_flag(b, index, path, "lies");
+    int type = jox_read_field(L, index, "push_weight");
     jox_read_join(full, path, "push_weight");
     const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
     state->push_nearest = strcmp(weight, "nearest") == 0;

@@ -233,6 +233,7 @@ typedef struct JoxState {
     JoxDist lasts;            /* s, drawn on entry */
     int32_t lasts_expression; /* or an expression evaluated on entry; -1 none */
     bool removes;             /* the agent leaves the world on entering */
+    bool lies;                /* it is shown as lying; no step reads it */
     int32_t push_when;        /* expression; -1 always */
     int16_t push_toward;      /* target; -1: along the preferred velocity */
     bool push_nearest;        /* push_weight "nearest" instead of "equal" */

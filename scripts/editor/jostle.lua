@@ -86,6 +86,7 @@ function Target:where(name, ...) end
 ---@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
 ---@field lasts? number|jostle.Number|jostle.Drawn drawn on entering; see `lasted`, s
 ---@field removes? boolean the agent leaves the world on entering
+---@field lies? boolean the live page of a running scene shows the agent as lying; nothing else changes
 ---@field become? string on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
 ---@field push_when? jostle.Condition pushes only while this holds
 ---@field push_toward? string|jostle.Target|jostle.Number pushes that way; else the way it wants to go

@@ -85,6 +85,8 @@ static const Mistake MISTAKES[] = {
      43, 51, "bad-value", "table"},
     {"return machine { name = \"m\", start = \"A\", renamed = { B = 3 }, states = { A = {} } }",
      ERROR, 1, 43, 50, "bad-value", "old names"},
+    {HEAD "A = { steer = hold, lies = 1 } } }", ERROR, 2, 21, 25, "bad-value",
+     "lies must be true or false"},
     {HEAD "A = { steer = hold speed = 2 } } }", ERROR, 2, 20, 25, "lua-error",
      "comma missing before 'speed'"},
     {HEAD "A = { transitions = {} } } }", ERROR, 2, 7, 18, "unknown-key", "items of the state"},

@@ -207,6 +207,7 @@ const JoxTableKey jox_table_keys[] = {
      "steer = 0.8 * seek(\"post\") + 0.2 * spread", 0, 0},
     {"state", "lasts", "number, distribution", "s", "drawn on entering; see `lasted`", "lasts = uniform(1, 3)", 0, 1e6},
     {"state", "removes", "true or false", "", "the agent leaves the world on entering", "removes = false", 0, 0},
+    {"state", "lies", "true or false", "", "the live page of a running scene shows the agent as lying; nothing else changes", "lies = true", 0, 0},
     {"state", "become", "name of a behaviour", "", "on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name",
      "become = \"stander\"", 0, 0},
     {"state", "push_when", "condition", "", "pushes only while this holds", "push_when = stuck(2)", 0, 0},
