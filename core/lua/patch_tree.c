@@ -332,7 +332,7 @@ static bool skips(void *c, void *node, const JoxPatchPlace *at, int depth) {
     if (!verbs)
         return false;
     const char *const *names;
-    char hint[96];
+    char hint[JOX_HINT];
     const uint32_t known = keys(c, node, "states", at->from, &names);
     fail(n, at->from, "unknown-state",
          jox_did_you_mean(at->key, names, known < 64 ? known : 64, hint),
@@ -348,7 +348,7 @@ static void missing(void *c, void *node, const char *name, const JoxPatchPlace *
         return;
     }
     const char *names[JOX_MOST_TRANSITIONS];
-    char hint[96];
+    char hint[JOX_HINT];
     size_t known = 0;
     const int state = jox_nodes_push_value(n, node);
     for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state); i++) {

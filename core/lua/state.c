@@ -161,7 +161,7 @@ static bool id_taken(const JoxState *state, const JoxTransition *t, const char *
 static uint16_t read_to(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->script->vm.L;
     const JoxMachine *m = b->machine;
-    char full[256], hint[96];
+    char full[256], hint[JOX_HINT];
     jox_read_join(full, path, "to");
     const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int target = to ? jox_machine_state(m, to) : -1;

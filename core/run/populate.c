@@ -33,15 +33,13 @@ static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGr
             for (uint32_t k = 0; k < known; k++)
                 slot = strcmp(names[k], sets[s].name) == 0 ? (int32_t)k : slot;
             bool place = sets[s].kind != JOX_SET_NUMBER;
-            const char *near = slot < 0 ? jox_suggest(sets[s].name, names, known) : NULL;
-            char hint[96] = "";
-            if (near)
-                strcat(strcat(strcpy(hint, "Did you mean '"), near), "'?");
+            char hint[JOX_HINT];
             const char *now = slot < 0 ? renamed(machine, sets[s].name, names, known) : NULL;
             if (now)
                 jox_diag_renamed(diagnostics, sets[s].position, sets[s].name, now);
             else if (slot < 0)
-                jox_diag_error(diagnostics, sets[s].position, "unknown-value", near ? hint : NULL,
+                jox_diag_error(diagnostics, sets[s].position, "unknown-value",
+                               jox_did_you_mean(sets[s].name, names, known, hint),
                                "behaviour %s has no '%.60s'%s", machine->name, sets[s].name,
                                memory ? " in memory" : "");
             else if (!memory && machine->own[slot].is_place != place)

@@ -102,8 +102,8 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
 static void warn(const JoScene *scene, const JoxTally *tally, bool state,
                  JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
-    const char *name = state ? tally->state : tally->memory, *names[64], *near;
-    char hint[160];
+    const char *name = state ? tally->state : tally->memory, *names[64];
+    char hint[JOX_HINT];
     size_t count = 0;
     for (uint32_t m = 0; m < set->count; m++) {
         const JoxMachine *machine = set->items[m];
@@ -113,11 +113,9 @@ static void warn(const JoScene *scene, const JoxTally *tally, bool state,
                 names[count++] = known;
         }
     }
-    near = jox_suggest(name, names, count);
-    snprintf(hint, sizeof hint, "Did you mean '%.100s'?", near ? near : "");
     jox_diag_warn(diagnostics, tally->position, state ? "unknown-state" : "unknown-memory",
-                  near ? hint : NULL, "no behaviour of the scene has a %s '%.60s'",
-                  state ? "state" : "memory", name);
+                  jox_did_you_mean(name, names, count, hint),
+                  "no behaviour of the scene has a %s '%.60s'", state ? "state" : "memory", name);
 }
 
 void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {

@@ -71,8 +71,8 @@ static int env_index(lua_State *L) {
     }
     const char *names[128];
     size_t count = jox_word_names(names, 128);
-    char hint[128];
-    const char *near = jox_suggest(name, names, count);
+    char hint[JOX_HINT];
+    const char *near = jox_did_you_mean(name, names, count, hint);
     if (jox_parameter_find(name) >= 0)
         snprintf(hint, sizeof hint,
                  "As a value write own.%s (what was drawn) or now.NAME (what is "
@@ -80,12 +80,10 @@ static int env_index(lua_State *L) {
                  name);
     else if (absent(name))
         snprintf(hint, sizeof hint, "%s", absent(name));
-    else if (near)
-        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-    else if (is_named(script->scope, name))
+    else if (!near && is_named(script->scope, name))
         snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
                  name);
-    else
+    else if (!near)
         snprintf(
             hint, sizeof hint,
             "Words and locals are all that a behaviour can use; names of places and tags stand "

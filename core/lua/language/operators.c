@@ -286,7 +286,7 @@ static int method_of_group(lua_State *L) {
         if (strcmp(scope->groups[g].name, name) == 0)
             whose->group = (int32_t)g;
     }
-    char hint[96];
+    char hint[JOX_HINT];
     if (whose->group < 0 && scope->complete)
         return jox_word_error(L, name, "unknown-group", jox_did_you_mean(name, names, count, hint),
                               "the scene has no group '%s'", name);
@@ -328,10 +328,8 @@ static int meta_index(lua_State *L) {
             return 1;
         }
     }
-    const char *near = jox_suggest(name, names, count);
-    char hint[96] = "Numbers have above, below, at_least, at_most and is";
-    if (near)
-        strcpy(stpcpy(stpcpy(hint, "Did you mean '"), near), "'?");
+    char hint[JOX_HINT] = "Numbers have above, below, at_least, at_most and is";
+    jox_did_you_mean(name, names, count, hint);
     return jox_word_error(L, name, "unknown-method", hint, "%s has no '%s'", jox_node_kind(L, 1),
                           name);
 }

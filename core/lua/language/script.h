@@ -209,9 +209,6 @@ size_t jox_word_names(const char **names, size_t capacity);
 /* Reads argument `index` of a word as its letter of the vocabulary asks; NULL with an error, or a
    error value, pushed. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
-/* "Did you mean 'x'?" or NULL. */
-const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
-                             char hint[96]);
 bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
 
 void jox_me_open(JoxScript *script);

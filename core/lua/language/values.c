@@ -125,7 +125,7 @@ static int memory_index(lua_State *L) {
             return 1;
         }
     }
-    char hint[96];
+    char hint[JOX_HINT];
     return jox_word_error(L, name, "unknown-memory",
                           jox_did_you_mean(name, names, script->memory_count, hint),
                           "memory has no '%s'", name);
@@ -145,7 +145,7 @@ static int now_index(lua_State *L) {
             node->arg = i;
             return 1;
         }
-    char hint[96];
+    char hint[JOX_HINT];
     return jox_word_error(L, name, "unknown-word",
                           jox_did_you_mean(name, NAMES, JOX_NOW_COUNT, hint),
                           "nothing called '%s' is measured now", name);
@@ -208,7 +208,7 @@ static int settings_index(lua_State *L) {
             return 1;
         }
     }
-    char hint[96];
+    char hint[JOX_HINT];
     return jox_word_error(L, name, "unknown-setting", jox_did_you_mean(name, names, count, hint),
                           "mod %s has no setting '%s'", script->mod->name, name);
 }

@@ -41,12 +41,3 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     jox_node_push(L, JOX_NODE_ERROR);
     return 1;
 }
-
-const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
-                             char hint[96]) {
-    const char *near = jox_suggest(word, names, count);
-    if (!near)
-        return NULL;
-    snprintf(hint, 96, "Did you mean '%s'?", near);
-    return hint;
-}

@@ -30,7 +30,7 @@ static JoxNode *place_by_name(lua_State *L, const char *name) {
         size_t count = script->scope->place_count < 256 ? script->scope->place_count : 256;
         for (size_t i = 0; i < count; i++)
             names[i] = script->scope->places[i].name;
-        char hint[96];
+        char hint[JOX_HINT];
         jox_word_error(L, name, "unknown-place", jox_did_you_mean(name, names, count, hint),
                        "the scene has no place '%s'", name);
         return NULL;
@@ -58,7 +58,7 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
                      {"anyone", JOX_TARGET_ANYONE}};
     JoxScript *script = jox_script_of(L);
     const JoxScope *scope = script->scope;
-    char hint[96];
+    char hint[JOX_HINT];
     if (lua_type(L, index) != LUA_TSTRING) {
         jox_word_error(L, word, "bad-argument", "Example: nearest \"ball\"",
                        "argument %d of %s must be a tag, not %s", index, word,
@@ -102,7 +102,7 @@ static bool gate_exists(lua_State *L, int index) {
             return true;
     if (!scope->complete || count == 256)
         return true;
-    char hint[96];
+    char hint[JOX_HINT];
     jox_word_error(L, name, "unknown-wall", jox_did_you_mean(name, names, count, hint),
                    "the scene has no walls named '%s'", name);
     return false;
