@@ -157,6 +157,16 @@ static bool id_taken(const JoxState *state, const JoxTransition *t, const char *
     return false;
 }
 
+/* Where the value of a key begins; where no text says so, the key. */
+static JoxPosition value_at(const JoxBuild *b, const char *path) {
+    const JoxSource *source;
+    const JoxPath *span = jox_read_span(b, path, &source);
+    if (!span || span->first >= source->token_count)
+        return jox_read_at(b, path);
+    const JoxToken *t = &source->tokens[span->first];
+    return (JoxPosition){source->path, t->line, t->column, t->end_column};
+}
+
 /* The state that a transition leads to. */
 static uint16_t read_to(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->script->vm.L;
@@ -165,10 +175,13 @@ static uint16_t read_to(JoxBuild *b, int index, const char *path) {
     jox_read_join(full, path, "to");
     const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int target = to ? jox_machine_state(m, to) : -1;
+    const char *now = to && target < 0 ? jox_machine_renamed(m, JOX_PART_STATE, to) : NULL;
     if (!to) {
         jox_build_error(b, jox_read_at(b, full), "missing-key",
                         "Example: { to = \"Exit\", when = after(5) }",
                         "a transition needs `to`, the name of a state");
+    } else if (now) {
+        jox_diag_renamed(b->script->diagnostics, value_at(b, full), to, now);
     } else if (target < 0) {
         const char *names[256];
         size_t count = m->state_count < 256 ? m->state_count : 256;

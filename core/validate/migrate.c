@@ -55,8 +55,24 @@ static bool is_renamed(const JoxDiagnostic *d) {
     return d->now && d->file;
 }
 
-static bool is_of_name(char c) {
+static bool is_of_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Of a name of any script. */
+static bool is_of_name(char c) {
+    return is_of_word(c) || ((unsigned char)c & 0x80);
+}
+
+/* Whether the new name can stand at a place of a file as it is: in Lua, names with spaces, for
+   instance, need quotes. */
+static bool can_stand(const JoxDiagnostic *d, const char *text, const char *at) {
+    const size_t length = strlen(d->file);
+    const bool lua = length >= 4 && strcmp(d->file + length - 4, ".lua") == 0;
+    bool word = !(d->now[0] >= '0' && d->now[0] <= '9');
+    for (const char *c = d->now; *c; c++)
+        word = word && is_of_word(*c);
+    return word || !lua || (at > text && (at[-1] == '"' || at[-1] == '\''));
 }
 
 /* Whether a place of a line is that of a column, in letters or in bytes; a name in quotes has the
@@ -92,10 +108,11 @@ static const char *find_name(const JoxDiagnostic *d, const char *text) {
     return exact == 1 || times == 1 ? found : NULL;
 }
 
-/* The text with the new name, to be freed; NULL where it is not certain where the old one is. */
+/* The text with the new name, to be freed; NULL where it is not certain where the old one is, or
+   the new one cannot stand there. */
 static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *text) {
     const char *at = find_name(d, text);
-    if (!at)
+    if (!at || !can_stand(d, text, at))
         return NULL;
     JoxText out = {0}, said = {0};
     jox_text_append(&out, text, (size_t)(at - text));

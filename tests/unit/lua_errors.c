@@ -85,6 +85,13 @@ static const Mistake MISTAKES[] = {
      43, 51, "bad-value", "table"},
     {"return machine { name = \"m\", start = \"A\", renamed = { B = 3 }, states = { A = {} } }",
      ERROR, 1, 43, 50, "bad-value", "old names"},
+    {"return machine { name = \"m\", start = \"A\", renamed = { B = \"C\" }, states = { A = {} } }",
+     WARNING, 1, 55, 56, "unknown-name", "there is no state, own value or memory 'C'"},
+    {"return machine { name = \"m\", start = \"A\", renamed = { B = \"A\" },\n"
+     "states = { A = { { to = \"B\", when = after(1) } } } }",
+     ERROR, 2, 25, 28, "renamed", "'B' is called 'A' now"},
+    {HEAD "A = { { to = \"A\", when = now.held:above(0) } } } }", ERROR, 2, 30, 34, "renamed",
+     "'held' is called 'holders' now"},
     {HEAD "A = { steer = hold, lies = 1 } } }", ERROR, 2, 21, 25, "bad-value",
      "lies must be true or false"},
     {HEAD "A = { steer = hold speed = 2 } } }", ERROR, 2, 20, 25, "lua-error",

@@ -64,11 +64,8 @@ static int env_index(lua_State *L) {
     if (!script->vm.loading)
         return luaL_error(L, "unknown name '%s'", name);
     const char *now = jox_old_name(JOX_OLD_WORD, name);
-    if (now) {
-        jox_diag_renamed(script->diagnostics, jox_word_position(L, name), name, now);
-        jox_node_push(L, JOX_NODE_ERROR);
-        return 1;
-    }
+    if (now)
+        return jox_word_renamed(L, name, now);
     const char *names[128];
     size_t count = jox_word_names(names, 128);
     char hint[JOX_HINT];

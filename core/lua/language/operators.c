@@ -259,8 +259,10 @@ static JoxNodeWhose *narrowed(lua_State *L, const char *method) {
 
 static int method_in_state(lua_State *L) {
     JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "in_state");
-    if (whose)
+    if (whose) {
         whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+        whose->state_at = jox_word_written(L, whose->state);
+    }
     return 1;
 }
 
@@ -299,6 +301,7 @@ static int method_where(lua_State *L) {
     if (!whose)
         return 1;
     whose->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    whose->memory_at = jox_word_written(L, whose->memory);
     whose->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
     whose->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;

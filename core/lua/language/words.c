@@ -153,6 +153,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* carries the name alone */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
+        if (letter == 's')
+            result->written = jox_word_written(L, result->name);
     }
     if (result)
         return result;
@@ -204,9 +206,10 @@ static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
             node->place = arguments[i];
         else if (*letter == 't')
             node->target = arguments[i];
-        else if (*letter == 's' || *letter == 'w')
+        else if (*letter == 's' || *letter == 'w') {
             node->name = arguments[i]->name;
-        else if (*letter == 'g')
+            node->written = arguments[i]->written;
+        } else if (*letter == 'g')
             node->target = arguments[i];
         else if (!node->a)
             node->a = arguments[i];
@@ -228,7 +231,7 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
             node->target_kind = JOX_TARGET_ONE_OF_OWN; /* a set that the scene's group names */
             node->name = arguments[0]->name;
             node->position = arguments[0]->position;
-            node->source = arguments[0]->source;
+            node->written = arguments[0]->written;
             break;
         }
         if (word->op == JOX_TARGET_ONE_OF && arguments[0]->target_kind != JOX_TARGET_PLACE) {
