@@ -102,17 +102,34 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
     return good;
 }
 
-/* Whether some machine has a name in that use, or a state of that name. */
-static bool used(const JoxMachineRun *machines, const char *text, uint32_t use) {
+static bool is_signalled(const JoxMachineRun *machines, const char *text) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         for (uint32_t n = 0; n < machine->name_count; n++)
-            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
+            if ((machine->names[n].uses & JOX_NAME_SIGNALLED) &&
+                strcmp(machine->names[n].text, text) == 0)
                 return true;
-        if (use == JOX_NAME_STATE && jox_machine_state(machine, text) >= 0)
-            return true;
     }
     return false;
+}
+
+static bool is_state(const JoxMachineRun *machines, const char *name) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (jox_machine_state(machines->set->items[m], name) >= 0)
+            return true;
+    return false;
+}
+
+static void warn_of_state(const JoxMachineRun *machines, JoxPosition at, const char *name,
+                          JoxDiagnostics *diagnostics) {
+    const char *names[256];
+    char hint[JOX_HINT];
+    size_t count = 0;
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count && count < 256; s++)
+            names[count++] = machines->set->items[m]->states[s].name;
+    jox_diag_warn(diagnostics, at, "unknown-state", jox_did_you_mean(name, names, count, hint),
+                  "no machine of the scene has a state '%s'", name);
 }
 
 static bool is_machine(const JoxMachineRun *machines, const char *name) {
@@ -257,13 +274,12 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
                 continue;
             }
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !used(machines, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
+            if (heard && !is_signalled(machines, name->text) && !machine->hook_count &&
                 !announced(scene, name->text))
                 jox_diag_warn(diagnostics, in, "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
-            if (state && !used(machines, name->text, JOX_NAME_STATE))
-                jox_diag_warn(diagnostics, at, "unknown-state", NULL,
-                              "no machine of the scene has a state '%s'", name->text);
+            if (state && !is_state(machines, name->text))
+                warn_of_state(machines, at, name->text, diagnostics);
             if ((name->uses & JOX_NAME_MACHINE) && !is_machine(machines, name->text))
                 jox_diag_warn(diagnostics, in, "unknown-machine", NULL,
                               "no machine of the scene is called '%s'", name->text);

@@ -153,6 +153,10 @@ expect "people in walls are told before the first step" 0 "of the 3 people of gr
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
 "$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check that warns does not say that nothing is wrong" $?
 
+printf 'return machine { name = "asks", start = "A", states = { A = { steer = hold,\n  { to = "B", when = near(nearest("people"):in_state("Aa"), 2) } }, B = { removes = true } } }\n' >"$work/asks.lua"
+printf 'jostle: 1\ngroups: {g: {behaviour: asks.lua, at: [[0, 0], [3, 0]], tags: [people]}}\n' >"$work/asks.yaml"
+expect "a state that no machine of the scene has is warned of, where it is named" 0 "asks.lua:2:54: warning: no machine of the scene has a state 'Aa'. Did you mean 'A'?" "$JOSTLE" check "$work/asks.yaml"
+
 # ---- names that are called otherwise now ----
 mkdir -p "$work/old/behaviours" "$work/old/scenes"
 cat >"$work/old/behaviours/lib.lua" <<'LUA'
