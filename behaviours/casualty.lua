@@ -7,13 +7,13 @@ return machine {
   defaults = { mass = normal(75, 8) },
 
   states = {
-    Lie = { steer = hold,
+    Lie = { steer = hold, lies = true,
       { to = "Carried", when = holders:at_least(2) } },
 
-    Carried = { steer = hold, damping = 0,
+    Carried = { steer = hold, lies = true, damping = 0,
       { to = "Safe", when = inside(own.refuge) },
       { to = "Lie",  when = holders:below(2) } },
 
-    Safe = { steer = hold, set = { safe = true } },
+    Safe = { steer = hold, lies = true, set = { safe = true } },
   },
 }

@@ -17,6 +17,6 @@ return machine {
       { to = "Run",  when = holders:at_most(0) } },
 
     Home = { steer = hold, set = { home = true } },
-    Down = { steer = hold, set = { down = true } },
+    Down = { steer = hold, lies = true, set = { down = true } },
   },
 }

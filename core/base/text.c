@@ -132,6 +132,15 @@ const char *jox_suggest(const char *word, const char *const *names, size_t count
     return nearest;
 }
 
+const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
+                             char hint[JOX_HINT]) {
+    const char *near = jox_suggest(word, names, count);
+    if (!near)
+        return NULL;
+    snprintf(hint, JOX_HINT, "Did you mean '%.100s'?", near);
+    return hint;
+}
+
 /* A copy of what an overlay holds. */
 static char *read_overlay(const JoxOverlayFile *file, size_t limit, size_t *length) {
     if (file->length > limit) {

@@ -32,6 +32,11 @@ size_t jox_text_mark(const char *text, size_t length);
 /* The nearest of `names` to `word` by edit distance, or NULL if none is near enough. */
 const char *jox_suggest(const char *word, const char *const *names, size_t count);
 
+/* "Did you mean 'x'?" in `hint`, which is returned; or NULL, and `hint` as it was. */
+enum { JOX_HINT = 128 };
+const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
+                             char hint[JOX_HINT]);
+
 /* Reads a whole file, or what an overlay in use holds in its place (overlay.h); NULL with errno set
  * (EFBIG when over `limit` bytes). Ends with a NUL. */
 char *jox_read_file(const char *path, size_t limit, size_t *length);

@@ -67,6 +67,10 @@ static void print_setting(const JoSetting *setting) {
     size_t shown = strlen(value);
     if (!isnan(setting->time))
         printf("  t=%.2f", setting->time);
+    if (setting->by == JO_SET_UNSEEN) {
+        puts("  by a function or a program, before it was asked about");
+        return;
+    }
     if (setting->by == JO_SET_FUNCTION || setting->by == JO_SET_PROGRAM) {
         printf("  by %s",
                setting->by == JO_SET_FUNCTION ? "a function" : "a program, an input log or a page");

@@ -166,7 +166,8 @@ typedef enum JoSetBy {
     JO_SET_MOD,
     JO_SET_OVERRIDE, /* JoSceneDef.overrides */
     JO_SET_FUNCTION, /* a plain function of a behaviour, in the run */
-    JO_SET_PROGRAM   /* a program, a line of an input log or the live page, in the run */
+    JO_SET_PROGRAM,  /* a program, a line of an input log or the live page, in the run */
+    JO_SET_UNSEEN    /* one of the last two, before the agent was first asked about */
 } JoSetBy;
 /* A place that sets a value. */
 typedef struct JoSetting {

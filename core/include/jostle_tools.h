@@ -303,9 +303,9 @@ JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMess
 /* Rewrites, in scenes and behaviours (or folders of them), the names that are called otherwise now:
    words and shipped behaviours of earlier versions, and what behaviours say was `renamed`. Every
    other byte stays; files that are read besides are not changed. `write` false: nothing is. What is
-   renamed goes to `message`, a line each, its number to `names`, and how many errors of another
-   kind are left, which jo_check says, to `errors`. False with `error` where a file cannot be
-   written; those before it are. */
+   renamed goes to `message`, a line each, and so does what cannot be read; the number of names to
+   `names`, and how many errors of another kind are left, which jo_check says, to `errors`. False
+   with `error` where a file cannot be written; those before it are. */
 JO_API bool jo_migrate(const char *const *paths, size_t count, bool write, JoMessage *message,
                        void *context, size_t *names, size_t *errors, JoError *error);
 /* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not

@@ -4,8 +4,10 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "base/mem.h"
 #include "jostle_tools.h"
 #include "live/inspect.h"
+#include "run/mods/settings.h"
 
 enum { DIGITS = 6 };
 
@@ -47,48 +49,45 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     jox_json_end(json);
 }
 
-/* What the agent's group in the scene sets of a name, or NULL. */
-static const JoxGroupValue *group_set(const JoScene *scene, uint32_t i, const char *name) {
-    const JoxSceneSpec *spec = scene->spec;
-    const uint32_t group = scene->world->state.agents.group[i];
-    for (uint32_t s = 0; group < spec->group_count && s < spec->groups[group].set_count; s++)
-        if (strcmp(spec->groups[group].set[s].name, name) == 0)
-            return &spec->groups[group].set[s];
-    return NULL;
+/* Who set a value, in a few words: "state Circle behaviours/tawaf.lua:21". */
+static void print_setting(const JoSetting *by, JoxText *out) {
+    switch (by->by) {
+    case JO_SET_DEFAULT:
+        jox_text_add(out, "engine");
+        return;
+    case JO_SET_PROGRAM:
+        jox_text_add(out, "program or page");
+        return;
+    case JO_SET_UNSEEN:
+        jox_text_add(out, "function or program");
+        return;
+    case JO_SET_FUNCTION:
+        jox_text_add(out, "function");
+        break;
+    case JO_SET_MOD:
+        jox_text_printf(out, "mod %s", by->mod);
+        break;
+    case JO_SET_SCENE:
+        jox_text_printf(out, "scene %s", by->where);
+        break;
+    default: /* a behaviour */
+        jox_text_add(out, by->where);
+    }
+    jox_text_printf(out, " %s:%d", by->file, by->line);
 }
 
-/* Who set a parameter of the agent: its state, the defaults, its group, or a function since. */
-static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machine, int p,
+static void add_setter(JoScene *scene, uint32_t i, const JoxWatched *watched, int parameter,
                        JoxJson *json) {
-    const JoxAgents *a = &scene->world->state.agents;
-    const JoxState *state = &machine->states[a->state[i]];
-    bool own = state->param[p].kind == JOX_VALUE_UNSET;
-    const JoxValue *value = own ? &machine->defaults[p] : &state->param[p];
-    bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_count;
-    double meant = value->kind == JOX_VALUE_CONST ? value->number
-                   : slot                         ? jox_own(a, i, (uint32_t)value->index)
-                                                  : NAN;
-    bool given = own && slot && value->index < 64 && (a->given[i] >> value->index & 1);
-    const JoxGroupValue *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
+    JoSettings *settings = jox_run_parameter_why(scene, i, watched, parameter);
     JoxText text = {0};
-    if (!isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != a->param[p][i]) {
-        jox_text_add(&text, "function");
-    } else if (set) {
-        jox_text_printf(&text, "scene groups.%s.set %s:%d", scene->spec->groups[a->group[i]].name,
-                        set->position.file ? set->position.file : scene->spec->path,
-                        set->position.line);
-    } else if (given) {
-        jox_text_add(&text, "function");
-    } else {
-        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
-        jox_text_add(&text, by.where.data);
-        jox_live_set_by_free(&by);
-    }
+    JOX_ASSERT(settings->count > 0);
+    print_setting(&settings->items[settings->count - 1], &text);
     jox_json_string(json, "set", text.data);
     jox_text_free(&text);
+    jox_free(settings);
 }
 
-static void add_parameters(const JoScene *scene, uint32_t i, JoxJson *json) {
+static void add_parameters(JoScene *scene, uint32_t i, const JoxWatched *watched, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = machine_of(scene, i);
     jox_json_array(json, "parameters");
@@ -98,7 +97,7 @@ static void add_parameters(const JoScene *scene, uint32_t i, JoxJson *json) {
         add_figure(json, "value", jox_parameter_value((JoxParameter)p, a->param[p][i]));
         jox_json_string(json, "unit", jox_parameters[p].unit);
         if (machine)
-            add_setter(scene, i, machine, p, json);
+            add_setter(scene, i, watched, p, json);
         else
             jox_json_string(json, "set", "program");
         jox_json_end(json);
@@ -202,7 +201,7 @@ bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     }
     uint32_t i = a->slot_index[slot];
     add_agent(scene, i, json);
-    add_parameters(scene, i, json);
+    add_parameters(scene, i, watched, json);
     add_memory(scene, i, json);
     add_own_values(scene, i, json);
     add_last(scene, i, watched, json);

@@ -6,7 +6,7 @@
 
 /* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
 typedef struct JoxLiveSetBy {
-    /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
+    /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "program or page", "engine" */
     JoxText where;
     JoxText text;  /* the value as written */
     double number; /* NAN where it differs between agents or in time */

@@ -33,7 +33,7 @@ JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, co
     }
     by.line = value->line;
     if (value->line == JOX_LINE_LIVE) {
-        jox_text_add(&by.where, "live page");
+        jox_text_add(&by.where, "program or page");
     } else if (value->line > 0) {
         found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
         if (!found) /* made by a function: no text says so */

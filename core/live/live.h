@@ -87,6 +87,7 @@ enum { JOX_LIVE_OTHER_STATE = 254 };
    from the east) + 8 times the step, of which each begins with so many N. */
 enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
 enum { JOX_LIVE_LEAN_SHIFT = 3, JOX_LIVE_LEANS = 3 };
+enum { JOX_LIVE_LIES = 31 << JOX_LIVE_LEAN_SHIFT }; /* in place of a lean */
 extern const float jox_live_leans[JOX_LIVE_LEANS];
 
 /* The area that positions are counted over; it only grows. */

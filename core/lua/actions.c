@@ -53,7 +53,7 @@ static uint16_t find_team(JoxBuild *b, const char *path, const char *name) {
         if (count < 256)
             names[count++] = scope->groups[g].team;
     }
-    char hint[96];
+    char hint[JOX_HINT];
     const char *near = jox_did_you_mean(name, names, count, hint);
     if (scope->complete)
         jox_build_error(b, jox_read_at(b, path), "unknown-team",
@@ -156,7 +156,7 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && info->least < info->greatest);
     const char *keys[] = {"at", info->name};
-    char full[256], part[256], hint[96];
+    char full[256], part[256], hint[JOX_HINT];
     int16_t what = -1;
     jox_read_join(full, path, action);
     *at = -1;

@@ -137,12 +137,54 @@ static void read_renamed(JoxBuild *b, int index) {
             } else {
                 jox_build_error(b, jox_read_at(b, "renamed"), "bad-value",
                                 "renamed = { Old = \"New\" }",
-                                "renamed maps old names of states to new ones");
+                                "renamed maps old names of states, own values and memory to new "
+                                "ones");
             }
             lua_pop(L, 1);
         }
     }
     lua_pop(L, 1);
+}
+
+/* Where a state or an own value is written, or first asked for. */
+static JoxPosition part_at(JoxBuild *b, JoxPart part, const char *name) {
+    const JoxMachine *m = b->machine;
+    char path[256];
+    for (uint32_t o = 0; part == JOX_PART_OWN && o < m->own_count; o++) {
+        const JoxOwnSlot *own = &m->own[o];
+        if (own->line > 0 && strcmp(own->name, name) == 0)
+            return (JoxPosition){b->script->vm.sources[own->source]->path, own->line, own->column,
+                                 own->end_column};
+    }
+    jox_read_join(path, part == JOX_PART_OWN ? "own" : "states", name);
+    return jox_read_at(b, path);
+}
+
+/* A mod may use the name that a part of the machine had; its author may use it again. */
+static void check_part(JoxBuild *b, JoxPart part, const struct JoxRenamed *renamed) {
+    const JoxMachine *m = b->machine;
+    if (!jox_machine_has(m, part, renamed->to) || !jox_machine_has(m, part, renamed->from))
+        return;
+    const JoxPosition at = part_at(b, part, renamed->from);
+    if (at.file && strcmp(at.file, m->path) != 0)
+        jox_diag_renamed(b->script->diagnostics, at, renamed->from, renamed->to);
+}
+
+/* Once all parts are read: what old names stand for, and that no mod uses one. */
+static void check_renamed(JoxBuild *b) {
+    const JoxMachine *m = b->machine;
+    for (uint32_t r = 0; r < m->renamed_count; r++) {
+        const char *from = m->renamed[r].from, *to = m->renamed[r].to;
+        char path[256];
+        check_part(b, JOX_PART_STATE, &m->renamed[r]);
+        check_part(b, JOX_PART_OWN, &m->renamed[r]);
+        jox_read_join(path, "renamed", from);
+        if (!jox_machine_has(m, JOX_PART_STATE, to) && !jox_machine_has(m, JOX_PART_OWN, to) &&
+            !jox_machine_has(m, JOX_PART_MEMORY, to))
+            jox_diag_warn(b->script->diagnostics, jox_read_at(b, path), "unknown-name",
+                          "Give the name that it has in this version",
+                          "there is no state, own value or memory '%.60s'", to);
+    }
 }
 
 void jox_build(JoxScript *script, const JoxSource *source) {
@@ -169,6 +211,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
     }
+    read_renamed(&build, table); /* first: what follows may be an old name */
     const char *known[16];
     jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),
                    false);
@@ -187,7 +230,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     read_start(&build, table);
     jox_read_counts(&build, table, "", -1);
     jox_read_public(&build, table);
-    read_renamed(&build, table);
+    check_renamed(&build);
     if (script->diagnostics->errors == errors)
         jox_lint(&build);
 }

@@ -34,10 +34,10 @@ int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node) {
     int32_t slot = jox_build_own(build, node->name);
     JoxOwnSlot *own = &build->machine->own[slot];
     if (own->line == 0) { /* where it was first asked for */
-        own->line = node->position.line;
-        own->column = node->position.column;
-        own->end_column = node->position.end_column;
-        own->source = node->source;
+        own->line = node->written.at.line;
+        own->column = node->written.at.column;
+        own->end_column = node->written.at.end_column;
+        own->source = node->written.source;
     }
     return slot;
 }
@@ -66,6 +66,20 @@ int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
     return (int16_t)m->name_count++;
 }
 
+/* The same of a state or memory of others, which has a place. */
+static int16_t build_written(JoxBuild *build, const char *text, JoxNameUse use,
+                             const JoxNamePlace *written) {
+    const int16_t number = jox_build_name(build, text, use);
+    JoxName *name = &build->machine->names[number];
+    if (name->line == 0) {
+        name->line = written->at.line;
+        name->column = written->at.column;
+        name->end_column = written->at.end_column;
+        name->source = written->source;
+    }
+    return number;
+}
+
 /* The memory that holds an agent's own post, hidden by a name that no script can write. */
 static void build_home(JoxBuild *build) {
     build->machine->home = (uint32_t)jox_build_memory(build, "home x") + 1;
@@ -81,11 +95,11 @@ static JoxWhose build_whose(JoxBuild *build, const JoxNodeWhose *whose) {
                      .least = whose->least,
                      .greatest = whose->greatest};
     if (whose->state)
-        made.state = jox_build_name(build, whose->state, JOX_NAME_STATE);
+        made.state = build_written(build, whose->state, JOX_NAME_STATE, &whose->state_at);
     if (whose->machine)
         made.machine = jox_build_name(build, whose->machine, JOX_NAME_MACHINE);
     if (whose->memory)
-        made.memory = jox_build_name(build, whose->memory, JOX_NAME_MEMORY);
+        made.memory = build_written(build, whose->memory, JOX_NAME_MEMORY, &whose->memory_at);
     return made;
 }
 
@@ -164,11 +178,11 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
         in.arg = jox_build_own_at(code->build, node);
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
-    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_THEIRS || node->op == JOX_OP_OPEN)
+    else if (node->op == JOX_OP_THEIRS)
+        in.name = build_written(code->build, node->name, JOX_NAME_MEMORY, &node->written);
+    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_OPEN)
         in.name = jox_build_name(code->build, node->name,
-                                 node->op == JOX_OP_HEARD    ? JOX_NAME_HEARD
-                                 : node->op == JOX_OP_THEIRS ? JOX_NAME_MEMORY
-                                                             : JOX_NAME_GATE);
+                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)

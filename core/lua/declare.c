@@ -102,7 +102,7 @@ static void publish(JoxBuild *b) {
     const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL, *names[64];
     const int32_t slot = name ? jox_read_memory(b, name) : -1;
     size_t count = 0;
-    char hint[96];
+    char hint[JOX_HINT];
     for (uint32_t s = 0; s < b->script->memory_count && count < 64; s++)
         names[count++] = b->script->memory[s].name;
     if (slot >= 0)

@@ -38,7 +38,7 @@ static void judge_states(JoxBuild *b) {
     for (uint32_t s = 0; s < m->state_count; s++) {
         if (reached[s])
             continue;
-        char path[256], hint[96];
+        char path[256], hint[JOX_HINT];
         const char *names[64], *near = NULL;
         size_t count = 0;
         jox_read_join(path, "states", m->states[s].name);

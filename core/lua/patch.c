@@ -75,7 +75,7 @@ static void merge_file(JoxScript *script, int table, const JoxNode *node, uint32
     lua_State *L = script->vm.L;
     luaL_checkstack(L, 40, "patch");
     lua_newtable(L);
-    JoxLuaNodes nodes = {script, L, lua_gettop(L), 0, source};
+    JoxLuaNodes nodes = {script, L, lua_gettop(L), 0, source, table};
     JoxPatchTree tree = jox_lua_tree;
     tree.context = &nodes;
     const JoxPatch patch = {&tree,        &script->changes, script->scope->mods,

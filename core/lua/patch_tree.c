@@ -37,6 +37,21 @@ static void fail(JoxLuaNodes *n, const char *from, const char *code, const char 
     jox_diag_error(n->script->diagnostics, at, code, hint, message, name);
 }
 
+/* Whether the machine that is changed calls something by another name now, which is reported. */
+static bool renamed(JoxLuaNodes *n, const char *from, const char *name) {
+    lua_State *L = n->L;
+    const int top = lua_gettop(L);
+    const char *now = NULL;
+    if (jox_read_field(L, n->table, "renamed") == LUA_TTABLE &&
+        jox_read_field(L, top + 1, name) == LUA_TSTRING)
+        now = jox_vm_intern(&n->script->vm, lua_tostring(L, -1));
+    lua_settop(L, top);
+    if (now)
+        jox_diag_renamed(n->script->diagnostics,
+                         jox_outline_at(n->script->vm.sources[n->source], from), name, now);
+    return now != NULL;
+}
+
 /* Pushes a copy of the table at `index`, its items shared. */
 static void push_copy(lua_State *L, int index) {
     lua_newtable(L);
@@ -331,8 +346,10 @@ static bool skips(void *c, void *node, const JoxPatchPlace *at, int depth) {
         verbs |= get(c, at->value, jox_patch_verbs[v]) != NULL;
     if (!verbs)
         return false;
+    if (renamed(n, at->from, at->key))
+        return true;
     const char *const *names;
-    char hint[96];
+    char hint[JOX_HINT];
     const uint32_t known = keys(c, node, "states", at->from, &names);
     fail(n, at->from, "unknown-state",
          jox_did_you_mean(at->key, names, known < 64 ? known : 64, hint),
@@ -347,8 +364,10 @@ static void missing(void *c, void *node, const char *name, const JoxPatchPlace *
         fail(n, at->from, "unknown-key", NULL, "there is no '%s' to take away", name);
         return;
     }
+    if (renamed(n, at->from, name))
+        return;
     const char *names[JOX_MOST_TRANSITIONS];
-    char hint[96];
+    char hint[JOX_HINT];
     size_t known = 0;
     const int state = jox_nodes_push_value(n, node);
     for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state); i++) {

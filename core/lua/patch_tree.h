@@ -12,6 +12,7 @@ typedef struct JoxLuaNodes {
     int list; /* stack index */
     lua_Integer count;
     uint32_t source; /* number of the patch's file */
+    int table;       /* stack index of the machine's table that is changed */
 } JoxLuaNodes;
 
 /* Pushes a node's value; its stack index. */

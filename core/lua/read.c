@@ -13,9 +13,8 @@ enum { KEYS_MOST = 64 };
 /* Position of a key itself: of the key written out, or of the table around it. */
 static void unknown_key(JoxBuild *b, const char *path, const char *key, const char *const *known,
                         size_t count) {
-    char full[256], hint[160];
+    char full[256], hint[JOX_HINT];
     snprintf(full, sizeof full, "%s%s%s", path, *path ? "." : "", key);
-    const char *near = jox_suggest(key, known, count);
     const bool transition = !strcmp(key, "transitions") || !strcmp(key, "to") ||
                             !strcmp(key, "when") || !strcmp(key, "chance");
     if (transition && !strncmp(path, "states.", 7) && !strchr(path + 7, '.')) {
@@ -25,10 +24,8 @@ static void unknown_key(JoxBuild *b, const char *path, const char *key, const ch
                         "a state has no key '%s'", key);
         return;
     }
-    if (near)
-        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-    jox_build_error(b, jox_read_at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'",
-                    key);
+    jox_build_error(b, jox_read_at(b, full), "unknown-key",
+                    jox_did_you_mean(key, known, count, hint), "unknown key '%s'", key);
 }
 
 /* Reports string keys of the table at `index` that are not known, in ascending order. */
@@ -245,11 +242,9 @@ static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
             return;
         }
     if (!name || scope->complete) {
-        const char *near = name ? jox_suggest(name, scope->tags, scope->tag_count) : NULL;
-        char hint[96];
-        if (near)
-            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-        jox_build_error(b, jox_read_at(b, path), "unknown-tag", near ? hint : NULL,
+        char hint[JOX_HINT];
+        jox_build_error(b, jox_read_at(b, path), "unknown-tag",
+                        name ? jox_did_you_mean(name, scope->tags, scope->tag_count, hint) : NULL,
                         name ? "nothing in the scene bears the tag '%s'" : "tags are names%s",
                         name ? name : "");
     }

@@ -89,18 +89,26 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     state->lasts_expression = value.kind == JOX_VALUE_EXPRESSION ? value.index : -1;
 }
 
+static bool read_flag(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    const int type = jox_read_field(L, index, key);
+    jox_read_join(full, path, key);
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL, "%s must be true or false",
+                        key);
+    const bool set = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return set;
+}
+
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index));
     char full[256];
-    int type = jox_read_field(L, index, "removes");
-    jox_read_join(full, path, "removes");
-    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
-        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL,
-                        "removes must be true or false");
-    state->removes = lua_toboolean(L, -1);
-    lua_pop(L, 1);
-    type = jox_read_field(L, index, "push_weight");
+    state->removes = read_flag(b, index, path, "removes");
+    state->lies = read_flag(b, index, path, "lies");
+    int type = jox_read_field(L, index, "push_weight");
     jox_read_join(full, path, "push_weight");
     const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
     state->push_nearest = strcmp(weight, "nearest") == 0;
@@ -149,18 +157,31 @@ static bool id_taken(const JoxState *state, const JoxTransition *t, const char *
     return false;
 }
 
+/* Where the value of a key begins; where no text says so, the key. */
+static JoxPosition value_at(const JoxBuild *b, const char *path) {
+    const JoxSource *source;
+    const JoxPath *span = jox_read_span(b, path, &source);
+    if (!span || span->first >= source->token_count)
+        return jox_read_at(b, path);
+    const JoxToken *t = &source->tokens[span->first];
+    return (JoxPosition){source->path, t->line, t->column, t->end_column};
+}
+
 /* The state that a transition leads to. */
 static uint16_t read_to(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->script->vm.L;
     const JoxMachine *m = b->machine;
-    char full[256], hint[96];
+    char full[256], hint[JOX_HINT];
     jox_read_join(full, path, "to");
     const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int target = to ? jox_machine_state(m, to) : -1;
+    const char *now = to && target < 0 ? jox_machine_renamed(m, JOX_PART_STATE, to) : NULL;
     if (!to) {
         jox_build_error(b, jox_read_at(b, full), "missing-key",
                         "Example: { to = \"Exit\", when = after(5) }",
                         "a transition needs `to`, the name of a state");
+    } else if (now) {
+        jox_diag_renamed(b->script->diagnostics, value_at(b, full), to, now);
     } else if (target < 0) {
         const char *names[256];
         size_t count = m->state_count < 256 ? m->state_count : 256;

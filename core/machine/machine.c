@@ -59,6 +59,23 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
     return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
 }
 
+bool jox_machine_has(const JoxMachine *m, JoxPart part, const char *name) {
+    bool has = part == JOX_PART_STATE    ? jox_machine_state(m, name) >= 0
+               : part == JOX_PART_MEMORY ? jox_machine_memory(m, name) >= 0
+                                         : false;
+    for (uint32_t o = 0; part == JOX_PART_OWN && o < m->own_count; o++)
+        has |= strcmp(m->own[o].name, name) == 0;
+    return has;
+}
+
+const char *jox_machine_renamed(const JoxMachine *m, JoxPart part, const char *name) {
+    for (uint32_t r = 0; r < m->renamed_count; r++)
+        if (strcmp(m->renamed[r].from, name) == 0 && jox_machine_has(m, part, m->renamed[r].to) &&
+            !jox_machine_has(m, part, name))
+            return m->renamed[r].to;
+    return NULL;
+}
+
 void jox_machine_free(JoxMachine *m) {
     if (!m)
         return;

@@ -233,6 +233,7 @@ typedef struct JoxState {
     JoxDist lasts;            /* s, drawn on entry */
     int32_t lasts_expression; /* or an expression evaluated on entry; -1 none */
     bool removes;             /* the agent leaves the world on entering */
+    bool lies;                /* it is shown as lying; no step reads it */
     int32_t push_when;        /* expression; -1 always */
     int16_t push_toward;      /* target; -1: along the preferred velocity */
     bool push_nearest;        /* push_weight "nearest" instead of "equal" */
@@ -294,6 +295,8 @@ typedef struct JoxName {
     char *text;
     uint32_t uses;   /* of JoxNameUse */
     uint32_t number; /* equal for equal texts in all machines of a set; set when it is added */
+    int32_t line, column, end_column; /* where a state or memory was first written; 0 unknown */
+    uint32_t source;                  /* number of its file among the machine's files */
 } JoxName;
 
 typedef struct JoxMachine {
@@ -319,7 +322,7 @@ typedef struct JoxMachine {
     uint32_t name_count;
     struct JoxRenamed {
         char *from, *to;
-    } * renamed; /* states of an older version */
+    } * renamed; /* states, own values and memory of older versions */
     uint32_t renamed_count;
     uint32_t hook_count;
     bool views; /* hooks look at other agents: as they were before the step */
@@ -333,6 +336,12 @@ JoxTransition jox_transition_blank(char *id);
 int jox_machine_state(const JoxMachine *machine, const char *name);
 /* Slot of its memory by name, or -1; slots without a name have none. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
+/* What of a machine others name. */
+typedef enum { JOX_PART_STATE, JOX_PART_OWN, JOX_PART_MEMORY } JoxPart;
+/* Whether it has a part of this name. */
+bool jox_machine_has(const JoxMachine *machine, JoxPart part, const char *name);
+/* What it calls the part now that was called `name`, which it has no longer; else NULL. */
+const char *jox_machine_renamed(const JoxMachine *machine, JoxPart part, const char *name);
 /* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */
 void jox_machine_free(JoxMachine *machine);
 

@@ -42,31 +42,41 @@ struct JoxReplacement {
 
 /* The state of `next` that continues `name`, or -1. */
 static int continued(const JoxMachine *next, const char *name) {
-    int state = jox_machine_state(next, name);
-    for (uint32_t r = 0; state < 0 && r < next->renamed_count; r++)
-        if (strcmp(next->renamed[r].from, name) == 0)
-            state = jox_machine_state(next, next->renamed[r].to);
-    return state;
+    const char *now = jox_machine_renamed(next, JOX_PART_STATE, name);
+    return jox_machine_state(next, now ? now : name);
 }
 
-/* Which of the old names goes on as next[slot]: the n-th of the same name for the n-th of that
+/* The name that the part had which is called `name` now; the same where it was not renamed. */
+static const char *name_before(const JoxMachine *old, const JoxMachine *next, JoxPart part,
+                               const char *name) {
+    for (uint32_t r = 0; r < next->renamed_count && !jox_machine_has(old, part, name); r++)
+        if (strcmp(next->renamed[r].to, name) == 0 &&
+            jox_machine_has(old, part, next->renamed[r].from) &&
+            !jox_machine_has(next, part, next->renamed[r].from))
+            return next->renamed[r].from;
+    return name;
+}
+
+/* Which of the old slots goes on as next[slot]: the n-th of the same name for the n-th of that
    name, since slots without a name are several. -1 if there is none. */
-#define BEFORE(old, old_count, next, slot)                                                         \
+#define BEFORE(old, old_count, next, slot, before)                                                 \
     do {                                                                                           \
         uint32_t nth = 0;                                                                          \
         for (uint32_t s = 0; s < (slot); s++)                                                      \
             nth += strcmp((next)[s].name, (next)[slot].name) == 0;                                 \
         for (uint32_t s = 0; s < (old_count); s++)                                                 \
-            if (strcmp((old)[s].name, (next)[slot].name) == 0 && nth-- == 0)                       \
+            if (strcmp((old)[s].name, before) == 0 && nth-- == 0)                                  \
                 return (int32_t)s;                                                                 \
         return -1;                                                                                 \
     } while (0)
 
 static int32_t own_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
-    BEFORE(old->own, old->own_count, next->own, slot);
+    const char *before = name_before(old, next, JOX_PART_OWN, next->own[slot].name);
+    BEFORE(old->own, old->own_count, next->own, slot, before);
 }
 static int32_t memory_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
-    BEFORE(old->memory, old->memory_count, next->memory, slot);
+    const char *before = name_before(old, next, JOX_PART_MEMORY, next->memory[slot].name);
+    BEFORE(old->memory, old->memory_count, next->memory, slot, before);
 }
 
 /* What a scene gave stays with the agents, though this version does not look at it: a line that is
@@ -74,10 +84,9 @@ static int32_t memory_before(const JoxMachine *old, const JoxMachine *next, uint
 static void keep_given(const JoxMachine *old, JoxMachine *next) {
     for (uint32_t o = 0; o < old->own_count; o++) {
         const JoxOwnSlot *slot = &old->own[o];
-        bool known = !*slot->name || jox_parameter_find(slot->name) >= 0;
-        for (uint32_t s = 0; s < next->own_count && !known; s++)
-            known = strcmp(next->own[s].name, slot->name) == 0;
-        if (known)
+        if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||
+            jox_machine_has(next, JOX_PART_OWN, slot->name) ||
+            jox_machine_renamed(next, JOX_PART_OWN, slot->name))
             continue;
         next->own = jox_realloc(next->own, next->own_count + 1, sizeof *next->own);
         next->own[next->own_count] = *slot;

@@ -9,7 +9,7 @@
 #include "record/recorder_file.h"
 #include "record/trajectory_reader_parts.h"
 
-enum { MOST_FRAMES = 10000000 };
+enum { MOST_FRAMES = 10000000, NEWEST = 2 /* version of the format */ };
 
 static bool wrong(JoxDiagnostics *diagnostics, const char *path, const char *hint,
                   const char *what) {
@@ -186,11 +186,26 @@ static void read_bounds(JoxTrajectoryReader *r) {
     }
 }
 
+/* Whether the file says nothing of a version, or one that is read here; false with an error. */
+static bool is_of_known_version(const JoxTrajectoryReader *r, const char *path,
+                                JoxDiagnostics *diagnostics) {
+    double version;
+    char what[100];
+    if (!ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'version'", &version) ||
+        version < NEWEST + 1)
+        return true;
+    snprintf(what, sizeof what, "this recording is of version %.9g of the JuPedSim format",
+             version);
+    return wrong(diagnostics, path, "Versions 1 and 2 are read", what);
+}
+
 /* False with an error. */
 static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajectoryOptions *options,
                      JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     double found;
+    if (!is_of_known_version(r, path, diagnostics))
+        return false;
     /* Views of the file are not used: they may be anything. This one is ours. */
     if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
             &found))

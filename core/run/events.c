@@ -24,12 +24,10 @@ void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
             jox_machines_name(machines, event->name); /* steps then find it */
         for (uint32_t n = 0; n < count && !heard; n++)
             heard = strcmp(names[n], event->name) == 0;
-        const char *near = heard ? NULL : jox_suggest(event->name, names, count);
-        char hint[96] = "";
-        if (near)
-            strcat(strcat(strcpy(hint, "Did you mean '"), near), "'?");
+        char hint[JOX_HINT];
         if (!heard && diagnostics)
-            jox_diag_warn(diagnostics, event->position, "unheard-signal", near ? hint : NULL,
+            jox_diag_warn(diagnostics, event->position, "unheard-signal",
+                          jox_did_you_mean(event->name, names, count, hint),
                           "no machine of the scene hears the signal '%.60s'", event->name);
     }
 }

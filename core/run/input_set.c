@@ -46,6 +46,12 @@ static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice 
     uint32_t count = 1;
     for (uint32_t s = 0; s < machine->state_count && count < MOST_NAMES; s++)
         names[count++] = machine->states[s].name;
+    const char *now = jox_machine_renamed(machine, JOX_PART_STATE, name);
+    if (now) {
+        jox_error(error, JO_INPUT, "'%.60s' of %.60s is called '%.60s' now", name, machine->name,
+                  now);
+        return false;
+    }
     char kind[100];
     snprintf(kind, sizeof kind, "state of %.60s named", machine->name);
     return unknown(kind, name, names, count, error);

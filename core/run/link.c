@@ -102,17 +102,34 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
     return good;
 }
 
-/* Whether some machine has a name in that use, or a state of that name. */
-static bool used(const JoxMachineRun *machines, const char *text, uint32_t use) {
+static bool is_signalled(const JoxMachineRun *machines, const char *text) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         for (uint32_t n = 0; n < machine->name_count; n++)
-            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
+            if ((machine->names[n].uses & JOX_NAME_SIGNALLED) &&
+                strcmp(machine->names[n].text, text) == 0)
                 return true;
-        if (use == JOX_NAME_STATE && jox_machine_state(machine, text) >= 0)
-            return true;
     }
     return false;
+}
+
+static bool is_state(const JoxMachineRun *machines, const char *name) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (jox_machine_state(machines->set->items[m], name) >= 0)
+            return true;
+    return false;
+}
+
+static void warn_of_state(const JoxMachineRun *machines, JoxPosition at, const char *name,
+                          JoxDiagnostics *diagnostics) {
+    const char *names[256];
+    char hint[JOX_HINT];
+    size_t count = 0;
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count && count < 256; s++)
+            names[count++] = machines->set->items[m]->states[s].name;
+    jox_diag_warn(diagnostics, at, "unknown-state", jox_did_you_mean(name, names, count, hint),
+                  "no machine of the scene has a state '%s'", name);
 }
 
 static bool is_machine(const JoxMachineRun *machines, const char *name) {
@@ -130,6 +147,17 @@ static bool is_public(const JoxMachineRun *machines, const char *name) {
                 return true;
     }
     return false;
+}
+
+/* What the machine that has a part by this name calls it now, where none has it by that name. */
+static const char *renamed(const JoxMachineRun *machines, JoxPart part, const char *name) {
+    const char *now = NULL;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        if (jox_machine_has(machines->set->items[m], part, name))
+            return NULL;
+        now = now ? now : jox_machine_renamed(machines->set->items[m], part, name);
+    }
+    return now;
 }
 
 /* Whether a group whose agents may run the machine sets the own value. */
@@ -168,6 +196,15 @@ static bool announced(const JoScene *scene, const char *text) {
     return false;
 }
 
+/* What an own value is called now that is asked for, and so has a slot, by the name that it had. */
+static const char *renamed_own(const JoxMachine *machine, const char *name) {
+    for (uint32_t r = 0; r < machine->renamed_count; r++)
+        if (strcmp(machine->renamed[r].from, name) == 0 &&
+            jox_machine_has(machine, JOX_PART_OWN, machine->renamed[r].to))
+            return machine->renamed[r].to;
+    return NULL;
+}
+
 void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
                        uint32_t count, JoxDiagnostics *diagnostics) {
     size_t before = diagnostics->count;
@@ -182,6 +219,13 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
             names[p] = jox_parameters[p].name;
         near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
         const char *file = slot->source < count ? files[slot->source].path : machine->path;
+        const char *now = renamed_own(machine, slot->name);
+        if (now) {
+            jox_diag_renamed(diagnostics,
+                             ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
+                             slot->name, now);
+            continue;
+        }
         snprintf(hint, sizeof hint,
                  near ? "Did you mean 'own.%.60s'?" : "In the scene's group: set: {%.60s: ...}",
                  near ? near : slot->name);
@@ -194,27 +238,50 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
         attach(files, count, diagnostics);
 }
 
+/* Where a state or memory of others is named first. */
+static JoxPosition named_at(const JoxMachine *machine, const JoxName *name, const JoxLuaFile *files,
+                            uint32_t count) {
+    const char *file = name->source < count ? files[name->source].path : machine->path;
+    return (JoxPosition){file, name->line, name->column, name->end_column};
+}
+
+/* What a state or memory of others is called now that is named as it was called; else NULL. */
+static const char *renamed_name(const JoxMachineRun *machines, const JoxName *name) {
+    const char *now = NULL;
+    if (name->uses & JOX_NAME_STATE)
+        now = renamed(machines, JOX_PART_STATE, name->text);
+    if (!now && (name->uses & JOX_NAME_MEMORY))
+        now = renamed(machines, JOX_PART_MEMORY, name->text);
+    return now;
+}
+
 void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
-        const JoxPosition at = {machine->path, 0, 0, 0};
+        const JoxPosition in = {machine->path, 0, 0, 0};
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         size_t before = diagnostics->count;
         jox_run_check_own(scene, machine, files, count, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
+            const bool others = name->uses & (JOX_NAME_STATE | JOX_NAME_MEMORY);
+            const JoxPosition at = others ? named_at(machine, name, files, count) : in;
+            const char *now = renamed_name(machines, name);
+            if (now) {
+                jox_diag_renamed(diagnostics, at, name->text, now);
+                continue;
+            }
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !used(machines, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
+            if (heard && !is_signalled(machines, name->text) && !machine->hook_count &&
                 !announced(scene, name->text))
-                jox_diag_warn(diagnostics, at, "unheard-signal", NULL,
+                jox_diag_warn(diagnostics, in, "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
-            if (state && !used(machines, name->text, JOX_NAME_STATE))
-                jox_diag_warn(diagnostics, at, "unknown-state", NULL,
-                              "no machine of the scene has a state '%s'", name->text);
+            if (state && !is_state(machines, name->text))
+                warn_of_state(machines, at, name->text, diagnostics);
             if ((name->uses & JOX_NAME_MACHINE) && !is_machine(machines, name->text))
-                jox_diag_warn(diagnostics, at, "unknown-machine", NULL,
+                jox_diag_warn(diagnostics, in, "unknown-machine", NULL,
                               "no machine of the scene is called '%s'", name->text);
             if ((name->uses & JOX_NAME_MEMORY) && !is_public(machines, name->text))
                 jox_diag_warn(diagnostics, at, "unknown-memory",

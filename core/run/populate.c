@@ -6,16 +6,6 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-/* What a behaviour calls a value now that it says was renamed; NULL where it has no such. */
-static const char *renamed(const JoxMachine *machine, const char *name, const char *const *names,
-                           uint32_t known) {
-    for (uint32_t r = 0; r < machine->renamed_count; r++)
-        for (uint32_t k = 0; strcmp(machine->renamed[r].from, name) == 0 && k < known; k++)
-            if (strcmp(machine->renamed[r].to, names[k]) == 0)
-                return names[k];
-    return NULL;
-}
-
 /* Names that a group sets must be known to every behaviour of its mix. */
 static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGroupValue *sets,
                         uint32_t count, bool memory, JoxDiagnostics *diagnostics) {
@@ -33,15 +23,14 @@ static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGr
             for (uint32_t k = 0; k < known; k++)
                 slot = strcmp(names[k], sets[s].name) == 0 ? (int32_t)k : slot;
             bool place = sets[s].kind != JOX_SET_NUMBER;
-            const char *near = slot < 0 ? jox_suggest(sets[s].name, names, known) : NULL;
-            char hint[96] = "";
-            if (near)
-                strcat(strcat(strcpy(hint, "Did you mean '"), near), "'?");
-            const char *now = slot < 0 ? renamed(machine, sets[s].name, names, known) : NULL;
-            if (now)
+            char hint[JOX_HINT];
+            const char *now =
+                jox_machine_renamed(machine, memory ? JOX_PART_MEMORY : JOX_PART_OWN, sets[s].name);
+            if (slot < 0 && now)
                 jox_diag_renamed(diagnostics, sets[s].position, sets[s].name, now);
             else if (slot < 0)
-                jox_diag_error(diagnostics, sets[s].position, "unknown-value", near ? hint : NULL,
+                jox_diag_error(diagnostics, sets[s].position, "unknown-value",
+                               jox_did_you_mean(sets[s].name, names, known, hint),
                                "behaviour %s has no '%.60s'%s", machine->name, sets[s].name,
                                memory ? " in memory" : "");
             else if (!memory && machine->own[slot].is_place != place)

@@ -99,25 +99,30 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
 }
 
 /* Of a name that no behaviour of the scene has: a state, or a memory. */
-static void warn(const JoScene *scene, const JoxTally *tally, bool state,
-                 JoxDiagnostics *diagnostics) {
+static void tell_unknown(const JoScene *scene, const JoxTally *tally, bool state,
+                         JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
-    const char *name = state ? tally->state : tally->memory, *names[64], *near;
-    char hint[160];
+    const JoxPosition at = state ? tally->state_at : tally->memory_at;
+    const char *name = state ? tally->state : tally->memory, *names[64], *now = NULL;
+    char hint[JOX_HINT];
     size_t count = 0;
     for (uint32_t m = 0; m < set->count; m++) {
         const JoxMachine *machine = set->items[m];
+        now = now ? now
+                  : jox_machine_renamed(machine, state ? JOX_PART_STATE : JOX_PART_MEMORY, name);
         for (uint32_t s = 0; s < (state ? machine->state_count : machine->memory_count); s++) {
             const char *known = state ? machine->states[s].name : machine->memory[s].name;
             if (*known && count < sizeof names / sizeof *names)
                 names[count++] = known;
         }
     }
-    near = jox_suggest(name, names, count);
-    snprintf(hint, sizeof hint, "Did you mean '%.100s'?", near ? near : "");
-    jox_diag_warn(diagnostics, tally->position, state ? "unknown-state" : "unknown-memory",
-                  near ? hint : NULL, "no behaviour of the scene has a %s '%.60s'",
-                  state ? "state" : "memory", name);
+    if (now)
+        jox_diag_renamed(diagnostics, at, name, now);
+    else
+        jox_diag_warn(diagnostics, at, state ? "unknown-state" : "unknown-memory",
+                      jox_did_you_mean(name, names, count, hint),
+                      "no behaviour of the scene has a %s '%.60s'", state ? "state" : "memory",
+                      name);
 }
 
 void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
@@ -130,8 +135,8 @@ void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
             state = state || jox_machine_state(set->items[m], tally->state) >= 0;
         }
         if (!memory)
-            warn(scene, tally, false, diagnostics);
+            tell_unknown(scene, tally, false, diagnostics);
         if (!state)
-            warn(scene, tally, true, diagnostics);
+            tell_unknown(scene, tally, true, diagnostics);
     }
 }

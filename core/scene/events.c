@@ -155,8 +155,11 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
 /* ---- tallies ---- */
 
 bool jox_finish_tally(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    const JoxTally *tally = item;
-    const JoxYaml *take = jox_yaml_get(map, "take");
+    JoxTally *tally = item;
+    const JoxYaml *take = jox_yaml_get(map, "take"), *memory = jox_yaml_get(map, "memory"),
+                  *state = jox_yaml_get(map, "state");
+    tally->memory_at = memory ? memory->position : tally->position;
+    tally->state_at = state ? state->position : tally->position;
     if (good && take && !tally->memory)
         jox_scene_error(r, take, "bad-value", "memory: hits",
                         "a tally takes the values of a `memory`; without one it counts agents");

@@ -80,9 +80,10 @@ typedef struct JoxTally {
     char *name;
     JoxPosition position; /* of the name */
     char *memory, *state; /* of that memory, or in that state; NULL: any */
-    int32_t group;        /* -1: everyone */
-    uint32_t take;        /* JoxTallyTake, of memory */
-    char *unit;           /* NULL: none */
+    JoxPosition memory_at, state_at;
+    int32_t group; /* -1: everyone */
+    uint32_t take; /* JoxTallyTake, of memory */
+    char *unit;    /* NULL: none */
 } JoxTally;
 
 /* What a script may use. */

@@ -1,4 +1,5 @@
 /* jo_check: every error of scenes, behaviours and folders of them; nothing is run. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,46 +160,72 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
     jox_mods_free(mods);
 }
 
+/* ---- paths ---- */
+
+/* What is no folder; `mod` as of check_path. */
+static void check_file(const char *path, bool named, const char *mod, JoxDiagnostics *own) {
+    if (ends_with(path, "/mod.yaml")) {
+        char folder[1024];
+        snprintf(folder, sizeof folder, "%.*s", (int)(strlen(path) - 9), path);
+        if (named)
+            check_mod(folder, own);
+    } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
+        check_scene(path, mod, own);
+    } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
+        if (is_claim(path))
+            check_claim(path, own);
+        else if (!mod || !is_library(path))
+            check_behaviour(path, NULL, own);
+    } else if (named && !ends_with(path, ".lua")) {
+        jox_diag_error(own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,
+                       "only scenes (.yaml) and behaviours (.lua) can be checked");
+    }
+}
+
+/* Names of what lies in a folder, to be freed; NULL and a word on it where nobody can look. */
+static char **list_folder(const char *path, int depth, JoxDiagnostics *own) {
+    static const char *const HINT = "Give its path, too, if it is to be looked at";
+    const JoxPosition at = {path, 0, 0, 0};
+    if (depth >= DEEPEST) {
+        jox_diag_warn(own, at, JOX_CHECK_UNREAD, HINT,
+                      "folders are looked at %d deep, not this one", DEEPEST);
+        return NULL;
+    }
+    char **names = jox_folder_names(path, false);
+    if (!names)
+        jox_diag_error(own, at, JOX_CHECK_UNREAD, depth ? HINT : NULL,
+                       "the folder cannot be read: %s", strerror(errno));
+    return names;
+}
+
 /* `mod`: the folder of the mod that the path lies in, or NULL. */
 static void check_path(const char *path, bool named, int depth, const char *mod,
                        JoxDiagnostics *all) {
     struct stat info;
     JoxDiagnostics own = {0};
+    char **names = NULL;
     if (stat(path, &info) != 0) {
-        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
-                       "there is no such file");
-    } else if (S_ISDIR(info.st_mode) && depth < DEEPEST) {
+        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), JOX_CHECK_UNREADABLE, NULL, "%s",
+                       errno == ENOENT ? "there is no such file" : strerror(errno));
+    } else if (!S_ISDIR(info.st_mode)) {
+        check_file(path, named, mod, &own);
+    } else {
         char sheet[1024];
+        names = list_folder(path, depth, &own);
         snprintf(sheet, sizeof sheet, "%.900s/mod.yaml", path);
-        if (!mod && is_file(sheet)) {
+        if (names && !mod && is_file(sheet)) {
             mod = path;
             check_mod(path, &own);
         }
-        char **names = jox_folder_names(path, false);
-        for (char **name = names; name && *name; name++) {
-            char inner[1024];
-            snprintf(inner, sizeof inner, "%s/%s", path, *name);
-            bool patches = mod && strcmp(*name, "patches") == 0; /* looked at above */
-            if (!patches)
-                check_path(inner, false, depth + 1, mod, all);
-        }
-        jox_free(names);
-    } else if (ends_with(path, "/mod.yaml")) {
-        char folder[1024];
-        snprintf(folder, sizeof folder, "%.*s", (int)(strlen(path) - 9), path);
-        if (named)
-            check_mod(folder, &own);
-    } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
-        check_scene(path, mod, &own);
-    } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
-        if (is_claim(path))
-            check_claim(path, &own);
-        else if (!mod || !is_library(path))
-            check_behaviour(path, NULL, &own);
-    } else if (named && !ends_with(path, ".lua")) {
-        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,
-                       "only scenes (.yaml) and behaviours (.lua) can be checked");
     }
+    for (char **name = names; name && *name; name++) {
+        char inner[1024];
+        snprintf(inner, sizeof inner, "%s/%s", path, *name);
+        bool patches = mod && strcmp(*name, "patches") == 0; /* looked at above */
+        if (!patches)
+            check_path(inner, false, depth + 1, mod, all);
+    }
+    jox_free(names);
     jox_diag_move(all, &own);
 }
 

@@ -25,6 +25,7 @@ typedef struct Migration {
     JoMessage *message;
     void *context;
     size_t names, errors; /* renamed; left, that are something else */
+    JoxText unread;       /* what could not be looked at, a line each */
     JoError *error;
 } Migration;
 
@@ -54,8 +55,24 @@ static bool is_renamed(const JoxDiagnostic *d) {
     return d->now && d->file;
 }
 
-static bool is_of_name(char c) {
+static bool is_of_word(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Of a name of any script. */
+static bool is_of_name(char c) {
+    return is_of_word(c) || ((unsigned char)c & 0x80);
+}
+
+/* Whether the new name can stand at a place of a file as it is: in Lua, names with spaces, for
+   instance, need quotes. */
+static bool can_stand(const JoxDiagnostic *d, const char *text, const char *at) {
+    const size_t length = strlen(d->file);
+    const bool lua = length >= 4 && strcmp(d->file + length - 4, ".lua") == 0;
+    bool word = !(d->now[0] >= '0' && d->now[0] <= '9');
+    for (const char *c = d->now; *c; c++)
+        word = word && is_of_word(*c);
+    return word || !lua || (at > text && (at[-1] == '"' || at[-1] == '\''));
 }
 
 /* Whether a place of a line is that of a column, in letters or in bytes; a name in quotes has the
@@ -91,10 +108,11 @@ static const char *find_name(const JoxDiagnostic *d, const char *text) {
     return exact == 1 || times == 1 ? found : NULL;
 }
 
-/* The text with the new name, to be freed; NULL where it is not certain where the old one is. */
+/* The text with the new name, to be freed; NULL where it is not certain where the old one is, or
+   the new one cannot stand there. */
 static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *text) {
     const char *at = find_name(d, text);
-    if (!at)
+    if (!at || !can_stand(d, text, at))
         return NULL;
     JoxText out = {0}, said = {0};
     jox_text_append(&out, text, (size_t)(at - text));
@@ -119,6 +137,20 @@ static bool write_file(const Migration *m, const char *path, const char *text) {
     return whole;
 }
 
+/* A line for each file or folder that could not be looked at. */
+static void tell_unread(Migration *m, const JoxDiagnostics *all) {
+    JoxDiagnostics unread = {.limit = all->count};
+    for (size_t i = 0; i < all->count; i++) {
+        const JoxDiagnostic *d = &all->items[i];
+        if (strcmp(d->code, JOX_CHECK_UNREADABLE) == 0 || strcmp(d->code, JOX_CHECK_UNREAD) == 0)
+            jox_diag_add(&unread, d->severity, (JoxPosition){d->file, d->line, d->column, 0},
+                         d->code, d->hint, d->context, d->source, "%s", d->message);
+    }
+    jox_text_free(&m->unread);
+    jox_diag_print(&unread, &m->unread);
+    jox_diag_free(&unread);
+}
+
 /* Rewrites the names of one file, of the diagnostics from `first` on. Those of a line change each
    other's columns: the later ones are left for the next round. */
 static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) {
@@ -140,6 +172,7 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
         if (!next)
             continue;
         changed++;
+        m->errors -= !m->writes;
         if (m->writes) {
             jox_free(text);
             text = next;
@@ -153,12 +186,13 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
     return good;
 }
 
-/* Whether the file of a diagnostic was dealt with before it. */
-static bool is_done(const JoxDiagnostics *all, size_t i) {
-    for (size_t k = 0; k < i; k++)
-        if (is_renamed(&all->items[k]) && is_same_file(all->items[k].file, all->items[i].file))
-            return true;
-    return false;
+/* The first diagnostic of a renamed name in the file of this one. */
+static size_t first_of_file(const JoxDiagnostics *all, size_t i) {
+    size_t first = 0;
+    while (first < i && !(is_renamed(&all->items[first]) &&
+                          is_same_file(all->items[first].file, all->items[i].file)))
+        first++;
+    return first;
 }
 
 /* One look at all that is given: what is renamed may hide what is wrong behind it. */
@@ -166,11 +200,16 @@ static bool migrate_round(Migration *m) {
     JoxDiagnostics all = jox_check_paths(m->paths, m->count);
     bool good = true;
     m->errors = all.errors;
+    tell_unread(m, &all);
     for (size_t i = 0; i < all.count && good; i++) {
         const JoxDiagnostic *d = &all.items[i];
-        m->errors -= !m->writes && d->now;
-        if (is_renamed(d) && !is_done(&all, i) && is_given(m, d->file))
+        if (!is_renamed(d) || !is_given(m, d->file))
+            continue;
+        const size_t first = first_of_file(&all, i);
+        if (first == i)
             good = migrate_file(m, &all, i);
+        else /* the same place by another path */
+            m->errors -= !m->writes && strcmp(all.items[first].file, d->file) != 0;
     }
     jox_diag_free(&all);
     return good;
@@ -192,8 +231,16 @@ bool jo_migrate(const char *const *paths, size_t count, bool write, JoMessage *m
     JOX_REQUIRE(paths && message && names && errors, false);
     JOX_GUARD (NULL, error)
         return false;
-    Migration m = {paths, count, write, message, context, 0, 0, error};
+    Migration m = {.paths = paths,
+                   .count = count,
+                   .writes = write,
+                   .message = message,
+                   .context = context,
+                   .error = error};
     const bool good = migrate(&m);
+    if (good && m.unread.length)
+        jox_run_message(message, context, m.unread.data);
+    jox_text_free(&m.unread);
     *names = m.names;
     *errors = m.errors;
     return good;

@@ -79,13 +79,14 @@ function Target:where(name, ...) end
 ---@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group may set them
 ---@field public? string|string[] memory that others may ask for, by `theirs` and `:where`
 ---@field counts? table memory that counts by itself, in all states
----@field renamed? table<string, string> old name = new name, of states for agents alive at a reload, and of what groups set: their own values and memory. A scene that sets the old one is told the new one, and `jostle migrate` writes it
+---@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one, and `jostle migrate` writes it
 ---@field states? table<string, jostle.State> name = state
 
 ---@class jostle.State
 ---@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
 ---@field lasts? number|jostle.Number|jostle.Drawn drawn on entering; see `lasted`, s
 ---@field removes? boolean the agent leaves the world on entering
+---@field lies? boolean the live page of a running scene shows the agent as lying; nothing else changes
 ---@field become? string on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
 ---@field push_when? jostle.Condition pushes only while this holds
 ---@field push_toward? string|jostle.Target|jostle.Number pushes that way; else the way it wants to go

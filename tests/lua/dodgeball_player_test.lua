@@ -1,25 +1,14 @@
 -- dodgeball_player.lua: as player.lua, of which player_test.lua holds too; left alone it plays by itself.
 local LOG = "../../scenes/dodgeball.input" -- 2 s at 1.5 m/s to the right, 2 s of rest, then up and down
 
+local halves = require "parts/court"
 local function court(ball, input)
-  return {
-    places = {
-      red_court = { polygon = { { -8, -4 }, { 0, -4 }, { 0, 4 }, { -8, 4 } } },
-      blue_court = { polygon = { { 0, -4 }, { 8, -4 }, { 8, 4 }, { 0, 4 } } },
-    },
-    bodies = {
-      {
-        name = "ball", tags = { "ball" }, at = ball,
-        shape = { sphere = { radius = 0.11 } }, mass = 0.4, restitution = 0.7,
-      },
-    },
-    groups = {
-      a_red = { behaviour = "dodgeball_player.lua", at = { { -4, 0 } }, team = "red", set = { court = "red_court" } },
-      blue = { behaviour = "dodgeball.lua", at = { { 5, 0 } }, team = "blue", set = { court = "blue_court" } },
-    },
-    player = "a_red",
-    input = input,
-  }
+  local game = halves(ball, {
+    a_red = { behaviour = "dodgeball_player.lua", at = { { -4, 0 } }, team = "red", set = { court = "red_court" } },
+    blue = { behaviour = "dodgeball.lua", at = { { 5, 0 } }, team = "blue", set = { court = "blue_court" } },
+  })
+  game.player, game.input = "a_red", input
+  return game
 end
 local AWAY = { -20, 20, 0.11 }
 

@@ -1,22 +1,12 @@
 -- dodgeball.lua: runs from a ball that flies or lies in the other court; kicks one that lies in its own.
+local halves = require "parts/court"
 local function court(ball)
-  return {
-    places = {
-      red_court = { polygon = { { -8, -4 }, { 0, -4 }, { 0, 4 }, { -8, 4 } } },
-      blue_court = { polygon = { { 0, -4 }, { 8, -4 }, { 8, 4 }, { 0, 4 } } },
-    },
-    walls = { { line = { { -8, -4 }, { 8, -4 }, { 8, 4 }, { -8, 4 } }, closed = true, height = 1 } },
-    bodies = {
-      {
-        name = "ball", tags = { "ball" }, at = ball,
-        shape = { sphere = { radius = 0.11 } }, mass = 0.4, restitution = 0.7,
-      },
-    },
-    groups = {
-      red = { behaviour = "dodgeball.lua", at = { { -4, 0 } }, team = "red", set = { court = "red_court" } },
-      blue = { behaviour = "dodgeball.lua", at = { { 4, 0 } }, team = "blue", set = { court = "blue_court" } },
-    },
-  }
+  local game = halves(ball, {
+    red = { behaviour = "dodgeball.lua", at = { { -4, 0 } }, team = "red", set = { court = "red_court" } },
+    blue = { behaviour = "dodgeball.lua", at = { { 4, 0 } }, team = "blue", set = { court = "blue_court" } },
+  })
+  game.walls = { { line = { { -8, -4 }, { 8, -4 }, { 8, 4 }, { -8, 4 } }, closed = true, height = 1 } }
+  return game
 end
 local LIES = { 3, 0, 0.11 }
 

@@ -1,24 +1,14 @@
 -- player.lua: a person drives this agent; touching the ball kicks it at an opponent.
 local LOG = "../../scenes/dodgeball.input" -- 2 s at 1.5 m/s to the right, 2 s of rest, then up and down
 
+local halves = require "parts/court"
 local function court(ball, input)
-  return {
-    places = {
-      blue_court = { polygon = { { 0, -4 }, { 8, -4 }, { 8, 4 }, { 0, 4 } } },
-    },
-    bodies = {
-      {
-        name = "ball", tags = { "ball" }, at = ball,
-        shape = { sphere = { radius = 0.11 } }, mass = 0.4, restitution = 0.7,
-      },
-    },
-    groups = {
-      a_red = { behaviour = "player.lua", at = { { -4, 0 } }, team = "red" },
-      blue = { behaviour = "dodgeball.lua", at = { { 5, 0 } }, team = "blue", set = { court = "blue_court" } },
-    },
-    player = "a_red",
-    input = input,
-  }
+  local game = halves(ball, {
+    a_red = { behaviour = "player.lua", at = { { -4, 0 } }, team = "red" },
+    blue = { behaviour = "dodgeball.lua", at = { { 5, 0 } }, team = "blue", set = { court = "blue_court" } },
+  })
+  game.player, game.input = "a_red", input
+  return game
 end
 local AWAY = { -20, 20, 0.11 }
 

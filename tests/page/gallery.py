@@ -26,9 +26,9 @@ FRAMES, RATE = 24, 8  # of a clip; a second
 BROWSERS = 2
 # s before the picture, where the first one shows little
 BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 14, "wall-heavy": 14, "wall-tight": 14, "circle": 30, "two-bottlenecks": 30,
-          "evacuation": 16, "counterflow": 40, "running-through": 3, "hurried-polite": 3, "giving-way": 4, "train-doors": 13, "tackle": 2, "push-row": 2, "bottleneck": 15, "arena": 10, "san-fermin": 20,
+          "evacuation": 16, "counterflow": 40, "running-through": 3, "hurried-polite": 3, "giving-way": 4, "train-doors": 13, "tackle": 7, "push-row": 2, "bottleneck": 15, "arena": 10, "san-fermin": 20,
           "metro": 70, "dodgeball": 3, "premovement": 40, "premovement-many": 30, "gates": 12, "exit-lost": 12, "rimea-10": 5,
-          "rimea-15": 30, "rimea-15-straight": 30, "rimea-07": 30, "outbreak": 30, "station": 20, "tour": 12}
+          "rimea-15": 30, "rescue": 22, "rimea-15-straight": 30, "rimea-07": 30, "outbreak": 30, "station": 20, "tour": 12}
 OTHERWISE = 8  # s
 
 # Clips play while the pointer or the focus is on them, or a finger was last.

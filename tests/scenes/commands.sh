@@ -153,6 +153,10 @@ expect "people in walls are told before the first step" 0 "of the 3 people of gr
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
 "$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check that warns does not say that nothing is wrong" $?
 
+printf 'return machine { name = "asks", start = "A", states = { A = { steer = hold,\n  { to = "B", when = near(nearest("people"):in_state("Aa"), 2) } }, B = { removes = true } } }\n' >"$work/asks.lua"
+printf 'jostle: 1\ngroups: {g: {behaviour: asks.lua, at: [[0, 0], [3, 0]], tags: [people]}}\n' >"$work/asks.yaml"
+expect "a state that no machine of the scene has is warned of, where it is named" 0 "asks.lua:2:54: warning: no machine of the scene has a state 'Aa'. Did you mean 'A'?" "$JOSTLE" check "$work/asks.yaml"
+
 # ---- names that are called otherwise now ----
 mkdir -p "$work/old/behaviours" "$work/old/scenes"
 cat >"$work/old/behaviours/lib.lua" <<'LUA'
@@ -171,6 +175,7 @@ expect "a key of a scene has, too" 3 "'width_eager' is called 'room_eager' now" 
 expect "a shipped behaviour has, too" 3 "'passer' is called 'walker' now" "$JOSTLE" run scenes/bottleneck.yaml --set groups.people.behaviour=passer.lua
 expect "migrate --check changes nothing" 1 "2 names to be renamed" "$JOSTLE" migrate --check "$work/old/behaviours"
 diff -r "$work/old" "$work/kept" >/dev/null; verdict "  indeed" $?
+expect "  nor are names in files that were not given to be renamed: they are errors" 3 "2 errors left" "$JOSTLE" migrate --check "$work/old/scenes"
 expect "migrate renames words, and values that a behaviour says were renamed" 0 "5 names renamed" "$JOSTLE" migrate "$work/old"
 sed -i 's/(held/(holders/; s/& held/\& holders/' "$work/kept/behaviours/lib.lua"
 sed -i 's/{courage:/{bravery:/; s/{"courage":/{"bravery":/; s/blows/hits/' "$work/kept/scenes/a.yaml"
@@ -181,5 +186,11 @@ expect "what was renamed loads" 0 "nothing wrong" "$JOSTLE" check "$work/old"
 sed -i 's/bravery:/courage:/' "$work/old/scenes/a.yaml"
 ln -s a.yaml "$work/old/scenes/link.yaml"
 "$JOSTLE" migrate "$work/old/scenes/link.yaml" >/dev/null; [ -L "$work/old/scenes/link.yaml" ] && ! grep -q 'courage:' "$work/old/scenes/a.yaml"; verdict "what a link leads to is rewritten, the link stays" $?
+mkdir -p "$work/linked" "$work/deep/2/3/4/5/6/7/8/9"; ln -s / "$work/linked/away"; ln -s itself "$work/linked/itself"
+for command in check "migrate --check" migrate; do
+    expect "$command: a folder that cannot be read is told" 3 "linked/away: the folder cannot be read: Permission denied. Give its path" "$JOSTLE" $command "$work/linked"
+    grep -q "linked/itself: Too many levels of symbolic links" "$work/out"; verdict "  and a file" $?
+    expect "  and a folder that lies too deep" 0 "/8/9: warning: folders are looked at 8 deep, not this one" "$JOSTLE" $command "$work/deep"
+done
 mkfifo "$work/pipe.yaml"; head -c 100000 /dev/urandom >"$work/noise.yaml"
 expect "migrate: a pipe, noise and nothing" 3 "3 errors left" timeout 20 "$JOSTLE" migrate "$work/pipe.yaml" "$work/noise.yaml" "$work/nothing.yaml"

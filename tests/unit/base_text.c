@@ -27,6 +27,10 @@ static void suggestions_are_near_or_absent(void **state) {
     assert_string_equal(jox_suggest("stuk", names, 4), "stuck");
     assert_string_equal(jox_suggest("isnide", names, 4), "inside");
     assert_null(jox_suggest("elephant", names, 4));
+    char hint[JOX_HINT] = "as it was";
+    assert_null(jox_did_you_mean("elephant", names, 4, hint));
+    assert_string_equal(hint, "as it was");
+    assert_string_equal(jox_did_you_mean("aftre", names, 4, hint), "Did you mean 'after'?");
 }
 
 static void a_diagnostic_prints_its_place(void **state) {

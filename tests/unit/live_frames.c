@@ -109,6 +109,27 @@ static void the_area_grows(void **state) {
     jo_scene_free(scene);
 }
 
+/* Who is in a state that says so lies, and does not lean. */
+static void a_state_makes_people_lie(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(PEOPLE(4),
+                 HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = after(0.2) } }, "
+                      "B = { steer = hold, lies = true } } }\n");
+    const JoxAgents *a = &scene->world->state.agents;
+    JoxBytes frame = {0};
+    for (int t = 0; t < 2; t++) {
+        step(scene, t == 0 ? 1 : 8);
+        a->contact_x[0] = 200.0f;
+        jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+        const Seen seen = decode(&frame, scene->world);
+        const uint8_t flags = seen.slot[8 * (size_t)a->slot[0] + 7];
+        assert_int_equal((flags & JOX_LIVE_LIES) == JOX_LIVE_LIES, t == 1);
+    }
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+}
+
 /* Who is pushed leans: by the way, and the harder the more; pushes of a moment hardly count. */
 static void pushes_make_people_lean(void **state) {
     (void)state;
@@ -366,6 +387,7 @@ int main(void) {
         cmocka_unit_test(slots_stay_with_their_people),
         cmocka_unit_test(nobody_flies_across),
         cmocka_unit_test(the_area_grows),
+        cmocka_unit_test(a_state_makes_people_lie),
         cmocka_unit_test(pushes_make_people_lean),
         cmocka_unit_test(colours_measure),
         cmocka_unit_test(people_are_told_once),

@@ -281,6 +281,9 @@ static void both_versions_of_jupedsim(void **state) {
     assert_null(read_file(0, 0, &said));
     assert_non_null(strstr(said.data, "--fps 25"));
     check_walk(read_file(10, 0, NULL));
+    make_database(TRAJECTORIES "INSERT INTO metadata VALUES('version','3'),('fps','10');");
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "version 3 of the JuPedSim format. Versions 1 and 2 are"));
     make_database("CREATE TABLE other(x)");
     assert_null(read_file(0, 0, &said));
     assert_non_null(strstr(said.data, "a table trajectory_data"));

@@ -59,6 +59,42 @@ static void a_renamed_state_goes_on_where_it_was(void **state) {
     jo_scene_free(scene);
 }
 
+static double own_of(const JoScene *scene, uint32_t agent, const char *name) {
+    const JoxMachine *m =
+        scene->world->model.machines.items[scene->world->state.agents.machine[agent]];
+    for (uint32_t s = 0; s < m->own_count; s++)
+        if (strcmp(m->own[s].name, name) == 0)
+            return jox_own(&scene->world->state.agents, agent, s);
+    fail_msg("no own value '%s'", name);
+    return 0.0;
+}
+
+static void renamed_memory_and_own_values_are_kept(void **state) {
+    (void)state;
+    static const char BEFORE[] =
+        "local mine = memory { met = 0, other = 7 }\n" HEAD
+        "\"A\", own = { courage = uniform(2, 3), calm = 5 }, states = { A = { steer = hold,\n"
+        "  on_enter = function(me) me.met = me.id + 1 end } } }\n";
+    static const char AFTER[] = "local mine = memory { other = 7, seen = 0 }\n" HEAD
+                                "\"A\", own = { calm = 5, bravery = uniform(2, 3) },\n"
+                                "  renamed = { courage = \"bravery\", met = \"seen\" }, states = { "
+                                "A = { steer = hold } } }\n";
+    JoScene *scene = load_own(PEOPLE(4), BEFORE);
+    step(scene, 2);
+    double courage[4];
+    for (uint32_t i = 0; i < 4; i++)
+        courage[i] = own_of(scene, i, "courage");
+    assert_true(courage[0] != courage[1]);
+    assert_true(reload_text(scene, 0, AFTER));
+    for (uint32_t i = 0; i < 4; i++) {
+        assert_true(own_of(scene, i, "bravery") == courage[i]);
+        assert_true(own_of(scene, i, "calm") == 5.0);
+        assert_true(memory_of(scene, i, "seen") == i + 1.0);
+        assert_true(memory_of(scene, i, "other") == 7.0);
+    }
+    jo_scene_free(scene);
+}
+
 static void a_state_with_people_cannot_disappear(void **state) {
     (void)state;
     static const char WITHOUT[] =
@@ -248,6 +284,7 @@ static void a_parameter_taken_out_falls_back(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_renamed_state_goes_on_where_it_was),
+        cmocka_unit_test(renamed_memory_and_own_values_are_kept),
         cmocka_unit_test(a_state_with_people_cannot_disappear),
         cmocka_unit_test(memory_is_kept_by_name_and_type),
         cmocka_unit_test(another_distribution_reaches_the_living),

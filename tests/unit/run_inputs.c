@@ -277,7 +277,7 @@ static void the_graph_says_who_set_what(void **state) {
     assert_non_null(strstr(text.data, wanted));
     assert_non_null(strstr(text.data,
                            "{\"name\": \"max_speed\", \"value\": 0.7, \"text\": \"0.7\", "
-                           "\"set\": \"live page\""));
+                           "\"set\": \"program or page\""));
     assert_non_null(strstr(text.data, "{\"name\": \"yield\", \"value\": 0.5, \"text\": \"\", "
                                       "\"set\": \"engine\""));
     assert_non_null(

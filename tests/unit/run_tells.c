@@ -325,6 +325,32 @@ static void a_value_now_and_who_set_it(void **state) {
     jo_scene_free(shown);
 }
 
+/* Of what no text says where it is made, and of what was written before anybody asked. */
+static void a_value_whose_making_was_not_seen(void **state) {
+    (void)state;
+    char path[160];
+    JoSceneDef def = def_of(path);
+    JoError error = {0};
+    put("hint.lua", "local function keen(state) state.perception = 7 return state end\n"
+                    "return machine { name = \"hint\", version = 1, start = \"A\",\n"
+                    "  defaults = { perception = 3 }, states = {\n"
+                    "    A = keen { steer = hold } } }\n");
+    def.text = HINTS;
+    def.text_length = sizeof HINTS - 1;
+    shown = jo_scene_load(&def, &error);
+    assert_non_null(shown);
+    agent = jo_world_agent_of(jo_scene_world(shown), 1);
+    assert_true(jo_agent_set_parameter(jo_scene_world(shown), agent, "push_reach", 0.3, &error));
+    was_set("perception", 7, JO_SET_BEHAVIOUR, 4, "state A");
+    was_set("push_reach", 0.3, JO_SET_UNSEEN, 0, "");
+    char *json = jo_scene_inspect(shown, agent.slot);
+    assert_non_null(strstr(json, "/hint.lua:4\""));
+    assert_non_null(
+        strstr(json, "\"value\": 0.3, \"unit\": \"m\", \"set\": \"function or program\""));
+    jo_free(json);
+    jo_scene_free(shown);
+}
+
 /* ---- hints ---- */
 
 static JoHints *hints_of(const char *behaviour, double seconds) {
@@ -435,6 +461,7 @@ int main(void) {
         cmocka_unit_test(a_suspended_function_is_a_trouble),
         cmocka_unit_test(mods_and_who_set_what),
         cmocka_unit_test(a_value_now_and_who_set_it),
+        cmocka_unit_test(a_value_whose_making_was_not_seen),
         cmocka_unit_test(what_never_happened_is_hinted_at),
         cmocka_unit_test(a_goal_that_nobody_reached_is_hinted_at),
         cmocka_unit_test(a_cycle_without_time_is_hinted_at),

@@ -64,15 +64,12 @@ static int env_index(lua_State *L) {
     if (!script->vm.loading)
         return luaL_error(L, "unknown name '%s'", name);
     const char *now = jox_old_name(JOX_OLD_WORD, name);
-    if (now) {
-        jox_diag_renamed(script->diagnostics, jox_word_position(L, name), name, now);
-        jox_node_push(L, JOX_NODE_ERROR);
-        return 1;
-    }
+    if (now)
+        return jox_word_renamed(L, name, now);
     const char *names[128];
     size_t count = jox_word_names(names, 128);
-    char hint[128];
-    const char *near = jox_suggest(name, names, count);
+    char hint[JOX_HINT];
+    const char *near = jox_did_you_mean(name, names, count, hint);
     if (jox_parameter_find(name) >= 0)
         snprintf(hint, sizeof hint,
                  "As a value write own.%s (what was drawn) or now.NAME (what is "
@@ -80,12 +77,10 @@ static int env_index(lua_State *L) {
                  name);
     else if (absent(name))
         snprintf(hint, sizeof hint, "%s", absent(name));
-    else if (near)
-        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-    else if (is_named(script->scope, name))
+    else if (!near && is_named(script->scope, name))
         snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
                  name);
-    else
+    else if (!near)
         snprintf(
             hint, sizeof hint,
             "Words and locals are all that a behaviour can use; names of places and tags stand "

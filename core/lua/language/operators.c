@@ -259,8 +259,10 @@ static JoxNodeWhose *narrowed(lua_State *L, const char *method) {
 
 static int method_in_state(lua_State *L) {
     JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "in_state");
-    if (whose)
+    if (whose) {
         whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+        whose->state_at = jox_word_written(L, whose->state);
+    }
     return 1;
 }
 
@@ -286,7 +288,7 @@ static int method_of_group(lua_State *L) {
         if (strcmp(scope->groups[g].name, name) == 0)
             whose->group = (int32_t)g;
     }
-    char hint[96];
+    char hint[JOX_HINT];
     if (whose->group < 0 && scope->complete)
         return jox_word_error(L, name, "unknown-group", jox_did_you_mean(name, names, count, hint),
                               "the scene has no group '%s'", name);
@@ -299,6 +301,7 @@ static int method_where(lua_State *L) {
     if (!whose)
         return 1;
     whose->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    whose->memory_at = jox_word_written(L, whose->memory);
     whose->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
     whose->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;
@@ -328,10 +331,8 @@ static int meta_index(lua_State *L) {
             return 1;
         }
     }
-    const char *near = jox_suggest(name, names, count);
-    char hint[96] = "Numbers have above, below, at_least, at_most and is";
-    if (near)
-        strcpy(stpcpy(stpcpy(hint, "Did you mean '"), near), "'?");
+    char hint[JOX_HINT] = "Numbers have above, below, at_least, at_most and is";
+    jox_did_you_mean(name, names, count, hint);
     return jox_word_error(L, name, "unknown-method", hint, "%s has no '%s'", jox_node_kind(L, 1),
                           name);
 }

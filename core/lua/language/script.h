@@ -65,9 +65,16 @@ typedef enum {
     JOX_NODE_ERROR    /* stands for something already reported */
 } JoxNodeKind;
 
+/* Where a name was written, and the number of that source. */
+typedef struct JoxNamePlace {
+    JoxPosition at;
+    uint32_t source;
+} JoxNamePlace;
+
 /* As JoxWhose, by names; NULL: any. */
 typedef struct JoxNodeWhose {
     const char *state, *machine, *memory;
+    JoxNamePlace state_at, memory_at;
     bool grouped;
     int32_t group;
     double least, greatest;
@@ -94,7 +101,7 @@ struct JoxNode {
     int32_t compiled; /* expression of the machine that it was compiled to, plus 1; 0: not yet */
     int hook;         /* registry reference of a function or table, or LUA_NOREF */
     JoxPosition position;
-    uint32_t source; /* number of the source that position is in */
+    JoxNamePlace written; /* of own values, and of names of what others have */
 };
 
 /* ---- one Lua state with its load ---- */
@@ -181,7 +188,10 @@ void jox_script_set_words(lua_State *L);
 /* Reports an error at a word's place in the running chunk and pushes an error value; returns 1. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
+/* The same of a word that has another name now. */
+int jox_word_renamed(lua_State *L, const char *word, const char *now);
 JoxPosition jox_word_position(lua_State *L, const char *word);
+JoxNamePlace jox_word_written(lua_State *L, const char *word);
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* new, also on the stack */
 JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if it is no node */
@@ -209,9 +219,6 @@ size_t jox_word_names(const char **names, size_t capacity);
 /* Reads argument `index` of a word as its letter of the vocabulary asks; NULL with an error, or a
    error value, pushed. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
-/* "Did you mean 'x'?" or NULL. */
-const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
-                             char hint[96]);
 bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
 
 void jox_me_open(JoxScript *script);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/old_names.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -125,7 +126,7 @@ static int memory_index(lua_State *L) {
             return 1;
         }
     }
-    char hint[96];
+    char hint[JOX_HINT];
     return jox_word_error(L, name, "unknown-memory",
                           jox_did_you_mean(name, names, script->memory_count, hint),
                           "memory has no '%s'", name);
@@ -145,7 +146,10 @@ static int now_index(lua_State *L) {
             node->arg = i;
             return 1;
         }
-    char hint[96];
+    const char *now = jox_old_name(JOX_OLD_WORD, name);
+    char hint[JOX_HINT];
+    if (now && jox_vm_of(L)->loading)
+        return jox_word_renamed(L, name, now);
     return jox_word_error(L, name, "unknown-word",
                           jox_did_you_mean(name, NAMES, JOX_NOW_COUNT, hint),
                           "nothing called '%s' is measured now", name);
@@ -156,10 +160,8 @@ static int own_index(lua_State *L) {
     JoxNode *node = jox_node_push(L, JOX_NODE_OWN);
     node->op = JOX_OP_OWN;
     node->name = jox_vm_intern(jox_vm_of(L), name);
-    node->position = jox_word_position(L, name);
-    for (uint32_t s = 0; s < jox_script_of(L)->vm.source_count; s++)
-        if (jox_script_of(L)->vm.sources[s]->path == node->position.file)
-            node->source = s;
+    node->written = jox_word_written(L, name);
+    node->position = node->written.at;
     return 1;
 }
 
@@ -208,7 +210,7 @@ static int settings_index(lua_State *L) {
             return 1;
         }
     }
-    char hint[96];
+    char hint[JOX_HINT];
     return jox_word_error(L, name, "unknown-setting", jox_did_you_mean(name, names, count, hint),
                           "mod %s has no setting '%s'", script->mod->name, name);
 }

@@ -23,6 +23,15 @@ JoxPosition jox_word_position(lua_State *L, const char *word) {
     return (JoxPosition){script->vm.source_count ? script->vm.sources[0]->path : NULL, 0, 0, 0};
 }
 
+JoxNamePlace jox_word_written(lua_State *L, const char *word) {
+    const JoxVm *vm = jox_vm_of(L);
+    JoxNamePlace written = {.at = jox_word_position(L, word)};
+    for (uint32_t s = 0; s < vm->source_count; s++)
+        if (vm->sources[s]->path == written.at.file)
+            written.source = s;
+    return written;
+}
+
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
                    const char *format, ...) {
     JOX_ASSERT(*code);
@@ -42,11 +51,9 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     return 1;
 }
 
-const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
-                             char hint[96]) {
-    const char *near = jox_suggest(word, names, count);
-    if (!near)
-        return NULL;
-    snprintf(hint, 96, "Did you mean '%s'?", near);
-    return hint;
+int jox_word_renamed(lua_State *L, const char *word, const char *now) {
+    JoxScript *script = jox_script_of(L);
+    jox_diag_renamed(script->diagnostics, jox_word_position(L, word), word, now);
+    jox_node_push(L, JOX_NODE_ERROR);
+    return 1;
 }

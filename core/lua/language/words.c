@@ -30,7 +30,7 @@ static JoxNode *place_by_name(lua_State *L, const char *name) {
         size_t count = script->scope->place_count < 256 ? script->scope->place_count : 256;
         for (size_t i = 0; i < count; i++)
             names[i] = script->scope->places[i].name;
-        char hint[96];
+        char hint[JOX_HINT];
         jox_word_error(L, name, "unknown-place", jox_did_you_mean(name, names, count, hint),
                        "the scene has no place '%s'", name);
         return NULL;
@@ -58,7 +58,7 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
                      {"anyone", JOX_TARGET_ANYONE}};
     JoxScript *script = jox_script_of(L);
     const JoxScope *scope = script->scope;
-    char hint[96];
+    char hint[JOX_HINT];
     if (lua_type(L, index) != LUA_TSTRING) {
         jox_word_error(L, word, "bad-argument", "Example: nearest \"ball\"",
                        "argument %d of %s must be a tag, not %s", index, word,
@@ -102,7 +102,7 @@ static bool gate_exists(lua_State *L, int index) {
             return true;
     if (!scope->complete || count == 256)
         return true;
-    char hint[96];
+    char hint[JOX_HINT];
     jox_word_error(L, name, "unknown-wall", jox_did_you_mean(name, names, count, hint),
                    "the scene has no walls named '%s'", name);
     return false;
@@ -153,6 +153,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* carries the name alone */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
+        if (letter == 's')
+            result->written = jox_word_written(L, result->name);
     }
     if (result)
         return result;
@@ -204,9 +206,10 @@ static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
             node->place = arguments[i];
         else if (*letter == 't')
             node->target = arguments[i];
-        else if (*letter == 's' || *letter == 'w')
+        else if (*letter == 's' || *letter == 'w') {
             node->name = arguments[i]->name;
-        else if (*letter == 'g')
+            node->written = arguments[i]->written;
+        } else if (*letter == 'g')
             node->target = arguments[i];
         else if (!node->a)
             node->a = arguments[i];
@@ -228,7 +231,7 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
             node->target_kind = JOX_TARGET_ONE_OF_OWN; /* a set that the scene's group names */
             node->name = arguments[0]->name;
             node->position = arguments[0]->position;
-            node->source = arguments[0]->source;
+            node->written = arguments[0]->written;
             break;
         }
         if (word->op == JOX_TARGET_ONE_OF && arguments[0]->target_kind != JOX_TARGET_PLACE) {

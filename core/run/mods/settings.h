@@ -12,4 +12,9 @@ void jox_settings_add(void *pack, const JoSetting *setting);
 /* Ends it; the caller's. */
 JoSettings *jox_settings_end(JoxPack *pack);
 
+/* What set a parameter of the agent at an index, whom `watched` is of and who has a behaviour: as
+   jo_agent_why, at least one. The caller's. */
+JoSettings *jox_run_parameter_why(JoScene *scene, uint32_t i, const JoxWatched *watched,
+                                  int parameter);
+
 #endif

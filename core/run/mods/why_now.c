@@ -56,12 +56,12 @@ static const JoxGroupValue *group_value(const Now *now, const char *name, bool m
     return NULL;
 }
 
-static void add_group(const Now *now, const JoxGroupValue *value, const char *profile) {
+static bool add_group(const Now *now, const JoxGroupValue *value, const char *profile) {
     const JoxSceneSpec *spec = now->scene->spec;
     char where[200];
     JoxText text = {0};
     if (!value)
-        return;
+        return false;
     snprintf(where, sizeof where, "groups.%.80s%s%.80s",
              spec->groups[now->scene->world->state.agents.group[now->i]].name,
              profile ? ".profiles." : "", profile ? profile : "");
@@ -76,20 +76,23 @@ static void add_group(const Now *now, const JoxGroupValue *value, const char *pr
                                   .where = where,
                                   .time = (double)NAN});
     jox_text_free(&text);
+    return true;
 }
 
-/* What the group gives, and after it a kind of people in it that has the very value. */
-static void add_given(const Now *now, const char *name, double own) {
+/* What the group gives, and after it a kind of people in it that has the very value; whether there
+   is any. */
+static bool add_given(const Now *now, const char *name, double own) {
     const JoxSceneSpec *spec = now->scene->spec;
     const uint32_t group = now->scene->world->state.agents.group[now->i];
-    add_group(now, group_value(now, name, false), NULL);
+    bool given = add_group(now, group_value(now, name, false), NULL);
     for (uint32_t k = 0; group < spec->group_count && k < spec->groups[group].profile_count; k++) {
         const JoxProfile *profile = &spec->groups[group].profiles[k];
         for (uint32_t s = 0; s < profile->set_count; s++)
             if (strcmp(profile->set[s].name, name) == 0 &&
                 profile->set[s].dist.kind == JOX_DIST_CONSTANT && profile->set[s].dist.a == own)
-                add_group(now, &profile->set[s], profile->name);
+                given |= add_group(now, &profile->set[s], profile->name);
     }
+    return given;
 }
 
 /* ---- who wrote it in the run ---- */
@@ -142,14 +145,27 @@ static void add_wrote(const Now *now, const JoxWrote *wrote, const char *name) {
 
 /* ---- parameters, own values, memory ---- */
 
+/* One without a place in a file, at an unknown time. */
+static void add_unplaced(const Now *now, JoSetBy by, const char *where) {
+    jox_settings_add(now->pack, &(JoSetting){.by = by, .where = where, .time = (double)NAN});
+}
+
 /* A value of the defaults or of a state, where it is written. */
 static void add_value(Now *now, const JoxValue *value, const char *path, const char *where) {
+    const JoxLua *lua = now->scene->lua;
+    const JoxScope *scope = &now->scene->scope;
+    JoxWritten written = {0};
     now->where = where;
-    if (value->line == JOX_LINE_LIVE)
-        jox_settings_add(now->pack,
-                         &(JoSetting){.by = JO_SET_PROGRAM, .where = where, .time = (double)NAN});
-    else
-        jox_lua_why(now->scene->lua, now->machine, path, &now->scene->scope, add_place, now);
+    if (value->line == JOX_LINE_LIVE) {
+        add_unplaced(now, JO_SET_PROGRAM, where);
+    } else if (value->line > 0 && !jox_lua_written(lua, now->machine, path, scope, &written)) {
+        /* made by a function: no text says so */
+        written = (JoxWritten){.file = now->machine->path, .line = value->line};
+        add_written(now, JO_SET_BEHAVIOUR, &written, where, (double)NAN);
+    } else {
+        jox_text_free(&written.text);
+        jox_lua_why(lua, now->machine, path, scope, add_place, now);
+    }
 }
 
 static void add_parameter(Now *now, int p) {
@@ -164,7 +180,9 @@ static void add_parameter(Now *now, int p) {
     add_value(now, inherited, path, "defaults");
     const bool drawn =
         inherited->kind == JOX_VALUE_OWN && (uint32_t)inherited->index < a->own_count;
-    add_given(now, name, drawn ? jox_own(a, now->i, (uint32_t)inherited->index) : (double)NAN);
+    const bool given = drawn && inherited->index < 64 && (a->given[now->i] >> inherited->index & 1);
+    const bool said =
+        add_given(now, name, drawn ? jox_own(a, now->i, (uint32_t)inherited->index) : (double)NAN);
     const JoxWrote *wrote = find_wrote(now, false, (uint32_t)p);
     const double meant = value->kind == JOX_VALUE_CONST ? value->number
                          : slot                         ? jox_own(a, now->i, (uint32_t)value->index)
@@ -172,15 +190,19 @@ static void add_parameter(Now *now, int p) {
     /* Written into the column itself: that holds until the next state that says otherwise. */
     const bool apart =
         !isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != a->param[p][now->i];
+    if (given && !said && !wrote)
+        add_unplaced(now, JO_SET_UNSEEN, "");
     if (!apart)
         add_wrote(now, wrote, name);
     if (!own) {
-        snprintf(path, sizeof path, "%.120s.%s", now->state->name, name);
+        snprintf(path, sizeof path, "states.%.120s.%s", now->state->name, name);
         snprintf(where, sizeof where, "state %.120s", now->state->name);
         add_value(now, set, path, where);
     }
-    if (apart)
+    if (apart && wrote)
         add_wrote(now, wrote, name);
+    else if (apart)
+        add_unplaced(now, JO_SET_UNSEEN, "");
 }
 
 static void add_memory(Now *now, uint32_t slot) {
@@ -246,29 +268,45 @@ static void not_there(const Now *now, const char *name, JoError *error) {
               now->machine->name, name, near ? "; did you mean " : "", near ? near : "");
 }
 
+static Now now_of(JoScene *scene, uint32_t i, const JoxWatched *watched, JoxPack *pack) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachine *machine = scene->world->machines.set->items[a->machine[i]];
+    jox_settings_begin(pack);
+    return (Now){.scene = scene,
+                 .i = i,
+                 .machine = machine,
+                 .state = &machine->states[a->state[i]],
+                 .watched = watched,
+                 .pack = pack};
+}
+
+JoSettings *jox_run_parameter_why(JoScene *scene, uint32_t i, const JoxWatched *watched,
+                                  int parameter) {
+    JoxPack pack = {0};
+    Now now = now_of(scene, i, watched, &pack);
+    add_parameter(&now, parameter);
+    return jox_settings_end(&pack);
+}
+
 JoSettings *jo_agent_why(JoScene *scene, JoAgent agent, const char *name, double *value,
                          JoError *error) {
     JOX_REQUIRE(scene && name && value, NULL);
     JOX_GUARD (scene->heap, error)
         return NULL;
-    const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
-    Now now = {.scene = scene};
+    const JoxWatched *watched;
     if (!jo_agent_is_live(scene->world, agent) ||
-        !jox_world_inspect(scene->world, agent.slot, &now.watched)) {
+        !jox_world_inspect(scene->world, agent.slot, &watched)) {
         jox_error(error, JO_INPUT, "the agent is gone");
         return NULL;
     }
-    now.i = a->slot_index[agent.slot];
-    if (a->machine[now.i] == JOX_NO_MACHINE) {
+    const uint32_t i = a->slot_index[agent.slot];
+    if (a->machine[i] == JOX_NO_MACHINE) {
         jox_error(error, JO_INPUT, "the agent has no behaviour");
         return NULL;
     }
     JoxPack pack = {0};
-    now.pack = &pack;
-    now.machine = machines->set->items[a->machine[now.i]];
-    now.state = &now.machine->states[a->state[now.i]];
-    jox_settings_begin(&pack);
+    Now now = now_of(scene, i, watched, &pack);
     const bool found = list(&now, name, value);
     JoSettings *settings = jox_settings_end(&pack);
     if (found)

@@ -32,10 +32,6 @@ const char *jox_scene_suggest(const JoxReader *reader, const char *word, const c
                               size_t count) {
     if (!jox_diag_has_room(reader->diagnostics, JOX_SEVERITY_ERROR))
         return NULL;
-    const char *near = jox_suggest(word, names, count);
-    if (!near)
-        return NULL;
-    char *hint = jox_arena_take(reader->arena, strlen(near) + 24, 1);
-    sprintf(hint, "Did you mean '%s'?", near);
-    return hint;
+    char hint[JOX_HINT];
+    return jox_did_you_mean(word, names, count, hint) ? jox_arena_text(reader->arena, hint) : NULL;
 }

@@ -133,14 +133,12 @@ static bool read_verb(Reader *r, JoxInputEntry *entry) {
         }
     }
     if (!verb) {
-        const char *near = jox_suggest(r->word, names, jox_input_verb_count);
         char hint[300] = "One of";
         for (uint32_t v = 0; v < jox_input_verb_count; v++)
             if (jox_input_verbs[v].tool || v == JOX_INPUT_FILES)
                 snprintf(hint + strlen(hint), sizeof hint - strlen(hint), "%s %s", v ? "," : "",
                          names[v]);
-        if (near)
-            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+        jox_did_you_mean(r->word, names, jox_input_verb_count, hint);
         return refuse(r, hint, "there is no verb '%.40s'", r->word);
     }
     jox_input_usage(verb, &usage);

@@ -30,6 +30,14 @@ static bool unknown(const char *kind, const char *name, const char *const *names
     return false;
 }
 
+/* Whether the machine calls by another name now what is asked for, which is said. */
+static bool is_renamed(const JoxMachine *machine, JoxPart part, const char *name, JoxText *why) {
+    const char *now = jox_machine_renamed(machine, part, name);
+    if (now)
+        jox_text_printf(why, "'%.60s' of %.60s is called '%.60s' now", name, machine->name, now);
+    return now != NULL;
+}
+
 /* The machine of an agent; NULL with a sentence where it has none. */
 static const JoxMachine *machine_of(const JoWorld *world, uint32_t i, JoxText *why) {
     const JoxAgents *a = &world->state.agents;
@@ -159,7 +167,8 @@ bool jox_perform_state(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
         names[count++] = machine->states[s].name;
     char kind[100];
     snprintf(kind, sizeof kind, "state of %.60s named", machine->name);
-    return unknown(kind, entry->names[0], names, count, why);
+    return !is_renamed(machine, JOX_PART_STATE, entry->names[0], why) &&
+           unknown(kind, entry->names[0], names, count, why);
 }
 
 bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
@@ -187,7 +196,8 @@ bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why
             &(JoxWrote){.is_memory = true, .index = (uint16_t)s, .by = JOX_WROTE_PROGRAM});
         return true;
     }
-    return unknown("memory named", entry->names[0], names, count, why);
+    return !is_renamed(machine, JOX_PART_MEMORY, entry->names[0], why) &&
+           unknown("memory named", entry->names[0], names, count, why);
 }
 
 bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {

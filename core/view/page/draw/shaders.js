@@ -17,14 +17,14 @@ uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: whether 
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
-struct Person { vec2 at; vec2 ahead; vec2 lean; float radius; float colour; float flags; float speed; bool here; };
+struct Person { vec2 at; vec2 ahead; vec2 lean; float radius; float colour; float flags; float speed; bool here; bool lies; };
 
 vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
 
 // How somebody leans under pushes: rad, towards where they are pushed.
 vec2 leanOf(float flags) {
     float code = floor(flags / 8.0), way = mod(code - 1.0, 8.0) * TURN / 8.0;
-    return code < 0.5 ? vec2(0.0) : (0.1 + 0.12 * floor((code - 1.0) / 8.0)) * vec2(cos(way), sin(way));
+    return code < 0.5 || code > 24.5 ? vec2(0.0) : (0.1 + 0.12 * floor((code - 1.0) / 8.0)) * vec2(cos(way), sin(way));
 }
 
 Person decode() {
@@ -49,6 +49,7 @@ Person decode() {
     p.lean = mix(leanOf(oldInfo.w), leanOf(info.w), t);
     p.speed = another ? 0.0 : min(length(after - before) / passed, 8.0);
     p.here = info.y < 254.5;
+    p.lies = floor(info.w / 8.0) > 30.5;
     return p;
 }
 `;
@@ -76,11 +77,12 @@ varying vec3 nose;         // where it looks on the screen, and its look
 const float HEIGHT = 1.7;
 void main() {
     Person p = decode();
-    vec3 middle = vec3(p.at, 0.5 * HEIGHT);
+    float high = p.lies ? 0.3 : HEIGHT;
+    vec3 middle = vec3(p.at, 0.5 * high);
     gl_Position = projectionMatrix * viewMatrix * vec4(middle, 1.0);
     float metre = pixels / gl_Position.w;
     float r = max(p.radius * metre, 0.6);
-    float spine = max(0.0, 0.5 * HEIGHT * tall * metre - r);
+    float spine = max(0.0, 0.5 * high * tall * metre - r);
     paint = vec4(r, spine, p.colour, p.flags);
     vec2 seen = (viewMatrix * vec4(p.ahead, 0.0, 0.0)).xy;
     nose = vec3(seen.x, -seen.y, look / 255.0);
@@ -156,7 +158,7 @@ void main() {
     float high = 1.7 * clamp(sqrt(p.radius / 0.2), 0.6, 1.15) * (0.95 + 0.1 * fract(own * 5.1));
     vec3 scale = vec3(2.0 * p.radius, 2.0 * p.radius, high);
     vec3 c = corner * scale, n = normal / scale;
-    float wide = min(0.5, 0.34 * p.speed) * smoothstep(0.05, 0.3, p.speed);
+    float wide = p.lies ? 0.0 : min(0.5, 0.34 * p.speed) * smoothstep(0.05, 0.3, p.speed);
     float turn = wide * swing.x * sin(TURN * (CADENCE * (0.9 + 0.2 * own) * clock * max(1.0, 0.75 * p.speed) + own));
     if (swing.x != 0.0) {
         float down = swing.y * high - c.z;
@@ -167,6 +169,10 @@ void main() {
     vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
     vec3 at = vec3(p.at + ahead * c.x + left * c.y + p.lean * c.z, c.z * (1.0 - 0.5 * dot(p.lean, p.lean)));
     facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
+    if (p.lies) { // on the back, the head ahead
+        at = vec3(p.at + ahead * (c.z - 0.5 * high) - left * c.y, 0.14 + c.x);
+        facing = normalize(vec3(ahead * n.z - left * n.y, n.x));
+    }
     where = corner;
     shade = p.colour;
     marks = p.flags;

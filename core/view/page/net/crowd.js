@@ -3,7 +3,7 @@
 const HEADER = 48; // bytes of a frame before its slots
 const BODY = 20;
 export const NOBODY = 255;
-export const FLAG = { parity: 1, failed: 2, player: 4 }; // above: how somebody leans under pushes
+export const FLAG = { parity: 1, failed: 2, player: 4 }; // above: how somebody leans under pushes, or that they lie
 
 /** Reads a frame's header; its slots stay where they are in the buffer. Lengths in m. */
 export function readFrame(buffer) {
