@@ -10,6 +10,7 @@
 #include "picture/probe_files.h"
 #include "report/danger_files.h"
 #include "report/report.h"
+#include "task/children.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };
 static const float EDGE = 0.5f; /* m about everyone, of the map that is made without a scene */
@@ -118,19 +119,33 @@ static bool load(JoxReport *r) {
     return good;
 }
 
-static bool write(const JoxReport *r, JoError *error) {
+/* A JoxChildWork: in a process of its own, as the libraries that draw may end theirs where memory
+   runs out. Its result says why it did not succeed, and is empty where it did. */
+static void write_apart(void *report, uint64_t job, JoxText *why) {
+    const JoxReport *r = report;
     const char *folder = r->def->directory, *title = jox_report_title(r);
-    JoxText why = {0};
-    bool good = jox_plot_folder(folder, &why);
+    (void)job;
+    bool good = jox_plot_folder(folder, why);
     for (uint32_t p = 0; good && p < r->count; p++)
-        good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, &why);
-    good = good && jox_danger_write(r->danger, folder, title, &why);
+        good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, why);
+    good = good && jox_danger_write(r->danger, folder, title, why);
     const JoxSubject subject = jox_report_subject(r);
-    good = good && jox_maps_write(&subject, &why) && jox_moments_write(&subject, &why) &&
-           jox_report_page(r, &why);
+    good = good && jox_maps_write(&subject, why) && jox_moments_write(&subject, why) &&
+           jox_report_page(r, why);
+    if (!good && !why->length)
+        jox_text_add(why, "writing failed");
+}
+
+static bool write(JoxReport *r, JoError *error) {
+    JoxText why = {0}, ended = {0};
+    if (!jox_children_do(write_apart, r, &why, &ended))
+        jox_text_printf(&why, "the report in '%s' cannot be written: %s", r->def->directory,
+                        ended.data);
+    const bool good = why.length == 0;
     if (!good)
-        jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
+        jox_error(error, JO_FAILED, "%s", why.data);
     jox_text_free(&why);
+    jox_text_free(&ended);
     return good;
 }
 

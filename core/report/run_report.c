@@ -14,6 +14,7 @@
 #include "report/danger_files.h"
 #include "report/run_subject.h"
 #include "run/run.h"
+#include "task/children.h"
 
 static const double PACE = 0.1; /* s between points of paths, or a step where that is longer */
 
@@ -122,29 +123,54 @@ static bool write_data(void *self, JoScene *scene, JoError *error) {
     return write_files(self, scene, NULL, &why) || jox_run_failed(error, &why);
 }
 
-static bool draw(void *self, JoScene *scene, JoError *error) {
-    const RunReport *r = self;
-    JoxText why = {0};
+typedef struct Drawing {
+    const RunReport *report;
+    const JoScene *scene;
+    const JoxSubject *subject;
+} Drawing;
+
+static bool draw_all(const Drawing *d, JoxText *why) {
+    const RunReport *r = d->report;
+    const JoScene *scene = d->scene;
     char title[256];
     const char *name = scene->spec->title ? scene->spec->title : scene->spec->path;
     const double until = jo_world_time(scene->world);
     const JoxRegions *regions = jox_run_regions(scene);
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
-    JoxSubject subject = jox_run_subject(scene, r->folder);
-    bool good = jox_maps_write(&subject, &why) && jox_moments_write(&subject, &why);
-    jox_run_subject_free(&subject);
+    bool good = jox_maps_write(d->subject, why) && jox_moments_write(d->subject, why);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->spec->heatmap_from, until);
-        good = jox_plot_regions(r->folder, regions, title, &why);
+        good = jox_plot_regions(r->folder, regions, title, why);
     }
     if (good && paths) {
         snprintf(title, sizeof title,
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
-        good = draw_paths(r, scene, title, &why);
+        good = draw_paths(r, scene, title, why);
     }
-    if (!good || !write_files(r, scene, name, &why))
+    return good && write_files(r, scene, name, why);
+}
+
+/* A JoxChildWork: in a process of its own, as the libraries that draw may end theirs where memory
+   runs out. Its result says why it did not succeed, and is empty where it did. */
+static void draw_apart(void *drawing, uint64_t job, JoxText *why) {
+    (void)job;
+    if (!draw_all(drawing, why) && !why->length)
+        jox_text_add(why, "writing failed");
+}
+
+static bool draw(void *self, JoScene *scene, JoError *error) {
+    const RunReport *r = self;
+    JoxText why = {0}, ended = {0};
+    JoxSubject subject = jox_run_subject(scene, r->folder);
+    Drawing drawing = {r, scene, &subject};
+    if (!jox_children_do(draw_apart, &drawing, &why, &ended))
+        jox_text_printf(&why, "the report in '%s' cannot be drawn: %s", r->folder, ended.data);
+    jox_run_subject_free(&subject);
+    jox_text_free(&ended);
+    if (why.length)
         return jox_run_failed(error, &why);
+    jox_text_free(&why);
     return true;
 }
 

@@ -183,3 +183,20 @@ bool jox_children_wait(JoxChildren *c, JoxChildEnd *end) {
     }
     return false;
 }
+
+bool jox_children_do(JoxChildWork *work, void *context, JoxText *result, JoxText *why) {
+    JoxChildren *c = jox_children_create(1);
+    JoxChildEnd end = {.good = true};
+    if (jox_children_start(c, 0, work, context))
+        while (!jox_children_wait(c, &end))
+            continue;
+    else
+        work(context, 0, result);
+    if (end.good)
+        jox_text_append(result, end.result.data ? end.result.data : "", end.result.length);
+    else
+        jox_text_add(why, end.why);
+    jox_text_free(&end.result);
+    jox_children_free(c);
+    return end.good;
+}

@@ -36,4 +36,9 @@ typedef struct JoxChildEnd {
 /* Waits for a child to end, some tenths of a second at most; false if none did. */
 bool jox_children_wait(JoxChildren *children, JoxChildEnd *end);
 
+/* Does a work in one child and waits for it: what fails in it, as a library of the system that runs
+   out of memory, ends the child alone. False with `why` where it did. Where the system starts no
+   process, it is done here. */
+bool jox_children_do(JoxChildWork *work, void *context, JoxText *result, JoxText *why);
+
 #endif

@@ -106,7 +106,7 @@ count() {
     local part=$1; shift
     rm -rf out; mkdir out; cp "$work/old.yaml" out
     case $part in
-    memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; tail -n 1 "$work/count" ;; # who ends last is the command itself
+    memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; sort -n "$work/count" | tail -n 1 ;; # of the command, or of a child that goes on from it
     *) run strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;
     esac
 }

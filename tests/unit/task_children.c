@@ -89,8 +89,30 @@ static void those_that_run_are_ended(void **state) {
     assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD);
 }
 
+static void say_or_end(void *context, uint64_t job, JoxText *result) {
+    (void)job;
+    if (!context)
+        abort();
+    jox_text_add(result, context);
+}
+
+static void one_is_waited_for(void **state) {
+    (void)state;
+    JoxText result = {0}, why = {0};
+    char word[] = "done";
+    assert_true(jox_children_do(say_or_end, word, &result, &why));
+    assert_string_equal(result.data, "done");
+    assert_int_equal(why.length, 0);
+    assert_false(jox_children_do(say_or_end, NULL, &result, &why));
+    assert_string_equal(result.data, "done");
+    assert_non_null(strstr(why.data, "signal 6"));
+    jox_text_free(&result);
+    jox_text_free(&why);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(each_ends_in_its_own_way),
-                                       cmocka_unit_test(those_that_run_are_ended)};
+                                       cmocka_unit_test(those_that_run_are_ended),
+                                       cmocka_unit_test(one_is_waited_for)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
