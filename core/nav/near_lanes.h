@@ -65,7 +65,8 @@ static inline void read_places(const Packet *packet, JoxInts count, JoxFloats sc
     }
 }
 
-/* The least keys of the lists, as many as there are levels. */
+/* The least keys of the lists, as many as there are levels; of lists that the network orders, all.
+ */
 static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
     const JoxInts count = ji_load(packet->count);
@@ -93,7 +94,7 @@ static inline __attribute__((always_inline)) void order_lists(Packet *packet,
         }
     }
     JOX_UNROLL
-    for (uint32_t k = 0; k < levels; k++)
+    for (uint32_t k = 0; k < (levels > ORDERED ? levels : ORDERED); k++)
         packet->keys[k] = keys[k];
 }
 
@@ -242,20 +243,22 @@ static inline JoxMask settle_pair(Packet *packet, JoxMask lanes, uint32_t first)
     return changes;
 }
 
-/* Settles the ties of some lanes: of those whose keys are all that have these distances, in lock
-   step. */
+/* Settles the ties of some lanes: in lock step of those of which all keys are there that have these
+   distances, which behind the last level are those of short lists alone. */
 static void settle_lanes(Packet *packet, uint32_t lanes) {
     JOX_ASSERT(packet->levels > 1); /* else there are no ties */
     const uint32_t last = packet->levels - 1;
     const JoxMask cut = ji_equal(share_of(packet->keys[last]), share_of(packet->keys[last - 1]));
-    const uint32_t alone = lanes & jm_bits(cut) & lists_beyond(packet, packet->levels);
-    const JoxMask together = jm_of_bits(lanes & ~alone);
+    const uint32_t over = lanes & jm_bits(cut) & lists_beyond(packet, packet->levels);
+    const uint32_t alone = over & lists_beyond(packet, ORDERED);
+    const uint32_t keys = over & ~alone ? ORDERED : packet->levels;
+    const JoxMask together = jm_of_bits(lanes & ~alone), all = jm_of_bits(over & ~alone);
     if (alone)
         settle_alone(packet, alone);
     for (uint32_t changed = lanes & ~alone; changed;) {
         changed = 0;
-        for (uint32_t k = 0; k < last; k++)
-            changed |= jm_bits(settle_pair(packet, together, k));
+        for (uint32_t k = 0; k + 1 < keys; k++)
+            changed |= jm_bits(settle_pair(packet, k < last ? together : all, k));
     }
 }
 
