@@ -21,17 +21,6 @@ static void ignore(void *context, const char *text) {
     (void)text;
 }
 
-/* One server for all inputs: to open a port takes longer than to run a scene. */
-static JoxView *server(void) {
-    static JoxLivePage page;
-    if (!page.server) {
-        JoError error = {0};
-        if (!jox_live_page_open(&page, NULL, 0, "core/view/page", NULL, &error))
-            abort();
-    }
-    return page.server;
-}
-
 static void say(JoxScenePage *s, char *text) {
     int lines = 0;
     for (char *line = text; line && lines < MOST_LINES; lines++) {
@@ -59,7 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoError error = {0};
     s.page.source = &jox_scene_page_source;
     s.page.self = &s;
-    s.page.server = server();
+    s.page.server = fuzz_server();
     s.page.session.speed = 1;
     s.page.watchers[0].client = 1;
     if (!jox_scene_page_load(&s, &error))

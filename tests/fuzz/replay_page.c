@@ -48,17 +48,6 @@ static const char *recording(void) {
     return path;
 }
 
-/* One server for all inputs: to open a port takes longer than to read a recording. */
-static JoxView *server(void) {
-    static JoxLivePage page;
-    if (!page.server) {
-        JoError error = {0};
-        if (!jox_live_page_open(&page, NULL, 0, "core/view/page", NULL, &error))
-            abort();
-    }
-    return page.server;
-}
-
 /* Time goes on by 30 ms with each line. */
 static void say(JoxReplayPage *p, char *text) {
     double now = jox_clock_wall();
@@ -83,7 +72,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoError error = {0};
     def.recording = recording();
     def.message = ignore;
-    p.page.server = server();
+    p.page.server = fuzz_server();
     p.page.session.speed = 1;
     p.page.watchers[0].client = 1;
     if (!jox_replay_page_load(&p, &error))

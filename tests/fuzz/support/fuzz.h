@@ -29,4 +29,7 @@ void fuzz_end_diagnostics(JoxDiagnostics *diagnostics);
 JoScene *fuzz_load(const char *path, const char *text, uint32_t threads);
 void fuzz_run(JoScene *scene, int steps);
 
+/* The server of pages, one for all inputs: to open a port takes longer than to run a scene. */
+struct JoxView *fuzz_server(void);
+
 #endif

@@ -1,0 +1,14 @@
+#include <stdlib.h>
+
+#include "live/page.h"
+#include "support/fuzz.h"
+
+JoxView *fuzz_server(void) {
+    static JoxLivePage page;
+    if (!page.server) {
+        JoError error = {0};
+        if (!jox_live_page_open(&page, NULL, 0, "core/view/page", NULL, &error))
+            abort();
+    }
+    return page.server;
+}
