@@ -1,7 +1,8 @@
+#include "fuzz.h"
+
 #include <stdlib.h>
 
 #include "live/page.h"
-#include "support/fuzz.h"
 
 JoxView *fuzz_server(void) {
     static JoxLivePage page;
