@@ -212,8 +212,10 @@ static bool write_svg(JoxCanvas *c, const char *path, JoxText *error) {
     svg->ended = true;
     FILE *file = jox_file_replace(path);
     bool good = file && fwrite(svg->out.data, 1, svg->out.length, file) == svg->out.length;
-    if (file)
-        good = jox_file_close(file) == 0 && good;
+    if (file && good)
+        good = jox_file_close(file) == 0;
+    else if (file) /* where memory for it was out, the file does not know of it */
+        jox_file_drop(file);
     if (!good)
         jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
     return good;
