@@ -11,7 +11,7 @@
 #include "simd/four.h"
 
 enum {
-    JOX_NO_COLOUR = 255,
+    JOX_NO_COLOUR = 255,           /* of a contact that is left out */
     JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
     JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
 };

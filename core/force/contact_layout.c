@@ -65,13 +65,13 @@ static void colour_pairs(JoxForces *f) {
     f->pairs.count = listed;
 }
 
+/* How many pairs of each colour agents [begin, end) found. */
 static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
+    (void)end, (void)worker;
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * f->slots.room;
     const JoxPairSlot *slots = (const JoxPairSlot *)f->slots.items + first;
     uint32_t *sizes = f->colour_sizes[chunk];
-    (void)end;
     memset(sizes, 0, sizeof f->colour_sizes[chunk]);
     for (uint32_t n = 0; n < f->found.counts[chunk]; n++)
         if (slots[n].colour != JOX_NO_COLOUR)
