@@ -117,6 +117,17 @@ FILE *jox_file_open(const char *path, const char *mode) {
                   mode);
 }
 
+bool jox_file_can_be_written(const char *path) {
+    const bool was = access(path, F_OK) == 0;
+    const int number = open_to_write(path, O_APPEND, 0666);
+    if (number < 0)
+        return false;
+    close(number);
+    if (!was)
+        unlink(path);
+    return true;
+}
+
 FILE *jox_file_replace(const char *path) {
     static const char ENDING[] = ".part";
     const size_t length = strlen(path);

@@ -10,6 +10,8 @@
    reads is not opened for writing, and only regular files are opened for reading. A file has one
    writer at a time: errno is EBUSY for a second one. */
 FILE *jox_file_open(const char *path, const char *mode);
+/* Whether a file of that path can be written, else errno; it is left as it is, or not there. */
+bool jox_file_can_be_written(const char *path);
 /* Opens a file to be written whole: until it is closed it is named PATH.part, and what was at the
    path stays, and its mode with it as far as the process's mask allows; but its owner may write it.
    Written in place where that is no regular file. */

@@ -3,6 +3,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <string.h>
@@ -72,31 +74,51 @@ static pid_t spawn(const char *folder, const char *script, int errors) {
     return child;
 }
 
-/* The end of what is written to a pipe until it is closed: the reason stands last. */
-static void read_last(int pipe, char *last, size_t size) {
+/* Whether there is something to be read from a pipe, or its end, within so many seconds, of those
+   that this process runs: a system that sleeps meanwhile does not use them up. */
+static bool is_ready(int pipe, int seconds) {
+    struct pollfd asked = {.fd = pipe, .events = POLLIN};
+    int ready = 0;
+    for (int s = 0; s < seconds && ready == 0; s++)
+        ready = poll(&asked, 1, 1000);
+    return ready != 0;
+}
+
+/* The end of what a child writes to a pipe until it ends: the reason stands last. Ends a child that
+   says nothing for so many seconds. */
+static void read_last(int pipe, pid_t child, int seconds, char *last, size_t size) {
     char bytes[512];
     size_t kept = 0;
-    ssize_t got;
-    while ((got = read(pipe, bytes, sizeof bytes)) > 0 || (got < 0 && errno == EINTR))
+    ssize_t got = 1;
+    while (got != 0) {
+        if (child > 0 && !is_ready(pipe, seconds)) {
+            kill(child, SIGKILL);
+            snprintf(last, size, "it said nothing for %d s", seconds);
+            return;
+        }
+        got = read(pipe, bytes, sizeof bytes);
+        if (got < 0 && errno != EINTR)
+            break;
         for (ssize_t b = 0; b < got; b++) {
             if (kept == size - 1)
                 memmove(last, last + 1, --kept);
             last[kept++] = bytes[b] == '\n' ? ' ' : bytes[b];
         }
+    }
     while (kept && last[kept - 1] == ' ')
         kept--;
     last[kept] = '\0';
 }
 
 /* What gnuplot says is told only where it fails: it warns of curves without points, too. */
-bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
+bool jox_plot_draw_within(const char *folder, const char *script, int seconds, JoxText *error) {
     int errors[2], status = 0;
     char why[300] = "";
     pid_t child = -1, ended;
     if (pipe2(errors, O_CLOEXEC) == 0) {
         child = spawn(folder, script, errors[1]);
         close(errors[1]);
-        read_last(errors[0], why, sizeof why);
+        read_last(errors[0], child, seconds, why, sizeof why);
         close(errors[0]);
     }
     do
@@ -107,6 +129,11 @@ bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
     jox_text_printf(error, "gnuplot could not draw %s/%s%s%s", folder, script,
                     *why ? ": " : " (is gnuplot installed?)", why);
     return false;
+}
+
+bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
+    enum { PATIENCE = 300 }; /* the largest picture takes some seconds */
+    return jox_plot_draw_within(folder, script, PATIENCE, error);
 }
 
 void jox_plot_file(FILE *script, const char *stem, const char *ending) {

@@ -19,8 +19,10 @@ bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char 
    scripts by jox_quote_gnuplot, data into files. */
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
 bool jox_plot_close(FILE *file, const char *what, JoxText *error);
-/* Without a shell, and without the user's own settings of gnuplot. */
+/* Without a shell, and without the user's own settings of gnuplot. A gnuplot that hangs is ended
+   after some minutes; _within: once it has said nothing for so many seconds. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
+bool jox_plot_draw_within(const char *folder, const char *script, int seconds, JoxText *error);
 /* The terminal (PNG, or SVG on white) of so many pixels, its font, the colours of values, and the
    file STEM.png or STEM.svg that it writes. */
 void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height);

@@ -91,16 +91,10 @@ static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
 
 /* That a file can be written is found out before an hour of simulation. */
 static bool writable(const char *path, JoError *error) {
-    bool was = access(path, F_OK) == 0;
-    FILE *file = jox_file_open(path, "a");
-    if (!file) {
+    const bool good = jox_file_can_be_written(path);
+    if (!good)
         jox_error(error, JO_FAILED, "cannot write '%s': %s", path, strerror(errno));
-        return false;
-    }
-    jox_file_close(file);
-    if (!was)
-        unlink(path);
-    return true;
+    return good;
 }
 
 /* ---- times ---- */

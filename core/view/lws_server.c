@@ -3,6 +3,7 @@
 #include <netinet/in.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -208,7 +209,24 @@ static bool check(const JoxViewOptions *options, const char *address, JoxText *w
     return false;
 }
 
-/* A context of libwebsockets that listens at view->port; none where it cannot. */
+/* Whether memory was refused to libwebsockets on this thread. */
+static _Thread_local bool is_out_of_memory;
+
+/* The allocator of libwebsockets: allocates, grows or, of size 0, frees. */
+static void *reallocate(void *memory, size_t size, const char *reason) {
+    (void)reason;
+    if (size == 0) {
+        free(memory);
+        return NULL;
+    }
+    void *made = realloc(memory, size);
+    is_out_of_memory |= !made;
+    return made;
+}
+
+/* A context of libwebsockets that listens at view->port; none where it cannot, or where memory ran
+   out on the way: libwebsockets goes on without some of its tables, and crashes at the first
+   request. */
 static bool listen_at_port(JoxView *view, const char *address, double patience) {
     JoxTransport *transport = view->transport;
     struct rlimit files;
@@ -232,16 +250,20 @@ static bool listen_at_port(JoxView *view, const char *address, double patience) 
         .options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
                    LWS_SERVER_OPTION_VALIDATE_UTF8 | (six ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)};
     lws_set_log_level(0, NULL);
+    lws_set_allocator(reallocate);
+    is_out_of_memory = false;
     struct sigaction before; /* creating a context ignores SIGPIPE; lws sends with MSG_NOSIGNAL */
     sigaction(SIGPIPE, NULL, &before);
     transport->context = lws_create_context(&info);
     sigaction(SIGPIPE, &before, NULL);
     transport->vhost = transport->context ? lws_create_vhost(transport->context, &info) : NULL;
-    if (!transport->vhost && transport->context) {
+    if (transport->vhost && !is_out_of_memory)
+        return true;
+    if (transport->context)
         lws_context_destroy(transport->context);
-        transport->context = NULL;
-    }
-    return transport->vhost != NULL;
+    transport->context = NULL;
+    transport->vhost = NULL;
+    return false;
 }
 
 /* Listens at the first port that can be had. A port that was free may be another's by the time
@@ -255,6 +277,8 @@ static bool listen_anywhere(JoxView *view, const JoxViewOptions *options, const 
         view->port = p;
         if (!failed && listen_at_port(view, address, options->patience))
             return true;
+        if (!failed && is_out_of_memory)
+            failed = ENOMEM;
         if (failed && failed != EADDRINUSE)
             break;
     }

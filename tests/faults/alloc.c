@@ -19,6 +19,7 @@ static unsigned long fails = (unsigned long)-1; /* none */
 
 __attribute__((constructor)) static void begin(void) {
     const char *at = getenv("FAULT_AT");
+    unsetenv("LD_PRELOAD"); /* programs that this one starts, as gnuplot, have their memory */
     atomic_store(&made, 0);
     if (at)
         fails = strtoul(at, NULL, 10);

@@ -301,6 +301,27 @@ static void each_target_has_its_own_quotes(void **state) {
     quotes(jox_quote_file_name, "", "_");
 }
 
+/* A gnuplot that hangs is ended, and the reason told. */
+static void who_hangs_is_ended(void **state) {
+    (void)state;
+    static const char HANGS[] = "#!/bin/sh\nexec sleep 1000\n";
+    char *path = strdup(getenv("PATH"));
+    JoxText error = {0};
+    FILE *file = fopen("gnuplot", "w");
+    fputs(HANGS, file);
+    assert_int_equal(fclose(file) | chmod("gnuplot", 0700), 0);
+    JoxText both = {0};
+    jox_text_printf(&both, "%s:%s", folder, path);
+    setenv("PATH", both.data, 1);
+    assert_false(jox_plot_draw_within(".", "a.gp", 1, &error));
+    assert_string_equal(error.data, "gnuplot could not draw ./a.gp: it said nothing for 1 s");
+    setenv("PATH", path, 1);
+    unlink("gnuplot");
+    free(path);
+    jox_text_free(&both);
+    jox_text_free(&error);
+}
+
 /* The page's script lists the same colours as palette.c. */
 static void the_page_has_the_same_classes(void **state) {
     (void)state;
@@ -342,6 +363,7 @@ int main(void) {
         cmocka_unit_test(danger),
         cmocka_unit_test(canvases),
         cmocka_unit_test(pages),
+        cmocka_unit_test(who_hangs_is_ended),
         cmocka_unit_test(the_page_has_the_same_classes),
     };
     return cmocka_run_group_tests(tests, begin, end);
