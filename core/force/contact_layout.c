@@ -4,7 +4,11 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/internal.h"
+#include "force/kernels.h"
+
+#define X(name, isa) [isa] = jox_start_packets_##name,
+static JoxStartKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 /* Walks the impulses kept from the last step along with contacts that come by ascending ids: 0 for
    one that was not there. */
@@ -25,6 +29,16 @@ static inline JoxPairSlot *slots_of(const JoxForces *f, uint32_t i) {
     return (JoxPairSlot *)f->slots.items + f->found_first[i];
 }
 
+/* Begins to bring what is looked at of an agent that is due soon into the caches: agents that
+   follow each other by id stand anywhere. */
+enum { AHEAD = 6 };
+static inline void fetch(const JoxForces *f, uint32_t i) {
+    __builtin_prefetch(slots_of(f, i));
+    __builtin_prefetch(&f->colours_of[i], 1);
+    __builtin_prefetch(&f->found_number[i]);
+    __builtin_prefetch(&f->end_starts[i], 1);
+}
+
 /* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and a
    number among the ends of both. Finds where the impulses that each agent keeps begin. */
 static void colour_pairs(JoxForces *f) {
@@ -35,6 +49,8 @@ static void colour_pairs(JoxForces *f) {
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];
+        if (r + AHEAD < a->count)
+            fetch(f, a->by_rank[r + AHEAD]);
         if (!number)
             continue;
         while (kept < were->count && were->items[kept].id < id)
@@ -174,34 +190,52 @@ static void reserve(JoxForces *f, uint32_t pairs, uint32_t walls) {
     JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)agents + 1);
     JOX_RESERVE(f->pairs.items, f->pairs.capacity, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
+    JOX_RESERVE(f->work, f->work_capacity, agents + JOX_LANES);
+    JOX_RESERVE(f->lightness, f->lightness_capacity, agents + JOX_LANES);
     JOX_RESERVE(f->wall, f->wall_capacity, walls);
     JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
 }
 
-/* What goes through all agents by ids, which one thread does: pairs, and beside them walls. */
-enum { PAIRS, WALLS, ORDERED };
-static void lay_by_id(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* The velocities of a chunk of agents that all but contacts gives. */
+static void start_chunk(JoxForces *f, uint32_t chunk) {
+    const uint32_t count = f->step.agents->count, begin = chunk * JOX_FORCE_GRAIN;
+    const uint32_t end = begin + JOX_FORCE_GRAIN;
+    KERNELS[f->isa](f, begin, end < count ? end : count);
+}
+
+/* What one thread does, as it goes through all agents by ids: pairs, and walls. Beside these, by
+   chunks of agents: what the solve begins with. */
+enum { PAIRS, WALLS, STARTS };
+typedef struct Layout {
+    JoxForces *forces;
+    uint32_t pairs, walls; /* found */
+} Layout;
+
+static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
+    const Layout *layout = context;
     for (uint32_t part = begin; part < end; part++)
-        (part == PAIRS ? colour_pairs : lay_walls)(context);
+        if (part >= STARTS)
+            start_chunk(layout->forces, part - STARTS);
+        else if (part == PAIRS && layout->pairs)
+            colour_pairs(layout->forces);
+        else if (part == WALLS && layout->walls)
+            lay_walls(layout->forces);
 }
 
 void jox_contacts_lay(JoxForces *f) {
     const uint32_t agents = f->step.agents->count;
-    const uint32_t pairs = sum_of(f->found.counts, f->chunks);
-    const uint32_t walls = sum_of(f->found_walls.counts, f->chunks);
-    reserve(f, pairs, walls);
+    Layout layout = {f, sum_of(f->found.counts, f->chunks),
+                     sum_of(f->found_walls.counts, f->chunks)};
+    const bool touched = f->bodies && sum_of(f->touches.counts, f->chunks);
+    reserve(f, layout.pairs, layout.walls);
     f->wall_count = f->wall_groups = 0;
     f->pairs.count = f->pairs.colours = 0;
-    if (pairs && walls) {
-        jox_parallel_for(f->step.pool, ORDERED, 1, lay_by_id, f);
-    } else if (walls) {
-        lay_walls(f);
-    } else if (pairs) {
-        colour_pairs(f);
-    }
-    JOX_ASSERT(f->wall_count == walls);
-    if (pairs) {
+    if (layout.pairs || layout.walls || touched)
+        jox_parallel_for(f->chunks > 1 ? f->step.pool : NULL,
+                         STARTS + (f->options.literal ? 0 : f->chunks), 1, lay_part, &layout);
+    JOX_ASSERT(f->wall_count == layout.walls);
+    if (layout.pairs) {
         jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, count_chunk, f);
         start_colours(f);
         jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_chunk, f);

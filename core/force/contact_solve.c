@@ -1,17 +1,13 @@
-/* The impulses of all contacts at once: velocities start from what the other forces give, and
-   Gauss-Seidel passes over the contacts (sequential impulses with accumulated clamping, as E.
-   Catto, Game Developers Conference 2006) go on until a pass changes no force by more than the
-   tolerance. Contacts of one colour share no agent, so that threads and the order in memory change
-   no bit. */
+/* The impulses of all contacts at once: velocities start from what the other forces give
+   (contact_layout.c), and Gauss-Seidel passes over the contacts (sequential impulses with
+   accumulated clamping, as E. Catto, Game Developers Conference 2006) go on until a pass changes no
+   force by more than the tolerance. Contacts of one colour share no agent, so that threads and the
+   order in memory change no bit. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/kernels.h"
-
-#define X(name, isa) [isa] = jox_start_packets_##name,
-static JoxStartKernel *const STARTS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
-#undef X
 
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
@@ -22,12 +18,6 @@ typedef struct Pass {
     float *residuals; /* per chunk: greatest change of an impulse, N s */
     uint32_t chunk;   /* of the first of them */
 } Pass;
-
-static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    JoxForces *f = context;
-    STARTS[f->isa](f, begin, end);
-}
 
 static inline void move_by(JoxV2 *velocity, JoxV2 normal, float change) {
     velocity->x += normal.x * change;
@@ -122,7 +112,6 @@ static void begin_solve(JoxForces *f) {
     for (uint32_t c = 0; c < p->colours; c++)
         chunks += chunks_of(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
     JOX_RESERVE(f->residuals, f->residual_capacity, chunks);
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, start_velocities, f);
     for (uint32_t c = 0; c < p->colours; c++) {
         Pass pass = {.forces = f, .first = p->starts[c]};
         jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN, warm_colour,
@@ -133,8 +122,6 @@ static void begin_solve(JoxForces *f) {
 }
 
 void jox_contacts_solve(JoxForces *f) {
-    JOX_RESERVE(f->work, f->work_capacity, f->step.agents->count + JOX_LANES);
-    JOX_RESERVE(f->lightness, f->lightness_capacity, f->step.agents->count + JOX_LANES);
     begin_solve(f);
     f->totals.passes = 0;
     float enough = f->options.tolerance * (float)f->step.dt, most = INFINITY;

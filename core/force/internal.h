@@ -191,7 +191,8 @@ static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const Jox
 /* N/m: what shoulders that are turned to each other press with, until the bodies themselves meet.
  */
 #define JOX_SQUEEZE 2000.0f
-/* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step. */
+/* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step;
+   and what the solve begins with. */
 void jox_contacts_lay(JoxForces *forces);
 void jox_contacts_keep(JoxForces *forces);
 /* Impulse kept of a contact; asked for by ascending ids, with the place in the list that the last
@@ -208,7 +209,9 @@ static inline uint32_t jox_chunk_agents(const JoxForces *f) {
 /* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre,
    which in a short step would be a part of the force that presses people on them. */
 #define JOX_BODY_SLACK 1e-3f
-/* contact_solve.c: all impulses. */
+/* contact_solve.c: the velocities of a chunk of agents that all but contacts gives; all impulses.
+ */
+void jox_contacts_start(JoxForces *forces, uint32_t chunk);
 void jox_contacts_solve(JoxForces *forces);
 /* contact_planes.c: half-planes of what is touched. */
 void jox_contact_planes_make(JoxForces *forces);

@@ -48,6 +48,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->grouped);
     jox_free(s->batches);
     jox_free(s->state_first);
+    jox_free(s->part_first);
     jox_free(s->in_state);
     jox_free(s->fired);
     jox_free(s->rank);
@@ -182,51 +183,93 @@ static bool are_alike(const JoxAgents *a) {
            jox_is_same_of_all(a->state, sizeof *a->state, a->count);
 }
 
-/* How many are in each state, behind it. Who runs no machine is beyond the last of `states`. */
-static void count_states(JoxMachineScratch *s, const JoxAgents *a, const uint32_t *bases,
-                         uint32_t states, bool alike) {
-    uint32_t *first = s->state_first;
-    if (alike)
-        first[bases[a->machine[0]] + a->state[0] + 1] = a->count;
-    for (uint32_t i = 0; !alike && i < a->count; i++) {
+/* Agents sorted by state, in their order: each of some parts of them is counted, then listed where
+   those of the parts before it end. */
+typedef struct StateSort {
+    JoxMachineScratch *scratch;
+    const JoxAgents *agents;
+    uint32_t bases[JOX_MOST_MACHINES]; /* number of each machine's first state among all */
+    uint32_t states;                   /* of all machines; those who run none come behind them */
+    uint32_t grain;                    /* agents of a part */
+} StateSort;
+
+static uint32_t *part_of(const StateSort *sort, uint32_t begin) {
+    return sort->scratch->part_first + (size_t)(begin / sort->grain) * (sort->states + 1);
+}
+
+static void count_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const StateSort *sort = context;
+    const JoxAgents *a = sort->agents;
+    uint32_t *sizes = part_of(sort, begin), *in_state = sort->scratch->in_state;
+    memset(sizes, 0, ((size_t)sort->states + 1) * sizeof *sizes);
+    for (uint32_t i = begin; i < end; i++) {
         const bool none = a->machine[i] == JOX_NO_MACHINE;
-        s->in_state[i] = none ? states : bases[a->machine[i]] + a->state[i];
-        first[s->in_state[i] + 1]++;
+        in_state[i] = none ? sort->states : sort->bases[a->machine[i]] + a->state[i];
+        sizes[in_state[i]]++;
     }
 }
 
-/* Lists them state by state. */
-static void list_states(JoxMachineScratch *s, const JoxAgents *a, bool alike) {
-    for (uint32_t i = 0; alike && i < a->count; i++)
-        s->grouped[i] = i;
-    for (uint32_t i = 0; !alike && i < a->count; i++)
-        s->grouped[s->state_first[s->in_state[i]]++] = i;
+static void list_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const StateSort *sort = context;
+    uint32_t *next = part_of(sort, begin), *grouped = sort->scratch->grouped;
+    const uint32_t *in_state = sort->scratch->in_state;
+    for (uint32_t i = begin; i < end; i++)
+        grouped[next[in_state[i]]++] = i;
+}
+
+static void sort_by_state(StateSort *sort, JoxPool *pool) {
+    enum { PARTS = 16, LEAST = 1024 };
+    JoxMachineScratch *s = sort->scratch;
+    const uint32_t count = sort->agents->count, width = sort->states + 1;
+    sort->grain = (count + PARTS - 1) / PARTS > LEAST ? (count + PARTS - 1) / PARTS : LEAST;
+    const uint32_t parts = (count + sort->grain - 1) / sort->grain;
+    JOX_RESERVE(s->part_first, s->part_capacity, (size_t)parts * width);
+    jox_parallel_for(pool, count, sort->grain, count_part, sort);
+    uint32_t sum = 0;
+    for (uint32_t k = 0; k < width; k++) {
+        s->state_first[k] = sum;
+        for (uint32_t p = 0; p < parts; p++) {
+            uint32_t *size = &s->part_first[(size_t)p * width + k], first = sum;
+            sum += *size;
+            *size = first;
+        }
+    }
+    JOX_ASSERT(sum == count);
+    jox_parallel_for(pool, count, sort->grain, list_part, sort);
+}
+
+/* All are in one state. */
+static void list_all(StateSort *sort) {
+    const JoxAgents *a = sort->agents;
+    const uint32_t in = sort->bases[a->machine[0]] + a->state[0];
+    for (uint32_t k = 0; k <= sort->states; k++)
+        sort->scratch->state_first[k] = k <= in ? 0 : a->count;
+    for (uint32_t i = 0; i < a->count; i++)
+        sort->scratch->grouped[i] = i;
 }
 
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     reserve(run, pool);
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
-    const bool alike = are_alike(a);
-    uint32_t states = first_state(run, run->set->count);
-    if (states + 2 > s->state_capacity) {
-        s->state_capacity = states + 65;
-        s->state_first = jox_realloc(s->state_first, s->state_capacity, sizeof *s->state_first);
-    }
-    memset(s->state_first, 0, (states + 2) * sizeof *s->state_first);
+    StateSort sort = {.scratch = s, .agents = a, .states = first_state(run, run->set->count)};
+    for (uint32_t m = 0; m < run->set->count; m++)
+        sort.bases[m] = first_state(run, m);
+    JOX_RESERVE(s->state_first, s->state_capacity, (size_t)sort.states + 1);
     if (a->count)
         memset(s->rank, 0xff, a->count * sizeof *s->rank);
-    uint32_t *first = s->state_first, bases[JOX_MOST_MACHINES] = {0};
-    for (uint32_t m = 0; m < run->set->count; m++)
-        bases[m] = first_state(run, m);
-    count_states(s, a, bases, states, alike);
-    for (uint32_t k = 0; k < states; k++)
-        first[k + 1] += first[k];
+    if (are_alike(a))
+        list_all(&sort);
+    else
+        sort_by_state(&sort, pool);
     s->batch_count = 0;
+    const uint32_t *first = s->state_first;
     for (uint32_t m = 0; m < run->set->count; m++)
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
-            add_batches(s, (uint16_t)m, (uint16_t)k, first[bases[m] + k], first[bases[m] + k + 1]);
-    list_states(s, a, alike);
+            add_batches(s, (uint16_t)m, (uint16_t)k, first[sort.bases[m] + k],
+                        first[sort.bases[m] + k + 1]);
     rank_queues(run);
 }
 

@@ -29,8 +29,9 @@ typedef struct JoxMachineScratch {
     uint32_t *grouped; /* indices of agents by machine and state */
     JoxBatchRange *batches;
     uint32_t batch_count, batch_capacity;
-    uint32_t *state_first; /* per state of all machines */
-    uint32_t state_capacity;
+    uint32_t *state_first; /* per state of all machines, and behind them */
+    uint32_t *part_first;  /* the same of each part that is sorted by itself */
+    size_t state_capacity, part_capacity;
     uint32_t *in_state; /* per agent: number among all states, as it is grouped by them */
     int16_t *fired;     /* per agent: transition to take, -1 none */
     uint32_t *rank;     /* per agent: place in the queue it stands in */
