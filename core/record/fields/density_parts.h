@@ -24,6 +24,12 @@ struct JoxDensityFloor {
     float *area;   /* of the floor that belongs to a node, in cells */
     float *per;    /* 1 / area; 0: no node, nobody can stand there */
     float *room;   /* of the ways from a node: how much of them can be used at once, 0..1 */
+    /* By row, the cells that have nodes: from..to - 1, which are open on all sides if `plain`. */
+    struct JoxDensityRun {
+        int from, to;
+        bool plain;
+    } * runs;
+    uint32_t run_count, run_capacity, *run_first;
     /* Stretches of walls, and by cell those that pass through it. */
     struct JoxDensityBar {
         double ax, ay, bx, by;
@@ -54,7 +60,9 @@ bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c */
 void jox_density_free_floor(JoxDensityFloor *floor);
-/* density_spread.c: makes a field's masses densities, in 1/cell, by the kernel. */
+/* density_spread.c: lists the runs of a floor; makes a field's masses densities, in 1/cell, by the
+ * kernel. */
+void jox_density_list_runs(JoxDensity *density);
 void jox_density_spread(JoxDensity *density, int field);
 
 #endif

@@ -22,19 +22,86 @@ static size_t at(const JoxDensity *d, int column, int row) {
     return (size_t)row * (size_t)d->wide + (size_t)column;
 }
 
-/* One step over the given cells. */
+/* ---- runs ---- */
+
+typedef enum CellKind { NO_NODE, PLAIN, MIXED } CellKind;
+
+static CellKind kind_of(const JoxDensity *d, size_t cell) {
+    const JoxDensityFloor *f = d->floor;
+    const bool open = f->open_x[cell] == 1.0f && f->open_x[cell - 1] == 1.0f &&
+                      f->open_y[cell] == 1.0f && f->open_y[cell - (size_t)d->wide] == 1.0f;
+    return f->per[cell] == 0.0f ? NO_NODE : open && f->per[cell] == 1.0f ? PLAIN : MIXED;
+}
+
+/* Short runs join those beside them, as what holds for any cell holds for theirs. */
+static void add_run(JoxDensityFloor *f, uint32_t first, int from, int to, CellKind kind) {
+    enum { SHORT = 8 };
+    struct JoxDensityRun *last = f->run_count > first ? &f->runs[f->run_count - 1] : NULL;
+    if (to - from < SHORT)
+        kind = MIXED;
+    if (kind == MIXED && last && !last->plain && last->to == from) {
+        last->to = to;
+    } else if (kind != NO_NODE) {
+        JOX_RESERVE(f->runs, f->run_capacity, f->run_count + 1);
+        f->runs[f->run_count++] = (struct JoxDensityRun){from, to, kind == PLAIN};
+    }
+}
+
+void jox_density_list_runs(JoxDensity *d) {
+    JoxDensityFloor *f = d->floor;
+    f->run_count = 0;
+    f->run_first[0] = 0;
+    for (int row = 0; row < d->high; row++) {
+        const uint32_t first = f->run_first[row] = f->run_count;
+        const bool inner = row > 0 && row < d->high - 1;
+        for (int from = 1, to; inner && from < d->wide - 1; from = to) {
+            const CellKind kind = kind_of(d, at(d, from, row));
+            for (to = from + 1; to < d->wide - 1 && kind_of(d, at(d, to, row)) == kind; to++)
+                continue;
+            add_run(f, first, from, to, kind);
+        }
+    }
+    f->run_first[d->high] = f->run_count;
+}
+
+/* ---- steps ---- */
+
+/* One step of cells from..to - 1 of a row. */
+static void step_mixed(const JoxDensity *d, float share, const float *u, float *restrict out,
+                       size_t line, int from, int to) {
+    const JoxDensityFloor *f = d->floor;
+    const float *up = u + d->wide, *down = u - d->wide;
+    const float *x = f->open_x + line, *y = f->open_y + line, *y_down = y - d->wide;
+    const float *per = f->per + line;
+    for (int c = from; c < to; c++)
+        out[c] = u[c] + share * per[c] *
+                            (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
+                             y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+}
+
+/* The same, where all that is multiplied by is 1. */
+static void step_plain(const JoxDensity *d, float share, const float *u, float *restrict out,
+                       int from, int to) {
+    const float *up = u + d->wide, *down = u - d->wide;
+    for (int c = from; c < to; c++)
+        out[c] = u[c] + share * ((u[c + 1] - u[c]) - (u[c] - u[c - 1]) + (up[c] - u[c]) -
+                                 (u[c] - down[c]));
+}
+
+/* One step over the given cells. Those without nodes are zero and stay so. */
 static void step(const JoxDensity *d, float share, const float *from, float *to, const int box[4]) {
     const JoxDensityFloor *f = d->floor;
     for (int row = box[1]; row <= box[3]; row++) {
         const size_t line = at(d, 0, row);
-        const float *u = from + line, *up = u + d->wide, *down = u - d->wide;
-        const float *x = f->open_x + line, *y = f->open_y + line, *y_down = y - d->wide;
-        const float *per = f->per + line;
-        float *restrict out = to + line;
-        for (int c = box[0]; c <= box[2]; c++)
-            out[c] = u[c] + share * per[c] *
-                                (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
-                                 y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+        for (uint32_t r = f->run_first[row]; r < f->run_first[row + 1]; r++) {
+            const struct JoxDensityRun *run = &f->runs[r];
+            const int first = run->from > box[0] ? run->from : box[0];
+            const int end = run->to < box[2] + 1 ? run->to : box[2] + 1;
+            if (run->plain)
+                step_plain(d, share, from + line, to + line, first, end);
+            else
+                step_mixed(d, share, from + line, to + line, line, first, end);
+        }
     }
     for (uint32_t s = 0; s < f->slant_count; s++) {
         const uint32_t a = f->slants[s].a, b = f->slants[s].b;

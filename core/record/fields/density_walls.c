@@ -307,6 +307,7 @@ static void make_floor(JoxDensity *d) {
     f->per = jox_alloc(cells, sizeof *f->per);
     f->room = jox_alloc(cells, sizeof *f->room);
     f->first = jox_alloc(cells + 1, sizeof *f->first);
+    f->run_first = jox_alloc((size_t)d->high + 1, sizeof *f->run_first);
 }
 
 static uint64_t hash_of(const JoxWalls *walls) {
@@ -337,14 +338,15 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
     list_bars(d, walls);
     place_nodes(d, solids);
     make_ways(d, solids);
+    jox_density_list_runs(d);
     jox_density_solids_free(solids);
 }
 
 void jox_density_free_floor(JoxDensityFloor *f) {
     if (!f)
         return;
-    void *arrays[] = {f->node, f->open_x, f->open_y, f->slants, f->near,   f->area,
-                      f->per,  f->room,   f->bars,   f->first,  f->passing};
+    void *arrays[] = {f->node, f->open_x, f->open_y, f->slants,  f->near, f->area,     f->per,
+                      f->room, f->bars,   f->first,  f->passing, f->runs, f->run_first};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     jox_free(f);
