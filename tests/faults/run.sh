@@ -9,6 +9,7 @@ set -u
 cd "$(dirname "$0")/../.."
 B=${B:-build/release} FAULTS=${FAULTS:-all}
 program=${JOSTLE:-$PWD/$B/jostle}
+look=$PWD/tests/page/look.py
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 alloc=$work/alloc.so
@@ -48,6 +49,7 @@ commands=(
     "reference reference scenes"
     "resume resume $work/saved --for 0.4 --quiet"
     "view view $work/a.sqlite --page $PWD/core/view/page"
+    "live run $scene --view --view-wait 0 --fast --for 0.05 --quiet --page $PWD/core/view/page"
 )
 status=0
 
@@ -70,10 +72,11 @@ fresh() {
     new) rm -rf mine* ;;
     esac
 }
-# PROGRAM ARGS...: runs it; who serves a page is told to end once its page was asked for.
+# PROGRAM ARGS...: runs it; who serves a page is told to end once its page was asked for, and somebody looked at
+# what it sends.
 run() {
     local pid child address
-    if [[ " $* " != *" $program view "* ]]; then
+    if [[ " $* " != *" $program view "* && " $* " != *" --view "* ]]; then
         timeout -s KILL 60 "$@" >said 2>&1 </dev/null
         return
     fi
@@ -86,11 +89,15 @@ run() {
             printf 'GET %s HTTP/1.1\r\nHost: %s:%s\r\nConnection: close\r\n\r\n' "${BASH_REMATCH[3]}" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&3
             timeout 5 cat <&3
         ) >page 2>&1
+        timeout 5 python3 "$look" "$address" 1 >/dev/null 2>&1
         child=$(pgrep -P $pid)
         [ "$1" != strace ] || child=$(pgrep -P "$child")
         [ -z "$child" ] || kill -INT $child
     fi
     wait $pid
+    local got=$?
+    [ $got = 130 ] && [ -n "${child-}" ] && return 0 # as it was told
+    return $got
 }
 # PART N COMMAND...
 once() {
