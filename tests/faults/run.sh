@@ -92,7 +92,7 @@ run() {
         timeout 5 python3 "$look" "$address" 1 >/dev/null 2>&1
         child=$(pgrep -P $pid)
         [ "$1" != strace ] || child=$(pgrep -P "$child")
-        [ -z "$child" ] || kill -INT $child
+        [ -z "$child" ] || kill -INT $child 2>/dev/null
     fi
     wait $pid
     local got=$?
