@@ -209,9 +209,7 @@ static inline uint32_t jox_chunk_agents(const JoxForces *f) {
 /* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre,
    which in a short step would be a part of the force that presses people on them. */
 #define JOX_BODY_SLACK 1e-3f
-/* contact_solve.c: the velocities of a chunk of agents that all but contacts gives; all impulses.
- */
-void jox_contacts_start(JoxForces *forces, uint32_t chunk);
+/* contact_solve.c: all impulses. */
 void jox_contacts_solve(JoxForces *forces);
 /* contact_planes.c: half-planes of what is touched. */
 void jox_contact_planes_make(JoxForces *forces);

@@ -79,9 +79,9 @@ static pid_t spawn(const char *folder, const char *script, int errors) {
 static bool is_ready(int pipe, int seconds) {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     int ready = 0;
-    for (int s = 0; s < seconds && ready == 0; s++)
+    for (int s = 0; s < seconds && ready <= 0; s++)
         ready = poll(&asked, 1, 1000);
-    return ready != 0;
+    return ready > 0;
 }
 
 /* The end of what a child writes to a pipe until it ends: the reason stands last. Ends a child that

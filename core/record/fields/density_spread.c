@@ -50,7 +50,6 @@ static void add_run(JoxDensityFloor *f, uint32_t first, int from, int to, CellKi
 void jox_density_list_runs(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     f->run_count = 0;
-    f->run_first[0] = 0;
     for (int row = 0; row < d->high; row++) {
         const uint32_t first = f->run_first[row] = f->run_count;
         const bool inner = row > 0 && row < d->high - 1;
