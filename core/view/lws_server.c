@@ -282,8 +282,9 @@ static bool listen_anywhere(JoxView *view, const JoxViewOptions *options, const 
         if (failed && failed != EADDRINUSE)
             break;
     }
-    jox_text_printf(why, "cannot listen at %s, port %d: %s; --view=PORT takes another", address,
-                    first, strerror(failed ? failed : EADDRINUSE));
+    jox_text_printf(why, "cannot listen at %s, port %d: %s%s", address, first,
+                    strerror(failed ? failed : EADDRINUSE),
+                    failed == ENOMEM ? "" : "; --view=PORT takes another");
     return false;
 }
 
