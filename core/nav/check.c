@@ -6,7 +6,7 @@
 
 void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *a) {
     const uint32_t cells = nav->rows * nav->columns;
-    JOX_ASSERT(cells > 0 && nav->per_metre > 0.0f);
+    JOX_ASSERT(cells > 0 && nav->per_metre.x > 0.0f && nav->per_metre.y > 0.0f);
     JOX_ASSERT(nav->cell_first[0] == 0 && nav->cell_first[cells] == a->count);
     for (uint32_t cell = 0; cell < cells; cell++) {
         uint32_t first = nav->cell_first[cell], end = nav->cell_first[cell + 1];

@@ -1,6 +1,6 @@
-/* The grid of agents: square cells, row by row; agents are kept in the order of their cells, so
-   that those of several cells of a row stand one after the other. Between sorts agents drift, so
-   ranges are widened by the greatest drift. */
+/* The grid of agents: cells, row by row; agents are kept in the order of their cells, so that those
+   of several cells of a row stand one after the other. Between sorts agents drift, so ranges are
+   widened by what bounds the drift of all. */
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +8,9 @@
 #include "base/mem.h"
 #include "nav/internal.h"
 
-/* Of the mean radius that people search: a row of cells within reach then fits in a packet. */
-static const float CELL_SHARE = 0.7f;
+/* Of the mean radius that people search. Few rows lie within reach, each of narrow cells, so that
+   little is looked at that is not. */
+static const float CELL_WIDTH = 0.45f, CELL_HEIGHT = 1.3f;
 static const float CELL_LEAST = 0.25f, CELL_MOST = 8.0f; /* m */
 /* Neighbours for whom room is made where nobody has searched yet, and cells for each agent. */
 static const float FIRST_NEIGHBOURS = 12.0f, CELLS_EACH = 8.0f;
@@ -28,6 +29,11 @@ static float mean_search(const JoxAgents *a, JoxV2 extent) {
     return sqrtf(FIRST_NEIGHBOURS * extent.x * extent.y / (3.14159265f * (float)a->count));
 }
 
+/* One side of a cell, m. */
+static float cell_of(float share, float search) {
+    return jox_minf(CELL_MOST, jox_maxf(CELL_LEAST, share * search));
+}
+
 static uint32_t cells_along(float extent, float cell) {
     return (uint32_t)(extent / cell) + 1;
 }
@@ -44,13 +50,15 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
     }
     const JoxV2 extent = jox_sub(high, nav->low);
     nav->search = mean_search(a, extent);
-    float cell = jox_minf(CELL_MOST, jox_maxf(CELL_LEAST, CELL_SHARE * nav->search));
+    float width = cell_of(CELL_WIDTH, nav->search), height = cell_of(CELL_HEIGHT, nav->search);
     const float most = CELLS_LEAST + CELLS_EACH * (float)a->count;
-    while ((extent.x / cell + 1.0f) * (extent.y / cell + 1.0f) > most)
-        cell *= 1.5f;
-    nav->per_metre = 1.0f / cell;
-    nav->columns = cells_along(extent.x, cell) + 1; /* one more than rounding can fill */
-    nav->rows = cells_along(extent.y, cell) + 1;
+    while ((extent.x / width + 1.0f) * (extent.y / height + 1.0f) > most) {
+        width *= 1.5f;
+        height *= 1.5f;
+    }
+    nav->per_metre = (JoxV2){1.0f / width, 1.0f / height};
+    nav->columns = cells_along(extent.x, width) + 1; /* one more than rounding can fill */
+    nav->rows = cells_along(extent.y, height) + 1;
     const uint32_t cells = nav->columns * nav->rows;
     if (cells + 1 > nav->cell_capacity) {
         nav->cell_capacity = cells + cells / 4 + 64;
@@ -80,8 +88,8 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id)
 }
 
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
-    bool same =
-        nav->sorted_count == a->count && nav->sorted_next_id == a->next_id && isfinite(nav->drift);
+    bool same = nav->sorted_count == a->count && nav->sorted_next_id == a->next_id &&
+                isfinite(nav->drift.farthest);
     if ((same && tick % SORT_EVERY != 0) || a->count == 0) {
         nav->sorted_count = a->count;
         return;
@@ -95,7 +103,8 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     nav->stray_count = 0;
     /* Somewhat more than positions and what is computed from them are rounded by: who lies within a
        radius by the squared distance that is computed is never missed. */
-    nav->drift = 1e-6f * (1.0f + jox_maxf(farthest, a->period.x + a->period.y));
+    const float least = 1e-6f * (1.0f + jox_maxf(farthest, a->period.x + a->period.y));
+    nav->drift = (JoxDrift){least, {-least, -least}, {least, least}};
     JOX_CHECK(jox_nav_cells_check(nav, a));
 }
 
@@ -110,7 +119,7 @@ static bool stray_twice(const JoxNav *nav) {
 
 void jox_nav_place_strays(JoxNav *nav, const JoxAgents *a) {
     if (nav->stray_count > JOX_MOST_STRAYS || stray_twice(nav)) {
-        nav->drift = INFINITY; /* sorted before anybody looks */
+        nav->drift.farthest = INFINITY; /* sorted before anybody looks */
         nav->stray_count = 0;
     }
     for (uint32_t k = 0; k < nav->stray_count; k++) {

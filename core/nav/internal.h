@@ -27,23 +27,36 @@ typedef struct JoxHeading {
     int32_t bound;
 } JoxHeading;
 
+/* How agents have moved, m: the farthest that any of them has, and within which bounds along each
+   axis: few where all go the same way. */
+typedef struct JoxDrift {
+    float farthest; /* INFINITY: not known, so that they are to be sorted anew */
+    JoxV2 least, most;
+} JoxDrift;
+
+static inline JoxDrift jox_drift_of_both(JoxDrift a, JoxDrift b) {
+    return (JoxDrift){jox_maxf(a.farthest, b.farthest),
+                      {jox_minf(a.least.x, b.least.x), jox_minf(a.least.y, b.least.y)},
+                      {jox_maxf(a.most.x, b.most.x), jox_maxf(a.most.y, b.most.y)}};
+}
+
 struct JoxNav {
-    /* Grid of agents: square cells, row by row, each with its agents one after the other. */
+    /* Grid of agents: cells, row by row, each with its agents one after the other. */
     JoxV2 low;       /* m, corner of the first cell */
-    float per_metre; /* cells */
+    JoxV2 per_metre; /* cells along each axis */
     uint32_t rows, columns, cell_capacity;
     uint32_t *cell_first; /* rows * columns + 1 */
     uint32_t sorted_count, sorted_next_id;
-    float drift;  /* m, the farthest that any agent may have moved since */
-    float search; /* m, what people searched on average when they were sorted */
+    JoxDrift drift; /* since */
+    float search;   /* m, what people searched on average when they were sorted */
     /* Who went over a periodic edge since: far from where their cells are, and looked at by all who
        see an edge. More than there is room for: the agents are sorted. */
     uint32_t strays[JOX_MOST_STRAYS + JOX_LANES], stray_count;
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
     uint32_t *order, *cell_of;
     uint32_t capacity;
-    float *chunk_drift; /* per chunk of move */
-    JoxV2 *position[2]; /* for projection */
+    JoxDrift *chunk_drift; /* in a step, per chunk of move */
+    JoxV2 *position[2];    /* for projection */
     uint32_t *chunk_relaxed;
     JoxRecord *records;   /* of walk, and of solve */
     JoxHeading *headings; /* of walk, and of solve where somebody walks */
@@ -119,11 +132,11 @@ static inline uint32_t jox_cell_along(float from_low, float per_metre, uint32_t 
 }
 
 static inline uint32_t jox_row_of(const JoxNav *nav, float y) {
-    return jox_cell_along(y - nav->low.y, nav->per_metre, nav->rows);
+    return jox_cell_along(y - nav->low.y, nav->per_metre.y, nav->rows);
 }
 
 static inline uint32_t jox_column_of(const JoxNav *nav, float x) {
-    return jox_cell_along(x - nav->low.x, nav->per_metre, nav->columns);
+    return jox_cell_along(x - nav->low.x, nav->per_metre.x, nav->columns);
 }
 
 /* Whether the image of a point that is shifted along one axis by `side` (-1, 0, 1) periods has to

@@ -98,9 +98,9 @@ typedef struct JoxMove {
 
 /* Agents [begin, end): their velocity, prev_x, prev_y, and position[0]. */
 typedef void JoxMoveKernel(const JoxMove *move, uint32_t begin, uint32_t end);
-/* Agents [begin, end): x, y from position[0], still, still_x, still_y. Returns the square of the
-   longest way, m2. `begin` is a multiple of JOX_LANES for both. */
-typedef float JoxSettleKernel(const JoxMove *move, uint32_t begin, uint32_t end);
+/* Agents [begin, end): x, y from position[0], still, still_x, still_y. Returns how they moved.
+   `begin` is a multiple of JOX_LANES for both. */
+typedef JoxDrift JoxSettleKernel(const JoxMove *move, uint32_t begin, uint32_t end);
 #define X(name, isa)                                                                               \
     JoxMoveKernel jox_move_integrate_##name;                                                       \
     JoxSettleKernel jox_move_settle_##name;

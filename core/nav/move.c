@@ -97,6 +97,19 @@ static void settle(void *context, uint32_t begin, uint32_t end, uint32_t worker)
     m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = KERNELS[m->nav->isa].settle(m, begin, end);
 }
 
+/* Adds how agents have moved in this step, somewhat widened for the rounding of sums. */
+static void drift_on(JoxNav *nav, uint32_t agents) {
+    if (agents == 0)
+        return;
+    JoxDrift step = nav->chunk_drift[0], *all = &nav->drift;
+    for (uint32_t chunk = 1; chunk * JOX_NAV_GRAIN < agents; chunk++)
+        step = jox_drift_of_both(step, nav->chunk_drift[chunk]);
+    const float slack = 1e-4f * step.farthest;
+    all->farthest += step.farthest + slack;
+    all->least = jox_sub(jox_add(all->least, step.least), (JoxV2){slack, slack});
+    all->most = jox_add(jox_add(all->most, step.most), (JoxV2){slack, slack});
+}
+
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
                   double response, double on_the_way, JoxPool *pool) {
@@ -118,9 +131,6 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         move.from = !move.from;
     }
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle, &move);
-    float farthest2 = 0.0f;
-    for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
-        farthest2 = jox_maxf(farthest2, nav->chunk_drift[chunk]);
-    nav->drift += sqrtf(farthest2) * 1.0001f;
+    drift_on(nav, agents->count);
     jox_nav_place_strays(nav, agents);
 }

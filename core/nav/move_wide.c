@@ -60,11 +60,45 @@ static inline uint32_t near_walls(const JoxWallGrid *grid, JoxVector from, JoxVe
     return jm_bits(jm_or(far, jox_wall_grid_near_lanes(grid, from.x, from.y)));
 }
 
-float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
+/* The ways of agents, each lane its own: the square of the longest, m2, and bounds, m. */
+typedef struct Ways {
+    JoxFloats longest2;
+    JoxVector least, most;
+} Ways;
+
+static inline Ways no_ways(void) {
+    const JoxFloats far = jf_set(INFINITY), near = jf_set(-INFINITY);
+    return (Ways){jf_set(0.0f), {far, far}, {near, near}};
+}
+
+static inline void note_ways(Ways *w, JoxMask there, JoxVector way) {
+    const JoxVector least = {jf_min(w->least.x, way.x), jf_min(w->least.y, way.y)};
+    const JoxVector most = {jf_max(w->most.x, way.x), jf_max(w->most.y, way.y)};
+    w->longest2 = jf_select(there, jf_max(w->longest2, jv_dot(way, way)), w->longest2);
+    w->least = jv_select(there, least, w->least);
+    w->most = jv_select(there, most, w->most);
+}
+
+static inline JoxDrift drift_of(const Ways *w) {
+    float longest2[JOX_WIDTH], low_x[JOX_WIDTH], low_y[JOX_WIDTH], high_x[JOX_WIDTH],
+        high_y[JOX_WIDTH];
+    jf_store(longest2, w->longest2);
+    jv_store(low_x, low_y, 0, w->least);
+    jv_store(high_x, high_y, 0, w->most);
+    JoxDrift all = {0.0f, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const JoxDrift own = {
+            sqrtf(longest2[lane]), {low_x[lane], low_y[lane]}, {high_x[lane], high_y[lane]}};
+        all = jox_drift_of_both(all, own);
+    }
+    return all;
+}
+
+JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
     JoxAgents *a = m->agents;
     const JoxWallGrid *grid = &m->nav->grid;
-    float farthest2 = 0.0f, ways[JOX_WIDTH];
-    JoxFloats most = jf_set(0.0f);
+    Ways ways = no_ways();
+    float farthest = 0.0f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector from = jv_load(a->prev_x, a->prev_y, i);
         const uint32_t there = lanes_of(i, end);
@@ -85,7 +119,7 @@ float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) 
         }
         const JoxVector at = jv_load(x, y, 0), way = jv_sub(at, from);
         jv_store(a->x, a->y, i, at);
-        most = jf_select(jm_of_bits(there), jf_max(most, jv_dot(way, way)), most);
+        note_ways(&ways, jm_of_bits(there), way);
         const uint32_t out = there & jm_bits(jm_or(beyond(at.x, a->origin.x, a->period.x),
                                                    beyond(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)
@@ -93,12 +127,11 @@ float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) 
                 if (isfinite(a->x[i + lane]) && isfinite(a->y[i + lane]))
                     jox_nav_stray(m->nav, i + lane);
                 else
-                    farthest2 = INFINITY; /* where it will be put is not known */
+                    farthest = INFINITY; /* where it will be put is not known */
             }
         keep_still(m, i, jv_load(a->x, a->y, i));
     }
-    jf_store(ways, most);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        farthest2 = jox_maxf(farthest2, ways[lane]);
-    return farthest2;
+    JoxDrift drift = drift_of(&ways);
+    drift.farthest = jox_maxf(drift.farthest, farthest);
+    return drift;
 }

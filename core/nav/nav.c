@@ -55,7 +55,7 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
 }
 
 void jox_nav_forget(JoxNav *nav) {
-    nav->drift = INFINITY;
+    nav->drift.farthest = INFINITY;
 }
 
 void jox_nav_free(JoxNav *nav) {
@@ -81,7 +81,7 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     uint32_t n = nav->capacity = count + count / 4 + 64;
     nav->order = jox_realloc(nav->order, n, sizeof *nav->order);
     nav->cell_of = jox_realloc(nav->cell_of, n, sizeof *nav->cell_of);
-    nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
+    nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(JoxDrift));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->records = jox_realloc(nav->records, n, sizeof(JoxRecord));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));

@@ -219,28 +219,61 @@ static void settle_alone(Packet *packet, uint32_t lanes) {
         packet->keys[k] = ji_as_floats(ji_load(key_at(keys, k)));
 }
 
+/* Who stands at the places that keys name: by what they come one after the other. */
+typedef struct Rank {
+    JoxFloats distance2;
+    JoxInts rank;
+} Rank;
+
+static inline Rank rank_of(const Packet *packet, JoxMask lanes, JoxFloats key) {
+    const JoxMask there = jm_and(lanes, jf_lt(key, jf_set(INFINITY)));
+    const JoxInts at = ji_select(there, listed_at(key), ji_set(0));
+    const JoxInts who = ji_select(there, ji_pick(packet->index, at), ji_set(0));
+    return (Rank){jf_pick(packet->distance2, at), ji_pick(packet->p->agents->rank, who)};
+}
+
 /* Lets two keys of each lane, of which the second follows the first, change places where they have
    the same distance and stand in the wrong order. Returns where they did. */
-static inline JoxMask settle_pair(Packet *packet, JoxMask lanes, uint32_t first) {
-    JoxFloats *keys = packet->keys + first;
-    const JoxMask there = jm_and(lanes, jf_lt(keys[1], jf_set(INFINITY)));
-    const JoxMask tied = jm_and(there, ji_equal(share_of(keys[0]), share_of(keys[1])));
-    if (!jm_bits(tied))
-        return tied;
-    const JoxInts one = listed_at(keys[0]), other = listed_at(keys[1]), nobody = ji_set(0);
-    const uint32_t *rank = packet->p->agents->rank;
-    const JoxFloats near2 = jf_pick(packet->distance2, one);
-    const JoxFloats far2 = jf_pick(packet->distance2, other);
-    const JoxInts rank_one = ji_pick(rank, ji_select(tied, ji_pick(packet->index, one), nobody));
-    const JoxInts rank_other =
-        ji_pick(rank, ji_select(tied, ji_pick(packet->index, other), nobody));
-    const JoxMask before =
-        jm_or(jf_lt(far2, near2), jm_and(jf_le(far2, near2), ji_less(rank_other, rank_one)));
-    const JoxMask changes = jm_and(tied, before);
-    const JoxFloats less = jf_select(changes, keys[1], keys[0]);
-    keys[1] = jf_select(changes, keys[0], keys[1]);
-    keys[0] = less;
+static inline JoxMask settle_pair(JoxFloats *keys, Rank *ranks, JoxMask tied) {
+    const Rank one = ranks[0], other = ranks[1];
+    const JoxMask nearer = jf_lt(other.distance2, one.distance2);
+    const JoxMask earlier = ji_less(other.rank, one.rank);
+    const JoxMask as_near = jf_le(other.distance2, one.distance2);
+    const JoxMask changes = jm_and(tied, jm_or(nearer, jm_and(as_near, earlier)));
+    const JoxFloats key = keys[0];
+    keys[0] = jf_select(changes, keys[1], key);
+    keys[1] = jf_select(changes, key, keys[1]);
+    ranks[0].distance2 = jf_select(changes, other.distance2, one.distance2);
+    ranks[1].distance2 = jf_select(changes, one.distance2, other.distance2);
+    ranks[0].rank = ji_select(changes, other.rank, one.rank);
+    ranks[1].rank = ji_select(changes, one.rank, other.rank);
     return changes;
+}
+
+/* Settles the ties of some lanes in lock step: all keys are there that have these distances. Those
+   of `all` lanes have `count` keys to settle, the others as many as are kept. */
+static void settle_together(Packet *packet, JoxMask lanes, JoxMask all, uint32_t count) {
+    JoxMask tied[JOX_MOST_NEIGHBOURS + 1]; /* each with the next */
+    Rank ranks[JOX_MOST_NEIGHBOURS + 1];
+    uint32_t last = 0; /* tied */
+    for (uint32_t k = 0; k + 1 < count; k++) {
+        const JoxFloats *keys = packet->keys + k;
+        const JoxMask there =
+            jm_and(k + 1 < packet->levels ? lanes : all, jf_lt(keys[1], jf_set(INFINITY)));
+        tied[k] = jm_and(there, ji_equal(share_of(keys[0]), share_of(keys[1])));
+        if (!jm_bits(tied[k]))
+            continue;
+        if (k == 0 || last < k)
+            ranks[k] = rank_of(packet, lanes, keys[0]);
+        ranks[k + 1] = rank_of(packet, lanes, keys[1]);
+        last = k + 1;
+    }
+    for (uint32_t changed = last; changed;) {
+        changed = 0;
+        for (uint32_t k = 0; k < last; k++)
+            if (jm_bits(tied[k]))
+                changed |= jm_bits(settle_pair(packet->keys + k, ranks + k, tied[k]));
+    }
 }
 
 /* Settles the ties of some lanes: in lock step of those of which all keys are there that have these
@@ -251,15 +284,11 @@ static void settle_lanes(Packet *packet, uint32_t lanes) {
     const JoxMask cut = ji_equal(share_of(packet->keys[last]), share_of(packet->keys[last - 1]));
     const uint32_t over = lanes & jm_bits(cut) & lists_beyond(packet, packet->levels);
     const uint32_t alone = over & lists_beyond(packet, ORDERED);
-    const uint32_t keys = over & ~alone ? ORDERED : packet->levels;
-    const JoxMask together = jm_of_bits(lanes & ~alone), all = jm_of_bits(over & ~alone);
     if (alone)
         settle_alone(packet, alone);
-    for (uint32_t changed = lanes & ~alone; changed;) {
-        changed = 0;
-        for (uint32_t k = 0; k + 1 < keys; k++)
-            changed |= jm_bits(settle_pair(packet, k < last ? together : all, k));
-    }
+    if (lanes & ~alone)
+        settle_together(packet, jm_of_bits(lanes & ~alone), jm_of_bits(over & ~alone),
+                        over & ~alone ? ORDERED : packet->levels);
 }
 
 #endif

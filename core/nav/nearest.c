@@ -64,9 +64,11 @@ static inline void consider(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 po
 static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
                          float radius, Nearest *found) {
     const float x = point.x, y = point.y, r2 = radius * radius;
-    const float wide = radius + nav->drift;
-    const uint32_t left = jox_column_of(nav, x - wide), right = jox_column_of(nav, x + wide);
-    const uint32_t low = jox_row_of(nav, y - wide), high = jox_row_of(nav, y + wide);
+    const JoxV2 least = nav->drift.least, most = nav->drift.most;
+    const uint32_t left = jox_column_of(nav, x - radius - most.x);
+    const uint32_t right = jox_column_of(nav, x + radius - least.x);
+    const uint32_t low = jox_row_of(nav, y - radius - most.y);
+    const uint32_t high = jox_row_of(nav, y + radius - least.y);
     JOX_ASSERT(low <= high && high < nav->rows && left <= right && right < nav->columns);
     for (uint32_t row = low; row <= high; row++) {
         const uint32_t *first = nav->cell_first + (size_t)row * nav->columns;
@@ -81,7 +83,7 @@ static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
 static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
                    Nearest *found) {
     JoxV2 point = {a->x[i], a->y[i]};
-    float wide = radius + nav->drift;
+    float wide = radius + nav->drift.farthest;
     clear(found);
     for (int row = -1; row <= 1; row++)
         for (int column = -1; column <= 1; column++)

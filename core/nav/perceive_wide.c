@@ -21,17 +21,21 @@ static inline JoxInts cells_along(JoxFloats at, float low, float per_metre, uint
 
 static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     const JoxNav *nav = packet->p->nav;
-    const JoxFloats radius = jf_load(packet->radius), wide = jf_add(radius, jf_set(nav->drift));
+    const JoxV2 least = nav->drift.least, most = nav->drift.most;
+    const JoxFloats radius = jf_load(packet->radius);
     const JoxFloats x = jf_add(jf_load(packet->at_x), jf_set(shift.x));
     const JoxFloats y = jf_add(jf_load(packet->at_y), jf_set(shift.y));
     jf_store(reach->x, x);
     jf_store(reach->y, y);
     jf_store(reach->radius2, jf_mul(radius, radius));
-    const float per_metre = nav->per_metre;
-    ji_store(reach->left, cells_along(jf_sub(x, wide), nav->low.x, per_metre, nav->columns));
-    ji_store(reach->right, cells_along(jf_add(x, wide), nav->low.x, per_metre, nav->columns));
-    ji_store(reach->low, cells_along(jf_sub(y, wide), nav->low.y, per_metre, nav->rows));
-    ji_store(reach->high, cells_along(jf_add(y, wide), nav->low.y, per_metre, nav->rows));
+    ji_store(reach->left, cells_along(jf_sub(jf_sub(x, radius), jf_set(most.x)), nav->low.x,
+                                      nav->per_metre.x, nav->columns));
+    ji_store(reach->right, cells_along(jf_sub(jf_add(x, radius), jf_set(least.x)), nav->low.x,
+                                       nav->per_metre.x, nav->columns));
+    ji_store(reach->low, cells_along(jf_sub(jf_sub(y, radius), jf_set(most.y)), nav->low.y,
+                                     nav->per_metre.y, nav->rows));
+    ji_store(reach->high, cells_along(jf_sub(jf_add(y, radius), jf_set(least.y)), nav->low.y,
+                                      nav->per_metre.y, nav->rows));
 }
 
 /* A lane that looks for others, all lanes of it alike, and its list. */
@@ -53,7 +57,7 @@ static inline Seeker seeker_of(Packet *packet, const Reach *reach, uint32_t lane
 
 /* Puts those of a packet of others that are there and within the radius behind the `n` first of the
    list. Returns how many these are. */
-static inline uint32_t list_packet(const Seeker *seeker, uint32_t n, JoxVector at, JoxInts others,
+static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at, JoxInts others,
                                    JoxMask there) {
     const JoxFloats dx = jf_sub(at.x, seeker->x), dy = jf_sub(at.y, seeker->y);
     const JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
@@ -64,24 +68,28 @@ static inline uint32_t list_packet(const Seeker *seeker, uint32_t n, JoxVector a
     return jm_count(bits);
 }
 
-/* Lists those within the radius of one lane, until its list is full. */
-static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
+/* Lists those within the radius of one lane, until its list is full. A function of its own, so that
+   what its loop needs stays in registers. */
+static __attribute__((noinline)) void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
     const JoxNav *nav = packet->p->nav;
-    const JoxAgents *a = packet->p->agents;
+    const float *x = packet->p->agents->x, *y = packet->p->agents->y;
     const Seeker seeker = seeker_of(packet, reach, lane);
-    const uint32_t *left = nav->cell_first + reach->left[lane];
-    const uint32_t *right = nav->cell_first + reach->right[lane] + 1;
-    uint32_t n = packet->count[lane];
-    for (uint32_t row = reach->low[lane]; row <= reach->high[lane]; row++) {
-        const size_t cells = (size_t)row * nav->columns;
-        const uint32_t end = right[cells];
-        for (uint32_t j = left[cells]; j < end && n <= PLACES; j += JOX_WIDTH) {
-            const JoxInts others = ji_add(ji_set((int32_t)j), ji_lane());
-            n += list_packet(&seeker, n, jv_load(a->x, a->y, j), others,
-                             ji_less(others, ji_set((int32_t)end)));
+    const size_t columns = nav->columns;
+    const uint32_t *row = nav->cell_first + reach->low[lane] * columns;
+    const uint32_t *last = nav->cell_first + reach->high[lane] * columns;
+    const size_t left = reach->left[lane], right = reach->right[lane] + 1;
+    size_t n = packet->count[lane];
+    for (; row <= last; row += columns) {
+        const size_t end = row[right];
+        const JoxInts ends = ji_set((int32_t)end);
+        JoxInts others = ji_add(ji_set((int32_t)row[left]), ji_lane());
+        for (size_t j = row[left]; j < end && n <= PLACES; j += JOX_WIDTH) {
+            n += list_packet(&seeker, n, (JoxVector){jf_load(x + j), jf_load(y + j)}, others,
+                             ji_less(others, ends));
+            others = ji_add(others, ji_set(JOX_WIDTH));
         }
     }
-    packet->count[lane] = n;
+    packet->count[lane] = (uint32_t)n;
 }
 
 /* The same among those who went over a periodic edge since the agents were sorted: their cells are
@@ -114,7 +122,7 @@ static void list_image(Packet *packet, uint32_t lanes, JoxV2 shift, bool strays)
 static uint32_t lanes_of_image(const Packet *packet, uint32_t lanes, int column, int row,
                                JoxV2 *shift) {
     const JoxAgents *a = packet->p->agents;
-    const float drift = packet->p->nav->drift;
+    const float drift = packet->p->nav->drift.farthest;
     uint32_t bits = 0;
     *shift = (JoxV2){(float)column * a->period.x, (float)row * a->period.y};
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
@@ -130,7 +138,7 @@ static uint32_t lanes_of_image(const Packet *packet, uint32_t lanes, int column,
 /* Whether no lane, of some, sees over an edge. */
 static bool all_within(const Packet *packet, uint32_t lanes) {
     const JoxAgents *a = packet->p->agents;
-    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift));
+    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift.farthest));
     const JoxFloats x = jf_load(packet->at_x), y = jf_load(packet->at_y);
     JoxMask over = jf_lt(wide, jf_set(-INFINITY)); /* nobody */
     if (a->period.x > 0.0f)

@@ -120,11 +120,19 @@ static inline JoxInts jf_bits(JoxFloats a) {
 static inline JoxFloats ji_as_floats(JoxInts a) {
     return _mm256_castsi256_ps(a);
 }
+/* One by one: where gathers are microcode, as on AMD's, they take twice as long. */
 static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
-    return _mm256_i32gather_epi32((const int *)table, at, 4);
+    uint32_t k[8];
+    ji_store(k, at);
+    return _mm256_setr_epi32((int)table[k[0]], (int)table[k[1]], (int)table[k[2]], (int)table[k[3]],
+                             (int)table[k[4]], (int)table[k[5]], (int)table[k[6]],
+                             (int)table[k[7]]);
 }
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
-    return _mm256_i32gather_ps(table, at, 4);
+    uint32_t k[8];
+    ji_store(k, at);
+    return _mm256_setr_ps(table[k[0]], table[k[1]], table[k[2]], table[k[3]], table[k[4]],
+                          table[k[5]], table[k[6]], table[k[7]]);
 }
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return _mm256_permutevar8x32_ps(a, at);

@@ -60,14 +60,26 @@ static void fill(JoxAgents *a, uint32_t crowd) {
 
 /* Somewhat away from where they were when they were sorted, and known to be so. */
 static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
+    const JoxV2 least = {crowd % 2 ? 0.05f : -0.2f, -0.3f},
+                most = {0.35f, crowd % 3 ? 0.1f : -0.1f};
     uint32_t drawn = 100000;
+    bool stays = false;
     for (uint32_t i = 0; i < a->count; i++) {
-        float x = a->x[i] + (float)draw(crowd, &drawn, -0.2, 0.2);
-        if (a->period.x > 0.0f && (x < 0.0f || x >= a->period.x))
-            continue;
-        a->x[i] = x;
+        const float x = a->x[i] + (float)draw(crowd, &drawn, (double)least.x, (double)most.x);
+        const float y = a->y[i] + (float)draw(crowd, &drawn, (double)least.y, (double)most.y);
+        const bool out = (a->period.x > 0.0f && (x < 0.0f || x >= a->period.x)) ||
+                         (a->period.y > 0.0f && (y < 0.0f || y >= a->period.y));
+        stays |= out;
+        a->x[i] = out ? a->x[i] : x;
+        a->y[i] = out ? a->y[i] : y;
     }
-    nav->drift += 0.2001f;
+    const JoxV2 slack = {1e-4f, 1e-4f}, none = {0.0f, 0.0f};
+    const JoxDrift bounds = {0.5f, jox_sub(least, slack), jox_add(most, slack)};
+    JoxDrift *drift = &nav->drift;
+    const JoxDrift way = stays ? jox_drift_of_both(bounds, (JoxDrift){0.0f, none, none}) : bounds;
+    drift->farthest += way.farthest;
+    drift->least = jox_add(drift->least, way.least);
+    drift->most = jox_add(drift->most, way.most);
 }
 
 /* Somebody from each edge to the opposite one, and known to have gone there. */
