@@ -27,6 +27,12 @@ typedef struct Pace {
     double usual, probed;    /* s: a lap as it goes, smoothed; the sum of those probed */
 } Pace;
 
+/* The chunks of a worker that nobody has taken: the first of them, and above it the end. On a line
+   of the cache of its own. */
+typedef struct Share {
+    _Alignas(64) atomic_uint_least64_t left;
+} Share;
+
 /* One loop at a time. Whoever comes while the gate is open takes chunks until none is left; the
    caller takes part, shuts the gate, and waits for those who are inside: never for a thread that
    the system has not let run meanwhile. Waits spin a bounded while, then sleep. */
@@ -43,7 +49,6 @@ struct JoxPool {
     atomic_uint round;   /* moves when a gate opens */
     atomic_uint asleep;  /* workers that wait on `wake` */
     atomic_uint gate;    /* OPEN, and how many workers are inside */
-    atomic_uint next;    /* first chunk not taken */
     atomic_bool starved; /* memory ran out in a chunk of this round */
     atomic_bool quit;
     bool begun;
@@ -54,18 +59,58 @@ struct JoxPool {
     uint32_t count, grain, chunks;
     JoxTask *task;
     void *context;
+    Share share[MOST_THREADS];
 };
 
-static void take_chunks(JoxPool *pool, uint32_t worker) {
-    for (;;) {
-        uint32_t chunk = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
-        if (chunk >= pool->chunks)
-            return;
-        uint32_t begin = chunk * pool->grain;
-        JOX_ASSERT(begin < pool->count && worker < pool->threads);
-        uint32_t left = pool->count - begin;
-        pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
+static uint64_t pack(uint32_t begin, uint32_t end) {
+    return (uint64_t)end << 32 | begin;
+}
+
+/* Every loop is shared out alike: what a worker reads it has mostly written in the loop before, so
+   that it is in the cache of its processor. */
+static void share_out(JoxPool *pool) {
+    for (uint32_t w = 0; w < pool->threads; w++) {
+        const uint64_t begin = (uint64_t)pool->chunks * w / pool->threads;
+        const uint64_t end = (uint64_t)pool->chunks * (w + 1) / pool->threads;
+        atomic_store(&pool->share[w].left, pack((uint32_t)begin, (uint32_t)end));
     }
+}
+
+/* Takes a chunk of a share: its worker the first, others the last. False where none is left. */
+static bool take(Share *share, bool own, uint32_t *chunk) {
+    uint64_t left = atomic_load_explicit(&share->left, memory_order_relaxed), rest;
+    do {
+        const uint32_t begin = (uint32_t)left, end = (uint32_t)(left >> 32);
+        if (begin >= end)
+            return false;
+        *chunk = own ? begin : end - 1;
+        rest = own ? pack(begin + 1, end) : pack(begin, end - 1);
+    } while (!atomic_compare_exchange_weak_explicit(&share->left, &left, rest, memory_order_relaxed,
+                                                    memory_order_relaxed));
+    return true;
+}
+
+static bool all_taken(JoxPool *pool) {
+    for (uint32_t w = 0; w < pool->threads; w++) {
+        const uint64_t left = atomic_load(&pool->share[w].left);
+        if ((uint32_t)left < (uint32_t)(left >> 32))
+            return false;
+    }
+    return true;
+}
+
+static void run_chunk(JoxPool *pool, uint32_t chunk, uint32_t worker) {
+    const uint32_t begin = chunk * pool->grain, left = pool->count - begin;
+    JOX_ASSERT(begin < pool->count && worker < pool->threads);
+    pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
+}
+
+/* Its own share, then what others have left. */
+static void take_chunks(JoxPool *pool, uint32_t worker) {
+    uint32_t chunk;
+    for (uint32_t k = 0; k < pool->threads; k++)
+        while (take(&pool->share[(worker + k) % pool->threads], k == 0, &chunk))
+            run_chunk(pool, chunk, worker);
 }
 
 /* Where memory is out, the round ends early: its caller learns it when no thread is in it. */
@@ -75,7 +120,8 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     jox_recovery_push(&recovery);
     if (setjmp(recovery.jump) != 0) {
         atomic_store(&pool->starved, true);
-        atomic_store(&pool->next, pool->chunks);
+        for (uint32_t w = 0; w < pool->threads; w++)
+            atomic_store(&pool->share[w].left, pack(0, 0));
     } else {
         take_chunks(pool, worker);
     }
@@ -162,7 +208,7 @@ static void release_pool(void *pool) {
 }
 
 JoxPool *jox_pool_create(uint32_t threads) {
-    JoxPool *pool = jox_alloc(1, sizeof *pool);
+    JoxPool *pool = jox_alloc_aligned(1, sizeof *pool);
     pthread_mutex_init(&pool->lock, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pthread_cond_init(&pool->done, NULL);
@@ -274,11 +320,11 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
     pool->task = task;
     pool->context = context;
     pool->heap = jox_heap_used();
-    atomic_store(&pool->next, 0);
+    share_out(pool);
     if (pool->jobs) {
         const uint32_t most = pool->chunks < pool->threads ? pool->chunks : pool->threads;
         pool->jobs->run(pool->jobs->context, most, run_job, pool);
-        if (atomic_load(&pool->next) < pool->chunks) {
+        if (!all_taken(pool)) {
             jox_assert_failed("JoJobs.run calls each job", __FILE__, __LINE__);
             run_chunks(pool, 0);
         }
@@ -288,7 +334,7 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
         run_chunks(pool, 0);
         shut(pool);
     }
-    JOX_ASSERT(atomic_load(&pool->next) >= pool->chunks);
+    JOX_ASSERT(all_taken(pool));
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);
 }
