@@ -37,8 +37,12 @@ static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint3
     JoxFloats place[4], motion[4];
     const JoxInts at = ji_shift_left(others, 1);
     jf_records(records, at, place);
-    m->x = jf_wrap(jf_sub(self->x, place[0]), a->period.x);
-    m->y = jf_wrap(jf_sub(self->y, place[1]), a->period.y);
+    m->x = jf_sub(self->x, place[0]);
+    m->y = jf_sub(self->y, place[1]);
+    if (a->period.x > 0.0f || a->period.y > 0.0f) {
+        m->x = jf_wrap(m->x, a->period.x);
+        m->y = jf_wrap(m->y, a->period.y);
+    }
     m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
     const JoxFloats whole = jf_add(self->radius, place[3]);
     const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));

@@ -144,7 +144,8 @@ typedef struct Box {
 } Box;
 
 static Box box_of(JoxV2 a, JoxV2 b) {
-    return (Box){{jox_minf(a.x, b.x), jox_minf(a.y, b.y)}, {jox_maxf(a.x, b.x), jox_maxf(a.y, b.y)}};
+    return (Box){{jox_minf(a.x, b.x), jox_minf(a.y, b.y)},
+                 {jox_maxf(a.x, b.x), jox_maxf(a.y, b.y)}};
 }
 
 static bool lie_apart(Box a, Box b) {

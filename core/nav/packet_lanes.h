@@ -340,10 +340,26 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
     return jox_put_rows(p, true);
 }
 
-static inline void jox_put_neighbours(JoxPacket *p) {
+/* Whether the neighbours of a packet's agents may stand beyond a periodic edge. */
+static inline bool jox_sees_over_edges(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
-    const bool periodic = a->period.x > 0.0f || a->period.y > 0.0f;
-    const uint32_t alone = (periodic ? jox_put_rows_periodic : jox_put_rows_bounded)(p);
+    const JoxFloats margin = jf_set(1e-3f); /* m: more than positions are rounded by */
+    const JoxFloats reach = jf_add(jf_load(a->search + p->first), margin);
+    JoxMask over = jm_of_bits(0);
+    for (int axis = 0; axis < 2; axis++) {
+        const float origin = axis ? a->origin.y : a->origin.x;
+        const float period = axis ? a->period.y : a->period.x;
+        const JoxFloats at = jf_load((axis ? a->y : a->x) + p->first);
+        if (period > 0.0f)
+            over = jm_or(over, jm_or(jf_lt(jf_sub(at, reach), jf_set(origin)),
+                                     jf_lt(jf_set(origin + period), jf_add(at, reach))));
+    }
+    return jm_bits(over) & p->lanes;
+}
+
+static inline void jox_put_neighbours(JoxPacket *p) {
+    const uint32_t alone =
+        (jox_sees_over_edges(p) ? jox_put_rows_periodic : jox_put_rows_bounded)(p);
     for (uint32_t lane = 0; alone >> lane; lane++)
         for (uint32_t row = p->hard; (alone >> lane & 1) && row < p->count; row++)
             p->rows[row].x[lane] = p->rows[row].y[lane] = p->rows[row].offset[lane] = 0.0f;

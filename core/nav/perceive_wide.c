@@ -68,9 +68,8 @@ static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at,
     return jm_count(bits);
 }
 
-/* Lists those within the radius of one lane, until its list is full. A function of its own, so that
-   what its loop needs stays in registers. */
-static __attribute__((noinline)) void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
+/* Lists those within the radius of one lane, until its list is full. */
+static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
     const JoxNav *nav = packet->p->nav;
     const float *x = packet->p->agents->x, *y = packet->p->agents->y;
     const Seeker seeker = seeker_of(packet, reach, lane);
@@ -106,8 +105,10 @@ static void list_strays(Packet *packet, const Reach *reach, uint32_t lane) {
     packet->count[lane] = n;
 }
 
-/* Adds to the lists of some lanes (bits) those whom they see of one of their images. */
-static void list_image(Packet *packet, uint32_t lanes, JoxV2 shift, bool strays) {
+/* Adds to the lists of some lanes (bits) those whom they see of one of their images. Not inline, so
+   that what its loops need stays in registers. */
+static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes, JoxV2 shift,
+                                                 bool strays) {
     Reach reach;
     find_reach(packet, shift, &reach);
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
