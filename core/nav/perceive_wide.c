@@ -8,6 +8,8 @@
 
 #include "nav/near_lanes.h"
 
+#define ALL_LANES ((1u << JOX_WIDTH) - 1)
+
 /* Of the grid, the cells within reach of each lane. */
 typedef struct Reach {
     float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
@@ -175,6 +177,28 @@ static inline void store_bytes(uint8_t *to, JoxMask m, JoxInts a) {
     ji_store_bytes(to, ji_select(m, a, ji_load_bytes(to)));
 }
 
+/* Of some lanes, the first neighbours, as many as are counted: the next JOX_LANES places behind. */
+static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts count,
+                                    float *distance2, uint32_t *index) {
+    for (uint32_t k = 0; k + 1 < packet->levels; k++) {
+        const JoxMask kept = jm_and(lanes, ji_less(ji_set((int32_t)k), count));
+        const uint32_t bits = jm_bits(kept);
+        if (!bits)
+            return;
+        const JoxInts listed = listed_at(packet->keys[k]);
+        JoxFloats d2 = jf_pick(packet->distance2, listed);
+        JoxInts who = ji_pick(packet->index, listed);
+        if (bits != ALL_LANES) {
+            d2 = jf_select(kept, d2, jf_load(distance2));
+            who = ji_select(kept, who, ji_load(index));
+        }
+        jf_store(distance2, d2);
+        ji_store(index, who);
+        distance2 += JOX_LANES;
+        index += JOX_LANES;
+    }
+}
+
 /* Writes what was found for some lanes. */
 static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloats perception) {
     const JoxPerceive *p = packet->p;
@@ -187,16 +211,8 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_floats(p->agents->density + packet->first, mask,
                  jf_div(ji_to_floats(f->count), jf_mul(jf_set(JOX_PI), area)));
     store_bytes(p->out->count + packet->first, mask, f->count);
-    for (uint32_t k = 0; k + 1 < packet->levels; k++) {
-        const JoxMask kept = jm_and(mask, ji_less(ji_set((int32_t)k), f->count));
-        if (!jm_bits(kept))
-            break;
-        const size_t at = jox_neighbour_at(p->out, packet->first, k);
-        const JoxInts listed = listed_at(packet->keys[k]);
-        store_floats(p->out->distance2 + at, kept, jf_pick(packet->distance2, listed));
-        ji_store(p->out->index + at,
-                 ji_select(kept, ji_pick(packet->index, listed), ji_load(p->out->index + at)));
-    }
+    const size_t first = jox_neighbour_at(p->out, packet->first, 0);
+    write_neighbours(packet, mask, f->count, p->out->distance2 + first, p->out->index + first);
 }
 
 /* Those who may touch, of the lanes whose neighbours may lack some. */
