@@ -61,7 +61,9 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
     nav->rows = cells_along(extent.y, height) + 1;
     const uint32_t cells = nav->columns * nav->rows;
     if (cells + 1 > nav->cell_capacity) {
-        nav->cell_capacity = 2 * cells + 64; /* cells get smaller as a crowd gets denser */
+        /* Cells get smaller as a crowd gets denser: of one that is everywhere as dense, there are
+           half as many as people. */
+        nav->cell_capacity = 2 * (cells > a->count ? cells : a->count) + 64;
         nav->cell_first = jox_realloc(nav->cell_first, nav->cell_capacity, sizeof(uint32_t));
     }
     return jox_maxf(jox_maxf(fabsf(nav->low.x), fabsf(high.x)),
