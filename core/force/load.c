@@ -6,12 +6,53 @@
    two forces of 600 N it is 600 N. Pushes received, and given, are contacts; forces from outside,
    and those that people pass on (equations 8 and 9), are none. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/internal.h"
+#include "simd/four.h"
 
 enum { MOST_FORCES = 64 };
+
+/* Four forces, or sums of such. */
+typedef struct Forces {
+    JoxFour x, y;
+} Forces;
+
+static inline JoxFour four_of(float x) {
+    return (JoxFour){x, x, x, x};
+}
+
+/* Adds a force to those of the sums that are marked. */
+static inline void add_where(Forces *sums, JoxFourMask marks, Forces force) {
+    sums->x += jox_keep_four(marks, force.x);
+    sums->y += jox_keep_four(marks, force.y);
+}
+
+static inline JoxFour greater_length2(JoxFour most, Forces of) {
+    const JoxFour length2 = of.x * of.x + of.y * of.y;
+    return jox_keep_four(length2 > most, length2) + jox_keep_four(length2 <= most, most);
+}
+
+/* Of each of four borders of half-planes, which pass through one force each, the greatest length2
+   of the sum of the forces within: with those on the border to either side of it and to neither. */
+static JoxFour push_by_borders(Forces border, const JoxV2 *force, uint32_t count, JoxFour most2) {
+    const JoxFour zero = {0.0f};
+    Forces left = {zero, zero}, right = left, along = left;
+    for (uint32_t m = 0; m < count; m++) {
+        const Forces here = {four_of(force[m].x), four_of(force[m].y)};
+        const JoxFour side = border.x * here.y - border.y * here.x;
+        const JoxFour ahead = border.x * here.x + border.y * here.y;
+        add_where(&left, side > zero, here);
+        add_where(&right, side < zero, here);
+        add_where(&along, (side == zero) & (ahead > zero), here);
+    }
+    most2 = greater_length2(greater_length2(most2, left), right);
+    left = (Forces){left.x + along.x, left.y + along.y};
+    right = (Forces){right.x + along.x, right.y + along.y};
+    return greater_length2(greater_length2(most2, left), right);
+}
 
 /* The greatest, over half-planes, of the length of the sum of the forces within: that is the
    greatest sum of positive parts over directions. A border that passes through a force is tried
@@ -21,24 +62,15 @@ static float greatest_push(const JoxV2 *force, uint32_t count) {
         return 0.0f;
     if (count == 1)
         return jox_length(force[0]);
-    float most2 = 0.0f;
-    for (uint32_t k = 0; k < count; k++) {
-        JoxV2 left = {0.0f, 0.0f}, right = {0.0f, 0.0f}, along = {0.0f, 0.0f};
-        for (uint32_t m = 0; m < count; m++) {
-            float side = m == k ? 0.0f : jox_det(force[k], force[m]);
-            if (side > 0.0f)
-                left = jox_add(left, force[m]);
-            else if (side < 0.0f)
-                right = jox_add(right, force[m]);
-            else if (jox_dot(force[k], force[m]) > 0.0f)
-                along = jox_add(along, force[m]);
-        }
-        most2 = jox_maxf(most2, jox_maxf(jox_length2(left), jox_length2(right)));
-        left = jox_add(left, along);
-        right = jox_add(right, along);
-        most2 = jox_maxf(most2, jox_maxf(jox_length2(left), jox_length2(right)));
+    JoxFour most2 = {0.0f};
+    for (uint32_t k = 0; k < count; k += 4) {
+        JoxV2 at[4] = {{0.0f, 0.0f}};
+        memcpy(at, force + k, (count - k < 4 ? count - k : 4) * sizeof *at);
+        const Forces border = {{at[0].x, at[1].x, at[2].x, at[3].x},
+                               {at[0].y, at[1].y, at[2].y, at[3].y}};
+        most2 = push_by_borders(border, force, count, most2);
     }
-    return sqrtf(most2);
+    return sqrtf(jox_maxf(jox_maxf(most2[0], most2[1]), jox_maxf(most2[2], most2[3])));
 }
 
 /* All that presses on agent i, N. */
