@@ -40,7 +40,7 @@ typedef struct JoxContactRecord {
     float x, y, breadth, radius;
     float vx, vy;
     uint32_t id;
-    float unused;
+    float mass;
 } JoxContactRecord;
 
 /* A contact between two agents. The normal points to the first, which has found the contact. Half a

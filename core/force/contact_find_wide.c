@@ -17,7 +17,7 @@ typedef struct Packet {
 
 /* What does not change from neighbour to neighbour. */
 typedef struct Self {
-    JoxFloats x, y, vx, vy, breadth, radius;
+    JoxFloats x, y, vx, vy, breadth, radius, mass, restitution;
     JoxInts id;
 } Self;
 
@@ -25,6 +25,8 @@ typedef struct Self {
 typedef struct Meeting {
     JoxFloats x, y; /* from the neighbour to the agent, m */
     JoxFloats distance2, distance, gap, squeeze;
+    JoxVector velocity; /* of the agent relative to the neighbour, m/s */
+    JoxFloats mass;     /* of the neighbour, kg */
 } Meeting;
 
 /* Of `lanes`, those whose gap to their neighbour may close within the step: see `touches` in
@@ -57,29 +59,48 @@ static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint3
     JoxFloats into = jf_sub(whole, m->distance);
     into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
     m->squeeze = jf_mul(jf_set(JOX_SQUEEZE), into);
-    const JoxFloats vx = jf_sub(motion[0], self->vx), vy = jf_sub(motion[1], self->vy);
-    JoxFloats closing = jf_sqrt(jf_add(jf_mul(vx, vx), jf_mul(vy, vy)));
+    m->velocity = (JoxVector){jf_sub(self->vx, motion[0]), jf_sub(self->vy, motion[1])};
+    m->mass = motion[3];
+    JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
     closing = jf_mul(closing, jf_set((float)f->step.dt));
     const JoxFloats reach = jf_add(least, jf_min(jf_set(JOX_TOUCH_MOST), closing));
     const JoxMask apart = jm_and(jf_lt(least, m->gap), jf_lt(reach, m->gap));
     return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
 }
 
-static void note(Packet *p, uint32_t lanes, JoxInts others, const Meeting *m) {
+/* Least normal velocities after contacts: see jox_contact_target. */
+static JoxFloats targets_of(const JoxForces *f, const Self *self, JoxInts others, const Meeting *m,
+                            JoxVector normal) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxFloats closes = jf_div(jf_neg(m->gap), jf_set((float)f->step.dt));
+    const JoxFloats target = jf_select(jf_lt(zero, m->gap), closes, zero);
+    if (!jm_bits(jf_lt(zero, self->restitution)))
+        return target;
+    const float *column = f->step.agents->param[JOX_PARAM_restitution];
+    const JoxFloats restitution = jf_min(self->restitution, jf_pick(column, others));
+    const JoxFloats speed = jv_dot(m->velocity, normal);
+    const JoxMask bounces = jm_and(jf_lt(zero, restitution), jf_lt(speed, target));
+    return jf_select(bounces, jf_max(target, jf_mul(jf_neg(restitution), speed)), target);
+}
+
+static void note(Packet *p, const Self *self, uint32_t lanes, JoxInts others, const Meeting *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
-    const JoxFloats zero = jf_set(0.0f), by = jf_div(jf_set(1.0f), m->distance);
-    const JoxMask together = jf_le(m->distance, zero);
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = jf_div(one, m->distance);
+    const JoxMask together = jf_le(m->distance, zero); /* they part along x */
+    const JoxVector normal = {jf_select(together, one, jf_mul(m->x, by)),
+                              jf_select(together, zero, jf_mul(m->y, by))};
     uint32_t other[JOX_WIDTH];
     float x[JOX_WIDTH], y[JOX_WIDTH], nx[JOX_WIDTH], ny[JOX_WIDTH], gap[JOX_WIDTH];
-    float squeeze[JOX_WIDTH];
+    float squeeze[JOX_WIDTH], target[JOX_WIDTH], mass[JOX_WIDTH];
     ji_store(other, others);
     jf_store(x, m->x);
     jf_store(y, m->y);
-    jf_store(nx, jf_select(together, zero, jf_mul(m->x, by)));
-    jf_store(ny, jf_select(together, zero, jf_mul(m->y, by)));
+    jv_store(nx, ny, 0, normal);
     jf_store(gap, m->gap);
     jf_store(squeeze, m->squeeze);
+    jf_store(target, targets_of(f, self, others, m, normal));
+    jf_store(mass, jf_div(jf_mul(self->mass, m->mass), jf_add(self->mass, m->mass)));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(lanes >> lane & 1))
@@ -89,8 +110,13 @@ static void note(Packet *p, uint32_t lanes, JoxInts others, const Meeting *m) {
             jox_wall_grid_separates(f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
             continue;
         f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap[lane] < 0.0f;
-        const JoxFoundPair pair =
-            jox_pair_found(f, i, other[lane], jox_v2(nx[lane], ny[lane]), gap[lane], squeeze[lane]);
+        const JoxFoundPair pair = {.other = other[lane],
+                                   .other_id = a->id[other[lane]],
+                                   .normal = {nx[lane], ny[lane]},
+                                   .squeeze = squeeze[lane],
+                                   .target = target[lane],
+                                   .mass = mass[lane]};
+        JOX_ASSERT(jox_is_unit(pair.normal));
         jox_pair_insert(p->found[lane], p->count[lane]++, &pair);
     }
 }
@@ -101,9 +127,14 @@ static void find_seen(Packet *p, uint32_t lanes) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const uint32_t i = p->first;
-    const Self self = {jf_load(a->x + i),       jf_load(a->y + i),
-                       jf_load(a->vx + i),      jf_load(a->vy + i),
-                       jf_load(a->breadth + i), jf_load(a->param[JOX_PARAM_radius] + i),
+    const Self self = {jf_load(a->x + i),
+                       jf_load(a->y + i),
+                       jf_load(a->vx + i),
+                       jf_load(a->vy + i),
+                       jf_load(a->breadth + i),
+                       jf_load(a->param[JOX_PARAM_radius] + i),
+                       jf_load(a->param[JOX_PARAM_mass] + i),
+                       jf_load(a->param[JOX_PARAM_restitution] + i),
                        ji_load(a->id + i)};
     JoxFloats reach = jf_add(self.radius, jf_set(f->widest));
     reach = jf_add(jf_add(reach, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
@@ -119,7 +150,7 @@ static void find_seen(Packet *p, uint32_t lanes) {
         const JoxInts others = ji_select(jm_of_bits(lanes), ji_load(near->index + at), ji_set(0));
         const uint32_t meeting = meet(f, &self, others, lanes, &m);
         if (meeting)
-            note(p, meeting, others, &m);
+            note(p, &self, meeting, others, &m);
     }
 }
 

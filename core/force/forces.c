@@ -123,7 +123,7 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     for (uint32_t i = begin; i < end; i++)
         f->records[i] =
             (JoxContactRecord){a->x[i],  a->y[i],  a->breadth[i], a->param[JOX_PARAM_radius][i],
-                               a->vx[i], a->vy[i], a->id[i],      0.0f};
+                               a->vx[i], a->vy[i], a->id[i],      a->param[JOX_PARAM_mass][i]};
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
