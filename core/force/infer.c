@@ -58,10 +58,12 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
+    if (n == 0)
+        return;
+    const JoxV2 each = jox_resistance(unit, shortfall, a->param[JOX_PARAM_absorb][i],
+                                      a->param[JOX_PARAM_mass][i], n, (float)f->step.dt);
     for (uint32_t k = 0; k < n; k++)
-        jox_transfer_give(f, chunk, i, found[k],
-                          jox_resistance(unit, shortfall, a->param[JOX_PARAM_absorb][i],
-                                         a->param[JOX_PARAM_mass][i], n, (float)f->step.dt));
+        jox_transfer_give(f, chunk, i, found[k], each);
 }
 
 /* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:
