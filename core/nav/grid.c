@@ -121,7 +121,7 @@ static bool stray_twice(const JoxNav *nav) {
 
 void jox_nav_place_strays(JoxNav *nav, const JoxAgents *a) {
     if (nav->stray_count > JOX_MOST_STRAYS || stray_twice(nav)) {
-        nav->drift.farthest = INFINITY; /* sorted before anybody looks */
+        nav->drift = jox_drift_unknown();
         nav->stray_count = 0;
     }
     for (uint32_t k = 0; k < nav->stray_count; k++) {

@@ -30,9 +30,14 @@ typedef struct JoxHeading {
 /* How agents have moved, m: the farthest that any of them has, and within which bounds along each
    axis: few where all go the same way. */
 typedef struct JoxDrift {
-    float farthest; /* INFINITY: not known, so that they are to be sorted anew */
+    float farthest;
     JoxV2 least, most;
 } JoxDrift;
+
+/* Where it is not known: whoever looks for others looks everywhere, until the agents are sorted. */
+static inline JoxDrift jox_drift_unknown(void) {
+    return (JoxDrift){INFINITY, {-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+}
 
 static inline JoxDrift jox_drift_of_both(JoxDrift a, JoxDrift b) {
     return (JoxDrift){jox_maxf(a.farthest, b.farthest),

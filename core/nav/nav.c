@@ -55,7 +55,7 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
 }
 
 void jox_nav_forget(JoxNav *nav) {
-    nav->drift.farthest = INFINITY;
+    nav->drift = jox_drift_unknown();
 }
 
 void jox_nav_free(JoxNav *nav) {

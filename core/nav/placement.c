@@ -134,7 +134,7 @@ static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool bo
     a->y[i] = spot.y;
     result->farthest = jox_maxf(result->farthest, jox_length(jox_sub(spot, p)));
     result->moved++;
-    nav->drift.farthest = INFINITY; /* the order in memory no longer follows space */
+    nav->drift = jox_drift_unknown(); /* the order in memory no longer follows space */
 }
 
 static void start_at(JoxAgents *a, uint32_t i) {

@@ -82,6 +82,20 @@ static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
     drift->most = jox_add(drift->most, way.most);
 }
 
+/* Everybody to where another was, and how far that is is not known. */
+static void scatter(JoxNav *nav, JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count / 2; i++) {
+        const uint32_t j = a->count - 1 - i;
+        const JoxV2 at = {a->x[i], a->y[i]};
+        a->x[i] = a->x[j];
+        a->y[i] = a->y[j];
+        a->x[j] = at.x;
+        a->y[j] = at.y;
+    }
+    nav->stray_count = 0;
+    jox_nav_forget(nav);
+}
+
 /* Somebody from each edge to the opposite one, and known to have gone there. */
 static void cross(JoxNav *nav, JoxAgents *a) {
     for (uint32_t i = 0; i < a->count && nav->stray_count < JOX_MOST_STRAYS; i++) {
@@ -173,12 +187,14 @@ static void compare_crowd(JoIsa isa, uint32_t crowd) {
     jox_nav_set_isa(nav, isa);
     fill(&agents, crowd);
     jox_nav_sort(nav, &agents, 0);
-    for (int pass = 0; pass < 3; pass++) {
+    for (int pass = 0; pass < 4; pass++) {
         jox_nav_perceive(nav, &agents, &neighbours, NULL);
         compare(&agents, &neighbours);
         stir(nav, &agents, crowd);
         if (pass == 0)
             cross(nav, &agents);
+        if (pass == 2)
+            scatter(nav, &agents);
         jox_nav_place_strays(nav, &agents);
     }
     jox_nav_free(nav);
