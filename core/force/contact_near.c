@@ -15,7 +15,8 @@ float jox_contact_target(float gap, float speed, float restitution, float dt) {
     return target;
 }
 
-JoxFoundPair jox_pair_found(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal, float gap,
+/* The contact of agent i and j, over that gap (m); a normal of (0, 0): they stand in one place. */
+static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal, float gap,
                             float squeeze) {
     const JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
@@ -68,7 +69,7 @@ static bool touches(JoxForces *f, uint32_t i, uint32_t other, bool walls, JoxFou
     if (walls && jox_wall_grid_separates(f->step.walls, at, jox_sub(at, offset)))
         return false;
     f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap < 0.0f;
-    *out = jox_pair_found(f, i, other, jox_unit(offset), gap, squeeze);
+    *out = pair_of(f, i, other, jox_unit(offset), gap, squeeze);
     return true;
 }
 

@@ -179,9 +179,6 @@ uint32_t jox_contacts_of(JoxForces *forces, uint32_t agent, bool walls, JoxFound
 /* Edges that it touches, the nearest of them. */
 uint32_t jox_contacts_walls_of(const JoxForces *forces, uint32_t agent,
                                JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
-/* The contact of agent i and j, over that gap (m); a normal of (0, 0): they stand in one place. */
-JoxFoundPair jox_pair_found(const JoxForces *forces, uint32_t i, uint32_t j, JoxV2 normal,
-                            float gap, float squeeze);
 /* Puts a contact into a list of `count` by ascending ids. */
 static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
     for (; count > 0 && list[count - 1].other_id > pair->other_id; count--)

@@ -138,29 +138,12 @@ bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
     return (p_side > 0.0f) != (q_side > 0.0f) && (a_side > 0.0f) != (b_side > 0.0f);
 }
 
-/* The upright box about two points. */
-typedef struct Box {
-    JoxV2 low, high;
-} Box;
-
-static Box box_of(JoxV2 a, JoxV2 b) {
-    return (Box){{jox_minf(a.x, b.x), jox_minf(a.y, b.y)},
-                 {jox_maxf(a.x, b.x), jox_maxf(a.y, b.y)}};
-}
-
-static bool lie_apart(Box a, Box b) {
-    return (a.high.x < b.low.x) | (b.high.x < a.low.x) | (a.high.y < b.low.y) |
-           (b.high.y < a.low.y);
-}
-
 bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);
-    const Box way = box_of(from, to);
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxV2 a = g->walls->vertices[edges[k]].point, b = end_of(g->walls, edges[k])->point;
-        if (!lie_apart(way, box_of(a, b)) && jox_segments_cross(from, to, a, b))
+    for (uint32_t k = 0; k < count; k++)
+        if (jox_segments_cross(from, to, g->walls->vertices[edges[k]].point,
+                               end_of(g->walls, edges[k])->point))
             return true;
-    }
     return false;
 }

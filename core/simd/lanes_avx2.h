@@ -120,7 +120,7 @@ static inline JoxInts jf_bits(JoxFloats a) {
 static inline JoxFloats ji_as_floats(JoxInts a) {
     return _mm256_castsi256_ps(a);
 }
-/* One by one: where gathers are microcode, as on AMD's, they take twice as long. */
+/* One by one: where gathers are microcode, as on AMD's, they take longer. */
 static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     uint32_t k[8];
     ji_store(k, at);

@@ -288,11 +288,9 @@ JoSettings *jox_run_parameter_why(JoScene *scene, uint32_t i, const JoxWatched *
     return jox_settings_end(&pack);
 }
 
-JoSettings *jo_agent_why(JoScene *scene, JoAgent agent, const char *name, double *value,
-                         JoError *error) {
-    JOX_REQUIRE(scene && name && value, NULL);
-    JOX_GUARD (scene->heap, error)
-        return NULL;
+/* What jo_agent_why asks, within its guard. */
+static JoSettings *why(JoScene *scene, JoAgent agent, const char *name, double *value,
+                       JoError *error) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     if (!jo_agent_is_live(scene->world, agent) ||
@@ -314,4 +312,12 @@ JoSettings *jo_agent_why(JoScene *scene, JoAgent agent, const char *name, double
     not_there(&now, name, error);
     jox_free(settings);
     return NULL;
+}
+
+JoSettings *jo_agent_why(JoScene *scene, JoAgent agent, const char *name, double *value,
+                         JoError *error) {
+    JOX_REQUIRE(scene && name && value, NULL);
+    JOX_GUARD (scene->heap, error)
+        return NULL;
+    return why(scene, agent, name, value, error);
 }

@@ -40,16 +40,15 @@ static bool act_on_agent(JoWorld *world, JoAgent agent, JoxInputVerb verb, const
 /* One of a body: with three numbers, and some more or none. */
 static bool act_on_body(JoWorld *world, JoBody body, JoxInputVerb verb, const double *first,
                         const double *more, uint32_t more_count, JoError *error) {
-    JoxInputEntry entry = {.verb = verb, .number = body.slot};
-    JOX_GUARD (world->heap, error)
-        return false;
-    if (!find_body(world, body, error))
-        return false;
+    const JoBody to = body; /* longjmp may lose an argument in a register */
+    JoxInputEntry entry = {.verb = verb, .number = to.slot};
     for (uint32_t n = 0; first && n < 3; n++)
         entry.numbers[entry.given++] = first[n];
     for (uint32_t n = 0; more && n < more_count; n++)
         entry.numbers[entry.given++] = more[n];
-    return jox_input_act(world, &entry, error);
+    JOX_GUARD (world->heap, error)
+        return false;
+    return find_body(world, to, error) && jox_input_act(world, &entry, error);
 }
 
 static bool act_by_name(JoWorld *world, JoxInputVerb verb, const char *name, const double *numbers,
