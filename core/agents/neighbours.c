@@ -14,8 +14,9 @@ void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) 
     *n = larger;
     size_t entries = (size_t)n->agents * n->stride;
     n->index = jox_alloc_aligned(entries, sizeof *n->index);
-    n->distance2 = jox_alloc_aligned(entries, sizeof *n->distance2);
     n->count = jox_alloc_aligned(n->agents, sizeof *n->count);
+    n->close = jox_alloc_aligned(n->agents, sizeof *n->close);
+    n->crowding2 = jox_alloc_aligned(n->agents, sizeof *n->crowding2);
     n->touch_index =
         jox_alloc_aligned((size_t)n->agents * JOX_MOST_NEIGHBOURS, sizeof *n->touch_index);
     n->touch_count = jox_alloc_aligned(n->agents, sizeof *n->touch_count);
@@ -23,8 +24,9 @@ void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) 
 
 void jox_neighbours_free(JoxNeighbours *n) {
     jox_free(n->index);
-    jox_free(n->distance2);
     jox_free(n->count);
+    jox_free(n->close);
+    jox_free(n->crowding2);
     jox_free(n->touch_index);
     jox_free(n->touch_count);
     *n = (JoxNeighbours){0};

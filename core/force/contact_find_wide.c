@@ -136,16 +136,12 @@ static void find_seen(Packet *p, uint32_t lanes) {
                        jf_load(a->param[JOX_PARAM_mass] + i),
                        jf_load(a->param[JOX_PARAM_restitution] + i),
                        ji_load(a->id + i)};
-    JoxFloats reach = jf_add(self.radius, jf_set(f->widest));
-    reach = jf_add(jf_add(reach, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
-    const JoxInts most = ji_load_bytes(near->count + i);
+    const JoxInts most = ji_load_bytes(jox_close_counts(near, f->widest) + i);
     for (uint32_t k = 0; k < near->stride; k++) {
         const size_t at = jox_neighbour_at(near, i, k);
-        const JoxMask close = jf_lt(jf_load(near->distance2 + at), jf_mul(reach, reach));
-        const JoxMask there = jm_and(close, ji_less(ji_set((int32_t)k), most));
-        lanes &= jm_bits(there);
+        lanes &= jm_bits(ji_less(ji_set((int32_t)k), most));
         if (!lanes)
-            break; /* nearest first: no one further on can touch */
+            break;
         Meeting m;
         const JoxInts others = ji_select(jm_of_bits(lanes), ji_load(near->index + at), ji_set(0));
         const uint32_t meeting = meet(f, &self, others, lanes, &m);

@@ -77,14 +77,10 @@ uint32_t jox_contacts_of(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
-    float reach = a->param[JOX_PARAM_radius][i] + f->widest + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-    uint32_t count = seen ? near->count[i] : near->touch_count[i], found = 0;
+    uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i], found = 0;
     for (uint32_t k = 0; k < count; k++) {
-        size_t at = jox_neighbour_at(near, i, k);
-        if (seen && !(near->distance2[at] < reach * reach))
-            break; /* nearest first: no one further on can touch */
-        uint32_t other =
-            seen ? near->index[at] : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
+        uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
+                              : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
         if (a->id[other] < a->id[i] && (!is_cut(near, other) || lists(near, other, i)))
             continue;
         JoxFoundPair pair;

@@ -36,12 +36,11 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     JoxV2 centre = {a->x[i], a->y[i]};
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
-        size_t at = jox_neighbour_at(near, i, k);
-        if (near->distance2[at] > widest * widest)
-            break; /* nearest first */
-        uint32_t other = near->index[at];
+        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
         JoxV2 offset = jox_offset(a, i, other);
         float most = reach + radius[i] + radius[other], d2 = jox_length2(offset);
+        if (d2 > widest * widest)
+            break; /* nearest first */
         if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
             continue;
         if (only && !(a->tags[other] & only))

@@ -24,18 +24,16 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t count = n->count[i];
         const float perception = a->param[JOX_PARAM_perception][i];
+        float before = 0.0f;
         JOX_ASSERT(count <= n->stride && count <= (uint32_t)a->param[JOX_PARAM_neighbours][i]);
         JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
         for (uint32_t k = 0; k < count; k++) {
             size_t at = jox_neighbour_at(n, i, k);
             JOX_ASSERT(n->index[at] < a->count && n->index[at] != i);
-            JOX_ASSERT(sqrtf(n->distance2[at]) <= perception * 1.0001f);
-            if (k == 0)
-                continue;
-            size_t before = jox_neighbour_at(n, i, k - 1);
-            JOX_ASSERT(n->distance2[before] <= n->distance2[at]);
-            JOX_ASSERT(n->distance2[before] < n->distance2[at] ||
-                       a->id[n->index[before]] < a->id[n->index[at]]);
+            const float distance = jox_length(jox_offset(a, i, n->index[at]));
+            JOX_ASSERT(distance <= perception * 1.0001f);
+            JOX_ASSERT(before <= distance * 1.0001f);
+            before = distance;
         }
     }
 }

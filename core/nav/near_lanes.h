@@ -50,6 +50,12 @@ static inline JoxInts list_of_lane(int32_t parts) {
     return jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)parts)));
 }
 
+/* The keys of such shares, at places `place`. */
+static inline JoxFloats key_of(JoxInts share, uint32_t place) {
+    return ji_as_floats(
+        ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
+}
+
 /* Keys of four places of all lists, from a multiple of four on. */
 static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
                                JoxFloats keys[4]) {
@@ -59,9 +65,8 @@ static inline void read_places(const Packet *packet, JoxInts count, JoxFloats sc
     JOX_UNROLL
     for (uint32_t k = 0; k < 4; k++) {
         const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
-        const JoxFloats key = ji_as_floats(
-            ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)(from + k))));
-        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key, jf_set(INFINITY));
+        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key_of(share, from + k),
+                            jf_set(INFINITY));
     }
 }
 

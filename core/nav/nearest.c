@@ -114,12 +114,16 @@ static void keep(const JoxPerceive *p, uint32_t i, float perception, const Neare
     float reach = full ? sqrtf(distance2_of(found->keys[found->count - 1])) : perception;
     a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
     a->density[i] = (float)found->count / (JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
-    p->out->count[i] = (uint8_t)found->count;
+    const float touch = jox_touch_most(p->out);
+    uint32_t close = 0;
     for (uint32_t k = 0; k < found->count; k++) {
-        size_t at = jox_neighbour_at(p->out, i, k);
-        p->out->index[at] = a->by_rank[(uint32_t)found->keys[k]];
-        p->out->distance2[at] = distance2_of(found->keys[k]);
+        p->out->index[jox_neighbour_at(p->out, i, k)] = a->by_rank[(uint32_t)found->keys[k]];
+        close += distance2_of(found->keys[k]) <= touch * touch;
     }
+    p->out->count[i] = (uint8_t)found->count;
+    p->out->close[i] = (uint8_t)close;
+    if (found->count > JOX_CROWD_RANK)
+        p->out->crowding2[i] = distance2_of(found->keys[JOX_CROWD_RANK]);
 }
 
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {

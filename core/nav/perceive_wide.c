@@ -179,24 +179,43 @@ static inline void store_bytes(uint8_t *to, JoxMask m, JoxInts a) {
 
 /* Of some lanes, the first neighbours, as many as are counted: the next JOX_LANES places behind. */
 static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts count,
-                                    float *distance2, uint32_t *index) {
+                                    uint32_t *index) {
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask kept = jm_and(lanes, ji_less(ji_set((int32_t)k), count));
         const uint32_t bits = jm_bits(kept);
         if (!bits)
             return;
-        const JoxInts listed = listed_at(packet->keys[k]);
-        JoxFloats d2 = jf_pick(packet->distance2, listed);
-        JoxInts who = ji_pick(packet->index, listed);
-        if (bits != ALL_LANES) {
-            d2 = jf_select(kept, d2, jf_load(distance2));
+        JoxInts who = ji_pick(packet->index, listed_at(packet->keys[k]));
+        if (bits != ALL_LANES)
             who = ji_select(kept, who, ji_load(index));
-        }
-        jf_store(distance2, d2);
         ji_store(index, who);
-        distance2 += JOX_LANES;
         index += JOX_LANES;
     }
+}
+
+/* How many of those who are counted an agent may touch, and perhaps some more: by the bits of their
+   keys. */
+static inline JoxInts close_of(const Packet *packet, JoxInts count) {
+    const float touch = jox_touch_most(packet->p->out);
+    const JoxFloats farthest =
+        jf_min(jf_mul(jf_set(touch * touch), jf_load(packet->scale)), jf_set(FARTHEST_SHARE));
+    const JoxFloats beyond = key_of(ji_add(jf_to_ints(farthest), ji_set(1)), 0);
+    JoxInts close = ji_set(0);
+    for (uint32_t k = 0; k + 1 < packet->levels; k++) {
+        const JoxMask near = jm_and(jf_lt(packet->keys[k], beyond), ji_less(close, count));
+        if (!jm_bits(near))
+            break;
+        close = ji_select(near, ji_set((int32_t)k + 1), close);
+    }
+    return close;
+}
+
+/* Of those lanes that have a neighbour of this rank, its squared distance. */
+static inline void store_crowding(const Packet *packet, JoxMask lanes, JoxInts count) {
+    const JoxMask has = jm_and(lanes, ji_less(ji_set(JOX_CROWD_RANK), count));
+    if (jm_bits(has))
+        store_floats(packet->p->out->crowding2 + packet->first, has,
+                     jf_pick(packet->distance2, listed_at(packet->keys[JOX_CROWD_RANK])));
 }
 
 /* Writes what was found for some lanes. */
@@ -211,8 +230,10 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_floats(p->agents->density + packet->first, mask,
                  jf_div(ji_to_floats(f->count), jf_mul(jf_set(JOX_PI), area)));
     store_bytes(p->out->count + packet->first, mask, f->count);
-    const size_t first = jox_neighbour_at(p->out, packet->first, 0);
-    write_neighbours(packet, mask, f->count, p->out->distance2 + first, p->out->index + first);
+    store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
+    store_crowding(packet, mask, f->count);
+    write_neighbours(packet, mask, f->count,
+                     p->out->index + jox_neighbour_at(p->out, packet->first, 0));
 }
 
 /* Those who may touch, of the lanes whose neighbours may lack some. */

@@ -95,6 +95,7 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
 static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
     const uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
     const float reach = jox_minf(a->param[JOX_PARAM_perception][i], jox_nav_sight(a));
+    float distance2[JOX_MOST_NEIGHBOURS];
     jox_neighbours_reserve(out, i + 1, most > 0 ? most : 1);
     out->count[i] = 0;
     for (uint32_t j = 0; j < a->count; j++) {
@@ -105,18 +106,18 @@ static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) 
             continue;
         for (; k > 0; k--) {
             const size_t before = jox_neighbour_at(out, i, k - 1), at = jox_neighbour_at(out, i, k);
-            const float other = out->distance2[before];
+            const float other = distance2[k - 1];
             if (other < d2 || (other == d2 && a->id[out->index[before]] < a->id[j]))
                 break;
             if (k == most)
                 continue;
             out->index[at] = out->index[before];
-            out->distance2[at] = other;
+            distance2[k] = other;
         }
         if (k == most)
             continue;
         out->index[jox_neighbour_at(out, i, k)] = j;
-        out->distance2[jox_neighbour_at(out, i, k)] = d2;
+        distance2[k] = d2;
         out->count[i] += out->count[i] < most;
     }
 }

@@ -44,8 +44,6 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *
 
 /* ---- tempers ---- */
 
-enum { JOX_CROWD_RANK = 3 }; /* the neighbour whose distance tells how crowded it is */
-
 static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */
     return jf_min(jf_max(x, jf_set(0.0f)), jf_set(1.0f));
 }
@@ -60,7 +58,7 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     uint32_t crowded = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         crowded |= (uint32_t)(n->count[first + lane] > JOX_CROWD_RANK) << lane;
-    const JoxFloats d2 = jf_load(n->distance2 + jox_neighbour_at(n, first, JOX_CROWD_RANK));
+    const JoxFloats d2 = jf_load(n->crowding2 + first);
     const JoxFloats area = jf_mul(jf_set(JOX_PI), jf_max(d2, jf_set(1e-4f)));
     const JoxFloats density = jf_select(
         jm_of_bits(crowded), jf_div(jf_set((float)(JOX_CROWD_RANK + 1)), area), jf_set(0.0f));

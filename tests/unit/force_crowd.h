@@ -39,12 +39,12 @@ static inline uint32_t add_agent(Crowd *c, float x, float y, float vx, float vy)
 static inline void see(Crowd *c) {
     JoxAgents *a = &c->agents;
     JoxNeighbours *n = &c->near;
+    float distance2[JOX_MOST_NEIGHBOURS];
     uint32_t room = (a->count + JOX_LANES - 1) / JOX_LANES * JOX_LANES;
     if (room > n->agents) {
         n->agents = room;
         n->stride = JOX_MOST_NEIGHBOURS;
         n->index = jox_realloc(n->index, (size_t)room * n->stride, sizeof *n->index);
-        n->distance2 = jox_realloc(n->distance2, (size_t)room * n->stride, sizeof(float));
         n->count = jox_realloc(n->count, room, 1);
     }
     for (uint32_t i = 0; i < a->count; i++) {
@@ -57,18 +57,18 @@ static inline void see(Crowd *c) {
             uint32_t at = count;
             for (; at > 0; at--) {
                 size_t before = jox_neighbour_at(n, i, at - 1);
-                float e2 = n->distance2[before];
+                float e2 = distance2[at - 1];
                 if (e2 < d2 || (e2 == d2 && a->id[n->index[before]] < a->id[k]))
                     break;
                 if (at < most) {
                     size_t here = jox_neighbour_at(n, i, at);
                     n->index[here] = n->index[before];
-                    n->distance2[here] = e2;
+                    distance2[at] = e2;
                 }
             }
             if (at < most) {
                 n->index[jox_neighbour_at(n, i, at)] = k;
-                n->distance2[jox_neighbour_at(n, i, at)] = d2;
+                distance2[at] = d2;
             }
             count += count < most;
         }
@@ -97,7 +97,6 @@ static inline void close_crowd(Crowd *c) {
     jox_forces_free(c->forces);
     jox_agents_free(&c->agents);
     jox_free(c->near.index);
-    jox_free(c->near.distance2);
     jox_free(c->near.count);
 }
 

@@ -167,11 +167,16 @@ static void compare(const JoxAgents *a, const JoxNeighbours *n) {
         uint32_t count = reference(a, i, perception, all);
         count = count < most ? count : most;
         assert_int_equal(n->count[i], count);
+        const float touch = jox_touch_most(n);
+        uint32_t close = 0, perhaps = 0; /* may touch; and those nearly as near */
         for (uint32_t k = 0; k < count; k++) {
-            size_t at = jox_neighbour_at(n, i, k);
-            assert_int_equal(n->index[at], all[k].index);
-            assert_true(n->distance2[at] == all[k].d2);
+            assert_int_equal(n->index[jox_neighbour_at(n, i, k)], all[k].index);
+            close += all[k].d2 <= touch * touch;
+            perhaps += all[k].d2 <= 1.0001f * touch * touch;
         }
+        assert_in_range(n->close[i], close, perhaps);
+        if (count > JOX_CROWD_RANK)
+            assert_true(n->crowding2[i] == all[JOX_CROWD_RANK].d2);
         float reach = most && count == most ? sqrtf(all[count - 1].d2) : perception;
         float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
         assert_true(a->search[i] == jox_maxf(reach, 0.01f));
