@@ -31,14 +31,13 @@ typedef struct Meeting {
 
 /* Of `lanes`, those whose gap to their neighbour may close within the step: see `touches` in
    contact_near.c. */
-static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint32_t lanes,
+static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *others, uint32_t lanes,
                      Meeting *m) {
     const JoxAgents *a = f->step.agents;
     const float *records = &f->records[0].x;
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
     JoxFloats place[4], motion[4];
-    const JoxInts at = ji_shift_left(others, 1);
-    jf_records(records, at, place);
+    jf_records_at(records, 8, others, place);
     m->x = jf_sub(self->x, place[0]);
     m->y = jf_sub(self->y, place[1]);
     if (a->period.x > 0.0f || a->period.y > 0.0f) {
@@ -51,7 +50,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint3
     lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
     if (!lanes)
         return 0;
-    jf_records(records, ji_add(at, ji_set(1)), motion);
+    jf_records_at(records + 4, 8, others, motion);
     lanes &= ~jm_bits(ji_less(jf_bits(motion[2]), self->id));
     const JoxFloats sum = jf_add(self->breadth, place[2]), slack = jf_sub(whole, sum);
     m->distance = jf_sqrt(m->distance2);
@@ -69,37 +68,36 @@ static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint3
 }
 
 /* Least normal velocities after contacts: see jox_contact_target. */
-static JoxFloats targets_of(const JoxForces *f, const Self *self, JoxInts others, const Meeting *m,
-                            JoxVector normal) {
+static JoxFloats targets_of(const JoxForces *f, const Self *self, const uint32_t *others,
+                            const Meeting *m, JoxVector normal) {
     const JoxFloats zero = jf_set(0.0f);
     const JoxFloats closes = jf_div(jf_neg(m->gap), jf_set((float)f->step.dt));
     const JoxFloats target = jf_select(jf_lt(zero, m->gap), closes, zero);
     if (!jm_bits(jf_lt(zero, self->restitution)))
         return target;
     const float *column = f->step.agents->param[JOX_PARAM_restitution];
-    const JoxFloats restitution = jf_min(self->restitution, jf_pick(column, others));
+    const JoxFloats restitution = jf_min(self->restitution, jf_pick_at(column, others));
     const JoxFloats speed = jv_dot(m->velocity, normal);
     const JoxMask bounces = jm_and(jf_lt(zero, restitution), jf_lt(speed, target));
     return jf_select(bounces, jf_max(target, jf_mul(jf_neg(restitution), speed)), target);
 }
 
-static void note(Packet *p, const Self *self, uint32_t lanes, JoxInts others, const Meeting *m) {
+static void note(Packet *p, const Self *self, uint32_t lanes, const uint32_t *other,
+                 const Meeting *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = jf_div(one, m->distance);
     const JoxMask together = jf_le(m->distance, zero); /* they part along x */
     const JoxVector normal = {jf_select(together, one, jf_mul(m->x, by)),
                               jf_select(together, zero, jf_mul(m->y, by))};
-    uint32_t other[JOX_WIDTH];
     float x[JOX_WIDTH], y[JOX_WIDTH], nx[JOX_WIDTH], ny[JOX_WIDTH], gap[JOX_WIDTH];
     float squeeze[JOX_WIDTH], target[JOX_WIDTH], mass[JOX_WIDTH];
-    ji_store(other, others);
     jf_store(x, m->x);
     jf_store(y, m->y);
     jv_store(nx, ny, 0, normal);
     jf_store(gap, m->gap);
     jf_store(squeeze, m->squeeze);
-    jf_store(target, targets_of(f, self, others, m, normal));
+    jf_store(target, targets_of(f, self, other, m, normal));
     jf_store(mass, jf_div(jf_mul(self->mass, m->mass), jf_add(self->mass, m->mass)));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
@@ -143,7 +141,7 @@ static void find_seen(Packet *p, uint32_t lanes) {
         if (!lanes)
             break;
         Meeting m;
-        const JoxInts others = ji_select(jm_of_bits(lanes), ji_load(near->index + at), ji_set(0));
+        const uint32_t *others = near->index + at;
         const uint32_t meeting = meet(f, &self, others, lanes, &m);
         if (meeting)
             note(p, &self, meeting, others, &m);

@@ -19,7 +19,6 @@ enum {
     PLACE_BITS = 5,
     PLACES = 1 << PLACE_BITS,  /* of a list, that keys can tell */
     LIST = PLACES + JOX_LANES, /* room: a packet may be written behind the last place */
-    RECORDS = LIST / 4,        /* four places are read at once */
     ORDERED = 16,              /* places that are ordered by a network; more sink in */
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
     NO_KEY = 0x7f800000, /* bits of INFINITY */
@@ -45,23 +44,17 @@ static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
     return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
 }
 
-/* Where the list of each lane begins, in parts of which a list has so many. */
-static inline JoxInts list_of_lane(int32_t parts) {
-    return jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)parts)));
-}
-
 /* The keys of such shares, at places `place`. */
 static inline JoxFloats key_of(JoxInts share, uint32_t place) {
     return ji_as_floats(
         ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
 }
 
-/* Keys of four places of all lists, from a multiple of four on. */
+/* Keys of four places of all lists. */
 static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
                                JoxFloats keys[4]) {
     JoxFloats distance2[4];
-    const JoxInts at = ji_add(list_of_lane(RECORDS), ji_set((int32_t)(from / 4)));
-    jf_records(packet->distance2, at, distance2);
+    jf_fours(packet->distance2 + from, LIST, distance2);
     JOX_UNROLL
     for (uint32_t k = 0; k < 4; k++) {
         const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
@@ -119,7 +112,8 @@ typedef struct Found {
 
 /* Where in the lists the places stand that keys of all lanes name. */
 static inline JoxInts listed_at(JoxFloats keys) {
-    return ji_add(ji_and(jf_bits(keys), ji_set(PLACES - 1)), list_of_lane(LIST));
+    const JoxInts lists = jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)LIST)));
+    return ji_add(ji_and(jf_bits(keys), ji_set(PLACES - 1)), lists);
 }
 
 /* The bits of keys that are of distances. */

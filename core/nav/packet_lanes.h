@@ -249,16 +249,37 @@ static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlan
                            jf_select(m, a.offset, b.offset)};
 }
 
-/* Where their neighbours are, given as indices, and how they move: *velocity is theirs. */
-static inline JoxPair jox_pair_lanes(const JoxPacket *p, const JoxSelf *self, JoxInts others,
-                                     const bool periodic, JoxVector *velocity) {
+/* One neighbour of each lane: where it is, m, how it moves, m/s, and its radius, m. */
+typedef struct JoxNeighbour {
+    JoxVector at, velocity;
+    JoxFloats radius;
+} JoxNeighbour;
+
+/* The first, second, ... neighbours of the lanes, as many as any lane has; returns how many. A lane
+   that has fewer gets somebody. */
+static inline uint32_t jox_fetch_neighbours(const JoxPacket *p, JoxInts counts,
+                                            JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
+    const JoxNeighbours *near = p->s->neighbours;
+    const float *records = &p->s->nav->records[0].x, *radius = p->s->agents->param[JOX_PARAM_radius];
+    const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
+    uint32_t k = 0;
+    for (; k < near->stride && jm_bits(ji_less(ji_set((int32_t)k), counts)); k++) {
+        JoxFloats record[4];
+        jf_records_at(records, 4, others, record);
+        out[k] = (JoxNeighbour){
+            {record[0], record[1]}, {record[2], record[3]}, jf_pick_at(radius, others)};
+        others += JOX_LANES;
+    }
+    return k;
+}
+
+static inline JoxPair jox_pair_lanes(const JoxPacket *p, const JoxSelf *self,
+                                     const JoxNeighbour *other, const bool periodic) {
     const JoxAgents *a = p->s->agents;
-    JoxFloats record[4];
-    jf_records(&p->s->nav->records[0].x, others, record);
-    *velocity = (JoxVector){record[2], record[3]};
-    JoxPair q = {jf_sub(record[0], self->x), jf_sub(record[1], self->y),
-                 jf_sub(self->orca.velocity.x, record[2]), jf_sub(self->orca.velocity.y, record[3]),
-                 jf_add(self->radius, jf_pick(a->param[JOX_PARAM_radius], others))};
+    JoxPair q = {jf_sub(other->at.x, self->x), jf_sub(other->at.y, self->y),
+                 jf_sub(self->orca.velocity.x, other->velocity.x),
+                 jf_sub(self->orca.velocity.y, other->velocity.y),
+                 jf_add(self->radius, other->radius)};
     if (periodic) {
         q.x = jf_wrap(q.x, a->period.x);
         q.y = jf_wrap(q.y, a->period.y);
@@ -296,23 +317,19 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
     const JoxSolve *s = p->s;
     const JoxNeighbours *near = s->neighbours;
     const JoxSelf self = jox_self_of(p);
-    const JoxInts zero = ji_set(0);
     const JoxInts counts =
-        ji_select(jm_of_bits(p->lanes), ji_load_bytes(near->count + p->first), zero);
+        ji_select(jm_of_bits(p->lanes), ji_load_bytes(near->count + p->first), ji_set(0));
     const uint32_t picky = jox_picky_lanes(p);
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
     const uint32_t choosy = picky | (touched.rows ? p->touching : 0);
-    for (uint32_t k = 0; k < near->stride; k++) {
-        const JoxMask there = ji_less(ji_set((int32_t)k), counts);
-        uint32_t lanes = jm_bits(there);
-        if (!lanes)
-            break;
-        const JoxInts listed = ji_load(near->index + jox_neighbour_at(near, p->first, k));
-        const JoxInts others = ji_select(there, listed, zero);
-        JoxVector velocity;
-        const JoxPair q = jox_pair_lanes(p, &self, others, periodic, &velocity);
+    JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
+    const uint32_t most = jox_fetch_neighbours(p, counts, nearest);
+    for (uint32_t k = 0; k < most; k++) {
+        uint32_t lanes = jm_bits(ji_less(ji_set((int32_t)k), counts));
+        const JoxInts others = ji_load(near->index + jox_neighbour_at(near, p->first, k));
+        const JoxPair q = jox_pair_lanes(p, &self, &nearest[k], periodic);
         JoxWalkerGap gap = {self.x, self.x, self.x};
         if (p->walkers) {
             gap = jox_walker_gap(s->nav->walk, &self, &q);
@@ -323,7 +340,7 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
         if (!lanes)
             continue;
         JoxPlaneLanes plane;
-        coincide |= jox_plane_lanes(p, &self, lanes, &q, &gap, others, velocity, &plane);
+        coincide |= jox_plane_lanes(p, &self, lanes, &q, &gap, others, nearest[k].velocity, &plane);
         JoxRow *row = &p->rows[p->count++];
         jf_store(row->x, plane.x);
         jf_store(row->y, plane.y);

@@ -22,4 +22,11 @@
 #include "simd/lanes_scalar.h"
 #endif
 
+/* Lane by lane the four numbers of record `at`. */
+static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
+    uint32_t k[JOX_WIDTH];
+    ji_store(k, at);
+    jf_records_at(records, 4, k, out);
+}
+
 #endif

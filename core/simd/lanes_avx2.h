@@ -128,11 +128,14 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
                              (int)table[k[4]], (int)table[k[5]], (int)table[k[6]],
                              (int)table[k[7]]);
 }
+static inline JoxFloats jf_pick_at(const float *table, const uint32_t *k) {
+    return _mm256_setr_ps(table[k[0]], table[k[1]], table[k[2]], table[k[3]], table[k[4]],
+                          table[k[5]], table[k[6]], table[k[7]]);
+}
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     uint32_t k[8];
     ji_store(k, at);
-    return _mm256_setr_ps(table[k[0]], table[k[1]], table[k[2]], table[k[3]], table[k[4]],
-                          table[k[5]], table[k[6]], table[k[7]]);
+    return jf_pick_at(table, k);
 }
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return _mm256_permutevar8x32_ps(a, at);
@@ -148,22 +151,32 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     _mm256_storeu_si256((__m256i *)to, _mm256_permutevar8x32_epi32(a, ji_packed_order_(bits)));
 }
 
-/* Records l and l + 4 share a register; each of its halves is transposed by itself. */
-static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
-    uint32_t k[8];
-    __m256 r[4];
-    ji_store(k, at);
-    JOX_UNROLL
-    for (int lane = 0; lane < 4; lane++)
-        r[lane] = _mm256_insertf128_ps(
-            _mm256_castps128_ps256(_mm_loadu_ps(records + 4 * (size_t)k[lane])),
-            _mm_loadu_ps(records + 4 * (size_t)k[lane + 4]), 1);
+/* Fours l and l + 4 share a register; each of its halves is transposed by itself. */
+static inline __m256 jf_two_fours_(const float *low, const float *high) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+static inline void jf_transpose_(const __m256 r[4], JoxFloats out[4]) {
     __m256 xy01 = _mm256_unpacklo_ps(r[0], r[1]), zw01 = _mm256_unpackhi_ps(r[0], r[1]);
     __m256 xy23 = _mm256_unpacklo_ps(r[2], r[3]), zw23 = _mm256_unpackhi_ps(r[2], r[3]);
     out[0] = _mm256_shuffle_ps(xy01, xy23, 0x44);
     out[1] = _mm256_shuffle_ps(xy01, xy23, 0xee);
     out[2] = _mm256_shuffle_ps(zw01, zw23, 0x44);
     out[3] = _mm256_shuffle_ps(zw01, zw23, 0xee);
+}
+static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
+                                 JoxFloats out[4]) {
+    __m256 r[4];
+    JOX_UNROLL
+    for (int l = 0; l < 4; l++)
+        r[l] = jf_two_fours_(records + stride * at[l], records + stride * at[l + 4]);
+    jf_transpose_(r, out);
+}
+static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
+    __m256 r[4];
+    JOX_UNROLL
+    for (size_t l = 0; l < 4; l++)
+        r[l] = jf_two_fours_(from + stride * l, from + stride * (l + 4));
+    jf_transpose_(r, out);
 }
 
 static inline JoxMask jm_and(JoxMask a, JoxMask b) {

@@ -123,6 +123,9 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     return _mm512_i32gather_ps(at, table, 4);
 }
+static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
+    return jf_pick(table, ji_load(at));
+}
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return _mm512_permutexvar_ps(at, a);
 }
@@ -134,24 +137,37 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, a));
 }
 
-/* Records l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
-static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
-    uint32_t k[16];
-    __m512 r[4];
-    ji_store(k, at);
-    JOX_UNROLL
-    for (int lane = 0; lane < 4; lane++) {
-        r[lane] = _mm512_castps128_ps512(_mm_loadu_ps(records + 4 * (size_t)k[lane]));
-        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 4]), 1);
-        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 8]), 2);
-        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 12]), 3);
-    }
+/* Fours l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
+static inline __m512 jf_four_fours_(const float *a, const float *b, const float *c,
+                                    const float *d) {
+    const __m512 ab =
+        _mm512_insertf32x4(_mm512_castps128_ps512(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(ab, _mm_loadu_ps(c), 2), _mm_loadu_ps(d), 3);
+}
+static inline void jf_transpose_(const __m512 r[4], JoxFloats out[4]) {
     __m512 xy01 = _mm512_unpacklo_ps(r[0], r[1]), zw01 = _mm512_unpackhi_ps(r[0], r[1]);
     __m512 xy23 = _mm512_unpacklo_ps(r[2], r[3]), zw23 = _mm512_unpackhi_ps(r[2], r[3]);
     out[0] = _mm512_shuffle_ps(xy01, xy23, 0x44);
     out[1] = _mm512_shuffle_ps(xy01, xy23, 0xee);
     out[2] = _mm512_shuffle_ps(zw01, zw23, 0x44);
     out[3] = _mm512_shuffle_ps(zw01, zw23, 0xee);
+}
+static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
+                                 JoxFloats out[4]) {
+    __m512 r[4];
+    JOX_UNROLL
+    for (int l = 0; l < 4; l++)
+        r[l] = jf_four_fours_(records + stride * at[l], records + stride * at[l + 4],
+                              records + stride * at[l + 8], records + stride * at[l + 12]);
+    jf_transpose_(r, out);
+}
+static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
+    __m512 r[4];
+    JOX_UNROLL
+    for (size_t l = 0; l < 4; l++)
+        r[l] = jf_four_fours_(from + stride * l, from + stride * (l + 4), from + stride * (l + 8),
+                              from + stride * (l + 12));
+    jf_transpose_(r, out);
 }
 
 static inline JoxMask jm_and(JoxMask a, JoxMask b) {

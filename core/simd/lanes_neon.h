@@ -130,10 +130,13 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     return (JoxInts){(int32_t)table[k[0]], (int32_t)table[k[1]], (int32_t)table[k[2]],
                      (int32_t)table[k[3]]};
 }
+static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
+    return (JoxFloats){table[at[0]], table[at[1]], table[at[2]], table[at[3]]};
+}
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     uint32_t k[4];
     ji_store(k, at);
-    return (JoxFloats){table[k[0]], table[k[1]], table[k[2]], table[k[3]]};
+    return jf_pick_at(table, k);
 }
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     float lanes[4];
@@ -156,13 +159,7 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
         to[k] = lanes[order >> 8 * k & 3];
 }
 
-static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
-    uint32_t k[4];
-    JoxFloats r[4];
-    ji_store(k, at);
-    JOX_UNROLL
-    for (int lane = 0; lane < 4; lane++)
-        r[lane] = vld1q_f32(records + 4 * (size_t)k[lane]);
+static inline void jf_transpose_(const JoxFloats r[4], JoxFloats out[4]) {
     float32x4x2_t even = vuzpq_f32(r[0], r[1]), odd = vuzpq_f32(r[2], r[3]);
     float32x4x2_t first = vuzpq_f32(even.val[0], odd.val[0]);
     float32x4x2_t second = vuzpq_f32(even.val[1], odd.val[1]);
@@ -170,6 +167,21 @@ static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]
     out[1] = second.val[0];
     out[2] = first.val[1];
     out[3] = second.val[1];
+}
+static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
+                                 JoxFloats out[4]) {
+    JoxFloats r[4];
+    JOX_UNROLL
+    for (int lane = 0; lane < 4; lane++)
+        r[lane] = vld1q_f32(records + stride * at[lane]);
+    jf_transpose_(r, out);
+}
+static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
+    JoxFloats r[4];
+    JOX_UNROLL
+    for (size_t lane = 0; lane < 4; lane++)
+        r[lane] = vld1q_f32(from + stride * lane);
+    jf_transpose_(r, out);
 }
 
 static inline JoxMask jm_and(JoxMask a, JoxMask b) {

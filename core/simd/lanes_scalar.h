@@ -131,9 +131,13 @@ static inline JoxFloats ji_as_floats(JoxInts a) {
     memcpy(&floats, &a, sizeof floats);
     return floats;
 }
-/* Lane by lane table[at]. */
+/* Lane by lane table[at]; jf_pick_at: from where the places lie in memory, which is faster than
+   from registers. */
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     return table[at];
+}
+static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
+    return table[*at];
 }
 /* The lanes of `a` in the order `at`. */
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
@@ -155,10 +159,18 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     *to = (uint32_t)a;
 }
 
-/* Of records of four floats, those at the places of the lanes: out[c] is number c of each. */
-static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
-    for (int c = 0; c < 4; c++)
-        out[c] = records[4 * (size_t)at + (size_t)c];
+/* The first four floats of the records at the places `at` of the lanes, of records of `stride`
+   floats: out[c] is number c of each. */
+static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
+                                 JoxFloats out[4]) {
+    for (size_t c = 0; c < 4; c++)
+        out[c] = records[stride * *at + c];
+}
+/* Four floats of each lane, `stride` floats on from lane to lane. */
+static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
+    (void)stride;
+    for (size_t c = 0; c < 4; c++)
+        out[c] = from[c];
 }
 
 static inline JoxMask jm_and(JoxMask a, JoxMask b) {

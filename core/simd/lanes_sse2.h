@@ -130,10 +130,13 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     return _mm_setr_epi32((int32_t)table[k[0]], (int32_t)table[k[1]], (int32_t)table[k[2]],
                           (int32_t)table[k[3]]);
 }
+static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
+    return _mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]]);
+}
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     uint32_t k[4];
     ji_store(k, at);
-    return _mm_setr_ps(table[k[0]], table[k[1]], table[k[2]], table[k[3]]);
+    return jf_pick_at(table, k);
 }
 static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     float lanes[4];
@@ -156,12 +159,17 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
         to[k] = lanes[order >> 8 * k & 3];
 }
 
-static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
-    uint32_t k[4];
-    ji_store(k, at);
+static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
+                                 JoxFloats out[4]) {
     JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
-        out[lane] = _mm_loadu_ps(records + 4 * (size_t)k[lane]);
+        out[lane] = _mm_loadu_ps(records + stride * at[lane]);
+    _MM_TRANSPOSE4_PS(out[0], out[1], out[2], out[3]);
+}
+static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
+    JOX_UNROLL
+    for (size_t lane = 0; lane < 4; lane++)
+        out[lane] = _mm_loadu_ps(from + stride * lane);
     _MM_TRANSPOSE4_PS(out[0], out[1], out[2], out[3]);
 }
 
