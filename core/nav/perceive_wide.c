@@ -16,6 +16,18 @@ typedef struct Reach {
     uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
 } Reach;
 
+/* Columns and rows of cells, the last ones included. */
+typedef struct Cells {
+    size_t left, right, low, high;
+} Cells;
+
+static inline size_t least_of(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+static inline size_t most_of(size_t a, size_t b) {
+    return a > b ? a : b;
+}
+
 static inline JoxInts cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
     const JoxFloats from = jf_mul(jf_sub(at, jf_set(low)), jf_set(per_metre));
     return jf_to_ints(jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1))));
@@ -70,27 +82,50 @@ static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at,
     return jm_count(bits);
 }
 
-/* Lists those within the radius of one lane, until its list is full. */
-static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
+/* The cells that either of two lanes reaches, of whom most stand side by side, or not: where these
+   are not many more than those of one. */
+static inline bool reach_both(const Reach *reach, uint32_t lane, uint32_t other, Cells *cells) {
+    cells->left = least_of(reach->left[lane], reach->left[other]);
+    cells->right = most_of(reach->right[lane], reach->right[other]);
+    cells->low = least_of(reach->low[lane], reach->low[other]);
+    cells->high = most_of(reach->high[lane], reach->high[other]);
+    return cells->right - cells->left <= reach->right[lane] - reach->left[lane] + 1 &&
+           cells->high - cells->low <= reach->high[lane] - reach->low[lane] + 1;
+}
+
+/* Lists those within the radius of `seekers` lanes, until a list is full; `cells`: all that they
+   reach. Returns whether one is, so that another may lack some; then those of all are as before. */
+static inline __attribute__((always_inline)) bool
+list_near(Packet *packet, const Reach *reach, const uint32_t *lanes, const int seekers,
+          const Cells *cells) {
     const JoxNav *nav = packet->p->nav;
     const float *x = packet->p->agents->x, *y = packet->p->agents->y;
-    const Seeker seeker = seeker_of(packet, reach, lane);
-    const size_t columns = nav->columns;
-    const uint32_t *row = nav->cell_first + reach->low[lane] * columns;
-    const uint32_t *last = nav->cell_first + reach->high[lane] * columns;
-    const size_t left = reach->left[lane], right = reach->right[lane] + 1;
-    size_t n = packet->count[lane];
+    const size_t columns = nav->columns, left = cells->left, right = cells->right + 1;
+    const uint32_t *row = nav->cell_first + cells->low * columns;
+    const uint32_t *last = nav->cell_first + cells->high * columns;
+    Seeker seeker[2];
+    size_t n[2] = {0, 0};
+    for (int s = 0; s < seekers; s++) {
+        seeker[s] = seeker_of(packet, reach, lanes[s]);
+        n[s] = packet->count[lanes[s]];
+    }
     for (; row <= last; row += columns) {
         const size_t end = row[right];
         const JoxInts ends = ji_set((int32_t)end);
         JoxInts others = ji_add(ji_set((int32_t)row[left]), ji_lane());
-        for (size_t j = row[left]; j < end && n <= PLACES; j += JOX_WIDTH) {
-            n += list_packet(&seeker, n, (JoxVector){jf_load(x + j), jf_load(y + j)}, others,
-                             ji_less(others, ends));
+        for (size_t j = row[left]; j < end && n[0] <= PLACES && n[1] <= PLACES; j += JOX_WIDTH) {
+            const JoxVector at = {jf_load(x + j), jf_load(y + j)};
+            const JoxMask there = ji_less(others, ends);
+            for (int s = 0; s < seekers; s++)
+                n[s] += list_packet(&seeker[s], n[s], at, others, there);
             others = ji_add(others, ji_set(JOX_WIDTH));
         }
     }
-    packet->count[lane] = (uint32_t)n;
+    if (seekers > 1 && (n[0] > PLACES || n[1] > PLACES))
+        return true;
+    for (int s = 0; s < seekers; s++)
+        packet->count[lanes[s]] = (uint32_t)n[s];
+    return false;
 }
 
 /* The same among those who went over a periodic edge since the agents were sorted: their cells are
@@ -113,12 +148,24 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
                                                  bool strays) {
     Reach reach;
     find_reach(packet, shift, &reach);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        if (lanes >> lane & 1) {
-            list_near(packet, &reach, lane);
-            if (strays)
-                list_strays(packet, &reach, lane);
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        uint32_t pair[2] = {(uint32_t)__builtin_ctz(left), 0};
+        Cells cells;
+        const uint32_t others = left & (left - 1);
+        if (others) {
+            pair[1] = (uint32_t)__builtin_ctz(others);
+            if (reach_both(&reach, pair[0], pair[1], &cells) &&
+                !list_near(packet, &reach, pair, 2, &cells)) {
+                left = others;
+                continue;
+            }
         }
+        cells = (Cells){reach.left[pair[0]], reach.right[pair[0]], reach.low[pair[0]],
+                        reach.high[pair[0]]};
+        list_near(packet, &reach, pair, 1, &cells);
+    }
+    for (uint32_t left = strays ? lanes : 0; left; left &= left - 1)
+        list_strays(packet, &reach, (uint32_t)__builtin_ctz(left));
 }
 
 /* The lanes, of some, that see over the edges that one of the nine images lies beyond. */
