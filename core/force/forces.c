@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/kernels.h"
+#include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_breadth_packets_##name,
 static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -91,13 +92,6 @@ void jox_forces_free(JoxForces *f) {
     jox_free(f);
 }
 
-static float widest_radius(const JoxAgents *a) {
-    float widest = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++)
-        widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
-    return widest;
-}
-
 /* What does not carry over from the last step, of agents [begin, end). */
 static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
@@ -153,7 +147,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->braced, f->braced_capacity, n);
     JOX_RESERVE(f->records, f->record_capacity, n);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
-    f->widest = widest_radius(a);
+    f->widest = jox_greatest(a->param[JOX_PARAM_radius], n);
     if (n)
         jox_decay(&f->decay, a->param[JOX_PARAM_damping][0], (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);

@@ -62,6 +62,9 @@ static float greatest_push(const JoxV2 *force, uint32_t count) {
         return 0.0f;
     if (count == 1)
         return jox_length(force[0]);
+    if (count == 2)
+        return sqrtf(jox_maxf(jox_length2(jox_add(force[0], force[1])),
+                              jox_maxf(jox_length2(force[0]), jox_length2(force[1]))));
     JoxFour most2 = {0.0f};
     for (uint32_t k = 0; k < count; k += 4) {
         JoxV2 at[4] = {{0.0f, 0.0f}};
@@ -116,6 +119,10 @@ void jox_load_measure(JoxForces *f, uint32_t i) {
     JoxV2 force[MOST_FORCES];
     const uint32_t n = forces_on(f, i, force, MOST_FORCES);
     float sum = 0.0f;
+    if (n == 0) {
+        a->compression[i] = a->load[i] = 0.0f;
+        return;
+    }
     for (uint32_t k = 0; k < n; k++)
         sum += jox_length(force[k]);
     a->compression[i] = sum / jox_circumference(a->param[JOX_PARAM_radius][i]);

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "nav/kernels.h"
+#include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_perceive_packets_##name,
 static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -16,14 +17,9 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
 }
 
 static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
-    uint32_t stride = 1;
-    out->widest = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++) {
-        if ((uint32_t)a->param[JOX_PARAM_neighbours][i] > stride)
-            stride = (uint32_t)a->param[JOX_PARAM_neighbours][i];
-        out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][i]);
-    }
-    jox_neighbours_reserve(out, a->count, stride);
+    const uint32_t most = (uint32_t)jox_greatest(a->param[JOX_PARAM_neighbours], a->count);
+    out->widest = jox_greatest(a->param[JOX_PARAM_radius], a->count);
+    jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
 }
 
 float jox_nav_sight(const JoxAgents *a) {

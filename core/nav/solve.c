@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "nav/kernels.h"
+#include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_solve_packets_##name,
 static JoxSolveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -64,14 +65,21 @@ static void record_range(void *context, uint32_t begin, uint32_t end, uint32_t w
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
 static float wall_reach(const JoxAgents *a, float planning_time) {
-    float reach = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++) {
-        float radius = a->param[JOX_PARAM_radius][i];
-        float planned = a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i];
-        reach =
-            jox_maxf(reach, radius + jox_maxf(planned, a->speed_limit[i] * planning_time + 0.5f));
+    const float *radius = a->param[JOX_PARAM_radius], *speed = a->param[JOX_PARAM_max_speed];
+    const float *horizon = a->param[JOX_PARAM_wall_horizon], *limit = a->speed_limit;
+    JoxFour reach = {0.0f};
+    uint32_t i = 0;
+    for (; i + 4 <= a->count; i += 4) {
+        const JoxFour planned = jox_load_four(horizon + i) * jox_load_four(speed + i);
+        const JoxFour shifted = jox_load_four(limit + i) * planning_time + 0.5f;
+        const JoxFour farther = jox_greater_four(planned, shifted);
+        reach = jox_greater_four(jox_load_four(radius + i) + farther, reach);
     }
-    return reach;
+    float most = jox_greatest_of_four(reach, 0.0f);
+    for (; i < a->count; i++)
+        most = jox_maxf(most, radius[i] + jox_maxf(horizon[i] * speed[i],
+                                                   limit[i] * planning_time + 0.5f));
+    return most;
 }
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
