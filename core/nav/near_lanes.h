@@ -46,8 +46,7 @@ static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
 
 /* The keys of such shares, at places `place`. */
 static inline JoxFloats key_of(JoxInts share, uint32_t place) {
-    return ji_as_floats(
-        ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
+    return ji_as_floats(ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
 }
 
 /* Keys of four places of all lists. */

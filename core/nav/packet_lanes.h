@@ -260,7 +260,8 @@ typedef struct JoxNeighbour {
 static inline uint32_t jox_fetch_neighbours(const JoxPacket *p, JoxInts counts,
                                             JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->neighbours;
-    const float *records = &p->s->nav->records[0].x, *radius = p->s->agents->param[JOX_PARAM_radius];
+    const float *records = &p->s->nav->records[0].x,
+                *radius = p->s->agents->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
     uint32_t k = 0;
     for (; k < near->stride && jm_bits(ji_less(ji_set((int32_t)k), counts)); k++) {

@@ -95,9 +95,9 @@ static inline bool reach_both(const Reach *reach, uint32_t lane, uint32_t other,
 
 /* Lists those within the radius of `seekers` lanes, until a list is full; `cells`: all that they
    reach. Returns whether one is, so that another may lack some; then those of all are as before. */
-static inline __attribute__((always_inline)) bool
-list_near(Packet *packet, const Reach *reach, const uint32_t *lanes, const int seekers,
-          const Cells *cells) {
+static inline __attribute__((always_inline)) bool list_near(Packet *packet, const Reach *reach,
+                                                            const uint32_t *lanes,
+                                                            const int seekers, const Cells *cells) {
     const JoxNav *nav = packet->p->nav;
     const float *x = packet->p->agents->x, *y = packet->p->agents->y;
     const size_t columns = nav->columns, left = cells->left, right = cells->right + 1;

@@ -77,8 +77,8 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
     }
     float most = jox_greatest_of_four(reach, 0.0f);
     for (; i < a->count; i++)
-        most = jox_maxf(most, radius[i] + jox_maxf(horizon[i] * speed[i],
-                                                   limit[i] * planning_time + 0.5f));
+        most = jox_maxf(most, radius[i] +
+                                  jox_maxf(horizon[i] * speed[i], limit[i] * planning_time + 0.5f));
     return most;
 }
 

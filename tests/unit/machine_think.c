@@ -72,10 +72,8 @@ static void begin(Fixture *f, JoxMachine *machine, uint32_t agents) {
                                   .objects = &f->objects,
                                   .seed = 7,
                                   .dt = 0.1};
-    f->neighbours = (JoxNeighbours){.agents = 4096,
-                                    .stride = 1,
-                                    .index = jox_alloc(4096, 4),
-                                    .count = jox_alloc(4096, 1)};
+    f->neighbours = (JoxNeighbours){
+        .agents = 4096, .stride = 1, .index = jox_alloc(4096, 4), .count = jox_alloc(4096, 1)};
     jox_machines_add(&f->machines, machine);
     for (uint32_t i = 0; i < agents; i++) {
         jox_agents_add(&f->agents);

@@ -387,6 +387,63 @@ static void runs_change_nothing(void **state) {
     jox_walls_free(&walls);
 }
 
+/* The plain sum over people in double, of the shares of the four nodes around each. */
+static double summed(const JoxDensity *d, const float *x, const float *y, const float *weight,
+                     uint32_t count, JoxV2 p) {
+    const double v = S * S - d->cell * d->cell / 6.0;
+    const int reach = (int)(3.0 * sqrt(v) / d->cell + 1.0);
+    double whole = 0.0, sum = 0.0;
+    for (int k = -reach; k <= reach; k++)
+        whole += exp(-0.5 * k * k * d->cell * d->cell / v);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t nodes[4];
+        float shares[4];
+        const int found = jox_density_share(d, x[i], y[i], nodes, shares);
+        for (int n = 0; n < found; n++) {
+            const JoxV2 low = jox_density_corner(d);
+            const double column = nodes[n] % (uint32_t)d->wide, row = nodes[n] / (uint32_t)d->wide;
+            const double across = floor((p.x - low.x) / d->cell) - column;
+            const double up = floor((p.y - low.y) / d->cell) - row;
+            if (fabs(across) <= reach && fabs(up) <= reach)
+                sum += shares[n] * weight[i] *
+                       exp(-0.5 * (across * across + up * up) * d->cell * d->cell / v);
+        }
+    }
+    return sum / (whole * whole * d->cell * d->cell);
+}
+
+/* Rows are passed over where there is nothing: of crowds from a few far from each other to one that
+   stands everywhere, with weights that cancel each other out, nothing is missed. */
+static void where_nobody_stands_changes_nothing(void **state) {
+    (void)state;
+    static const uint32_t COUNTS[] = {1, 2, 7, 60};
+    static const float WIDTHS[] = {3.0f, 12.7f, 30.0f};
+    uint32_t seed = 101;
+    for (size_t trial = 0; trial < 12; trial++) {
+        const uint32_t count = COUNTS[trial % 4];
+        const float wide = WIDTHS[trial / 4];
+        float x[60], y[60], one[60], weight[60];
+        JoxDensity *d = grid(-wide, wide, 0.4f);
+        float *other = jox_alloc((size_t)d->columns * d->rows, sizeof *other);
+        jox_density_begin(d, 2);
+        for (uint32_t i = 0; i < count; i++) {
+            x[i] = i % 2 ? x[i - 1] : wide * (2.1f * dice(&seed) - 1.05f);
+            y[i] = i % 2 ? y[i - 1] + 0.4f : wide * (2.1f * dice(&seed) - 1.05f);
+            one[i] = 1.0f;
+            weight[i] = i % 2 ? -1.0f : 1.0f;
+            jox_density_put(d, NO_PERIOD, x[i], y[i], (float[]){1.0f, weight[i]});
+        }
+        jox_density_end(d, (float *[]){d->now, other});
+        for (size_t c = 0; c < (size_t)d->columns * d->rows; c += 1 + c % 5) {
+            const JoxV2 p = jox_density_middle(d, c);
+            assert_near(d->now[c], summed(d, x, y, one, count, p), 1e-5);
+            assert_near(other[c], summed(d, x, y, weight, count, p), 1e-5);
+        }
+        jox_free(other);
+        jox_density_free(d);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_the_open_it_is_the_gaussian),
@@ -397,6 +454,7 @@ int main(void) {
         cmocka_unit_test(edges_and_changes),
         cmocka_unit_test(within_is_as_polygons_have_it),
         cmocka_unit_test(runs_change_nothing),
+        cmocka_unit_test(where_nobody_stands_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,6 +40,7 @@ typedef struct JoxDensity {
     float kernel; /* m: the standard deviation */
     int edge, wide, high;
     float *mass[JOX_DENSITY_FIELDS], *spare; /* of who was put there; of a cell */
+    uint64_t *marks;                         /* for each row: where `spare` may hold something */
     int fields;
     int from_x, from_y, to_x, to_y; /* the cells in which there is anything, the last included */
     JoxDensityFloor *floor;         /* NULL: no walls */

@@ -146,6 +146,64 @@ static int tabulate(const JoxDensity *d, float *taps) {
     return reach;
 }
 
+/* ---- where there is something ---- */
+
+/* The columns of a row, in 64 stretches: a bit for each that may hold something. What is nothing
+   adds nothing, to the bit, so the others are passed over. */
+static int stretch_of(const JoxDensity *d) {
+    return (d->wide + 63) / 64;
+}
+
+/* Marks the stretches of columns from..to. */
+static uint64_t marks_of(const JoxDensity *d, int from, int to) {
+    const int first = from / stretch_of(d), last = to / stretch_of(d);
+    return (~0ull >> (63 - last)) & (~0ull << first);
+}
+
+/* Takes the first stretches that stand side by side out of the marks: columns from..to. */
+static bool next_span(const JoxDensity *d, uint64_t *marks, int *from, int *to) {
+    if (!*marks)
+        return false;
+    const int first = __builtin_ctzll(*marks);
+    const uint64_t beyond = ~(*marks >> first);
+    const int count = beyond ? __builtin_ctzll(beyond) : 64;
+    *from = first * stretch_of(d);
+    *to = (first + count) * stretch_of(d) - 1;
+    *marks &= first + count < 64 ? ~0ull << (first + count) : 0;
+    return true;
+}
+
+static uint64_t marks_of_row(const JoxDensity *d, const float *row, int from, int to) {
+    const int wide = stretch_of(d);
+    uint64_t marks = 0;
+    for (int s = from / wide; s <= to / wide; s++) {
+        const int end = (s + 1) * wide < d->wide ? (s + 1) * wide : d->wide;
+        int some = 0;
+        for (int c = s * wide; c < end; c++)
+            some |= row[c] != 0.0f;
+        marks |= (uint64_t)some << s;
+    }
+    return marks;
+}
+
+/* The marks of all that lies within `reach` of what is marked. */
+static uint64_t marks_about(const JoxDensity *d, uint64_t marks, int reach) {
+    uint64_t about = 0;
+    for (int from, to; next_span(d, &marks, &from, &to);)
+        about |= marks_of(d, grown(from, -reach, 0), grown(to, reach, d->wide - 1));
+    return about;
+}
+
+/* out[c] += tap * in[c] for all that is marked, within low..high. */
+static void add_marked(const JoxDensity *d, uint64_t marks, const float *in, float *restrict out,
+                       float tap, int low, int high) {
+    for (int from, to; next_span(d, &marks, &from, &to);) {
+        const int first = from > low ? from : low, last = to < high ? to : high;
+        for (int c = first; c <= last; c++)
+            out[c] += tap * in[c];
+    }
+}
+
 static void convolve(JoxDensity *d, int field) {
     float taps[MOST_TAPS];
     int reach = tabulate(d, taps), last = d->wide - 1, top = d->high - 1;
@@ -153,27 +211,22 @@ static void convolve(JoxDensity *d, int field) {
     float *mass = d->mass[field];
     for (int row = d->from_y; row <= d->to_y; row++) {
         const float *in = mass + at(d, 0, row);
-        float *restrict out = d->spare + at(d, 0, row);
+        float *out = d->spare + at(d, 0, row);
+        const uint64_t marks = marks_of_row(d, in, d->from_x, d->to_x);
         memset(out + from, 0, (size_t)(to - from + 1) * sizeof *out);
-        for (int k = -reach; k <= reach; k++) {
-            int low = d->from_x > from - k ? d->from_x : from - k;
-            int high = d->to_x < to - k ? d->to_x : to - k;
-            float tap = taps[k < 0 ? -k : k];
-            for (int c = low; c <= high; c++)
-                out[c + k] += tap * in[c];
-        }
+        d->marks[row] = marks_about(d, marks, reach);
+        for (int k = -reach; k <= reach; k++)
+            add_marked(d, marks, in, out + k, taps[k < 0 ? -k : k],
+                       d->from_x > from - k ? d->from_x : from - k,
+                       d->to_x < to - k ? d->to_x : to - k);
     }
     for (int row = grown(d->from_y, -reach, 0); row <= grown(d->to_y, reach, top); row++) {
-        float *restrict out = mass + at(d, 0, row);
+        float *out = mass + at(d, 0, row);
         memset(out + from, 0, (size_t)(to - from + 1) * sizeof *out);
-        for (int k = -reach; k <= reach; k++) {
-            if (row + k < d->from_y || row + k > d->to_y)
-                continue;
-            const float *in = d->spare + at(d, 0, row + k);
-            float tap = taps[k < 0 ? -k : k];
-            for (int c = from; c <= to; c++)
-                out[c] += tap * in[c];
-        }
+        for (int k = -reach; k <= reach; k++)
+            if (row + k >= d->from_y && row + k <= d->to_y)
+                add_marked(d, d->marks[row + k], d->spare + at(d, 0, row + k), out,
+                           taps[k < 0 ? -k : k], from, to);
     }
 }
 
