@@ -19,6 +19,7 @@ typedef struct Packet {
 typedef struct Self {
     JoxFloats x, y, vx, vy, breadth, radius, mass, restitution;
     JoxInts id;
+    JoxV2 period; /* m; 0: none */
 } Self;
 
 /* The same for one neighbour of each lane, less what the agent itself has. */
@@ -33,16 +34,15 @@ typedef struct Meeting {
    contact_near.c. */
 static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *others, uint32_t lanes,
                      Meeting *m) {
-    const JoxAgents *a = f->step.agents;
     const float *records = &f->records[0].x;
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
     JoxFloats place[4], motion[4];
     jf_records_at(records, 8, others, place);
     m->x = jf_sub(self->x, place[0]);
     m->y = jf_sub(self->y, place[1]);
-    if (a->period.x > 0.0f || a->period.y > 0.0f) {
-        m->x = jf_wrap(m->x, a->period.x);
-        m->y = jf_wrap(m->y, a->period.y);
+    if (self->period.x > 0.0f || self->period.y > 0.0f) {
+        m->x = jf_wrap(m->x, self->period.x);
+        m->y = jf_wrap(m->y, self->period.y);
     }
     m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
     const JoxFloats whole = jf_add(self->radius, place[3]);
@@ -133,15 +133,15 @@ static void find_seen(Packet *p, uint32_t lanes) {
                        jf_load(a->param[JOX_PARAM_radius] + i),
                        jf_load(a->param[JOX_PARAM_mass] + i),
                        jf_load(a->param[JOX_PARAM_restitution] + i),
-                       ji_load(a->id + i)};
+                       ji_load(a->id + i),
+                       a->period};
     const JoxInts most = ji_load_bytes(jox_close_counts(near, f->widest) + i);
-    for (uint32_t k = 0; k < near->stride; k++) {
-        const size_t at = jox_neighbour_at(near, i, k);
+    const uint32_t *others = near->index + jox_neighbour_at(near, i, 0);
+    for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
         lanes &= jm_bits(ji_less(ji_set((int32_t)k), most));
         if (!lanes)
             break;
         Meeting m;
-        const uint32_t *others = near->index + at;
         const uint32_t meeting = meet(f, &self, others, lanes, &m);
         if (meeting)
             note(p, &self, meeting, others, &m);

@@ -24,6 +24,7 @@ enum {
     NO_KEY = 0x7f800000, /* bits of INFINITY */
     NORMAL = 0x00800000  /* bits of the least float that is not denormal */
 };
+#define ALL_LANES ((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1))
 static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
 
 typedef struct Packet {
@@ -107,6 +108,7 @@ static void order_many(Packet *packet) {
 typedef struct Found {
     JoxMask full, tied;  /* as many as wanted; two of the same distance by the bits of their keys */
     JoxInts most, count; /* neighbours wanted, and found */
+    bool whole;          /* all lanes want as many as the packet has levels for, and are full */
 } Found;
 
 /* Where in the lists the places stand that keys of all lanes name. */
@@ -124,15 +126,21 @@ static Found read_keys(const Packet *packet, JoxInts most) {
     const JoxInts listed = ji_load(packet->count);
     const JoxMask few = ji_less(listed, most);
     Found f = {jm_without(ji_less(ji_set(0), most), few), jm_of_bits(0), most,
-               ji_select(few, listed, most)};
+               ji_select(few, listed, most), false};
+    const JoxMask whole = jm_and(f.full, ji_equal(most, ji_set((int32_t)packet->levels - 1)));
+    f.whole = jm_bits(whole) == ALL_LANES;
     /* Of a tie, the first is wanted and the second is there. */
     const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, ji_set(1)));
     JoxInts share = share_of(packet->keys[0]);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxInts at = ji_set((int32_t)k), next = share_of(packet->keys[k + 1]);
-        if (!jm_bits(ji_less(at, f.count)))
-            break; /* of a sparse crowd */
-        f.tied = jm_or(f.tied, jm_and(ji_equal(share, next), ji_less(at, ties)));
+        JoxMask same = ji_equal(share, next);
+        if (!f.whole) {
+            if (!jm_bits(ji_less(at, f.count)))
+                break; /* of a sparse crowd */
+            same = jm_and(same, ji_less(at, ties));
+        }
+        f.tied = jm_or(f.tied, same);
         share = next;
     }
     return f;
@@ -140,8 +148,8 @@ static Found read_keys(const Packet *packet, JoxInts most) {
 
 /* The squared distance of the last neighbour wanted, m2, of lanes that are full. */
 static JoxFloats farthest_of(const Packet *packet, const Found *f) {
-    JoxFloats key = packet->keys[0];
-    for (uint32_t k = 1; k + 1 < packet->levels; k++)
+    JoxFloats key = packet->keys[f->whole ? packet->levels - 2 : 0];
+    for (uint32_t k = 1; !f->whole && k + 1 < packet->levels; k++)
         key = jf_select(ji_equal(f->most, ji_set((int32_t)k + 1)), packet->keys[k], key);
     return jf_pick(packet->distance2, listed_at(key));
 }

@@ -170,14 +170,12 @@ static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
 
 /* Of `lanes`, those that mind their neighbour, whose indices are given. */
 static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint32_t lanes,
-                                   uint32_t picky, JoxInts others) {
-    uint32_t index[JOX_WIDTH];
+                                   uint32_t picky, const uint32_t *index) {
     JoxMask touched = jm_of_bits(0);
     for (uint32_t k = 0; k < t->rows; k++)
-        touched = jm_or(touched, ji_equal(others, ji_load(t->other[k])));
+        touched = jm_or(touched, ji_equal(ji_load(index), ji_load(t->other[k])));
     lanes &= ~jm_bits(touched);
     picky &= lanes;
-    ji_store(index, others);
     for (uint32_t lane = 0; picky >> lane; lane++)
         if ((picky >> lane & 1) && jox_solve_passes_over(p->s, p->first + lane, index[lane]))
             lanes &= ~(1u << lane);
@@ -292,7 +290,8 @@ static inline JoxPair jox_pair_lanes(const JoxPacket *p, const JoxSelf *self,
    lanes that coincide with it. */
 static inline __attribute__((always_inline)) uint32_t
 jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, const JoxPair *q,
-                const JoxWalkerGap *gap, JoxInts others, JoxVector velocity, JoxPlaneLanes *plane) {
+                const JoxWalkerGap *gap, const uint32_t *others, JoxVector velocity,
+                JoxPlaneLanes *plane) {
     const JoxPlaneLanes none = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)};
     const JoxMask walkers = jm_of_bits(p->walkers);
     JoxMask minds = jm_of_bits(lanes);
@@ -303,8 +302,8 @@ jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, const J
         *plane = jox_orca_lanes(q, &self->orca, p->s->planning_time, minds);
     if (p->walkers) {
         JoxMask has;
-        *plane =
-            jox_select_plane(walkers, jox_walker_lanes(p, q, gap, others, velocity, &has), *plane);
+        *plane = jox_select_plane(
+            walkers, jox_walker_lanes(p, q, gap, ji_load(others), velocity, &has), *plane);
         minds = jm_without(minds, jm_without(walkers, has));
     }
     *plane = jox_select_plane(minds, *plane, none);
@@ -327,9 +326,9 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
     const uint32_t choosy = picky | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
     const uint32_t most = jox_fetch_neighbours(p, counts, nearest);
-    for (uint32_t k = 0; k < most; k++) {
+    const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
+    for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         uint32_t lanes = jm_bits(ji_less(ji_set((int32_t)k), counts));
-        const JoxInts others = ji_load(near->index + jox_neighbour_at(near, p->first, k));
         const JoxPair q = jox_pair_lanes(p, &self, &nearest[k], periodic);
         JoxWalkerGap gap = {self.x, self.x, self.x};
         if (p->walkers) {

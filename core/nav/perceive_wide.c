@@ -8,8 +8,6 @@
 
 #include "nav/near_lanes.h"
 
-#define ALL_LANES ((1u << JOX_WIDTH) - 1)
-
 /* Of the grid, the cells within reach of each lane. */
 typedef struct Reach {
     float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
@@ -240,6 +238,12 @@ static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts
     }
 }
 
+/* The same where all lanes have as many as there are levels for. */
+static inline void write_whole(const Packet *packet, uint32_t *index) {
+    for (uint32_t k = 0; k + 1 < packet->levels; k++, index += JOX_LANES)
+        ji_store(index, ji_pick(packet->index, listed_at(packet->keys[k])));
+}
+
 /* How many of those who are counted an agent may touch, and perhaps some more: by the bits of their
    keys. */
 static inline JoxInts close_of(const Packet *packet, JoxInts count) {
@@ -279,8 +283,11 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_bytes(p->out->count + packet->first, mask, f->count);
     store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
     store_crowding(packet, mask, f->count);
-    write_neighbours(packet, mask, f->count,
-                     p->out->index + jox_neighbour_at(p->out, packet->first, 0));
+    uint32_t *index = p->out->index + jox_neighbour_at(p->out, packet->first, 0);
+    if (f->whole && lanes == ALL_LANES)
+        write_whole(packet, index);
+    else
+        write_neighbours(packet, mask, f->count, index);
 }
 
 /* Those who may touch, of the lanes whose neighbours may lack some. */
