@@ -27,6 +27,8 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
         float before = 0.0f;
         JOX_ASSERT(count <= n->stride && count <= (uint32_t)a->param[JOX_PARAM_neighbours][i]);
         JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
+        for (uint32_t k = count; k < n->stride; k++) /* kernels look them up, for nothing */
+            JOX_ASSERT(n->index[jox_neighbour_at(n, i, k)] < n->agents);
         for (uint32_t k = 0; k < count; k++) {
             size_t at = jox_neighbour_at(n, i, k);
             JOX_ASSERT(n->index[at] < a->count && n->index[at] != i);

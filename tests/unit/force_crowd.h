@@ -44,7 +44,8 @@ static inline void see(Crowd *c) {
     if (room > n->agents) {
         n->agents = room;
         n->stride = JOX_MOST_NEIGHBOURS;
-        n->index = jox_realloc(n->index, (size_t)room * n->stride, sizeof *n->index);
+        jox_free(n->index); /* what is beyond a count is an index all the same: zeros */
+        n->index = jox_alloc((size_t)room * n->stride, sizeof *n->index);
         n->count = jox_realloc(n->count, room, 1);
     }
     for (uint32_t i = 0; i < a->count; i++) {
