@@ -7,6 +7,8 @@
 #include "geom/wall_grid_lanes.h"
 #include "simd/vectors.h"
 
+enum { RECORD = sizeof(JoxContactRecord) / sizeof(float) }; /* a place and a motion */
+
 typedef struct Packet {
     JoxForces *f;
     uint32_t first;        /* agent of lane 0 */
@@ -37,7 +39,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
     const float *records = &f->records[0].x;
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
     JoxFloats place[4], motion[4];
-    jf_records_at(records, 8, others, place);
+    jf_records_at(records, RECORD, others, place);
     m->x = jf_sub(self->x, place[0]);
     m->y = jf_sub(self->y, place[1]);
     if (self->period.x > 0.0f || self->period.y > 0.0f) {
@@ -50,7 +52,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
     lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
     if (!lanes)
         return 0;
-    jf_records_at(records + 4, 8, others, motion);
+    jf_records_at(records + RECORD / 2, RECORD, others, motion);
     lanes &= ~jm_bits(ji_less(jf_bits(motion[2]), self->id));
     const JoxFloats sum = jf_add(self->breadth, place[2]), slack = jf_sub(whole, sum);
     m->distance = jf_sqrt(m->distance2);

@@ -80,8 +80,8 @@ static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at,
     return jm_count(bits);
 }
 
-/* The cells that either of two lanes reaches, of whom most stand side by side, or not: where these
-   are not many more than those of one. */
+/* The cells that either of two lanes reaches. False where these are many more than those of one, as
+   of lanes that do not stand side by side. */
 static inline bool reach_both(const Reach *reach, uint32_t lane, uint32_t other, Cells *cells) {
     cells->left = least_of(reach->left[lane], reach->left[other]);
     cells->right = most_of(reach->right[lane], reach->right[other]);
