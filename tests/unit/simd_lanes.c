@@ -181,11 +181,29 @@ static void lanes_are_taken_in_their_order(void **state) {
             expected[l] = records[4 * at[l] + (uint32_t)c];
         same(out[c], expected);
     }
+    for (uint32_t stride = 1; stride <= 4; stride++) { /* records of at most 4 * 9 + 4 floats */
+        jf_records_at(records, stride, at, out);
+        for (uint32_t c = 0; c < 4; c++) {
+            for (int l = 0; l < JOX_WIDTH; l++)
+                expected[l] = records[stride * at[l] + c];
+            same(out[c], expected);
+        }
+    }
+    float lists[JOX_WIDTH * 7 + 4];
+    for (int k = 0; k < JOX_WIDTH * 7 + 4; k++)
+        lists[k] = (float)k - 3.25f;
+    jf_fours(lists + 2, 7, out);
+    for (int c = 0; c < 4; c++) {
+        for (int l = 0; l < JOX_WIDTH; l++)
+            expected[l] = lists[2 + 7 * l + c];
+        same(out[c], expected);
+    }
     for (int l = 0; l < JOX_WIDTH; l++) {
         expected[l] = records[at[l]];
         lane[l] = table[at[l]];
     }
     same(jf_pick(records, ji_load(at)), expected);
+    same(jf_pick_at(records, at), expected);
     same_ints(ji_pick((const uint32_t *)table, ji_load(at)), lane);
     for (int l = 0; l < JOX_WIDTH; l++)
         expected[l] = 2.5f;
