@@ -6,7 +6,7 @@
 static inline JoxMask is_set(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f);
     const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
-    return jm_without(jm_of_bits((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1)), none);
+    return jm_without(jm_of_bits(JOX_ALL_LANES), none);
 }
 
 /* (9) shortfall_of */

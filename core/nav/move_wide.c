@@ -47,9 +47,7 @@ static inline void keep_still(const JoxMove *m, uint32_t i, JoxVector at) {
 static inline JoxMask beyond(JoxFloats x, float origin, float period) {
     const JoxFloats from = jf_sub(x, jf_set(origin)), zero = jf_set(0.0f);
     const JoxMask within = jm_and(jf_le(zero, from), jf_lt(from, jf_set(period)));
-    return period > 0.0f
-               ? jm_without(jm_of_bits((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1)), within)
-               : jm_of_bits(0);
+    return period > 0.0f ? jm_without(jm_of_bits(JOX_ALL_LANES), within) : jm_of_bits(0);
 }
 
 /* The lanes that walls may stop: those near some, and those who go farther than that is known. */

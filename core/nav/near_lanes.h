@@ -17,14 +17,14 @@
 
 enum {
     PLACE_BITS = 5,
-    PLACES = 1 << PLACE_BITS,  /* of a list, that keys can tell */
-    LIST = PLACES + JOX_LANES, /* room: a packet may be written behind the last place */
-    ORDERED = 16,              /* places that are ordered by a network; more sink in */
+    PLACES = 1 << PLACE_BITS, /* of a list, that keys can tell; of more it is full */
+    LIST = 64,                /* room: */
+    ROOM = LIST - JOX_LANES,  /* a packet may be written behind so many places */
+    ORDERED = 16,             /* places that are ordered by a network; more sink in */
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
     NO_KEY = 0x7f800000, /* bits of INFINITY */
     NORMAL = 0x00800000  /* bits of the least float that is not denormal */
 };
-#define ALL_LANES ((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1))
 static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
 
 typedef struct Packet {
@@ -128,7 +128,7 @@ static Found read_keys(const Packet *packet, JoxInts most) {
     Found f = {jm_without(ji_less(ji_set(0), most), few), jm_of_bits(0), most,
                ji_select(few, listed, most), false};
     const JoxMask whole = jm_and(f.full, ji_equal(most, ji_set((int32_t)packet->levels - 1)));
-    f.whole = jm_bits(whole) == ALL_LANES;
+    f.whole = jm_bits(whole) == JOX_ALL_LANES;
     /* Of a tie, the first is wanted and the second is there. */
     const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, ji_set(1)));
     JoxInts share = share_of(packet->keys[0]);

@@ -78,22 +78,28 @@ typedef struct JoxOrcaSelf {
     JoxFloats inverse, share;
 } JoxOrcaSelf;
 
-/* The half-plane for a neighbour: see jox_orca_half_plane. Where the centres coincide and move
-   alike its normal is (1, 0). The velocity obstacle is bounded by a disc and by two legs; what both
-   cases need, one root and one quotient, is computed once, of what the case of the lane takes. Of
-   the lanes, only those of `wanted` are of any meaning. */
-static inline __attribute__((always_inline)) JoxPlaneLanes
-jox_orca_lanes(const JoxPair *q, const JoxOrcaSelf *self, float dt, JoxMask wanted) {
+/* Half of the work for a neighbour: the velocity obstacle is bounded by a disc and by two legs;
+   what both cases need, one root and one quotient, is computed once, of what the case of the lane
+   takes. Roots and quotients take long: those of all neighbours are begun before one of them is
+   used. */
+typedef struct JoxOrcaHalf {
+    JoxVector w;  /* relative velocity less that which makes them meet at the horizon, m/s */
+    JoxMask disc; /* else a leg */
+    JoxFloats length, by, round; /* of w or of a leg; 1 / that, or 1 / distance^2; of the disc */
+} JoxOrcaHalf;
+
+/* Of the lanes, only those of `wanted` (bits) are of any meaning. */
+static inline __attribute__((always_inline)) JoxOrcaHalf
+jox_orca_begin(const JoxPair *q, const JoxOrcaSelf *self, float dt, uint32_t wanted) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
     const JoxFloats r2 = jf_mul(q->radii, q->radii);
     const JoxMask overlap = jf_le(d2, r2);
     JoxFloats inverse = self->inverse, round = jf_mul(q->radii, inverse);
-    if (jm_bits(jm_and(overlap, wanted))) { /* they are to part within dt */
+    if (jm_bits(overlap) & wanted) { /* they are to part within dt */
         inverse = jf_select(overlap, jf_set(1.0f / dt), inverse);
         round = jf_select(overlap, jf_div(q->radii, jf_set(dt)), round);
     }
-    /* The relative velocity less that which makes them meet at the horizon. */
     const JoxVector w = {jf_sub(q->vx, jf_mul(q->x, inverse)),
                          jf_sub(q->vy, jf_mul(q->y, inverse))};
     const JoxFloats w2 = jv_dot(w, w), along = jf_add(jf_mul(w.x, q->x), jf_mul(w.y, q->y));
@@ -101,23 +107,29 @@ jox_orca_lanes(const JoxPair *q, const JoxOrcaSelf *self, float dt, JoxMask want
     const JoxMask disc = jm_or(overlap, before);
     const JoxFloats length = jf_sqrt(jf_select(disc, w2, jf_sub(d2, r2)));
     const JoxFloats by = jf_div(one, jf_select(disc, length, d2));
-    /* The disc: out along w. */
-    const JoxMask moves = jf_lt(jf_set(1e-6f), length);
-    const JoxFloats disc_x = jf_select(moves, jf_mul(w.x, by), one);
-    const JoxFloats disc_y = jf_select(moves, jf_mul(w.y, by), zero);
-    const JoxFloats depth = jf_sub(round, length);
-    /* The nearer leg: its direction is (leg.y, -leg.x), its outward normal leg. */
-    const JoxMask left = jf_lt(zero, jf_sub(jf_mul(q->x, w.y), jf_mul(q->y, w.x)));
-    const JoxFloats side = jf_select(left, length, jf_neg(length));
+    return (JoxOrcaHalf){w, disc, length, by, round};
+}
+
+/* The half-plane for a neighbour: see jox_orca_half_plane. Its normal is out along w, or that of
+   the nearer leg, whose direction is (ny, -nx); (1, 0) where the centres coincide and move alike.
+ */
+static inline __attribute__((always_inline)) JoxPlaneLanes
+jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
+    const JoxMask left = jf_lt(zero, jf_sub(jf_mul(q->x, h->w.y), jf_mul(q->y, h->w.x)));
+    const JoxFloats side = jf_select(left, h->length, jf_neg(h->length));
     const JoxFloats leg_x = jf_sub(jf_mul(q->x, side), jf_mul(q->y, q->radii));
     const JoxFloats leg_y = jf_add(jf_mul(q->x, q->radii), jf_mul(q->y, side));
-    const JoxVector leg = {jf_neg(jf_mul(leg_y, by)), jf_mul(leg_x, by)};
-    const JoxFloats speed = jf_add(jf_mul(q->vx, leg.y), jf_mul(q->vy, jf_neg(leg.x)));
-    const JoxFloats nx = jf_select(disc, disc_x, leg.x), ny = jf_select(disc, disc_y, leg.y);
-    const JoxFloats ux =
-        jf_select(disc, jf_mul(disc_x, depth), jf_sub(jf_mul(leg.y, speed), q->vx));
+    const JoxMask rests = jm_without(h->disc, jf_lt(jf_set(1e-6f), h->length));
+    const JoxFloats x = jf_select(h->disc, h->w.x, jf_neg(leg_y));
+    const JoxFloats y = jf_select(h->disc, h->w.y, leg_x);
+    const JoxFloats nx = jf_select(rests, one, jf_mul(x, h->by));
+    const JoxFloats ny = jf_select(rests, zero, jf_mul(y, h->by));
+    const JoxFloats depth = jf_sub(h->round, h->length);
+    const JoxFloats speed = jf_add(jf_mul(q->vx, ny), jf_mul(q->vy, jf_neg(nx)));
+    const JoxFloats ux = jf_select(h->disc, jf_mul(nx, depth), jf_sub(jf_mul(ny, speed), q->vx));
     const JoxFloats uy =
-        jf_select(disc, jf_mul(disc_y, depth), jf_sub(jf_mul(jf_neg(leg.x), speed), q->vy));
+        jf_select(h->disc, jf_mul(ny, depth), jf_sub(jf_mul(jf_neg(nx), speed), q->vy));
     const JoxFloats at_x = jf_add(self->velocity.x, jf_mul(ux, self->share));
     const JoxFloats at_y = jf_add(self->velocity.y, jf_mul(uy, self->share));
     return (JoxPlaneLanes){nx, ny, jf_add(jf_mul(nx, at_x), jf_mul(ny, at_y))};
@@ -247,114 +259,140 @@ static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlan
                            jf_select(m, a.offset, b.offset)};
 }
 
-/* One neighbour of each lane: where it is, m, how it moves, m/s, and its radius, m. */
+/* How many neighbours the lanes have that plan: all of them at least, and any of them at most. */
+typedef struct JoxNeighbourCounts {
+    JoxInts each;
+    uint32_t least, most;
+} JoxNeighbourCounts;
+
+static inline JoxNeighbourCounts jox_count_neighbours(const JoxPacket *p) {
+    const uint8_t *count = p->s->neighbours->count + p->first;
+    JoxNeighbourCounts n = {ji_select(jm_of_bits(p->lanes), ji_load_bytes(count), ji_set(0)),
+                            JOX_MOST_NEIGHBOURS, 0};
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const uint32_t has = p->lanes >> lane & 1 ? count[lane] : 0;
+        n.least = has < n.least ? has : n.least;
+        n.most = has > n.most ? has : n.most;
+    }
+    return n;
+}
+
+/* The lanes that have more than k. */
+static inline uint32_t jox_have_more(const JoxNeighbourCounts *n, uint32_t k) {
+    return k < n->least ? JOX_ALL_LANES : jm_bits(ji_less(ji_set((int32_t)k), n->each));
+}
+
+/* A neighbour of each lane: the pair, its velocity, m/s, and half of ORCA's work for it. */
 typedef struct JoxNeighbour {
-    JoxVector at, velocity;
-    JoxFloats radius;
+    JoxPair pair;
+    JoxVector velocity;
+    JoxOrcaHalf half;
 } JoxNeighbour;
 
-/* The first, second, ... neighbours of the lanes, as many as any lane has; returns how many. A lane
-   that has fewer gets somebody. */
-static inline uint32_t jox_fetch_neighbours(const JoxPacket *p, JoxInts counts,
-                                            JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
+/* The pairs with the `most` first neighbours of the lanes. A lane that has fewer gets somebody. */
+static inline __attribute__((always_inline)) void
+jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bool periodic,
+                JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->neighbours;
-    const float *records = &p->s->nav->records[0].x,
-                *radius = p->s->agents->param[JOX_PARAM_radius];
+    const JoxAgents *a = p->s->agents;
+    const float *records = &p->s->nav->records[0].x, *radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
-    uint32_t k = 0;
-    for (; k < near->stride && jm_bits(ji_less(ji_set((int32_t)k), counts)); k++) {
+    const bool alike = p->s->one_radius;
+    for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         JoxFloats record[4];
         jf_records_at(records, 4, others, record);
-        out[k] = (JoxNeighbour){
-            {record[0], record[1]}, {record[2], record[3]}, jf_pick_at(radius, others)};
-        others += JOX_LANES;
+        const JoxFloats other = alike ? self->radius : jf_pick_at(radius, others);
+        JoxPair q = {jf_sub(record[0], self->x), jf_sub(record[1], self->y),
+                     jf_sub(self->orca.velocity.x, record[2]),
+                     jf_sub(self->orca.velocity.y, record[3]), jf_add(self->radius, other)};
+        if (periodic) {
+            q.x = jf_wrap(q.x, a->period.x);
+            q.y = jf_wrap(q.y, a->period.y);
+        }
+        out[k].pair = q;
+        out[k].velocity = (JoxVector){record[2], record[3]};
     }
-    return k;
 }
 
-static inline JoxPair jox_pair_lanes(const JoxPacket *p, const JoxSelf *self,
-                                     const JoxNeighbour *other, const bool periodic) {
-    const JoxAgents *a = p->s->agents;
-    JoxPair q = {jf_sub(other->at.x, self->x), jf_sub(other->at.y, self->y),
-                 jf_sub(self->orca.velocity.x, other->velocity.x),
-                 jf_sub(self->orca.velocity.y, other->velocity.y),
-                 jf_add(self->radius, other->radius)};
-    if (periodic) {
-        q.x = jf_wrap(q.x, a->period.x);
-        q.y = jf_wrap(q.y, a->period.y);
-    }
-    return q;
-}
-
-/* The half-planes of `lanes` for a neighbour of each: zeros for those who have none. Returns the
-   lanes that coincide with it. */
+/* The half-planes of `lanes` for a neighbour of each: zeros for those who have none. `walkers`: of
+   them; `all`: those of the packet. Returns the lanes that coincide with it. */
 static inline __attribute__((always_inline)) uint32_t
-jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, const JoxPair *q,
-                const JoxWalkerGap *gap, const uint32_t *others, JoxVector velocity,
-                JoxPlaneLanes *plane) {
+jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_t all,
+                const uint32_t walkers, const JoxNeighbour *near, const JoxWalkerGap *gap,
+                const uint32_t *others, JoxPlaneLanes *plane) {
     const JoxPlaneLanes none = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)};
-    const JoxMask walkers = jm_of_bits(p->walkers);
+    const JoxPair *q = &near->pair;
     JoxMask minds = jm_of_bits(lanes);
     const JoxFloats apart = jf_max(jf_abs(q->x), jf_abs(q->y));
-    const uint32_t coincide = jm_bits(jm_and(minds, jf_le(apart, none.x)));
+    const uint32_t coincide = jm_bits(jf_le(apart, none.x)) & lanes;
     *plane = none;
-    if (p->lanes & ~p->walkers)
-        *plane = jox_orca_lanes(q, &self->orca, p->s->planning_time, minds);
-    if (p->walkers) {
+    if (all & ~walkers)
+        *plane = jox_orca_end(q, &self->orca, &near->half);
+    if (walkers) {
         JoxMask has;
+        const JoxMask walk = jm_of_bits(walkers);
         *plane = jox_select_plane(
-            walkers, jox_walker_lanes(p, q, gap, ji_load(others), velocity, &has), *plane);
-        minds = jm_without(minds, jm_without(walkers, has));
+            walk, jox_walker_lanes(p, q, gap, ji_load(others), near->velocity, &has), *plane);
+        minds = jm_without(minds, jm_without(walk, has));
     }
-    *plane = jox_select_plane(minds, *plane, none);
+    if (walkers || lanes != JOX_ALL_LANES)
+        *plane = jox_select_plane(minds, *plane, none);
     return coincide;
 }
 
-/* The rows of the neighbours, less those in which no lane has one that it minds. Returns the lanes
-   that coincide with a neighbour, of which the half-plane depends on who they are. */
-static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
-                                                                   const bool periodic) {
+/* The rows of the neighbours, less those in which no lane has one that it minds. `walkers`: the
+   lanes that walk by the law. Returns the lanes that coincide with a neighbour, of which the
+   half-plane depends on who they are. */
+static inline __attribute__((always_inline)) uint32_t
+jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSolve *s = p->s;
     const JoxNeighbours *near = s->neighbours;
     const JoxSelf self = jox_self_of(p);
-    const JoxInts counts =
-        ji_select(jm_of_bits(p->lanes), ji_load_bytes(near->count + p->first), ji_set(0));
+    const uint32_t all = p->lanes;
+    const JoxNeighbourCounts counts = jox_count_neighbours(p);
     const uint32_t picky = jox_picky_lanes(p);
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
     const uint32_t choosy = picky | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
-    const uint32_t most = jox_fetch_neighbours(p, counts, nearest);
+    jox_fetch_pairs(p, &self, counts.most, periodic, nearest);
+    for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
+        nearest[k].half = jox_orca_begin(&nearest[k].pair, &self.orca, s->planning_time,
+                                         jox_have_more(&counts, k));
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
-    for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
-        uint32_t lanes = jm_bits(ji_less(ji_set((int32_t)k), counts));
-        const JoxPair q = jox_pair_lanes(p, &self, &nearest[k], periodic);
-        JoxWalkerGap gap = {self.x, self.x, self.x};
-        if (p->walkers) {
-            gap = jox_walker_gap(s->nav->walk, &self, &q);
-            lanes &= ~(p->walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
+    JoxRow *row = &p->rows[p->count];
+    for (uint32_t k = 0; k < counts.most; k++, others += JOX_LANES) {
+        uint32_t lanes = jox_have_more(&counts, k);
+        JoxWalkerGap gap;
+        if (walkers) {
+            gap = jox_walker_gap(s->nav->walk, &self, &nearest[k].pair);
+            lanes &= ~(walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
         }
         if (lanes & choosy)
             lanes = jox_minding(p, &touched, lanes, picky, others);
         if (!lanes)
             continue;
         JoxPlaneLanes plane;
-        coincide |= jox_plane_lanes(p, &self, lanes, &q, &gap, others, nearest[k].velocity, &plane);
-        JoxRow *row = &p->rows[p->count++];
+        coincide |=
+            jox_plane_lanes(p, &self, lanes, all, walkers, &nearest[k], &gap, others, &plane);
         jf_store(row->x, plane.x);
         jf_store(row->y, plane.y);
         jf_store(row->offset, plane.offset);
+        row++;
     }
+    p->count = (uint32_t)(row - p->rows);
     return coincide;
 }
 
+/* Within the bounds of a floor or without any, and over periodic edges; the former also of agents
+   of whom nobody walks by the law. */
 static inline uint32_t jox_put_rows_bounded(JoxPacket *p) {
-    return jox_put_rows(p, false);
+    return p->walkers ? jox_put_rows(p, p->walkers, false) : jox_put_rows(p, 0, false);
 }
 
 static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
-    return jox_put_rows(p, true);
+    return jox_put_rows(p, p->walkers, true);
 }
 
 /* Whether the neighbours of a packet's agents may stand beyond a periodic edge. */

@@ -108,10 +108,14 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
         n[s] = packet->count[lanes[s]];
     }
     for (; row <= last; row += columns) {
-        const size_t end = row[right];
+        const size_t begin = row[left], end = row[right];
+        if (most_of(n[0], n[1]) + (end - begin) > ROOM) {
+            n[0] = n[1] = PLACES + 1; /* for all that is known */
+            break;
+        }
         const JoxInts ends = ji_set((int32_t)end);
-        JoxInts others = ji_add(ji_set((int32_t)row[left]), ji_lane());
-        for (size_t j = row[left]; j < end && n[0] <= PLACES && n[1] <= PLACES; j += JOX_WIDTH) {
+        JoxInts others = ji_add(ji_set((int32_t)begin), ji_lane());
+        for (size_t j = begin; j < end; j += JOX_WIDTH) {
             const JoxVector at = {jf_load(x + j), jf_load(y + j)};
             const JoxMask there = ji_less(others, ends);
             for (int s = 0; s < seekers; s++)
@@ -231,7 +235,7 @@ static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts
         if (!bits)
             return;
         JoxInts who = ji_pick(packet->index, listed_at(packet->keys[k]));
-        if (bits != ALL_LANES)
+        if (bits != JOX_ALL_LANES)
             who = ji_select(kept, who, ji_load(index));
         ji_store(index, who);
         index += JOX_LANES;
@@ -284,7 +288,7 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
     store_crowding(packet, mask, f->count);
     uint32_t *index = p->out->index + jox_neighbour_at(p->out, packet->first, 0);
-    if (f->whole && lanes == ALL_LANES)
+    if (f->whole && lanes == JOX_ALL_LANES)
         write_whole(packet, index);
     else
         write_neighbours(packet, mask, f->count, index);

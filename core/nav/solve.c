@@ -41,7 +41,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                   "room for all");
     JOX_ASSERT(agent < agents->count);
     const JoxSolve solve = {(JoxNav *)nav,     (JoxAgents *)agents,  neighbours, objects,
-                            in_force(touched), (float)planning_time, true};
+                            in_force(touched), (float)planning_time, true,       false};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
     return sort_out(half_planes, &made, out);
@@ -85,8 +85,12 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
                        double planning_time, bool plans, JoxPool *pool) {
-    JoxSolve solve = {nav,  agents, neighbours, objects, in_force(touched), (float)planning_time,
-                      plans};
+    const float *radius = agents->param[JOX_PARAM_radius];
+    const bool one_radius =
+        agents->count && jox_is_same_of_all(radius, sizeof *radius, agents->count);
+    JoxSolve solve = {
+        nav,   agents,    neighbours, objects, in_force(touched), (float)planning_time,
+        plans, one_radius};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, record_range, &solve);
@@ -209,7 +213,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
     if (own)
         find_touched(agents, agent, &neighbours, touched, own);
     const JoxSolve solve = {(JoxNav *)nav,          (JoxAgents *)agents,  &neighbours, objects,
-                            own ? &own->all : NULL, (float)planning_time, true};
+                            own ? &own->all : NULL, (float)planning_time, true,        false};
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {

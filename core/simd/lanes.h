@@ -22,6 +22,9 @@
 #include "simd/lanes_scalar.h"
 #endif
 
+/* The bits of all lanes. */
+#define JOX_ALL_LANES ((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1))
+
 /* Lane by lane the four numbers of record `at`. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[JOX_WIDTH];
