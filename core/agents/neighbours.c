@@ -17,6 +17,7 @@ void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) 
     n->count = jox_alloc_aligned(n->agents, sizeof *n->count);
     n->close = jox_alloc_aligned(n->agents, sizeof *n->close);
     n->crowding2 = jox_alloc_aligned(n->agents, sizeof *n->crowding2);
+    n->motions = jox_alloc_aligned(n->agents, sizeof *n->motions);
     n->touch_index =
         jox_alloc_aligned((size_t)n->agents * JOX_MOST_NEIGHBOURS, sizeof *n->touch_index);
     n->touch_count = jox_alloc_aligned(n->agents, sizeof *n->touch_count);
@@ -27,6 +28,7 @@ void jox_neighbours_free(JoxNeighbours *n) {
     jox_free(n->count);
     jox_free(n->close);
     jox_free(n->crowding2);
+    jox_free(n->motions);
     jox_free(n->touch_index);
     jox_free(n->touch_count);
     *n = (JoxNeighbours){0};

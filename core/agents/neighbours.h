@@ -16,6 +16,11 @@ enum {
     JOX_CROWD_RANK = 3 /* the neighbour whose distance tells how crowded it is */
 };
 
+/* Where an agent is, m, and how it moves, m/s: one load fetches it for those who look at many. */
+typedef struct JoxMotion {
+    float x, y, vx, vy;
+} JoxMotion;
+
 /* All zero is a valid, empty one. */
 typedef struct JoxNeighbours {
     uint32_t agents;  /* how many agents the arrays hold room for, a multiple of JOX_LANES */
@@ -25,6 +30,7 @@ typedef struct JoxNeighbours {
     uint8_t *close;   /* of them, the nearest whom it may touch, and perhaps some more */
     float *crowding2; /* squared distance of neighbour JOX_CROWD_RANK, m2; of those who have one */
     float widest;     /* greatest radius of an agent, m */
+    JoxMotion *motions; /* of all agents, as they were perceived, until they move */
     /* Contact does not depend on who is perceived. Where the list above may lack someone within
        touching range, the JOX_MOST_NEIGHBOURS nearest within that range stand here, from
        i * JOX_MOST_NEIGHBOURS on, nearest first; elsewhere touch_count is JOX_TOUCH_IS_SEEN. NULL:

@@ -192,6 +192,12 @@ void jox_free(void *memory) {
     give_back((char *)memory - block->offset);
 }
 
+void jox_clear(void *memory, size_t bytes) {
+    const char *first = memory;
+    if (bytes && (*first || memcmp(first, first + 1, bytes - 1) != 0))
+        memset(memory, 0, bytes);
+}
+
 void *jox_disown(void *memory) {
     if (memory)
         unlink_block(block_of(memory));

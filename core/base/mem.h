@@ -103,6 +103,10 @@ JoxHeap *jox_heap_used(void);
 void jox_heap_fail(JoxHeap *heap);
 bool jox_heap_has_failed(const JoxHeap *heap);
 
+/* Zeroes memory, and writes none that is zero already: what was never written is then read alone,
+   and takes no page of its own. */
+void jox_clear(void *memory, size_t bytes);
+
 /* Takes memory out of its heap, for a caller who frees it; NULL is fine. Returns it. */
 void *jox_disown(void *memory);
 

@@ -35,13 +35,11 @@ typedef struct JoxFoundWall {
     float gap, along; /* m; along: from the start of the edge */
 } JoxFoundWall;
 
-/* An agent for those who look at many others: two loads fetch it. m, m/s, kg. */
-typedef struct JoxContactRecord {
-    float x, y, breadth, radius;
-    float vx, vy;
+/* What else contacts depend on than motions: one load fetches it. m, kg. */
+typedef struct JoxBuild {
+    float breadth, radius, mass;
     uint32_t id;
-    float mass;
-} JoxContactRecord;
+} JoxBuild;
 
 /* A contact between two agents. The normal points to the first, which has found the contact. Half a
    line of the cache: whoever looks at a contact takes all of it. */

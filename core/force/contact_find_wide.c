@@ -7,8 +7,6 @@
 #include "geom/wall_grid_lanes.h"
 #include "simd/vectors.h"
 
-enum { RECORD = sizeof(JoxContactRecord) / sizeof(float) }; /* a place and a motion */
-
 typedef struct Packet {
     JoxForces *f;
     uint32_t first;        /* agent of lane 0 */
@@ -36,32 +34,34 @@ typedef struct Meeting {
    contact_near.c. */
 static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *others, uint32_t lanes,
                      Meeting *m) {
-    const float *records = &f->records[0].x;
+    const float *motions = &f->step.neighbours->motions[0].x;
+    const float *radius = f->step.agents->param[JOX_PARAM_radius];
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
-    JoxFloats place[4], motion[4];
-    jf_records_at(records, RECORD, others, place);
-    m->x = jf_sub(self->x, place[0]);
-    m->y = jf_sub(self->y, place[1]);
+    JoxFloats motion[4], build[4];
+    jf_records_at(motions, others, motion);
+    m->x = jf_sub(self->x, motion[0]);
+    m->y = jf_sub(self->y, motion[1]);
     if (self->period.x > 0.0f || self->period.y > 0.0f) {
         m->x = jf_wrap(m->x, self->period.x);
         m->y = jf_wrap(m->y, self->period.y);
     }
     m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
-    const JoxFloats whole = jf_add(self->radius, place[3]);
+    const JoxFloats whole =
+        jf_add(self->radius, f->one_radius ? self->radius : jf_pick_at(radius, others));
     const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));
     lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
     if (!lanes)
         return 0;
-    jf_records_at(records + RECORD / 2, RECORD, others, motion);
-    lanes &= ~jm_bits(ji_less(jf_bits(motion[2]), self->id));
-    const JoxFloats sum = jf_add(self->breadth, place[2]), slack = jf_sub(whole, sum);
+    jf_records_at(&f->builds[0].breadth, others, build);
+    lanes &= ~jm_bits(ji_less(jf_bits(build[3]), self->id));
+    const JoxFloats sum = jf_add(self->breadth, build[0]), slack = jf_sub(whole, sum);
     m->distance = jf_sqrt(m->distance2);
     m->gap = jf_sub(m->distance, sum);
     JoxFloats into = jf_sub(whole, m->distance);
     into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
     m->squeeze = jf_mul(jf_set(JOX_SQUEEZE), into);
-    m->velocity = (JoxVector){jf_sub(self->vx, motion[0]), jf_sub(self->vy, motion[1])};
-    m->mass = motion[3];
+    m->velocity = (JoxVector){jf_sub(self->vx, motion[2]), jf_sub(self->vy, motion[3])};
+    m->mass = build[2];
     JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
     closing = jf_mul(closing, jf_set((float)f->step.dt));
     const JoxFloats reach = jf_add(least, jf_min(jf_set(JOX_TOUCH_MOST), closing));

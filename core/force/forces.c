@@ -42,7 +42,7 @@ void jox_forces_free(JoxForces *f) {
     void *owned[] = {f->transfers.items,
                      f->transfers.counts,
                      f->starts,
-                     f->records,
+                     f->builds,
                      f->sorted,
                      f->found.items,
                      f->slots.items,
@@ -95,7 +95,7 @@ void jox_forces_free(JoxForces *f) {
 /* What does not carry over from the last step, of agents [begin, end). */
 static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
-#define ZERO_SCRATCH(column) memset((column) + begin, 0, (end - begin) * sizeof *(column));
+#define ZERO_SCRATCH(column) jox_clear((column) + begin, (end - begin) * sizeof *(column));
 #define ZERO_STATE(column)
 #define ZERO(X, keep, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
     JOX_FORCE_TERMS(ZERO, )
@@ -114,10 +114,8 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = f->step.agents;
     zero_chunk(f, begin, end);
     KERNELS[f->isa](f, begin, end);
-    for (uint32_t i = begin; i < end; i++)
-        f->records[i] =
-            (JoxContactRecord){a->x[i],  a->y[i],  a->breadth[i], a->param[JOX_PARAM_radius][i],
-                               a->vx[i], a->vy[i], a->id[i],      a->param[JOX_PARAM_mass][i]};
+    jox_interleave(&f->builds[begin], a->breadth + begin, a->param[JOX_PARAM_radius] + begin,
+                   a->param[JOX_PARAM_mass] + begin, a->id + begin, end - begin);
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
@@ -145,9 +143,10 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
-    JOX_RESERVE(f->records, f->record_capacity, n);
+    JOX_RESERVE(f->builds, f->build_capacity, n);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_greatest(a->param[JOX_PARAM_radius], n);
+    f->one_radius = n && jox_is_same_of_all(a->param[JOX_PARAM_radius], sizeof(float), n);
     if (n)
         jox_decay(&f->decay, a->param[JOX_PARAM_damping][0], (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);

@@ -37,10 +37,10 @@ struct JoxForces {
     JoxForceStep step;
     JoxForceTotals totals;
     uint32_t chunks;
-    JoIsa isa;                 /* of the kernels */
-    JoxDecay decay;            /* of the first agent in a step: most have its damping */
-    JoxContactRecord *records; /* of all agents, as contacts are found */
-    size_t record_capacity;
+    JoIsa isa;        /* of the kernels */
+    JoxDecay decay;   /* of the first agent in a step: most have its damping */
+    JoxBuild *builds; /* of all agents, as contacts are found */
+    size_t build_capacity;
 
     JoxChunkList transfers;
     uint32_t *starts; /* per receiver, and one more */
@@ -99,8 +99,9 @@ struct JoxForces {
     /* State: from which the next step's solve starts. */
     JoxKeptImpulses kept_pairs, kept_walls, kept_touches;
 
-    float widest; /* greatest radius, m */
-    bool bodies;  /* some can be met */
+    float widest;    /* greatest radius, m */
+    bool one_radius; /* all have the same */
+    bool bodies;     /* some can be met */
     JoxPendingImpulse *pending;
     size_t pending_capacity;
     uint32_t pending_count, pending_sorted;

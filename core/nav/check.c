@@ -1,5 +1,6 @@
 /* Checks of what the stages of navigation hand on; builds with assertions call them. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "nav/internal.h"
@@ -16,6 +17,13 @@ void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *a) {
             JOX_ASSERT(jox_column_of(nav, a->x[i]) == cell % nav->columns);
             JOX_ASSERT(i == first || a->id[i - 1] < a->id[i]);
         }
+    }
+}
+
+void jox_motions_check(const JoxNeighbours *n, const JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxMotion own = {a->x[i], a->y[i], a->vx[i], a->vy[i]};
+        JOX_ASSERT(memcmp(&n->motions[i], &own, sizeof own) == 0);
     }
 }
 

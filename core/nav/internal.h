@@ -13,11 +13,6 @@ typedef struct JoxHalfPlane {
     float offset;
 } JoxHalfPlane;
 
-/* Where an agent is and how it moves, m and m/s: one load fetches it. */
-typedef struct JoxRecord {
-    float x, y, vx, vy;
-} JoxRecord;
-
 enum { JOX_MOST_STRAYS = 64 };
 
 /* How an agent heads, by the walking law: its aim, and what of its way is left to where it is
@@ -63,7 +58,6 @@ struct JoxNav {
     JoxDrift *chunk_drift; /* in a step, per chunk of move */
     JoxV2 *position[2];    /* for projection */
     uint32_t *chunk_relaxed;
-    JoxRecord *records;   /* of walk, and of solve */
     JoxHeading *headings; /* of walk, and of solve where somebody walks */
     float *chunk_reach;   /* m: of walk; below 0 where nobody walks */
     JoxWallGrid grid;
@@ -117,6 +111,8 @@ bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, u
    unit vectors), and a solution of the linear program. */
 void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *agents);
 void jox_neighbours_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
+/* Nobody has moved since they were perceived. */
+void jox_motions_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
 void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count);
 void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, float speed_limit,
                               JoxV2 velocity);

@@ -67,7 +67,6 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->order);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
-    jox_free(nav->records);
     jox_free(nav->headings);
     jox_free(nav->chunk_reach);
     for (int i = 0; i < 2; i++)
@@ -83,7 +82,6 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     nav->cell_of = jox_realloc(nav->cell_of, n, sizeof *nav->cell_of);
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(JoxDrift));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
-    nav->records = jox_realloc(nav->records, n, sizeof(JoxRecord));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));
     nav->chunk_reach = jox_realloc(nav->chunk_reach, n / JOX_NAV_GRAIN + 1, sizeof(float));
     for (int i = 0; i < 2; i++)

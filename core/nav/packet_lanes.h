@@ -295,22 +295,22 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bo
                 JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->neighbours;
     const JoxAgents *a = p->s->agents;
-    const float *records = &p->s->nav->records[0].x, *radius = a->param[JOX_PARAM_radius];
+    const float *motions = &near->motions[0].x, *radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
     const bool alike = p->s->one_radius;
     for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
-        JoxFloats record[4];
-        jf_records_at(records, 4, others, record);
+        JoxFloats motion[4];
+        jf_records_at(motions, others, motion);
         const JoxFloats other = alike ? self->radius : jf_pick_at(radius, others);
-        JoxPair q = {jf_sub(record[0], self->x), jf_sub(record[1], self->y),
-                     jf_sub(self->orca.velocity.x, record[2]),
-                     jf_sub(self->orca.velocity.y, record[3]), jf_add(self->radius, other)};
+        JoxPair q = {jf_sub(motion[0], self->x), jf_sub(motion[1], self->y),
+                     jf_sub(self->orca.velocity.x, motion[2]),
+                     jf_sub(self->orca.velocity.y, motion[3]), jf_add(self->radius, other)};
         if (periodic) {
             q.x = jf_wrap(q.x, a->period.x);
             q.y = jf_wrap(q.y, a->period.y);
         }
         out[k].pair = q;
-        out[k].velocity = (JoxVector){record[2], record[3]};
+        out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
 }
 

@@ -13,6 +13,9 @@ static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxPerceive *p = context;
+    const JoxAgents *a = p->agents;
+    jox_interleave(&p->out->motions[begin], a->x + begin, a->y + begin, a->vx + begin,
+                   a->vy + begin, end - begin);
     KERNELS[p->nav->isa](p, begin, end);
 }
 

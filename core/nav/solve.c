@@ -53,15 +53,6 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa](s, begin, end);
 }
 
-/* One record an agent, for those who look at many others. */
-static void record_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    const JoxSolve *s = context;
-    const JoxAgents *a = s->agents;
-    for (uint32_t i = begin; i < end; i++)
-        s->nav->records[i] = (JoxRecord){a->x[i], a->y[i], a->vx[i], a->vy[i]};
-}
-
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
 static float wall_reach(const JoxAgents *a, float planning_time) {
@@ -93,7 +84,7 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
         plans, one_radius};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, record_range, &solve);
+    JOX_CHECK(jox_motions_check(neighbours, agents));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)

@@ -9,6 +9,7 @@
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
+#include "simd/four.h"
 
 static const float SIGHT = 1.5f; /* m: so near, walls hide people */
 static const double KNOTS = 2.0; /* s between the knots of what a time gap wanders by */
@@ -26,15 +27,13 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
 }
 
-/* One record an agent, for those who look at many others. */
-static void record_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* How each heads, for those who look at many others. */
+static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
     const JoxAgents *a = w->agents;
-    for (uint32_t i = begin; i < end; i++) {
-        w->nav->records[i] = (JoxRecord){a->x[i], a->y[i], a->vx[i], a->vy[i]};
-        w->nav->headings[i] = (JoxHeading){a->aim_x[i], a->aim_y[i], a->way[i], a->bound[i]};
-    }
+    jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin, a->way + begin,
+                   a->bound + begin, end - begin);
 }
 
 static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -81,6 +80,6 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.course = share_of(interval, law->course_time);
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, record_range, &walk);
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, head_range, &walk);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

@@ -90,7 +90,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
             ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), ji_set(0));
         Row *row = &p->row[p->rows];
         JoxFloats record[4];
-        jf_records(&p->w->nav->records[0].x, others, record);
+        jf_records(&n->motions[0].x, others, record);
         row->offset = (JoxVector){jf_sub(record[0], x), jf_sub(record[1], y)};
         if (periodic) {
             row->offset.x = jf_wrap(row->offset.x, a->period.x);

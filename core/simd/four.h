@@ -48,6 +48,36 @@ static inline float jox_greatest(const float *of, size_t count) {
     return greatest;
 }
 
+/* Four rows of four, of four columns. */
+static inline void jox_transpose_four(JoxFour r[4]) {
+    const JoxFour xy_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+    const JoxFour xy_high = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+    const JoxFour zw_low = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+    const JoxFour zw_high = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+    r[0] = __builtin_shufflevector(xy_low, zw_low, 0, 1, 4, 5);
+    r[1] = __builtin_shufflevector(xy_low, zw_low, 2, 3, 6, 7);
+    r[2] = __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5);
+    r[3] = __builtin_shufflevector(xy_high, zw_high, 2, 3, 6, 7);
+}
+
+/* `count` records of four words each, one of each column. */
+static inline void jox_interleave(void *records, const void *x, const void *y, const void *z,
+                                  const void *w, size_t count) {
+    const char *columns[4] = {x, y, z, w};
+    char *to = records;
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4, to += 4 * sizeof(JoxFour)) {
+        JoxFour rows[4];
+        for (int c = 0; c < 4; c++)
+            memcpy(&rows[c], columns[c] + i * sizeof(float), sizeof *rows);
+        jox_transpose_four(rows);
+        memcpy(to, rows, sizeof rows);
+    }
+    for (; i < count; i++)
+        for (int c = 0; c < 4; c++, to += sizeof(float))
+            memcpy(to, columns[c] + i * sizeof(float), sizeof(float));
+}
+
 static inline float jox_dot_four(JoxFour a, JoxFour b) {
     const JoxFour p = a * b;
     return p[0] + p[1] + p[2];

@@ -29,7 +29,7 @@
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[JOX_WIDTH];
     ji_store(k, at);
-    jf_records_at(records, 4, k, out);
+    jf_records_at(records, k, out);
 }
 
 #endif

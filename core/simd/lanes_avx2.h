@@ -163,12 +163,11 @@ static inline void jf_transpose_(const __m256 r[4], JoxFloats out[4]) {
     out[2] = _mm256_shuffle_ps(zw01, zw23, 0x44);
     out[3] = _mm256_shuffle_ps(zw01, zw23, 0xee);
 }
-static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
-                                 JoxFloats out[4]) {
+static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     __m256 r[4];
     JOX_UNROLL
     for (int l = 0; l < 4; l++)
-        r[l] = jf_two_fours_(records + stride * at[l], records + stride * at[l + 4]);
+        r[l] = jf_two_fours_(records + (size_t)4 * at[l], records + (size_t)4 * at[l + 4]);
     jf_transpose_(r, out);
 }
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {

@@ -152,13 +152,12 @@ static inline void jf_transpose_(const __m512 r[4], JoxFloats out[4]) {
     out[2] = _mm512_shuffle_ps(zw01, zw23, 0x44);
     out[3] = _mm512_shuffle_ps(zw01, zw23, 0xee);
 }
-static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
-                                 JoxFloats out[4]) {
+static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     __m512 r[4];
     JOX_UNROLL
     for (int l = 0; l < 4; l++)
-        r[l] = jf_four_fours_(records + stride * at[l], records + stride * at[l + 4],
-                              records + stride * at[l + 8], records + stride * at[l + 12]);
+        r[l] = jf_four_fours_(records + (size_t)4 * at[l], records + (size_t)4 * at[l + 4],
+                              records + (size_t)4 * at[l + 8], records + (size_t)4 * at[l + 12]);
     jf_transpose_(r, out);
 }
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {

@@ -168,12 +168,11 @@ static inline void jf_transpose_(const JoxFloats r[4], JoxFloats out[4]) {
     out[2] = first.val[1];
     out[3] = second.val[1];
 }
-static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
-                                 JoxFloats out[4]) {
+static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     JoxFloats r[4];
     JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
-        r[lane] = vld1q_f32(records + stride * at[lane]);
+        r[lane] = vld1q_f32(records + (size_t)4 * at[lane]);
     jf_transpose_(r, out);
 }
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {

@@ -161,10 +161,9 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
 
 /* The first four floats of the records at the places `at` of the lanes, of records of `stride`
    floats: out[c] is number c of each. */
-static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
-                                 JoxFloats out[4]) {
+static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     for (size_t c = 0; c < 4; c++)
-        out[c] = records[stride * *at + c];
+        out[c] = records[(size_t)4 * *at + c];
 }
 /* Four floats of each lane, `stride` floats on from lane to lane. */
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {

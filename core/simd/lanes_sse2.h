@@ -159,11 +159,10 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
         to[k] = lanes[order >> 8 * k & 3];
 }
 
-static inline void jf_records_at(const float *records, size_t stride, const uint32_t *at,
-                                 JoxFloats out[4]) {
+static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
-        out[lane] = _mm_loadu_ps(records + stride * at[lane]);
+        out[lane] = _mm_loadu_ps(records + (size_t)4 * at[lane]);
     _MM_TRANSPOSE4_PS(out[0], out[1], out[2], out[3]);
 }
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {

@@ -46,6 +46,14 @@ void jox_stage_prefer(const JoxPreferStage *s) {
                      s->substep->interval, s->substep->plans, s->pool);
 }
 
+/* What was given for this step alone; `given` shows it until the next. */
+static void use_up(float *ext, float *given, uint32_t count) {
+    const size_t size = count * sizeof *ext;
+    if (size && memcmp(given, ext, size) != 0)
+        memcpy(given, ext, size);
+    jox_clear(ext, size);
+}
+
 void jox_stage_push(const JoxPushStage *s) {
     JoxForceStep step = {.agents = s->agents,
                          .neighbours = s->neighbours,
@@ -73,13 +81,10 @@ void jox_stage_push(const JoxPushStage *s) {
     }
     jox_force_sum(s->forces_of);
     jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
-    if (!s->substep->last || s->agents->count == 0)
-        return;
-    const size_t size = s->agents->count * sizeof(float);
-    memcpy(s->agents->given_x, s->agents->ext_x, size);
-    memcpy(s->agents->given_y, s->agents->ext_y, size);
-    memset(s->agents->ext_x, 0, size); /* given for this step alone */
-    memset(s->agents->ext_y, 0, size);
+    if (s->substep->last)
+        use_up(s->agents->ext_x, s->agents->given_x, s->agents->count);
+    if (s->substep->last)
+        use_up(s->agents->ext_y, s->agents->given_y, s->agents->count);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {

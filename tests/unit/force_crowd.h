@@ -47,7 +47,11 @@ static inline void see(Crowd *c) {
         jox_free(n->index); /* what is beyond a count is an index all the same: zeros */
         n->index = jox_alloc((size_t)room * n->stride, sizeof *n->index);
         n->count = jox_realloc(n->count, room, 1);
+        jox_free(n->motions);
+        n->motions = jox_alloc(room, sizeof *n->motions);
     }
+    for (uint32_t i = 0; i < a->count; i++)
+        n->motions[i] = (JoxMotion){a->x[i], a->y[i], a->vx[i], a->vy[i]};
     for (uint32_t i = 0; i < a->count; i++) {
         uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i], count = 0;
         float sight = a->param[JOX_PARAM_perception][i];
@@ -99,6 +103,7 @@ static inline void close_crowd(Crowd *c) {
     jox_agents_free(&c->agents);
     jox_free(c->near.index);
     jox_free(c->near.count);
+    jox_free(c->near.motions);
 }
 
 static inline void set_param(Crowd *c, uint32_t i, JoxParameter p, double value) {

@@ -70,7 +70,7 @@ static void add(Crowd *c, uint32_t k, bool mixed) {
         a->vx[i] = a->vy[i] = 0.25f;
     a->walk_x[i] = 0.7f * wants.x;
     a->walk_y[i] = 0.7f * wants.y;
-    a->param[JOX_PARAM_radius][i] = draw(c, 0.15, 0.3);
+    a->param[JOX_PARAM_radius][i] = c->number % 3 == 1 ? 0.22f : draw(c, 0.15, 0.3);
     a->param[JOX_PARAM_push][i] = chance(c, 0.5) ? 100.0f : 0.0f;
     a->tags[i] = chance(c, 0.5);
     if (!mixed)
@@ -185,7 +185,7 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
     memset(a->next_x, 0, a->count * sizeof *next_x);
     memset(a->next_y, 0, a->count * sizeof *next_y);
     memset(a->failed, 0, a->count);
-    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans};
+    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans, false};
     uint32_t failures = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];

@@ -174,20 +174,14 @@ static void lanes_are_taken_in_their_order(void **state) {
         at[l] = (uint32_t)((3 * l + 1) % 10);
     }
     same_ints(ji_lane(), lane);
-    JoxFloats out[4];
+    JoxFloats out[4], out_at[4];
     jf_records(records, ji_load(at), out);
+    jf_records_at(records, at, out_at);
     for (int c = 0; c < 4; c++) {
         for (int l = 0; l < JOX_WIDTH; l++)
             expected[l] = records[4 * at[l] + (uint32_t)c];
         same(out[c], expected);
-    }
-    for (uint32_t stride = 1; stride <= 4; stride++) { /* records of at most 4 * 9 + 4 floats */
-        jf_records_at(records, stride, at, out);
-        for (uint32_t c = 0; c < 4; c++) {
-            for (int l = 0; l < JOX_WIDTH; l++)
-                expected[l] = records[stride * at[l] + c];
-            same(out[c], expected);
-        }
+        same(out_at[c], expected);
     }
     float lists[JOX_WIDTH * 7 + 4];
     for (int k = 0; k < JOX_WIDTH * 7 + 4; k++)

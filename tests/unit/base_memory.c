@@ -1,0 +1,44 @@
+/* Memory that is cleared: it is zero, nothing about it changes, and what is zero is not written. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/mman.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+
+enum { MOST = 70, PAGE = 4096 };
+
+static void all_of_it_is_cleared(void **state) {
+    (void)state;
+    unsigned char bytes[MOST + 2];
+    for (size_t size = 0; size <= MOST; size++)
+        for (size_t at = 0; at < size || at == 0; at++) {
+            memset(bytes, 0, sizeof bytes);
+            bytes[0] = bytes[1 + size] = 7; /* before it and behind it */
+            if (size)
+                bytes[1 + at] = 1;
+            jox_clear(bytes + 1, size);
+            for (size_t i = 0; i < size; i++)
+                assert_int_equal(bytes[1 + i], 0);
+            assert_int_equal(bytes[0], 7);
+            assert_int_equal(bytes[1 + size], 7);
+        }
+}
+
+static void zeros_are_not_written(void **state) {
+    (void)state;
+    void *page = mmap(NULL, PAGE, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(page != MAP_FAILED);
+    jox_clear(page, PAGE); /* else it ends here */
+    assert_int_equal(munmap(page, PAGE), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_of_it_is_cleared),
+                                       cmocka_unit_test(zeros_are_not_written)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
