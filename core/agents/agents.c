@@ -144,10 +144,11 @@ uint32_t jox_agents_add(JoxAgents *a) {
     return i;
 }
 
+/* A new order: at i comes what was at order[i]. */
 typedef struct Gather {
     JoxAgents *agents;
     const uint32_t *order;
-    uint32_t count, before; /* agents afterwards, and until now */
+    uint32_t count;
 } Gather;
 
 /* A column of 4 bytes an agent, and one of 8: into other memory, which becomes the column. */
@@ -199,7 +200,7 @@ static void permute_rows(const Gather *gather, char *rows, size_t size, uint8_t 
 static void gather_column(void *context, void **column, size_t size) {
     const Gather *gather = context;
     char *rows = *column;
-    if (jox_is_same_of_all(rows, size, gather->before))
+    if (jox_is_same_of_all(rows, size, gather->count))
         return;                   /* as most parameters are */
     if (size == sizeof(uint32_t)) /* nearly all columns */
         gather_words(gather, column);
@@ -207,13 +208,8 @@ static void gather_column(void *context, void **column, size_t size) {
         gather_long_words(gather, column);
     else if (size < sizeof(uint32_t))
         gather_bytes(gather, rows, size);
-    else if (gather->count == gather->before)
-        permute_rows(gather, rows, size, gather->agents->spare);
     else
-        for (uint32_t i = 0; i < gather->count; i++) { /* some are gone: all move up */
-            JOX_ASSERT(gather->order[i] >= i);
-            memmove(rows + i * size, rows + gather->order[i] * size, size);
-        }
+        permute_rows(gather, rows, size, gather->agents->spare);
 }
 
 static void reindex(JoxAgents *a) {
@@ -237,7 +233,7 @@ void jox_agents_check(const JoxAgents *a) {
 }
 
 void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
-    Gather gather = {a, order, a->count, a->count};
+    Gather gather = {a, order, a->count};
     uint32_t same = 0;
     while (same < a->count && order[same] == same)
         same++;
@@ -270,19 +266,37 @@ static void close_ranks(JoxAgents *a) {
     }
 }
 
+/* Who leaves, in ascending order. */
+typedef struct Leaving {
+    const uint32_t *index;
+    uint32_t count, before; /* of them; of all agents until now */
+} Leaving;
+
+/* Those between one who leaves and the next move up as one. */
+static void close_column(void *context, void **column, size_t size) {
+    const Leaving *leaving = context;
+    char *rows = *column;
+    if (jox_is_same_of_all(rows, size, leaving->before))
+        return;
+    for (uint32_t k = 0; k < leaving->count; k++) {
+        const uint32_t from = leaving->index[k] + 1;
+        const uint32_t end = k + 1 < leaving->count ? leaving->index[k + 1] : leaving->before;
+        JOX_ASSERT(from > k && from <= end);
+        memmove(rows + (from - 1 - k) * size, rows + from * size, (end - from) * size);
+    }
+}
+
 uint32_t jox_agents_compact(JoxAgents *a) {
-    uint32_t kept = 0;
+    uint32_t gone = 0;
     if (!a->count || (!a->removed[0] && jox_is_same_of_all(a->removed, 1, a->count)))
         return 0;
-    for (uint32_t i = 0; i < a->count; i++) {
-        if (!a->removed[i])
-            a->order[kept++] = i;
-    }
-    const uint32_t gone = a->count - kept;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->removed[i])
+            a->order[gone++] = i;
     close_ranks(a);
-    Gather gather = {a, a->order, kept, a->count};
-    visit_columns(a, COLUMN_SCRATCH, gather_column, &gather);
-    a->count = kept;
+    Leaving leaving = {a->order, gone, a->count};
+    visit_columns(a, COLUMN_SCRATCH, close_column, &leaving);
+    a->count -= gone;
     reindex(a);
     JOX_CHECK(jox_agents_check(a));
     return gone;

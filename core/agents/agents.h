@@ -84,6 +84,7 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
     X(SCRATCH, float, density)   /* from the distance of the farthest neighbour kept, 1/m2 */      \
     X(HINT, float, search)       /* radius that held the neighbours last time; 0 unknown */        \
+    X(HINT, uint32_t, cell)      /* of navigation's grid, in which it stood when that was laid */  \
     X(SCRATCH, uint8_t, failed)  /* 1 where the 2-D program was infeasible this step */            \
     X(STATE, uint8_t, contacts)  /* agents and bodies touched this step */                         \
     X(STATE, uint8_t, removed)   /* 1: leaves the world at the end of the step */                  \

@@ -76,9 +76,9 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id)
     uint32_t *first = nav->cell_first;
     memset(first, 0, (cells + 1) * sizeof *first);
     for (uint32_t i = 0; i < a->count; i++) {
-        nav->cell_of[i] = jox_row_of(nav, a->y[i]) * nav->columns + jox_column_of(nav, a->x[i]);
-        JOX_ASSERT(nav->cell_of[i] < cells);
-        first[nav->cell_of[i]]++;
+        a->cell[i] = jox_row_of(nav, a->y[i]) * nav->columns + jox_column_of(nav, a->x[i]);
+        JOX_ASSERT(a->cell[i] < cells);
+        first[a->cell[i]]++;
     }
     uint32_t sum = 0;
     for (uint32_t cell = 0; cell <= cells; cell++) { /* the ends of the cells */
@@ -86,14 +86,31 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id)
         first[cell] = sum;
     }
     for (uint32_t k = a->count; k-- > 0;) /* from their ends back to their beginnings */
-        nav->order[--first[nav->cell_of[by_id[k]]]] = by_id[k];
+        nav->order[--first[a->cell[by_id[k]]]] = by_id[k];
+}
+
+/* Some have left since, and the others stand in their order: where each cell begins now. */
+static void close_cells(JoxNav *nav, const JoxAgents *a) {
+    const uint32_t cells = nav->columns * nav->rows;
+    uint32_t cell = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        JOX_ASSERT(a->cell[i] < cells && (i == 0 || a->cell[i - 1] <= a->cell[i]));
+        for (; cell <= a->cell[i]; cell++)
+            nav->cell_first[cell] = i;
+    }
+    for (; cell <= cells; cell++)
+        nav->cell_first[cell] = a->count;
+    nav->sorted_count = a->count;
 }
 
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
-    bool same = nav->sorted_count == a->count && nav->sorted_next_id == a->next_id &&
-                isfinite(nav->drift.farthest);
-    if ((same && tick % SORT_EVERY != 0) || a->count == 0) {
-        nav->sorted_count = a->count;
+    /* Nobody has come, and nobody has left of whom there is an index. */
+    const bool holds =
+        nav->sorted_next_id == a->next_id && isfinite(nav->drift.farthest) &&
+        (nav->sorted_count == a->count || (nav->sorted_count > a->count && nav->stray_count == 0));
+    if ((holds && tick % SORT_EVERY != 0) || a->count == 0) {
+        if (nav->sorted_count != a->count)
+            close_cells(nav, a);
         return;
     }
     jox_nav_reserve(nav, a->count);

@@ -53,7 +53,7 @@ struct JoxNav {
        see an edge. More than there is room for: the agents are sorted. */
     uint32_t strays[JOX_MOST_STRAYS + JOX_LANES], stray_count;
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
-    uint32_t *order, *cell_of;
+    uint32_t *order;
     uint32_t capacity;
     JoxDrift *chunk_drift; /* in a step, per chunk of move */
     JoxV2 *position[2];    /* for projection */

@@ -63,7 +63,6 @@ void jox_nav_free(JoxNav *nav) {
         return;
     jox_wall_grid_free(&nav->grid);
     jox_free(nav->cell_first);
-    jox_free(nav->cell_of);
     jox_free(nav->order);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
@@ -79,7 +78,6 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
         return;
     uint32_t n = nav->capacity = count + count / 4 + 64;
     nav->order = jox_realloc(nav->order, n, sizeof *nav->order);
-    nav->cell_of = jox_realloc(nav->cell_of, n, sizeof *nav->cell_of);
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(JoxDrift));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));

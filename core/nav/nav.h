@@ -31,8 +31,8 @@ void jox_nav_sections(JoxNav *nav, JoxSections *sections);
  */
 void jox_nav_forget(JoxNav *nav);
 
-/* Every eighth tick, or when agents came or went: puts the agents in the order of the grid, which
-   depends on positions and ids alone. All indices change. */
+/* Every eighth tick, or when agents came: puts the agents in the order of the grid, which depends
+   on positions and ids alone. All indices change. Who left meanwhile is taken out of the grid. */
 void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
    ties by id; also writes `search` and `density`. Grows `out` as needed. */

@@ -10,6 +10,7 @@
 
 #include "agents/agents.h"
 #include "base/mem.h"
+#include "base/number/random.h"
 #include "task/pool.h"
 
 static uint64_t hash_of(JoxAgents *a) {
@@ -115,6 +116,38 @@ static void removing_keeps_order_and_retires_handles(void **state) {
     for (int i = 1; i < 9; i++)
         assert_true(a.id[by_id[i - 1]] < a.id[by_id[i]]);
     jox_agents_free(&a);
+}
+
+/* Whoever leaves: cells of every width stay with their agents, and these in their order. */
+static void whatever_leaves_the_rest_keeps_its_cells(void **state) {
+    (void)state;
+    enum { COUNT = 200, STRIDE = 3 };
+    for (uint32_t round = 0; round < 100; round++) {
+        JoxAgents a = {0};
+        uint32_t kept[COUNT], stay = 0;
+        jox_agents_widen(&a, 1, STRIDE);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            jox_agents_add(&a);
+            a.tags[i] = 1000 + i;
+            a.contacts[i] = (uint8_t)i;
+            a.team[i] = (uint16_t)(300 + i);
+            a.load[i] = (float)i;
+            jox_own_set(&a, i, 0, i);
+            a.memory[i * STRIDE + 2] = i;
+            a.removed[i] = jox_random_unit(7, i, round, JOX_DRAW_FILL, 0) < 0.01 * round;
+            if (!a.removed[i])
+                kept[stay++] = i;
+        }
+        assert_int_equal(jox_agents_compact(&a), COUNT - stay);
+        assert_int_equal(a.count, stay);
+        for (uint32_t i = 0; i < stay; i++) {
+            assert_true(a.id[i] == kept[i] && a.by_rank[i] == i && a.tags[i] == 1000 + kept[i]);
+            assert_true(a.contacts[i] == kept[i] && a.team[i] == 300 + kept[i]);
+            assert_true(a.load[i] == (float)kept[i] && jox_own(&a, i, 0) == kept[i]);
+            assert_true(a.memory[i * STRIDE + 2] == kept[i] && a.speed_limit[i] > 0.0f);
+        }
+        jox_agents_free(&a);
+    }
 }
 
 /* A million births and deaths among 100: no table grows with the number of ids ever given. */
@@ -276,6 +309,7 @@ int main(void) {
         cmocka_unit_test(own_values_of_all_are_held_once),
         cmocka_unit_test(rows_may_be_wide),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
+        cmocka_unit_test(whatever_leaves_the_rest_keeps_its_cells),
         cmocka_unit_test(turnover_takes_no_memory),
         cmocka_unit_test(a_new_agent_has_the_defaults),
         cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
