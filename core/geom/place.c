@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "simd/four.h"
 
 static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
 
@@ -111,16 +112,30 @@ static bool at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) 
     return jox_length(jox_sub(point, place->centre)) <= place->spacing / 2.0f;
 }
 
+/* Which of four boxes a point lies in, a bit for each. */
+static inline uint32_t boxes_about(const JoxPlaceBoxes *boxes, JoxV2 point) {
+    const JoxFour x = {point.x, point.x, point.x, point.x};
+    const JoxFour y = {point.y, point.y, point.y, point.y};
+    const JoxFourMask in = (x >= jox_load_four(boxes->low_x)) &
+                           (x <= jox_load_four(boxes->high_x)) &
+                           (y >= jox_load_four(boxes->low_y)) & (y <= jox_load_four(boxes->high_y));
+    uint64_t halves[2];
+    memcpy(halves, &in, sizeof halves);
+    if (!(halves[0] | halves[1])) /* of many exits all but one are elsewhere */
+        return 0;
+    return (uint32_t)((in[0] & 1) | (in[1] & 2) | (in[2] & 4) | (in[3] & 8));
+}
+
 static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
-    if (place->boxed && !jox_is_within(point, place->low, place->high))
-        return false;
-    for (uint32_t i = 0; i < place->member_count; i++) {
-        const JoxPlace *member = &places[place->members[i]];
-        /* Of many exits all but one are elsewhere: that costs no call. */
-        const bool elsewhere =
-            member->kind == JOX_PLACE_POLYGON && !jox_is_within(point, member->low, member->high);
-        if (!elsewhere && jox_place_contains(places, (uint32_t)place->members[i], point))
-            return true;
+    for (uint32_t first = 0; first < place->member_count; first += 4) {
+        const uint32_t left = place->member_count - first;
+        uint32_t in = place->boxes ? boxes_about(&place->boxes[first / 4], point)
+                                   : (1u << (left < 4 ? left : 4)) - 1;
+        for (; in; in &= in - 1) {
+            const int32_t member = place->members[first + (uint32_t)__builtin_ctz(in)];
+            if (jox_place_contains(places, (uint32_t)member, point))
+                return true;
+        }
     }
     return false;
 }
@@ -231,20 +246,27 @@ static float reach_of(const JoxPlace *place) {
     }
 }
 
-void jox_place_finish_set(const JoxPlace *places, JoxPlace *set) {
+void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *boxes) {
     JOX_ASSERT(set->kind == JOX_PLACE_SET);
+    set->boxes = boxes;
     set->low = (JoxV2){INFINITY, INFINITY};
     set->high = (JoxV2){-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < set->member_count; i++) {
-        const JoxPlace *member = &places[set->members[i]];
-        const float reach = reach_of(member);
-        JOX_ASSERT(member->kind != JOX_PLACE_SET);
-        set->low = (JoxV2){jox_minf(set->low.x, member->low.x - reach),
-                           jox_minf(set->low.y, member->low.y - reach)};
-        set->high = (JoxV2){jox_maxf(set->high.x, member->high.x + reach),
-                            jox_maxf(set->high.y, member->high.y + reach)};
+    for (size_t i = 0; i < 4 * JOX_PLACE_FOURS(set->member_count); i++) {
+        JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+        if (i < set->member_count) {
+            const JoxPlace *member = &places[set->members[i]];
+            const float reach = reach_of(member);
+            JOX_ASSERT(member->kind != JOX_PLACE_SET);
+            low = (JoxV2){member->low.x - reach, member->low.y - reach};
+            high = (JoxV2){member->high.x + reach, member->high.y + reach};
+        }
+        boxes[i / 4].low_x[i % 4] = low.x;
+        boxes[i / 4].low_y[i % 4] = low.y;
+        boxes[i / 4].high_x[i % 4] = high.x;
+        boxes[i / 4].high_y[i % 4] = high.y;
+        set->low = (JoxV2){jox_minf(set->low.x, low.x), jox_minf(set->low.y, low.y)};
+        set->high = (JoxV2){jox_maxf(set->high.x, high.x), jox_maxf(set->high.y, high.y)};
     }
-    set->boxed = true;
 }
 
 bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {
@@ -299,6 +321,10 @@ void jox_place_copy(JoxPlace *to, const JoxPlace *from) {
     to->name = jox_strdup(from->name);
     to->points = jox_alloc((size_t)from->count + 1, sizeof *to->points);
     to->members = jox_alloc((size_t)from->member_count + 1, sizeof *to->members);
+    const size_t fours = from->boxes ? JOX_PLACE_FOURS(from->member_count) : 0;
+    to->boxes = fours ? jox_alloc(fours, sizeof *to->boxes) : NULL;
+    if (fours)
+        memcpy(to->boxes, from->boxes, fours * sizeof *to->boxes);
     if (from->count)
         memcpy(to->points, from->points, from->count * sizeof *to->points);
     if (from->member_count)
@@ -309,7 +335,14 @@ void jox_place_free(JoxPlace *place) {
     jox_free(place->name);
     jox_free(place->points);
     jox_free(place->members);
+    jox_free(place->boxes);
     *place = (JoxPlace){0};
+}
+
+static bool same_boxes(const JoxPlace *a, const JoxPlace *b) {
+    return !a->boxes == !b->boxes &&
+           (!a->boxes ||
+            !memcmp(a->boxes, b->boxes, JOX_PLACE_FOURS(a->member_count) * sizeof *a->boxes));
 }
 
 bool jox_place_same(const JoxPlace *a, const JoxPlace *b) {
@@ -317,5 +350,6 @@ bool jox_place_same(const JoxPlace *a, const JoxPlace *b) {
            a->spacing == b->spacing && a->start == b->start && a->member_count == b->member_count &&
            (!a->count || !memcmp(a->points, b->points, a->count * sizeof *a->points)) &&
            (!a->member_count ||
-            !memcmp(a->members, b->members, a->member_count * sizeof *a->members));
+            !memcmp(a->members, b->members, a->member_count * sizeof *a->members)) &&
+           same_boxes(a, b);
 }

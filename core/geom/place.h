@@ -14,6 +14,12 @@ typedef enum JoxPlaceKind {
     JOX_PLACE_KINDS
 } JoxPlaceKind;
 
+/* Boxes within which all lies that four members of a set hold, a row for each coordinate of a
+   corner. Where there are fewer members the others hold nothing. */
+typedef struct JoxPlaceBoxes {
+    float low_x[4], low_y[4], high_x[4], high_y[4]; /* m */
+} JoxPlaceBoxes;
+
 typedef struct JoxPlace {
     char *name;
     JoxPlaceKind kind;
@@ -24,9 +30,9 @@ typedef struct JoxPlace {
     int32_t start;    /* polygon: index of the line from which circuits count, or -1 */
     int32_t *members; /* set: indices of places */
     uint32_t member_count;
-    JoxV2 centre;    /* centroid, midpoint or head */
-    JoxV2 low, high; /* corners of the box about the points, or about all that a set holds */
-    bool boxed;      /* sets: the box is known */
+    JoxPlaceBoxes *boxes; /* set: of its members, by four; NULL until it is finished */
+    JoxV2 centre;         /* centroid, midpoint or head */
+    JoxV2 low, high;      /* corners of the box about the points, or about all that a set holds */
     /* Orbits keep to the border of a stadium about a polygon: its axis, and its half width. */
     JoxV2 axis_a, axis_b;
     float axis_radius;
@@ -61,8 +67,10 @@ float jox_place_radius(const JoxPlace *place);
 /* Fills centre, low, high, axis_a, axis_b and axis_radius from kind and points. The axis is the
    polygon's principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
-/* Fills low and high of a set, whose members are finished. */
-void jox_place_finish_set(const JoxPlace *places, JoxPlace *set);
+/* Fills low and high of a set, whose members are finished, and gives it their boxes:
+   JOX_PLACE_FOURS of member_count. */
+void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *boxes);
+#define JOX_PLACE_FOURS(members) (((size_t)(members) + 3) / 4)
 /* A place with memory of its own; `to` needs not be initialised. The name of a copy may be NULL. */
 void jox_place_copy(JoxPlace *to, const JoxPlace *from);
 void jox_place_free(JoxPlace *place);
@@ -81,7 +89,9 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
    none, ", 3.2 m from NAME" of the nearest place within 10 m. */
 void jox_place_where(const JoxPlace *places, uint32_t count, JoxV2 at, bool near, JoxText *out);
 
-/* Whether two are of one kind and have the same points, members and measures. */
+/* Whether two are of one kind and have the same points, measures and members, within the same
+ * boxes.
+ */
 bool jox_place_same(const JoxPlace *a, const JoxPlace *b);
 
 #endif

@@ -63,7 +63,9 @@ static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place
         else if (member >= 0 && places[member].count > 0)
             place->members[place->member_count++] = member;
     }
-    jox_place_finish_set(places, place);
+    jox_place_finish_set(
+        places, place,
+        jox_arena_take(r->arena, JOX_PLACE_FOURS(place->member_count), sizeof *place->boxes));
     if (count == 0)
         jox_scene_error(r, map, "bad-place", "set: [NAME, NAME]", "a set names at least one place");
 }

@@ -83,6 +83,44 @@ static void places_answer_by_kind(void **state) {
     assert_true(fabsf(places[0].axis_radius - 1) < 1e-5f);
 }
 
+/* The boxes of a set's members change no answer, however many there are. */
+static void a_set_holds_what_its_members_hold(void **state) {
+    (void)state;
+    enum { MOST = 9 };
+    for (uint32_t round = 0; round < 60; round++) {
+        const uint32_t count = 1 + round % MOST;
+        JoxV2 points[MOST][4], *corners = points[0];
+        int32_t members[MOST];
+        JoxPlace places[MOST + 2] = {{0}};
+        JoxPlaceBoxes boxes[JOX_PLACE_FOURS(MOST)];
+        for (uint32_t m = 0; m < count; m++) {
+            const JoxV2 at = {(float)(m * 7 % 5), (float)(m * 3 % 4)};
+            const JoxPlaceKind kinds[] = {JOX_PLACE_POLYGON, JOX_PLACE_POINT, JOX_PLACE_LINE,
+                                          JOX_PLACE_QUEUE};
+            const JoxPlaceKind kind = kinds[(round + m) % 4];
+            const uint32_t of = kind == JOX_PLACE_POLYGON ? 4 : kind == JOX_PLACE_POINT ? 1 : 2;
+            for (int k = 0; k < 4; k++)
+                points[m][k] = jox_add(at, jox_scale(SQUARE[k], 0.2f));
+            places[m] = (JoxPlace){.kind = kind, .points = corners + 4 * (size_t)m, .count = of};
+            places[m].radius = places[m].spacing = 0.7f;
+            jox_place_finish(&places[m]);
+            members[m] = (int32_t)m;
+        }
+        for (int s = 0; s < 2; s++)
+            places[count + s] =
+                (JoxPlace){.kind = JOX_PLACE_SET, .members = members, .member_count = count};
+        jox_place_finish_set(places, &places[count + 1], boxes);
+        for (uint32_t n = 0; n < 400; n++) {
+            const JoxV2 p = {(float)(n % 20) * 0.35f - 1.0f, (float)(n / 20) * 0.3f - 1.0f};
+            bool held = false;
+            for (uint32_t m = 0; m < count; m++)
+                held |= jox_place_contains(places, m, p);
+            assert_int_equal(jox_place_contains(places, count, p), held);
+            assert_int_equal(jox_place_contains(places, count + 1, p), held);
+        }
+    }
+}
+
 static void walls_are_linked_rings(void **state) {
     (void)state;
     JoxWalls walls = {0};
@@ -117,6 +155,7 @@ int main(void) {
         cmocka_unit_test(self_crossing_is_found_with_its_edges),
         cmocka_unit_test(a_crossing_is_directed_and_counted_once),
         cmocka_unit_test(places_answer_by_kind),
+        cmocka_unit_test(a_set_holds_what_its_members_hold),
         cmocka_unit_test(walls_are_linked_rings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
