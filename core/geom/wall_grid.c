@@ -147,3 +147,19 @@ bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
             return true;
     return false;
 }
+
+float jox_wall_grid_clear2(const JoxWallGrid *g, JoxV2 from) {
+    const float SLACK = 1e-5f; /* of coordinates: more than sides are rounded by */
+    const float size = fabsf(from.x) + fabsf(from.y);
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(g, from, &count);
+    float least = INFINITY;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxWallVertex *v = &g->walls->vertices[edges[k]];
+        const JoxV2 out = jox_sub(from, v->point);
+        const float far = fabsf(jox_det(v->direction, out));
+        least = jox_minf(far - SLACK * (fabsf(out.x) + fabsf(out.y) + size), least);
+    }
+    least = jox_maxf(least, 0.0f);
+    return least * least;
+}

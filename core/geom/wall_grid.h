@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "geom/walls.h"
+#include "simd/isa.h"
 
 /* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
 typedef struct JoxWallGrid {
@@ -37,6 +38,15 @@ static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point
 /* Whether an edge that is within the grid's reach of `from` separates it from `to`: no one touches
    another through a wall. Ends that lie on an edge are separated from those beyond it. */
 bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
+/* m2: whoever is nearer to a point than the root of this is not separated from it, being on the
+   same side of the lines of all edges within the grid's reach; INFINITY where there are none. */
+float jox_wall_grid_clear2(const JoxWallGrid *grid, JoxV2 from);
+/* The kernel: the same of many points, to the bit. Whole packets of lanes are read and written. */
+typedef void JoxWallClearKernel(const JoxWallGrid *grid, const float *x, const float *y,
+                                uint32_t count, float *clear2);
+#define X(name, isa) JoxWallClearKernel jox_wall_clear_##name;
+JOX_ISAS(X)
+#undef X
 /* Whether the ways p -> q and a -> b cross; where one ends on the other is on its right. */
 bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b);
 void jox_wall_grid_free(JoxWallGrid *grid);

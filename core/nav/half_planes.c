@@ -36,8 +36,8 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
 /* Whether a wall stands between two who would else touch, or soon could: then neither minds the
    other. */
 static bool is_hidden(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
-    float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-    if (!s->touched || jox_length2(offset) > near * near)
+    const float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST, d2 = jox_length2(offset);
+    if (!s->touched || d2 > near * near || (s->clear2 && d2 < s->clear2[i]))
         return false;
     return jox_nav_is_behind_wall(s->nav, (JoxV2){s->agents->x[i], s->agents->y[i]}, offset);
 }

@@ -68,6 +68,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->chunk_relaxed);
     jox_free(nav->headings);
     jox_free(nav->chunk_reach);
+    jox_free(nav->clear2);
     for (int i = 0; i < 2; i++)
         jox_free(nav->position[i]);
     jox_free(nav);
@@ -82,6 +83,7 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));
     nav->chunk_reach = jox_realloc(nav->chunk_reach, n / JOX_NAV_GRAIN + 1, sizeof(float));
+    nav->clear2 = jox_realloc(nav->clear2, n + JOX_LANES, sizeof(float));
     for (int i = 0; i < 2; i++)
         nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
 }

@@ -8,8 +8,11 @@
 #include "nav/kernels.h"
 #include "simd/four.h"
 
-#define X(name, isa) [isa] = jox_solve_packets_##name,
-static JoxSolveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = {jox_solve_packets_##name, jox_wall_clear_##name},
+static const struct Kernels {
+    JoxSolveKernel *solve;
+    JoxWallClearKernel *clear;
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static const JoxContactPlanes *in_force(const JoxContactPlanes *touched) {
@@ -40,8 +43,15 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                       JOX_MOST_CONSTRAINTS,
                   "room for all");
     JOX_ASSERT(agent < agents->count);
-    const JoxSolve solve = {(JoxNav *)nav,     (JoxAgents *)agents,  neighbours, objects,
-                            in_force(touched), (float)planning_time, true,       false};
+    const JoxSolve solve = {(JoxNav *)nav,
+                            (JoxAgents *)agents,
+                            neighbours,
+                            objects,
+                            in_force(touched),
+                            (float)planning_time,
+                            true,
+                            false,
+                            NULL};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
     return sort_out(half_planes, &made, out);
@@ -50,7 +60,11 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxSolve *s = context;
-    s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa](s, begin, end);
+    const JoxAgents *a = s->agents;
+    if (s->clear2)
+        KERNELS[s->nav->isa].clear(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
+                                   s->clear2 + begin);
+    s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa].solve(s, begin, end);
 }
 
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
@@ -79,9 +93,15 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
     const float *radius = agents->param[JOX_PARAM_radius];
     const bool one_radius =
         agents->count && jox_is_same_of_all(radius, sizeof *radius, agents->count);
-    JoxSolve solve = {
-        nav,   agents,    neighbours, objects, in_force(touched), (float)planning_time,
-        plans, one_radius};
+    JoxSolve solve = {nav,
+                      agents,
+                      neighbours,
+                      objects,
+                      in_force(touched),
+                      (float)planning_time,
+                      plans,
+                      one_radius,
+                      nav->grid.walls ? nav->clear2 : NULL};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
@@ -203,8 +223,15 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
     find_neighbours(agents, agent, &neighbours);
     if (own)
         find_touched(agents, agent, &neighbours, touched, own);
-    const JoxSolve solve = {(JoxNav *)nav,          (JoxAgents *)agents,  &neighbours, objects,
-                            own ? &own->all : NULL, (float)planning_time, true,        false};
+    const JoxSolve solve = {(JoxNav *)nav,
+                            (JoxAgents *)agents,
+                            &neighbours,
+                            objects,
+                            own ? &own->all : NULL,
+                            (float)planning_time,
+                            true,
+                            false,
+                            NULL};
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {

@@ -14,10 +14,11 @@
 static const float SIGHT = 1.5f; /* m: so near, walls hide people */
 static const double KNOTS = 2.0; /* s between the knots of what a time gap wanders by */
 
-#define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name},
+#define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name, jox_wall_clear_##name},
 static const struct Kernels {
     JoxAimKernel *aim;
     JoxWalkKernel *walk;
+    JoxWallClearKernel *clear;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
@@ -27,13 +28,15 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
 }
 
-/* How each heads, for those who look at many others. */
+/* How each heads, for those who look at many others, and how far off walls may hide some. */
 static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
     const JoxAgents *a = w->agents;
     jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin, a->way + begin,
                    a->bound + begin, end - begin);
+    KERNELS[w->nav->isa].clear(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
+                               w->nav->clear2 + begin);
 }
 
 static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

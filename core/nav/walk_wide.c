@@ -4,7 +4,6 @@
    stand behind a wall, and walls (walk_one.c). */
 #include <math.h>
 
-#include "geom/wall_grid_lanes.h"
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
@@ -27,6 +26,7 @@ typedef struct Packet {
     uint32_t rows;
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* m/s wanted; time gap, s */
+    JoxFloats clear2;                    /* m2: no wall hides who is nearer */
     JoxFloats per_cross, meeting; /* 1/s; m/s2: worth of a way for each s until they would meet */
     Row row[JOX_MOST_NEIGHBOURS];
 } Packet;
@@ -76,7 +76,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
     const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
     const JoxFloats width = jf_mul(jf_set((float)law->width), room);
     const JoxFloats length = jf_mul(jf_set((float)law->length), room);
-    uint32_t counts[JOX_WIDTH], most = 0, picky = p->near_walls;
+    uint32_t counts[JOX_WIDTH], most = 0, picky = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
         counts[lane] = p->lanes >> lane & 1 ? n->count[i + lane] : 0;
         most = counts[lane] > most ? counts[lane] : most;
@@ -97,9 +97,11 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
             row->offset.y = jf_wrap(row->offset.y, a->period.y);
         }
         const JoxMindsLanes minded = jox_minds_lanes(p->w->nav, a, i, others, row->offset);
+        const JoxFloats d2 = jv_dot(row->offset, row->offset);
         uint32_t minds = jm_bits(there) & jm_bits(jm_or(minded.ahead, minded.crossing));
-        if (picky & minds)
-            minds &= ~passed_over(p, picky & minds, others, row);
+        const uint32_t doubtful = minds & (picky | jm_bits(jf_le(p->clear2, d2)));
+        if (doubtful)
+            minds &= ~passed_over(p, doubtful, others, row);
         if (!minds)
             continue;
         const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
@@ -107,7 +109,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
         row->per_width = jf_div(one, jf_mul(width, radii));
         row->length = jf_mul(length, radii);
         row->width2 = squared(jf_mul(jf_set((float)law->width_cross), radii));
-        row->apart2 = jf_max(jf_sub(jv_dot(row->offset, row->offset), row->width2), jf_set(0.0f));
+        row->apart2 = jf_max(jf_sub(d2, row->width2), jf_set(0.0f));
         row->ahead = jm_and(minded.ahead, jm_of_bits(minds));
         row->crossing = jm_and(minded.crossing, jm_of_bits(minds));
         p->rows++;
@@ -359,8 +361,8 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxMask wants = jm_of_bits(p->lanes);
     p->gap = jf_select(wants, jox_time_gaps(p->w, first, p->eager), one);
     p->speed = jf_select(wants, speed, one);
-    p->near_walls = p->lanes & jm_bits(jox_wall_grid_near_lanes(
-                                   &p->w->nav->grid, jf_load(a->x + first), jf_load(a->y + first)));
+    p->clear2 = jf_load(p->w->nav->clear2 + first);
+    p->near_walls = p->lanes & jm_bits(jf_lt(p->clear2, jf_set(INFINITY)));
     p->per_cross = jf_set(1.0f / (float)p->w->law->cross_time);
     p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)p->w->law->contact_time));
 }

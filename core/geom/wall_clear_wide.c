@@ -1,0 +1,17 @@
+/* The kernel of how far nothing is behind a wall. A lane is a point; edges are near to few of them,
+   which are looked at one after the other. */
+#include <math.h>
+
+#include "geom/wall_grid_lanes.h"
+
+void JOX_WIDE(jox_wall_clear)(const JoxWallGrid *grid, const float *x, const float *y,
+                              uint32_t count, float *clear2) {
+    for (uint32_t n = 0; n < count; n += JOX_WIDTH) {
+        uint32_t near = jm_bits(jox_wall_grid_near_lanes(grid, jf_load(x + n), jf_load(y + n)));
+        jf_store(clear2 + n, jf_set(INFINITY));
+        for (; near; near &= near - 1) {
+            const uint32_t k = n + (uint32_t)__builtin_ctz(near);
+            clear2[k] = jox_wall_grid_clear2(grid, (JoxV2){x[k], y[k]});
+        }
+    }
+}
