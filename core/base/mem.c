@@ -192,10 +192,14 @@ void jox_free(void *memory) {
     give_back((char *)memory - block->offset);
 }
 
-void jox_clear(void *memory, size_t bytes) {
-    const char *first = memory;
-    if (bytes && (*first || memcmp(first, first + 1, bytes - 1) != 0))
-        memset(memory, 0, bytes);
+bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes) {
+    const uint8_t *first = memory;
+    return bytes == 0 || (*first == byte && memcmp(first, first + 1, bytes - 1) == 0);
+}
+
+void jox_mem_fill(void *memory, uint8_t byte, size_t bytes) {
+    if (!jox_mem_is(memory, byte, bytes))
+        memset(memory, byte, bytes);
 }
 
 void *jox_disown(void *memory) {

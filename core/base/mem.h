@@ -103,9 +103,11 @@ JoxHeap *jox_heap_used(void);
 void jox_heap_fail(JoxHeap *heap);
 bool jox_heap_has_failed(const JoxHeap *heap);
 
-/* Zeroes memory, and writes none that is zero already: what was never written is then read alone,
-   and takes no page of its own. */
-void jox_clear(void *memory, size_t bytes);
+/* Whether all bytes are this one. */
+bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes);
+/* Sets all bytes to this one, and writes nothing where they are: zeros that were never written are
+   then read alone, and take no page of their own. */
+void jox_mem_fill(void *memory, uint8_t byte, size_t bytes);
 
 /* Takes memory out of its heap, for a caller who frees it; NULL is fine. Returns it. */
 void *jox_disown(void *memory);

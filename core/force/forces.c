@@ -84,8 +84,6 @@ void jox_forces_free(JoxForces *f) {
                      f->support,
                      f->pending,
                      f->impulses,
-                     f->old_x,
-                     f->old_y,
                      f->chunk};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
@@ -95,7 +93,7 @@ void jox_forces_free(JoxForces *f) {
 /* What does not carry over from the last step, of agents [begin, end). */
 static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
-#define ZERO_SCRATCH(column) jox_clear((column) + begin, (end - begin) * sizeof *(column));
+#define ZERO_SCRATCH(column) jox_mem_fill((column) + begin, 0, (end - begin) * sizeof *(column));
 #define ZERO_STATE(column)
 #define ZERO(X, keep, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
     JOX_FORCE_TERMS(ZERO, )
@@ -138,8 +136,6 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
     JOX_RESERVE(f->chunk, f->chunk_capacity, f->chunks);
     JOX_RESERVE(f->starts, f->start_capacity, (size_t)n + 1);
-    JOX_RESERVE(f->old_x, f->old_x_capacity, n);
-    JOX_RESERVE(f->old_y, f->old_y_capacity, n);
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "force/equations.h"
 #include "force/kernels.h"
 
@@ -22,7 +23,7 @@ static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
     JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
-    float along = jox_maxf(0.0f, f->old_x[i] * unit.x + f->old_y[i] * unit.y);
+    float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
     float worn = along * (1.0f - jox_decay(decay, damping, dt));
     return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
 }
@@ -37,7 +38,8 @@ static bool slows_down(const JoxForces *f, uint32_t i) {
     const float absorb = a->param[JOX_PARAM_absorb][i], dt = (float)f->step.dt;
     /* What the feet took: contacts and other forces have their share already. */
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
-    return (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f) && absorb > 0.0f &&
+    const JoxV2 old = jox_velocity_before(f, i);
+    return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
            jox_slows(before, after, a->param[JOX_PARAM_brace_angle][i]) &&
            jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
 }
@@ -141,6 +143,9 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JoxAgents *a = f->step.agents;
     float kept =
         1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+    const size_t size = (end - begin) * sizeof(float);
+    if (jox_mem_is(a->inferred_x + begin, 0, size) && jox_mem_is(a->inferred_y + begin, 0, size))
+        return;
     for (uint32_t i = begin; i < end; i++) {
         const float x = a->inferred_x[i], y = a->inferred_y[i];
         /* What is left of a force after seconds is nothing, and slow to compute with. */

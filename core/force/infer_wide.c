@@ -9,8 +9,9 @@ static inline JoxMask is_set(JoxVector a) {
     return jm_without(jm_of_bits(JOX_ALL_LANES), none);
 }
 
-/* (9) shortfall_of */
-static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector unit, JoxDecay *decay) {
+/* (9) shortfall_of; `old`: velocities before the step. */
+static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
+                           JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, *damping = a->param[JOX_PARAM_damping] + i;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
@@ -19,7 +20,7 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector unit, JoxDe
     const JoxVector held = jv_sub(others, jox_unheld_lanes(a, i, others, jox_stands_lanes(a, i)));
     const JoxVector taken =
         jv_sub(jv_load(a->forced_x, a->forced_y, i), jv_load(a->next_x, a->next_y, i));
-    const JoxFloats along = jf_max(zero, jv_dot(jv_load(f->old_x, f->old_y, i), unit));
+    const JoxFloats along = jf_max(zero, jv_dot(old, unit));
     float kept[JOX_WIDTH];
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         kept[lane] = jox_decay(decay, damping[lane], dt);
@@ -30,7 +31,7 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector unit, JoxDe
 }
 
 /* (8) slows_down */
-static JoxMask slows_down(const JoxForces *f, uint32_t i) {
+static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxFloats least = jf_set(f->options.least * (float)f->step.dt);
@@ -48,8 +49,7 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i) {
     const JoxFloats absorb = jf_load(a->param[JOX_PARAM_absorb] + i);
     const JoxFloats felt = jf_mul(jf_sqrt(jv_dot(slowing, slowing)), absorb);
     return jm_and(jm_and(jf_lt(zero, against), aligned),
-                  jm_and(jm_and(is_set(jv_load(f->old_x, f->old_y, i)), jf_lt(zero, absorb)),
-                         jf_le(least, felt)));
+                  jm_and(jm_and(is_set(old), jf_lt(zero, absorb)), jf_le(least, felt)));
 }
 
 void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t end,
@@ -60,14 +60,17 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector unit = jv_load(a->half_plane_x, a->half_plane_y, i);
         const uint32_t forced = jm_bits(is_set(unit));
+        JoxFloats motion[4];
+        jf_fours((const float *)&f->step.neighbours->motions[i], 4, motion);
+        const JoxVector old = {motion[2], motion[3]};
         JoxFloats lacks = zero;
         uint32_t resists = 0;
         if (forced) {
-            lacks = shortfall(f, i, unit, &decay);
+            lacks = shortfall(f, i, old, unit, &decay);
             resists = jm_bits(
                 jm_and(jf_lt(least, lacks), jf_lt(zero, jf_load(a->param[JOX_PARAM_absorb] + i))));
         }
-        const uint32_t slows = jm_bits(slows_down(f, i)) & ~forced;
+        const uint32_t slows = jm_bits(slows_down(f, i, old)) & ~forced;
         jf_store(passing->shortfall + (i - begin), lacks);
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
             passing->kind[i - begin + lane] =

@@ -108,9 +108,6 @@ struct JoxForces {
     JoxImpulse *impulses;
     size_t impulse_capacity;
 
-    float *old_x, *old_y; /* velocities that sum saw */
-    size_t old_x_capacity, old_y_capacity;
-
     struct JoxForceChunk { /* totals of a chunk; momentum in 2^-20 N s, so that order is free */
         uint32_t pushers, overlaps;
         int64_t ground_x, ground_y;
@@ -164,6 +161,12 @@ static inline JoxV2 jox_unheld_pushes(const JoxAgents *a, uint32_t i) {
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
     float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
     return jox_scale(others, size > held ? (size - held) / size : 0.0f);
+}
+
+/* Velocity of an agent before the step, m/s. */
+static inline JoxV2 jox_velocity_before(const JoxForces *f, uint32_t i) {
+    const JoxMotion *motion = &f->step.neighbours->motions[i];
+    return (JoxV2){motion->vx, motion->vy};
 }
 
 /* Force that moves an agent, contacts apart, N: from outside, and of the others' pushes. */

@@ -66,9 +66,8 @@ bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
 /* (11) From the velocity that the step began with. */
 static JoxV2 forced_velocity(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    return jox_forced_velocity(jox_v2(f->old_x[i], f->old_y[i]),
-                               jox_v2(a->force_x[i], a->force_y[i]), a->param[JOX_PARAM_mass][i],
-                               1.0f, (float)f->step.dt);
+    return jox_forced_velocity(jox_velocity_before(f, i), jox_v2(a->force_x[i], a->force_y[i]),
+                               a->param[JOX_PARAM_mass][i], 1.0f, (float)f->step.dt);
 }
 
 /* The greatest speed of ORCA never keeps the forced velocity out. */
@@ -104,7 +103,7 @@ static void share(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 fo
 void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     float size = a->param[JOX_PARAM_absorb][i] * a->param[JOX_PARAM_mass][i] / (float)f->step.dt;
-    JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
+    JoxV2 before = jox_velocity_before(f, i), after = {a->vx[i], a->vy[i]};
     if (!(size > 0.0f))
         return;
     if (jox_literal_under_force(f, i)) {

@@ -55,8 +55,6 @@ static bool is_felt(const JoxForces *f, uint32_t i, float size) {
 void jox_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], dt = (float)f->step.dt;
-    f->old_x[i] = a->vx[i];
-    f->old_y[i] = a->vy[i];
     a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
     JoxV2 force = sum_of_terms(a, i);

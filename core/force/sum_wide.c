@@ -18,6 +18,26 @@ static inline JoxVector sum_of_terms(const JoxAgents *a, uint32_t i) {
     return sum;
 }
 
+/* Whether no bit of any lane is set. */
+static inline bool is_nothing(JoxVector a) {
+    return jm_bits(ji_equal(ji_or(jf_bits(a.x), jf_bits(a.y)), ji_set(0))) == JOX_ALL_LANES;
+}
+
+/* Of a packet on which no force acts. Columns that are zero are not written: in sparse crowds they
+   never are. */
+static void leave_free(JoxAgents *a, uint32_t i, JoxFloats most) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxVector none = {zero, zero};
+    jf_store(a->speed_limit + i, most);
+    if (!is_nothing(jv_load(a->force_x, a->force_y, i)))
+        jv_store(a->force_x, a->force_y, i, none);
+    if (is_nothing(jv_load(a->half_plane_x, a->half_plane_y, i)) &&
+        is_nothing((JoxVector){jf_load(a->half_plane_offset + i), zero}))
+        return;
+    jv_store(a->half_plane_x, a->half_plane_y, i, none);
+    jf_store(a->half_plane_offset + i, zero);
+}
+
 /* What people plan with: those who stand plan in each step. */
 typedef struct Planning {
     JoxFloats interval, response, forced, decay;
@@ -67,9 +87,12 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     const JoxVector given = jv_add(moving, contact);
     const JoxVector forced = {jf_add(velocity.x, jf_div(jf_mul(given.x, dt), mass)),
                               jf_add(velocity.y, jf_div(jf_mul(given.y, dt), mass))};
-    jv_store(f->old_x, f->old_y, i, velocity);
-    jv_store(a->force_x, a->force_y, i, force);
     jv_store(a->forced_x, a->forced_y, i, forced);
+    if (is_nothing(force)) {
+        leave_free(a, i, most);
+        return;
+    }
+    jv_store(a->force_x, a->force_y, i, force);
     const JoxFloats size = jf_sqrt(jv_dot(force, force));
     const JoxFloats least = jf_select(touched, jf_set(1e-6f), jf_set(f->options.least));
     const JoxMask felt = jm_and(jf_le(jf_mul(least, mass), size), jf_lt(size, jf_set(INFINITY)));

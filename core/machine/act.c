@@ -28,7 +28,7 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
 /* Sets a column of bytes of some agents, who come by ascending index: often a whole run of them. */
 static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, uint8_t value) {
     if (agents[count - 1] - agents[0] == count - 1) {
-        memset(column + agents[0], value, count);
+        jox_mem_fill(column + agents[0], value, count);
         return;
     }
     for (uint32_t n = 0; n < count; n++)
@@ -39,7 +39,7 @@ static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, 
 static void fill_words(void *column, const uint32_t *agents, uint32_t count, uint8_t byte) {
     uint32_t *words = column;
     if (agents[count - 1] - agents[0] == count - 1) {
-        memset(words + agents[0], byte, count * sizeof *words);
+        jox_mem_fill(words + agents[0], byte, count * sizeof *words);
         return;
     }
     for (uint32_t n = 0; n < count; n++)
@@ -210,18 +210,17 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     if (a->count == 0)
         return;
     JOX_CHECK(jox_groups_check(run));
-    memset(run->push_on, 1, a->count);
-    memset(run->push_nearest, 0, a->count);
-    memset(run->push_toward_x, 0, a->count * sizeof(float));
-    memset(run->push_toward_y, 0, a->count * sizeof(float));
-    for (uint32_t i = 0; i < a->count; i++)
-        a->kicked[i] = -1;
+    jox_mem_fill(run->push_on, 1, a->count);
+    jox_mem_fill(run->push_nearest, 0, a->count);
+    jox_mem_fill(run->push_toward_x, 0, a->count * sizeof(float));
+    jox_mem_fill(run->push_toward_y, 0, a->count * sizeof(float));
+    jox_mem_fill(a->kicked, 0xff, a->count * sizeof *a->kicked); /* -1 */
     memset(run->scratch->odd, 0, run->scratch->workers * sizeof *run->scratch->odd);
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
     jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
     if (run->objects && run->objects->count)
         kick_all(run);
-    memset(a->held, 0, a->count);
+    jox_mem_fill(a->held, 0, a->count);
     list_those(run, grasps);
     jox_machines_grasp(run, run->scratch->list, run->scratch->list_count);
     JOX_CHECK(jox_acts_check(run));

@@ -46,8 +46,10 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
         if (jox_is_odd(p, number))
             jox_odd_note(run, i, p, number);
     }
-    a->ignore[i] = state->ignore;
-    a->push_only[i] = state->push_only;
+    if (a->ignore[i] != state->ignore) /* what stays zero takes no memory */
+        a->ignore[i] = state->ignore;
+    if (a->push_only[i] != state->push_only)
+        a->push_only[i] = state->push_only;
 }
 
 float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
@@ -65,7 +67,8 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     JOX_ASSERT(to < machine->state_count && i < a->count);
     a->state[i] = to;
     a->entered[i] = run->tick;
-    a->was_true[i] = 0;
+    if (a->was_true[i])
+        a->was_true[i] = 0;
     a->lasts[i] = INFINITY;
     if (jox_queue_target(state) < 0)
         a->queue_at[i] = -1;

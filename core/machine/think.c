@@ -98,7 +98,8 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
             if (run->scratch->fired[i] < 0 && holds &&
                 (t->chance.kind == JOX_VALUE_UNSET || rises) && roll(run, machine, t, k, i))
                 run->scratch->fired[i] = (int16_t)k;
-            a->was_true[i] = holds ? a->was_true[i] | bit : a->was_true[i] & ~bit;
+            if (holds == !(a->was_true[i] & bit))
+                a->was_true[i] ^= bit;
         }
     }
     for (uint32_t n = 0; nobodys && n < batch->count; n++)
@@ -149,7 +150,8 @@ static void ask_functions(JoxMachineRun *run) {
             if (holds && (t->chance.kind == JOX_VALUE_UNSET || rises) &&
                 roll(run, machine, t, k, i))
                 s->fired[i] = (int16_t)k;
-            a->was_true[i] = holds ? a->was_true[i] | 1u << k : a->was_true[i] & ~(1u << k);
+            if (holds == !(a->was_true[i] >> k & 1))
+                a->was_true[i] ^= 1u << k;
         }
     }
 }

@@ -159,8 +159,7 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     *to = (uint32_t)a;
 }
 
-/* The first four floats of the records at the places `at` of the lanes, of records of `stride`
-   floats: out[c] is number c of each. */
+/* The records of four floats at the places `at` of the lanes: out[c] is number c of each. */
 static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     for (size_t c = 0; c < 4; c++)
         out[c] = records[(size_t)4 * *at + c];

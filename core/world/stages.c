@@ -51,7 +51,7 @@ static void use_up(float *ext, float *given, uint32_t count) {
     const size_t size = count * sizeof *ext;
     if (size && memcmp(given, ext, size) != 0)
         memcpy(given, ext, size);
-    jox_clear(ext, size);
+    jox_mem_fill(ext, 0, size);
 }
 
 void jox_stage_push(const JoxPushStage *s) {

@@ -21,7 +21,9 @@ static void all_of_it_is_cleared(void **state) {
             bytes[0] = bytes[1 + size] = 7; /* before it and behind it */
             if (size)
                 bytes[1 + at] = 1;
-            jox_clear(bytes + 1, size);
+            assert_int_equal(jox_mem_is(bytes + 1, 0, size), size == 0);
+            jox_mem_fill(bytes + 1, 0, size);
+            assert_true(jox_mem_is(bytes + 1, 0, size));
             for (size_t i = 0; i < size; i++)
                 assert_int_equal(bytes[1 + i], 0);
             assert_int_equal(bytes[0], 7);
@@ -33,7 +35,7 @@ static void zeros_are_not_written(void **state) {
     (void)state;
     void *page = mmap(NULL, PAGE, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     assert_true(page != MAP_FAILED);
-    jox_clear(page, PAGE); /* else it ends here */
+    jox_mem_fill(page, 0, PAGE); /* else it ends here */
     assert_int_equal(munmap(page, PAGE), 0);
 }
 

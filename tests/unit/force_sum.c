@@ -49,6 +49,9 @@ static void fill(JoxAgents *a, Draws *d) {
         a->param[JOX_PARAM_mass][i] = draw(d, 40.0, 120.0);
         a->param[JOX_PARAM_damping][i] = d->number % 2 ? draw(d, 1.0, 4.0) : 2.5f;
         a->param[JOX_PARAM_brace][i] = draw(d, 0.0, 400.0);
+        if (d->number % 3 == 0 && k / JOX_LANES % 2) /* whole packets that nothing presses */
+            a->ext_x[i] = a->inferred_x[i] = a->inferred_y[i] = a->push_y[i] = a->contact_x[i] =
+                a->contact_y[i] = 0.0f;
     }
 }
 
@@ -57,12 +60,12 @@ static bool same(const float *a, const float *b) {
 }
 
 /* What sum writes. */
-enum { COLUMNS = 10 };
+enum { COLUMNS = 8 };
 static void columns_of(JoxForces *f, float *out[COLUMNS]) {
     JoxAgents *a = f->step.agents;
-    float *columns[COLUMNS] = {
-        a->force_x,      a->force_y,           a->forced_x,    a->forced_y, a->half_plane_x,
-        a->half_plane_y, a->half_plane_offset, a->speed_limit, f->old_x,    f->old_y};
+    float *columns[COLUMNS] = {a->force_x,           a->force_y,      a->forced_x,
+                               a->forced_y,          a->half_plane_x, a->half_plane_y,
+                               a->half_plane_offset, a->speed_limit};
     memcpy(out, columns, sizeof columns);
 }
 
@@ -79,7 +82,7 @@ static void move(JoxAgents *a, JoxForces *f, Draws *d) {
         if (draw(d, 0.0, 1.0) < 0.3f)
             a->half_plane_x[i] = a->half_plane_y[i] = 0.0f;
         if (draw(d, 0.0, 1.0) < 0.1f)
-            f->old_x[i] = f->old_y[i] = 0.0f;
+            f->step.neighbours->motions[i].vx = f->step.neighbours->motions[i].vy = 0.0f;
     }
 }
 
@@ -104,9 +107,12 @@ static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *i
     Draws d = {.number = number};
     JoxAgents a = {0};
     fill(&a, &d);
-    JoxNeighbours none = {.agents = PEOPLE};
+    JoxNeighbours near = {0};
+    jox_neighbours_reserve(&near, PEOPLE, 1);
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        near.motions[i] = (JoxMotion){a.x[i], a.y[i], a.vx[i], a.vy[i]};
     JoxForceStep step = {.agents = &a,
-                         .neighbours = &none,
+                         .neighbours = &near,
                          .dt = number % 3 ? 0.05 : 0.01,
                          .planning_time = 0.05,
                          .response = 0.6,
@@ -126,6 +132,9 @@ static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *i
     memcpy(a.contact_x, saved[1], sizeof saved[1]);
     memcpy(a.contact_y, saved[2], sizeof saved[2]);
     columns_of(f, columns);
+    for (uint32_t k = 0; k < COLUMNS; k++) /* of the step before */
+        for (uint32_t i = 0; i < PEOPLE; i++)
+            columns[k][i] = some(&d, 100.0f);
     kernel(f, 0, PEOPLE);
     for (uint32_t k = 0; k < COLUMNS; k++) {
         memcpy(by_kernel[k], columns[k], sizeof by_kernel[k]);
@@ -142,6 +151,7 @@ static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *i
     compare_passing(infer, f, passed);
     jox_forces_free(f);
     jox_agents_free(&a);
+    jox_neighbours_free(&near);
     return felt;
 }
 
