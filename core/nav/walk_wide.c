@@ -46,18 +46,32 @@ static inline JoxFloats squared(JoxFloats a) {
 
 /* ---- whom one minds ---- */
 
+/* Those whom lanes mind, each lane's one after the other: indices with what is told by two bits. */
+typedef uint32_t Minded[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH]; /* a row more: behind full lists */
+#define AHEAD (1u << 31)
+#define CROSSING (1u << 30) /* there are less agents */
+
+/* From each lane's agent to another. */
+static inline __attribute__((always_inline)) JoxVector
+offset_of(const Packet *p, const JoxFloats *record, const bool periodic) {
+    const JoxAgents *a = p->w->agents;
+    JoxVector offset = jv_sub((JoxVector){record[0], record[1]}, jv_load(a->x, a->y, p->first));
+    if (periodic) {
+        offset.x = jf_wrap(offset.x, a->period.x);
+        offset.y = jf_wrap(offset.y, a->period.y);
+    }
+    return offset;
+}
+
 /* Of `lanes`, those that pass their neighbour over: they ignore it, or a wall hides it. */
-static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, const Row *row) {
+static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, JoxVector offset) {
     const JoxAgents *a = p->w->agents;
     uint32_t index[JOX_WIDTH], passed = 0;
     float x[JOX_WIDTH], y[JOX_WIDTH];
     ji_store(index, others);
-    jf_store(x, row->offset.x);
-    jf_store(y, row->offset.y);
-    for (uint32_t lane = 0; lanes >> lane; lane++) {
-        const uint32_t i = p->first + lane;
-        if (!(lanes >> lane & 1))
-            continue;
+    jv_store(x, y, 0, offset);
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = p->first + lane;
         if ((a->tags[index[lane]] & a->ignore[i]) || jox_is_close_to(a, i, index[lane]) ||
             ((p->near_walls >> lane & 1) &&
              jox_nav_is_behind_wall(p->w->nav, (JoxV2){a->x[i], a->y[i]},
@@ -67,52 +81,78 @@ static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, con
     return passed;
 }
 
-static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
+/* Lists whom lanes mind; returns how many rows that makes. Neighbours come row by row, and who is
+   minded goes to the end of its lane's list: of others, what follows takes the place. */
+static inline __attribute__((always_inline)) uint32_t list_minded(const Packet *p, Minded minded,
+                                                                  const bool periodic) {
     const JoxAgents *a = p->w->agents;
     const JoxNeighbours *n = p->w->neighbours;
-    const JoxWalkLaw *law = p->w->law;
     const uint32_t i = p->first;
-    const JoxFloats one = jf_set(1.0f), x = jf_load(a->x + i), y = jf_load(a->y + i);
-    const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
-    const JoxFloats width = jf_mul(jf_set((float)law->width), room);
-    const JoxFloats length = jf_mul(jf_set((float)law->length), room);
-    uint32_t counts[JOX_WIDTH], most = 0, picky = 0;
+    uint32_t counts[JOX_WIDTH], lanes[JOX_WIDTH], ends[JOX_WIDTH], entries[JOX_WIDTH];
+    uint32_t most = 0, picky = 0, rows = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        lanes[lane] = lane;
         counts[lane] = p->lanes >> lane & 1 ? n->count[i + lane] : 0;
         most = counts[lane] > most ? counts[lane] : most;
         if ((p->lanes >> lane & 1) && (a->ignore[i + lane] || jox_is_close_to_some(a, i + lane)))
             picky |= 1u << lane;
     }
-    p->rows = 0;
+    JoxInts end = ji_load(lanes);
     for (uint32_t k = 0; k < most; k++) {
         const JoxMask there = ji_less(ji_set((int32_t)k), ji_load(counts));
+        const JoxInts none = ji_set(0);
         const JoxInts others =
-            ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), ji_set(0));
-        Row *row = &p->row[p->rows];
+            ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), none);
         JoxFloats record[4];
-        jf_records(&n->motions[0].x, others, record);
-        row->offset = (JoxVector){jf_sub(record[0], x), jf_sub(record[1], y)};
-        if (periodic) {
-            row->offset.x = jf_wrap(row->offset.x, a->period.x);
-            row->offset.y = jf_wrap(row->offset.y, a->period.y);
-        }
-        const JoxMindsLanes minded = jox_minds_lanes(p->w->nav, a, i, others, row->offset);
-        const JoxFloats d2 = jv_dot(row->offset, row->offset);
-        uint32_t minds = jm_bits(there) & jm_bits(jm_or(minded.ahead, minded.crossing));
-        const uint32_t doubtful = minds & (picky | jm_bits(jf_le(p->clear2, d2)));
+        jf_records(&p->w->neighbours->motions[0].x, others, record);
+        const JoxVector offset = offset_of(p, record, periodic);
+        const JoxMindsLanes how = jox_minds_lanes(p->w->nav, a, i, others, offset);
+        uint32_t minds = jm_bits(there) & jm_bits(jm_or(how.ahead, how.crossing));
+        const JoxMask hidden = jf_le(p->clear2, jv_dot(offset, offset));
+        const uint32_t doubtful = minds & (picky | jm_bits(hidden));
         if (doubtful)
-            minds &= ~passed_over(p, doubtful, others, row);
-        if (!minds)
-            continue;
-        const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
+            minds &= ~passed_over(p, doubtful, others, offset);
+        const JoxMask listed = jm_of_bits(minds);
+        const JoxInts ahead = ji_select(how.ahead, ji_set((int32_t)AHEAD), none);
+        const JoxInts crossing = ji_select(how.crossing, ji_set((int32_t)CROSSING), none);
+        const JoxInts told = ji_select(listed, ji_or(ahead, crossing), none);
+        ji_store(entries, ji_or(others, told));
+        ji_store(ends, end);
+        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+            minded[ends[lane]] = entries[lane];
+        end = ji_select(listed, ji_add(end, ji_set(JOX_WIDTH)), end);
+    }
+    ji_store(ends, end);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        rows = ends[lane] / JOX_WIDTH > rows ? ends[lane] / JOX_WIDTH : rows;
+    return rows;
+}
+
+static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
+    const JoxAgents *a = p->w->agents;
+    const JoxWalkLaw *law = p->w->law;
+    const JoxFloats one = jf_set(1.0f);
+    const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
+    const JoxFloats width = jf_mul(jf_set((float)law->width), room);
+    const JoxFloats length = jf_mul(jf_set((float)law->length), room);
+    Minded minded = {0};
+    p->rows = list_minded(p, minded, periodic);
+    for (uint32_t k = 0; k < p->rows; k++) {
+        const JoxInts entry = ji_load(minded + k * JOX_WIDTH);
+        const JoxInts others = ji_and(entry, ji_set((int32_t)(CROSSING - 1)));
+        Row *row = &p->row[k];
+        JoxFloats record[4];
+        jf_records(&p->w->neighbours->motions[0].x, others, record);
+        row->offset = offset_of(p, record, periodic);
         row->velocity = (JoxVector){record[2], record[3]};
+        const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
+        const JoxFloats d2 = jv_dot(row->offset, row->offset);
         row->per_width = jf_div(one, jf_mul(width, radii));
         row->length = jf_mul(length, radii);
         row->width2 = squared(jf_mul(jf_set((float)law->width_cross), radii));
         row->apart2 = jf_max(jf_sub(d2, row->width2), jf_set(0.0f));
-        row->ahead = jm_and(minded.ahead, jm_of_bits(minds));
-        row->crossing = jm_and(minded.crossing, jm_of_bits(minds));
-        p->rows++;
+        row->ahead = ji_less(entry, ji_set(0));
+        row->crossing = ji_less(ji_shift_left(entry, 1), ji_set(0));
     }
 }
 

@@ -18,11 +18,12 @@ static JoxWallClearKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static float draw(uint32_t round, uint32_t *drawn, double least, double most) {
-    return (float)(least + (most - least) *
-                               jox_random_unit(11, (*drawn)++, round, JOX_DRAW_FILL, 0));
+    return (float)(least +
+                   (most - least) * jox_random_unit(11, (*drawn)++, round, JOX_DRAW_FILL, 0));
 }
 
-/* Lines at any angle, some along an axis and some very short; far from the origin in some rounds. */
+/* Lines at any angle, some along an axis and some very short; far from the origin in some rounds.
+ */
 static void build(JoxWalls *walls, uint32_t round, uint32_t *drawn, float far) {
     for (uint32_t w = 0; w < WALLS; w++) {
         const float longest = w % 4 == 3 ? 0.01f : 6.0f;
