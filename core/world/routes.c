@@ -148,6 +148,7 @@ static void count_held(const JoxRouteStage *w) {
 static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
     const JoxAgents *a = w->agents;
     crowd->slowing = (float)w->crowd_slowing;
+    crowd->isa = w->isa;
     crowd->at = jox_alloc(a->count + 1, sizeof *crowd->at);
     crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */

@@ -21,6 +21,7 @@ typedef struct JoxRouteStage {
     uint64_t tick;
     double dt;            /* s */
     double crowd_slowing; /* of the walking law, m2 */
+    JoIsa isa;            /* of kernels */
     JoxPool *pool;
     JoxMachineRun *machines; /* is given the fields; marks which it wants */
     JoxRoutes *routes;

@@ -38,6 +38,7 @@ JoxRouteStage jox_world_route_stage(JoWorld *w) {
                            .tick = w->state.tick,
                            .dt = w->model.def.dt,
                            .crowd_slowing = w->model.walking.crowd_slowing,
+                           .isa = w->model.def.isa,
                            .pool = w->scratch.pool,
                            .machines = &w->machines,
                            .routes = w->state.routes};

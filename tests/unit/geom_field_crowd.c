@@ -208,12 +208,43 @@ static void marks_change_no_field(void **state) {
     jox_field_marks_free(marks);
 }
 
+/* Each kernel adds the shares of people in the same order: no bit of the field differs. */
+static void every_instruction_set_spreads_alike(void **state) {
+    (void)state;
+    static const JoxV2 line[] = {{-4, 1}, {2.3f, 1.4f}, {2.3f, -3}};
+    const JoxV2 low = {-6, -6}, high = {6, 6};
+    JoxV2 goal = {4.5f, 0.0f}, at[HELD];
+    float share[HELD];
+    JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.4f};
+    jox_place_finish(&place);
+    JoxWalls walls = {0};
+    add_line(&walls, line, 3, 0.3);
+    for (int k = 0; k < 5; k++) {
+        const float cell = 0.1f + 0.037f * (float)k;
+        JoxFieldCrowd crowd = crowd_at((JoxV2){(float)k, -1.0f}, 0.2, 0.8f, at, share);
+        crowd.isa = JO_ISA_SCALAR;
+        JoxField *plain = jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd, NULL);
+        for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
+            if (!jox_isa_runs(isa))
+                continue;
+            crowd.isa = isa;
+            JoxField *wide =
+                jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd, NULL);
+            expect_same(wide, plain);
+            jox_field_free(wide);
+        }
+        jox_field_free(plain);
+    }
+    jox_walls_free(&walls);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_crowd_makes_the_way_lead_by_the_other_door),
         cmocka_unit_test(what_a_person_adds_does_not_get_lost_in_walls),
         cmocka_unit_test(a_goal_along_a_wall_is_not_reached_through_it),
         cmocka_unit_test(marks_change_no_field),
+        cmocka_unit_test(every_instruction_set_spreads_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

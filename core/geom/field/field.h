@@ -17,6 +17,7 @@ typedef struct JoxFieldCrowd {
     float *held; /* 0 to 1 */
     uint32_t count;
     float slowing; /* m2: part of its free time that a way takes more for each person per m2 */
+    JoIsa isa;     /* of the kernel, which changes no result */
 } JoxFieldCrowd;
 
 /* The field to a place of any kind (a set: to its nearest member; a queue: its head) over the box

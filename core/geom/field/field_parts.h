@@ -129,6 +129,12 @@ bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
 void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
 /* Slowness where people are held up; NULL: nobody. */
 void jox_field_crowd(JoxFieldWork *work, const JoxFieldCrowd *crowd);
+/* Its kernel. `open`: 1 where a cell can be walked, else 0. */
+typedef void JoxFieldSpreadKernel(JoxFieldWork *work, const JoxFieldCrowd *crowd,
+                                  const float *open);
+#define X(name, isa) JoxFieldSpreadKernel jox_field_spread_##name;
+JOX_ISAS(X)
+#undef X
 /* Times, lengths and directions of all nodes. */
 void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
 /* So much of the clearance ways keep from samples to nodes, as between nodes. */
