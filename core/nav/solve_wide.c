@@ -41,11 +41,12 @@ static JoxVector wish(const JoxPacket *p) {
     if (aside)
         aside &= kept_off(p, w, gets_on);
     const JoxFloats share = jf_set(JOX_RIGHT_SHARE);
-    const JoxMask turns = jm_of_bits(aside), walks = jm_of_bits(p->walkers);
-    JoxVector right = {jf_sub(w.x, jf_mul(jf_neg(w.y), share)), jf_sub(w.y, jf_mul(w.x, share))};
-    w = (JoxVector){jf_select(turns, right.x, w.x), jf_select(turns, right.y, w.y)};
-    return (JoxVector){jf_select(walks, jf_load(a->walk_x + i), w.x),
-                       jf_select(walks, jf_load(a->walk_y + i), w.y)};
+    const JoxVector right = {jf_sub(w.x, jf_mul(jf_neg(w.y), share)),
+                             jf_sub(w.y, jf_mul(w.x, share))};
+    w = jv_select(jm_of_bits(aside), right, w);
+    if (p->walkers)
+        w = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, i), w);
+    return w;
 }
 
 /* The half-planes of a lane, one after the other. */
@@ -177,8 +178,12 @@ static uint32_t solve_packet(JoxPacket *p) {
     const uint32_t rest = p->lanes & jm_bits(jm_or(failed, far));
     Plan plan = {.failed = jm_bits(failed)};
     const JoxMask planned_now = jm_of_bits(p->lanes & ~rest);
-    jf_store(a->next_x + i, jf_select(planned_now, planned.x, jf_load(a->next_x + i)));
-    jf_store(a->next_y + i, jf_select(planned_now, planned.y, jf_load(a->next_y + i)));
+    if (!rest && p->lanes == JOX_ALL_LANES) {
+        jv_store(a->next_x, a->next_y, i, planned);
+        return 0;
+    }
+    jv_store(a->next_x, a->next_y, i,
+             jv_select(planned_now, planned, jv_load(a->next_x, a->next_y, i)));
     if (!rest)
         return 0;
     jf_store(plan.wanted_x, pressed.wanted.x);
