@@ -126,8 +126,6 @@ typedef struct JoxWalk {
 
 /* The directions that are judged: the way, and 15 to 75 degrees to its left and right. */
 enum { JOX_WALK_DIRECTIONS = 11 };
-extern const float jox_walk_cosine[JOX_WALK_DIRECTIONS];
-extern const float jox_walk_sine[JOX_WALK_DIRECTIONS]; /* left positive */
 
 /* The speed that each direction allows, and what it is worth, m/s, by lane. */
 typedef struct JoxWalkTable {
@@ -146,9 +144,12 @@ typedef void JoxWalkKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
 JOX_ISAS(X)
 #undef X
 
-/* In plain C, for one agent. Lowers what walls allow in its lane of the table. Straight on the way
- * itself leads round walls.
- */
-void jox_walk_mind_walls(const JoxWalk *walk, uint32_t agent, uint32_t lane, JoxWalkTable *table);
+/* For one agent: lowers what walls allow in its lane of the table, which holds no more than the
+   speed wanted. Straight on the way itself leads round walls. */
+typedef void JoxWalkWallsKernel(const JoxWalk *walk, uint32_t agent, uint32_t lane,
+                                JoxWalkTable *table);
+#define X(name, isa) JoxWalkWallsKernel jox_walk_mind_walls_##name;
+JOX_ISAS(X)
+#undef X
 
 #endif

@@ -10,6 +10,14 @@
 #include "nav/program_lanes.h"
 #include "nav/walk.h"
 
+/* Of the directions that are judged, left positive: 0 and +-15 to +-75 degrees. */
+static const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
+    1.0f,        0.96592583f, 0.96592583f, 0.86602540f, 0.86602540f, 0.70710678f,
+    0.70710678f, 0.5f,        0.5f,        0.25881905f, 0.25881905f};
+static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
+    0.0f,         0.25881905f, -0.25881905f, 0.5f,        -0.5f,       0.70710678f,
+    -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
+
 /* Whom lanes mind, and how: those who go first, and those who cross. */
 typedef struct JoxMindsLanes {
     JoxMask ahead, crossing;

@@ -1,7 +1,7 @@
 /* The kernel of the walking law (core/walking.md). A lane is an agent, a packet is JOX_WIDTH of
    them: whom each minds stands in rows, one of each lane in a row, and the directions are judged
    one after another, each for all lanes. One lane at a time are done people's tempers, whoever may
-   stand behind a wall, and walls (walk_one.c). */
+   stand behind a wall, and walls (walk_walls_wide.c). */
 #include <math.h>
 
 #include "nav/kernels.h"
@@ -306,7 +306,7 @@ static Choice choose(const Packet *p) {
     }
     for (uint32_t lane = 0; p->near_walls >> lane; lane++)
         if (seek & p->near_walls & 1u << lane)
-            jox_walk_mind_walls(p->w, p->first + lane, lane, &table);
+            JOX_WIDE(jox_walk_mind_walls)(p->w, p->first + lane, lane, &table);
     Choice best = best_of(p, &table);
     best.e.x = jf_select(straight, p->aim.x, best.e.x);
     best.e.y = jf_select(straight, p->aim.y, best.e.y);
