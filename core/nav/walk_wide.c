@@ -24,6 +24,7 @@ typedef struct Packet {
     uint32_t first, lanes; /* agent of lane 0; bits of those who walk and want to get on */
     uint32_t near_walls;   /* of those, who may be behind or before a wall */
     uint32_t rows;
+    bool any_crosses; /* somebody in some row */
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* m/s wanted; time gap, s */
     JoxFloats clear2;                    /* m2: no wall hides who is nearer */
@@ -136,6 +137,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
     const JoxFloats width = jf_mul(jf_set((float)law->width), room);
     const JoxFloats length = jf_mul(jf_set((float)law->length), room);
     Minded minded = {0};
+    JoxMask crossing = jm_of_bits(0);
     p->rows = list_minded(p, minded, periodic);
     for (uint32_t k = 0; k < p->rows; k++) {
         const JoxInts entry = ji_load(minded + k * JOX_WIDTH);
@@ -153,7 +155,9 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
         row->apart2 = jf_max(jf_sub(d2, row->width2), jf_set(0.0f));
         row->ahead = ji_less(entry, ji_set(0));
         row->crossing = ji_less(ji_shift_left(entry, 1), ji_set(0));
+        crossing = jm_or(crossing, row->crossing);
     }
+    p->any_crosses = jm_bits(crossing) != 0;
 }
 
 static void put_rows_bounded(Packet *p) {
@@ -239,9 +243,10 @@ static Judgement judge(const Packet *p, const Follow *f, JoxVector e) {
         const Row *row = &p->row[k];
         if (jm_bits(row->ahead))
             followed = jf_min(followed, follow(f, row, e));
-        if (jm_bits(row->crossing))
-            cross(p, row, e, &j);
     }
+    for (uint32_t k = 0; k < p->rows && p->any_crosses; k++)
+        if (jm_bits(p->row[k].crossing))
+            cross(p, &p->row[k], e, &j);
     j.allowed = jf_min(j.allowed, ease(p, followed));
     j.worth = jf_min(j.worth, j.allowed);
     return j;
