@@ -60,7 +60,8 @@ struct JoxNav {
     uint32_t *chunk_relaxed;
     JoxHeading *headings; /* of walk, and of solve where somebody walks */
     float *chunk_reach;   /* m: of walk; below 0 where nobody walks */
-    float *clear2;        /* m2: jox_wall_grid_clear2 of each, by walk and by solve */
+    float *clear2;        /* m2: jox_wall_grid_clear2 of each, by walk, or by solve */
+    float clear_reach;    /* m: of the grid by which clear2 is known; -1: it is not */
     JoxWallGrid grid;
     bool literal;
     JoIsa isa;              /* of the kernels */

@@ -115,6 +115,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double response, double on_the_way, JoxPool *pool) {
     JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
     JOX_ASSERT(on_the_way > 0.0 && on_the_way <= response);
+    nav->clear_reach = -1.0f;
     JoxMove move = {.nav = nav,
                     .agents = agents,
                     .neighbours = neighbours,

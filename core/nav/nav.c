@@ -11,6 +11,7 @@ static const float MOST_WALL_REACH = 1e4f;
 JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     JoxNav *nav = jox_alloc(1, sizeof *nav);
     nav->walk = walk;
+    nav->clear_reach = -1.0f;
     nav->isa = jox_isa_resolve(JO_ISA_WIDEST);
     return nav;
 }
@@ -27,6 +28,7 @@ void jox_nav_set_isa(JoxNav *nav, JoIsa isa) {
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
     nav->grid.walls = walls;
+    nav->clear_reach = -1.0f;
 }
 
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,

@@ -61,7 +61,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const JoxSolve *s = context;
     const JoxAgents *a = s->agents;
-    if (s->clear2)
+    if (s->clear2 && s->nav->clear_reach != s->nav->grid.reach)
         KERNELS[s->nav->isa].clear(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
                                    s->clear2 + begin);
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa].solve(s, begin, end);

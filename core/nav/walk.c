@@ -84,5 +84,6 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, head_range, &walk);
+    nav->clear_reach = nav->grid.reach;
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }
