@@ -89,9 +89,7 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
    none, ", 3.2 m from NAME" of the nearest place within 10 m. */
 void jox_place_where(const JoxPlace *places, uint32_t count, JoxV2 at, bool near, JoxText *out);
 
-/* Whether two are of one kind and have the same points, measures and members, within the same
- * boxes.
- */
+/* Whether two are of one kind and have the same points, measures and members, in the same boxes. */
 bool jox_place_same(const JoxPlace *a, const JoxPlace *b);
 
 #endif

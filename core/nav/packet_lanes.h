@@ -163,12 +163,12 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* Of some lanes, those that ignore somebody, mean to touch somebody or stand near walls: who of
-   their neighbours has no half-plane is asked one by one. */
+/* Of some lanes, those that ignore somebody or mean to touch somebody: who of their neighbours has
+   no half-plane is asked one by one. */
 static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const uint32_t i = p->first;
-    uint32_t picky = p->s->touched ? p->near_walls : 0;
+    uint32_t picky = 0;
     uint64_t ignoring = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         ignoring |= a->ignore[i + lane];
@@ -180,7 +180,17 @@ static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
     return picky & p->lanes;
 }
 
-/* Of `lanes`, those that mind their neighbour, whose indices are given. */
+/* The lanes from which a wall may hide their neighbour: is_hidden of half_planes.c asks. */
+static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
+    const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
+    const JoxFloats near =
+        jf_add(jf_add(q->radii, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
+    const JoxMask far = jf_lt(jf_mul(near, near), d2);
+    return ~jm_bits(s->clear2 ? jm_or(far, jf_lt(d2, jf_load(s->clear2 + first))) : far);
+}
+
+/* Of `lanes`, those that mind their neighbour, whose indices are given; `picky`: of whom that is
+   asked one by one. */
 static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint32_t lanes,
                                    uint32_t picky, const uint32_t *index) {
     JoxMask touched = jm_of_bits(0);
@@ -350,11 +360,11 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSelf self = jox_self_of(p);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
-    const uint32_t picky = jox_picky_lanes(p);
+    const uint32_t picky = jox_picky_lanes(p), walled = s->touched ? p->near_walls : 0;
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
-    const uint32_t choosy = picky | (touched.rows ? p->touching : 0);
+    const uint32_t choosy = picky | walled | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
     jox_fetch_pairs(p, &self, counts.most, periodic, nearest);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
@@ -370,7 +380,9 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
             lanes &= ~(walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
         }
         if (lanes & choosy)
-            lanes = jox_minding(p, &touched, lanes, picky, others);
+            lanes = jox_minding(p, &touched, lanes,
+                                picky | (walled & jox_may_be_hidden(s, p->first, &nearest[k].pair)),
+                                others);
         if (!lanes)
             continue;
         JoxPlaneLanes plane;

@@ -81,10 +81,10 @@ void jox_stage_push(const JoxPushStage *s) {
     }
     jox_force_sum(s->forces_of);
     jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
-    if (s->substep->last)
-        use_up(s->agents->ext_x, s->agents->given_x, s->agents->count);
-    if (s->substep->last)
-        use_up(s->agents->ext_y, s->agents->given_y, s->agents->count);
+    if (!s->substep->last)
+        return;
+    use_up(s->agents->ext_x, s->agents->given_x, s->agents->count);
+    use_up(s->agents->ext_y, s->agents->given_y, s->agents->count);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
