@@ -103,7 +103,8 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
         }
     }
     for (uint32_t n = 0; nobodys && n < batch->count; n++)
-        a->was_true[agents[n]] &= ~nobodys;
+        if (a->was_true[agents[n]] & nobodys)
+            a->was_true[agents[n]] &= ~nobodys;
 }
 
 static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -366,8 +366,7 @@ static uint32_t levels_of(const float *neighbours, uint32_t count) {
 }
 
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
-    Packet packet;
-    memset(&packet, 0, sizeof packet); /* lists are read by whole packets */
+    Packet packet; /* large: what stands behind the ends of its lists is read, and thrown away */
     packet.p = p;
     const float *most = p->agents->param[JOX_PARAM_neighbours];
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
