@@ -21,10 +21,7 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVec
     const JoxVector taken =
         jv_sub(jv_load(a->forced_x, a->forced_y, i), jv_load(a->next_x, a->next_y, i));
     const JoxFloats along = jf_max(zero, jv_dot(old, unit));
-    float kept[JOX_WIDTH];
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        kept[lane] = jox_decay(decay, damping[lane], dt);
-    const JoxFloats worn = jf_mul(along, jf_sub(one, jf_load(kept)));
+    const JoxFloats worn = jf_mul(along, jf_sub(one, jox_decay_lanes(damping, dt, decay)));
     const JoxFloats holds = jf_mul(jf_mul(jv_dot(held, unit), jf_set(dt)), lightness);
     const JoxFloats takes = jf_mul(jv_dot(taken, unit), jf_set((float)f->step.response));
     return jf_sub(jf_add(holds, takes), worn);

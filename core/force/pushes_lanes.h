@@ -4,6 +4,7 @@
 #define JOX_FORCE_PUSHES_LANES_H
 
 #include "agents/agents.h"
+#include "force/equations.h"
 #include "simd/vectors.h"
 
 /* jox_stands */
@@ -24,6 +25,17 @@ static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVect
     const JoxFloats held = jf_select(stands, zero, jf_load(a->param[JOX_PARAM_brace] + i));
     const JoxFloats share = jf_div(jf_sub(size, held), size);
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
+}
+
+/* exp(-damping time) of each: jox_decay. Most have the damping of those before. */
+static inline JoxFloats jox_decay_lanes(const float *damping, float time, JoxDecay *decay) {
+    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_sub(jf_load(damping), jf_set(damping[0]))));
+    if (!jm_bits(other))
+        return jf_set(jox_decay(decay, damping[0], time));
+    float each[JOX_WIDTH];
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        each[lane] = jox_decay(decay, damping[lane], time);
+    return jf_load(each);
 }
 
 #endif

@@ -43,31 +43,15 @@ typedef struct Planning {
     JoxFloats interval, response, forced, decay;
 } Planning;
 
-/* exp(-damping interval) of each, by whether they stand (bits). Most have the damping of those
-   before. */
-static JoxFloats decays_of(const float *damping, const JoxPlanning own[2], uint32_t stands,
-                           JoxDecay decays[2]) {
-    float decay[JOX_WIDTH];
-    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_sub(jf_load(damping), jf_set(damping[0]))));
-    if (!jm_bits(other)) {
-        const float each[2] = {jox_decay(&decays[0], damping[0], own[0].interval),
-                               jox_decay(&decays[1], damping[0], own[1].interval)};
-        return jf_select(jm_of_bits(stands), jf_set(each[1]), jf_set(each[0]));
-    }
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        const uint32_t each = stands >> lane & 1;
-        decay[lane] = jox_decay(&decays[each], damping[lane], own[each].interval);
-    }
-    return jf_load(decay);
-}
-
 static Planning planning(const JoxForceStep *step, uint32_t i, JoxMask stands, JoxDecay decays[2]) {
+    const float *damping = step->agents->param[JOX_PARAM_damping] + i;
     const JoxPlanning own[2] = {jox_planning(step, false), jox_planning(step, true)};
     return (Planning){
         jf_select(stands, jf_set(own[1].interval), jf_set(own[0].interval)),
         jf_select(stands, jf_set(own[1].response), jf_set(own[0].response)),
         jf_select(stands, jf_set(own[1].forced), jf_set(own[0].forced)),
-        decays_of(step->agents->param[JOX_PARAM_damping] + i, own, jm_bits(stands), decays),
+        jf_select(stands, jox_decay_lanes(damping, own[1].interval, &decays[1]),
+                  jox_decay_lanes(damping, own[0].interval, &decays[0])),
     };
 }
 
