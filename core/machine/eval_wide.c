@@ -117,7 +117,7 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
     case JOX_OP_SUB:
         EACH(A - B);
     case JOX_OP_MUL:
-        EACH(A * B);
+        EACH((A) * (B));
     case JOX_OP_DIV:
         EACH(pick(B == zero, zero, A / B));
     case JOX_OP_MIN:

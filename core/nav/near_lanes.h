@@ -18,8 +18,8 @@
 enum {
     PLACE_BITS = 5,
     PLACES = 1 << PLACE_BITS, /* of a list, that keys can tell; of more it is full */
-    LIST = 64,                /* room: */
-    ROOM = LIST - JOX_LANES,  /* a packet may be written behind so many places */
+    LIST = 64,                /* places that there is room for */
+    ROOM = LIST - JOX_LANES,  /* a whole packet may be written behind so many */
     ORDERED = 16,             /* places that are ordered by a network; more sink in */
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
     NO_KEY = 0x7f800000, /* bits of INFINITY */

@@ -397,8 +397,8 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     return coincide;
 }
 
-/* Within the bounds of a floor or without any, and over periodic edges; the former also of agents
-   of whom nobody walks by the law. */
+/* Of agents who see over no periodic edge, and of those who do. Where nobody walks by the law, the
+   former is compiled for that. */
 static inline uint32_t jox_put_rows_bounded(JoxPacket *p) {
     return p->walkers ? jox_put_rows(p, p->walkers, false) : jox_put_rows(p, 0, false);
 }

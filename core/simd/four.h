@@ -48,16 +48,23 @@ static inline float jox_greatest(const float *of, size_t count) {
     return greatest;
 }
 
+/* Elements of two: 0 to 3 of the first, 4 to 7 of the second. */
+#if defined __clang__
+#define JOX_SHUFFLE_FOURS(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#else
+#define JOX_SHUFFLE_FOURS(a, b, i, j, k, l) __builtin_shuffle(a, b, (JoxFourMask){i, j, k, l})
+#endif
+
 /* Four rows of four, of four columns. */
 static inline void jox_transpose_four(JoxFour r[4]) {
-    const JoxFour xy_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
-    const JoxFour xy_high = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
-    const JoxFour zw_low = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
-    const JoxFour zw_high = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
-    r[0] = __builtin_shufflevector(xy_low, zw_low, 0, 1, 4, 5);
-    r[1] = __builtin_shufflevector(xy_low, zw_low, 2, 3, 6, 7);
-    r[2] = __builtin_shufflevector(xy_high, zw_high, 0, 1, 4, 5);
-    r[3] = __builtin_shufflevector(xy_high, zw_high, 2, 3, 6, 7);
+    const JoxFour xy_low = JOX_SHUFFLE_FOURS(r[0], r[1], 0, 4, 1, 5);
+    const JoxFour xy_high = JOX_SHUFFLE_FOURS(r[0], r[1], 2, 6, 3, 7);
+    const JoxFour zw_low = JOX_SHUFFLE_FOURS(r[2], r[3], 0, 4, 1, 5);
+    const JoxFour zw_high = JOX_SHUFFLE_FOURS(r[2], r[3], 2, 6, 3, 7);
+    r[0] = JOX_SHUFFLE_FOURS(xy_low, zw_low, 0, 1, 4, 5);
+    r[1] = JOX_SHUFFLE_FOURS(xy_low, zw_low, 2, 3, 6, 7);
+    r[2] = JOX_SHUFFLE_FOURS(xy_high, zw_high, 0, 1, 4, 5);
+    r[3] = JOX_SHUFFLE_FOURS(xy_high, zw_high, 2, 3, 6, 7);
 }
 
 /* `count` records of four words each, one of each column. */
