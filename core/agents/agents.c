@@ -30,18 +30,12 @@ typedef struct Growth {
     size_t old, new;
 } Growth;
 
-static bool is_zero(const char *cell, size_t size) {
-    while (size > 0 && cell[size - 1] == 0)
-        size--;
-    return size == 0;
-}
-
 /* New memory is zero, and takes no room until it is written: cells that are zero are never written
    as they are made, since many columns stay so. */
 static void grow_column(void *context, void **column, size_t size) {
     const Growth *growth = context;
     void *wider = jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
-    if (growth->old && !(is_zero(*column, size) && jox_is_same_of_all(*column, size, growth->old)))
+    if (!jox_mem_is(*column, 0, growth->old * size))
         memcpy(wider, *column, growth->old * size);
     jox_free(*column);
     *column = wider;
@@ -96,9 +90,7 @@ void jox_agents_widen(JoxAgents *a, uint32_t own_count, uint32_t memory_stride) 
 }
 
 static void clear_row(void *context, void **column, size_t size) {
-    char *cell = (char *)*column + *(uint32_t *)context * size;
-    if (!is_zero(cell, size))
-        memset(cell, 0, size);
+    jox_mem_fill((char *)*column + *(uint32_t *)context * size, 0, size);
 }
 
 void jox_agents_reserve_slots(JoxAgents *a, uint32_t capacity) {

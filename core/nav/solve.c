@@ -43,15 +43,13 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                       JOX_MOST_CONSTRAINTS,
                   "room for all");
     JOX_ASSERT(agent < agents->count);
-    const JoxSolve solve = {(JoxNav *)nav,
-                            (JoxAgents *)agents,
-                            neighbours,
-                            objects,
-                            in_force(touched),
-                            (float)planning_time,
-                            true,
-                            false,
-                            NULL};
+    const JoxSolve solve = {.nav = (JoxNav *)nav,
+                            .agents = (JoxAgents *)agents,
+                            .neighbours = neighbours,
+                            .objects = objects,
+                            .touched = in_force(touched),
+                            .planning_time = (float)planning_time,
+                            .plans = true};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
     return sort_out(half_planes, &made, out);
@@ -91,17 +89,16 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                        const JoxObjects *objects, const JoxContactPlanes *touched,
                        double planning_time, bool plans, JoxPool *pool) {
     const float *radius = agents->param[JOX_PARAM_radius];
-    const bool one_radius =
-        agents->count && jox_is_same_of_all(radius, sizeof *radius, agents->count);
-    JoxSolve solve = {nav,
-                      agents,
-                      neighbours,
-                      objects,
-                      in_force(touched),
-                      (float)planning_time,
-                      plans,
-                      one_radius,
-                      nav->grid.walls ? nav->clear2 : NULL};
+    JoxSolve solve = {.nav = nav,
+                      .agents = agents,
+                      .neighbours = neighbours,
+                      .objects = objects,
+                      .touched = in_force(touched),
+                      .planning_time = (float)planning_time,
+                      .plans = plans,
+                      .one_radius = agents->count &&
+                                    jox_is_same_of_all(radius, sizeof *radius, agents->count),
+                      .clear2 = nav->grid.walls ? nav->clear2 : NULL};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
@@ -223,15 +220,13 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
     find_neighbours(agents, agent, &neighbours);
     if (own)
         find_touched(agents, agent, &neighbours, touched, own);
-    const JoxSolve solve = {(JoxNav *)nav,
-                            (JoxAgents *)agents,
-                            &neighbours,
-                            objects,
-                            own ? &own->all : NULL,
-                            (float)planning_time,
-                            true,
-                            false,
-                            NULL};
+    const JoxSolve solve = {.nav = (JoxNav *)nav,
+                            .agents = (JoxAgents *)agents,
+                            .neighbours = &neighbours,
+                            .objects = objects,
+                            .touched = own ? &own->all : NULL,
+                            .planning_time = (float)planning_time,
+                            .plans = true};
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {
