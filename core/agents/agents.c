@@ -18,10 +18,11 @@ static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, v
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        visit(context, (void **)&a->param[p], sizeof(float));
+        if (a->param[p].mask)
+            visit(context, (void **)&a->param[p].cells, sizeof(float));
     for (uint32_t s = 0; s < a->own_count; s++)
-        if (a->own[s].each)
-            visit(context, (void **)&a->own[s].each, sizeof *a->own[s].each);
+        if (a->own[s].mask)
+            visit(context, (void **)&a->own[s].cells, sizeof(double));
     if (a->memory_stride)
         visit(context, (void **)&a->memory, a->memory_stride * sizeof(double));
 }
@@ -58,6 +59,7 @@ void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     Growth growth = {a->count, capacity};
     visit_columns(a, COLUMN_SCRATCH, grow_column, &growth);
     a->capacity = capacity;
+    jox_shared_create(a);
     grow_scratch(a);
     jox_free(a->order);
     a->order = jox_alloc(capacity, sizeof *a->order);
@@ -81,6 +83,7 @@ void jox_agents_widen(JoxAgents *a, uint32_t own_count, uint32_t memory_stride) 
         for (uint32_t s = a->own_count; s < own_count; s++)
             a->own[s] = (JoxOwnColumn){0};
         a->own_count = own_count;
+        jox_shared_create(a);
     }
     if (memory_stride <= a->memory_stride)
         return;
@@ -117,7 +120,7 @@ static uint32_t take_slot(JoxAgents *a, uint32_t index) {
     return slot;
 }
 
-uint32_t jox_agents_add(JoxAgents *a) {
+uint32_t jox_agents_add_alike(JoxAgents *a) {
     if (a->count == a->capacity)
         jox_agents_reserve(a, a->capacity ? 2 * a->capacity : 64);
     uint32_t i = a->count++;
@@ -126,13 +129,22 @@ uint32_t jox_agents_add(JoxAgents *a) {
     a->rank[i] = i;
     a->by_rank[i] = i;
     a->slot[i] = take_slot(a, i);
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        a->param[p][i] = jox_parameter_store((JoxParameter)p, jox_parameters[p].value);
+    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
+        if (a->param[p].mask)
+            jox_param_set(a, p, i, jox_parameter_store(p, jox_parameters[p].value));
     a->face_x[i] = 1.0f;
     a->lasts[i] = INFINITY;
     a->goal[i] = a->kicked[i] = a->struck[i] = a->approach[i] = a->queue_at[i] = a->bound[i] = -1;
     a->machine[i] = JOX_NO_MACHINE;
-    a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
+    a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
+    return i;
+}
+
+uint32_t jox_agents_add(JoxAgents *a) {
+    const uint32_t i = jox_agents_add_alike(a);
+    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
+        jox_param_set(a, p, i, jox_parameter_store(p, jox_parameters[p].value));
+    a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     return i;
 }
 
@@ -193,7 +205,7 @@ static void gather_column(void *context, void **column, size_t size) {
     const Gather *gather = context;
     char *rows = *column;
     if (jox_is_same_of_all(rows, size, gather->count))
-        return;                   /* as most parameters are */
+        return;
     if (size == sizeof(uint32_t)) /* nearly all columns */
         gather_words(gather, column);
     else if (size == sizeof(uint64_t))
@@ -324,6 +336,10 @@ static void free_column(void *context, void **column, size_t size) {
 
 void jox_agents_free(JoxAgents *a) {
     visit_columns(a, COLUMN_SCRATCH, free_column, NULL);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        jox_free(a->param[p].cells);
+    for (uint32_t s = 0; s < a->own_count; s++)
+        jox_free(a->own[s].cells);
     jox_free(a->own);
     jox_free(a->slot_index);
     jox_free(a->slot_generation);

@@ -109,10 +109,17 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
 
 #define JOX_NO_MACHINE UINT16_MAX
 
-/* Values drawn once for each agent. What is the same of all, as most are, is held once. */
+/* Columns of what is mostly the same of all: then it is held once. Agent i's value is
+   cells[i & mask]: `mask` is UINT32_MAX where there is a cell for each, else 0, and
+   JOX_AGENTS_PADDING cells, all alike, are read as anybody's packet. */
+typedef struct JoxParameterColumn {
+    float *cells;
+    uint32_t mask;
+} JoxParameterColumn;
+/* Values drawn once for each agent. */
 typedef struct JoxOwnColumn {
-    double *each; /* a cell an agent; NULL: `all` is everybody's */
-    double all;
+    double *cells;
+    uint32_t mask;
 } JoxOwnColumn;
 
 typedef struct JoxAgents {
@@ -120,8 +127,8 @@ typedef struct JoxAgents {
 #define X(keep, type, name) type *name;
     JOX_AGENT_COLUMNS(X)
 #undef X
-    /* One column a parameter, e.g. agents->param[JOX_PARAM_speed][i]; angles hold the cosine. */
-    float *param[JOX_PARAM_COUNT];
+    /* Read through jox_param, written through jox_param_set; angles hold the cosine. */
+    JoxParameterColumn param[JOX_PARAM_COUNT];
     JoxOwnColumn *own; /* own_count of them; read through jox_own, written through jox_own_set */
     uint32_t own_count;
     double *memory; /* rows of memory_stride doubles */
@@ -150,14 +157,25 @@ static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
         d.y -= d.y > 0.0f ? period.y : -period.y;
     return d;
 }
+/* Agent i's value in the column of a parameter. */
+static inline float jox_at(JoxParameterColumn column, uint32_t i) {
+    return column.cells[i & column.mask];
+}
+static inline float jox_param(const JoxAgents *agents, JoxParameter p, uint32_t i) {
+    return jox_at(agents->param[p], i);
+}
+/* The values of a packet of agents, JOX_AGENTS_PADDING at most, from the first on. */
+static inline const float *jox_params(const JoxAgents *agents, JoxParameter p, uint32_t first) {
+    return agents->param[p].cells + (first & agents->param[p].mask);
+}
 /* An own value of an agent that runs a machine; of one that runs none they mean nothing. */
 static inline double jox_own(const JoxAgents *agents, uint32_t i, uint32_t slot) {
-    const JoxOwnColumn *column = &agents->own[slot];
-    return column->each ? column->each[i] : column->all;
+    const JoxOwnColumn column = agents->own[slot];
+    return column.cells[i & column.mask];
 }
 /* Whether an agent walks by the walking law (core/walking.md): it keeps a time gap. */
 static inline bool jox_walks(const JoxAgents *agents, uint32_t i) {
-    return agents->param[JOX_PARAM_time_gap][i] > 0.0f;
+    return jox_param(agents, JOX_PARAM_time_gap, i) > 0.0f;
 }
 #define JOX_STANDS 0.1f /* m/s: who wants to be slower wants to stay where they are */
 static inline bool jox_stands(const JoxAgents *agents, uint32_t i) {
@@ -199,12 +217,24 @@ void jox_agents_widen(JoxAgents *agents, uint32_t own_count, uint32_t memory_str
    kicked, struck and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
    sort). Who gives it a machine sets all its own values. */
 uint32_t jox_agents_add(JoxAgents *agents);
+/* Likewise, but parameters that are the same of all so far are the new one's too, for who sets them
+   next: the way by the defaults would give each column a cell for each. */
+uint32_t jox_agents_add_alike(JoxAgents *agents);
 /* The first agent that differs gives a column a cell for each. Not while others read the column. */
+void jox_param_set(JoxAgents *agents, JoxParameter p, uint32_t i, float stored);
 void jox_own_set(JoxAgents *agents, uint32_t i, uint32_t slot, double value);
-/* Gives a column a cell for each agent, or none: then the first agent's value is everybody's. */
-void jox_own_differ(JoxAgents *agents, uint32_t slot, bool each);
+/* Gives a column a cell for each agent. */
+void jox_param_differ(JoxAgents *agents, JoxParameter p);
+void jox_own_differ(JoxAgents *agents, uint32_t slot);
+/* Gives everybody a value, which is held once. */
+void jox_own_share(JoxAgents *agents, uint32_t slot, double value);
+/* Gives columns of parameters and of own values that are new their first value: the default, or
+   zero. */
+void jox_shared_create(JoxAgents *agents);
 /* Holds once again what has become the same of all. */
-void jox_own_settle(JoxAgents *agents);
+void jox_shared_settle(JoxAgents *agents);
+/* The greatest value of a parameter, or 0. */
+float jox_param_greatest(const JoxAgents *agents, JoxParameter p);
 /* Takes out all agents with `removed` set, keeping the order of the rest. Returns how many. */
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Puts the agents in the order given: new index i is what was at order[i]; a permutation. Columns

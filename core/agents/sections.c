@@ -31,28 +31,43 @@ static void list_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
         return;
     }
     if (s->mode != JOX_SECTIONS_RESTORE)
-        jox_own_settle(a); /* what is the same is saved alike, however it came about */
+        jox_shared_settle(a); /* what is the same is saved alike, however it came about */
     for (uint32_t slot = 0; slot < a->own_count; slot++) {
         JoxOwnColumn *column = &a->own[slot];
-        uint8_t each = column->each != NULL;
+        uint8_t each = column->mask != 0;
         jox_sections_unhashed(s, true);
         JOX_SECTION(s, "own_differ", each);
         jox_sections_unhashed(s, false);
-        if (s->mode == JOX_SECTIONS_RESTORE && !s->failed)
-            jox_own_differ(a, slot, each != 0);
-        if (column->each)
-            jox_section_ordered(s, "own", column->each, sizeof(double), a->count, order);
+        if (s->mode == JOX_SECTIONS_RESTORE && each && !s->failed)
+            jox_own_differ(a, slot);
+        if (column->mask)
+            jox_section_ordered(s, "own", column->cells, sizeof(double), a->count, order);
         else
-            jox_section(s, "own", &column->all, sizeof column->all, a->count ? 1 : 0);
+            jox_section(s, "own", column->cells, sizeof(double), a->count ? 1 : 0);
+        if (s->mode == JOX_SECTIONS_RESTORE && !column->mask)
+            jox_own_share(a, slot, column->cells[0]);
     }
+}
+
+/* A parameter is a number of each agent, however it is held. */
+static void list_parameter(JoxAgents *a, JoxSections *s, JoxParameter p, const uint32_t *order) {
+    float *cells = a->spare;
+    if (s->mode == JOX_SECTIONS_RESTORE || s->mode == JOX_SECTIONS_VISIT)
+        jox_param_differ(a, p); /* cells are written, or handed out */
+    if (a->param[p].mask)
+        cells = a->param[p].cells;
+    else
+        for (uint32_t i = 0; i < a->count; i++)
+            cells[i] = jox_param(a, p, i);
+    jox_section_ordered(s, jox_parameters[p].name, cells, sizeof *cells, a->count, order);
 }
 
 static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
 #define X(keep, type, name) KEEP_##keep(s, a, name)
     JOX_AGENT_COLUMNS(X)
 #undef X
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        jox_section_ordered(s, jox_parameters[p].name, a->param[p], sizeof(float), a->count, order);
+    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
+        list_parameter(a, s, p, order);
     list_own(a, s, order);
     jox_section_rows(s, "memory", a->memory, a->memory_stride, a->count, order);
 }
@@ -82,7 +97,7 @@ static bool restore_sizes(JoxAgents *a, JoxSections *s) {
     a->count = 0; /* rows are about to be read: nothing is worth moving */
     jox_agents_reserve(a, (uint32_t)count);
     for (uint32_t slot = 0; slot < a->own_count; slot++)
-        jox_own_differ(a, slot, false);
+        jox_free(a->own[slot].cells);
     jox_free(a->own);
     jox_free(a->memory);
     a->own = NULL;
@@ -126,6 +141,7 @@ void jox_agents_sections(JoxAgents *a, JoxSections *s) {
         list_columns(a, s, NULL);
         list_slots(a, s);
         restore_indices(a, s);
+        jox_shared_settle(a);
         jox_agents_widen(a, own, memory); /* machines may have come that need wider rows */
         return;
     }

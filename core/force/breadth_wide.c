@@ -2,6 +2,7 @@
    of numbers alone and without a branch, which the compiler makes vector operations of. */
 #include <string.h>
 
+#include "agents/param_lanes.h"
 #include "base/number/random.h"
 #include "force/kernels.h"
 #include "simd/lanes.h"
@@ -72,12 +73,12 @@ void JOX_WIDE(jox_breadth_packets)(const JoxForces *f, uint32_t begin, uint32_t 
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats x = jf_load(a->pref_x + i), y = jf_load(a->pref_y + i);
         const JoxMask stands = jf_lt(jf_add(jf_mul(x, x), jf_mul(y, y)), least2);
-        const JoxFloats turn = f->step.turning ? jf_load(a->param[JOX_PARAM_turn] + i) : zero;
+        const JoxFloats turn = f->step.turning ? jox_param_lanes(a, JOX_PARAM_turn, i) : zero;
         float out[JOX_WIDTH], turned[JOX_WIDTH];
         jf_store(turned, jf_select(stands, zero, turn)); /* who stands does not turn */
         for (int lane = 0; lane < JOX_WIDTH; lane++)
             out[lane] = breadth(stream, &moments, a->id[i + lane], time,
-                                a->param[JOX_PARAM_radius][i + lane], turned[lane]);
+                                jox_param(a, JOX_PARAM_radius, i + lane), turned[lane]);
         memcpy(a->breadth + i, out, sizeof out);
     }
 }

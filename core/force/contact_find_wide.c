@@ -2,6 +2,7 @@
    neighbours are looked at, then the second nearest, and so on, until nobody's can touch. What was
    found is written one by one, as it is little; so are contacts with walls, and contacts of those
    whose neighbours may lack somebody who touches (contact_near.c). */
+#include "agents/param_lanes.h"
 #include "base/assert.h"
 #include "force/kernels.h"
 #include "geom/wall_grid_lanes.h"
@@ -35,7 +36,7 @@ typedef struct Meeting {
 static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *others, uint32_t lanes,
                      Meeting *m) {
     const float *motions = &f->step.neighbours->motions[0].x;
-    const float *radius = f->step.agents->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = f->step.agents->param[JOX_PARAM_radius];
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
     JoxFloats motion[4], build[4];
     jf_records_at(motions, others, motion);
@@ -47,7 +48,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
     }
     m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
     const JoxFloats whole =
-        jf_add(self->radius, f->one_radius ? self->radius : jf_pick_at(radius, others));
+        jf_add(self->radius, f->one_radius ? self->radius : jox_param_of(radius, others));
     const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));
     lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
     if (!lanes)
@@ -77,8 +78,8 @@ static JoxFloats targets_of(const JoxForces *f, const Self *self, const uint32_t
     const JoxFloats target = jf_select(jf_lt(zero, m->gap), closes, zero);
     if (!jm_bits(jf_lt(zero, self->restitution)))
         return target;
-    const float *column = f->step.agents->param[JOX_PARAM_restitution];
-    const JoxFloats restitution = jf_min(self->restitution, jf_pick_at(column, others));
+    const JoxParameterColumn column = f->step.agents->param[JOX_PARAM_restitution];
+    const JoxFloats restitution = jf_min(self->restitution, jox_param_of(column, others));
     const JoxFloats speed = jv_dot(m->velocity, normal);
     const JoxMask bounces = jm_and(jf_lt(zero, restitution), jf_lt(speed, target));
     return jf_select(bounces, jf_max(target, jf_mul(jf_neg(restitution), speed)), target);
@@ -132,9 +133,9 @@ static void find_seen(Packet *p, uint32_t lanes) {
                        jf_load(a->vx + i),
                        jf_load(a->vy + i),
                        jf_load(a->breadth + i),
-                       jf_load(a->param[JOX_PARAM_radius] + i),
-                       jf_load(a->param[JOX_PARAM_mass] + i),
-                       jf_load(a->param[JOX_PARAM_restitution] + i),
+                       jox_param_lanes(a, JOX_PARAM_radius, i),
+                       jox_param_lanes(a, JOX_PARAM_mass, i),
+                       jox_param_lanes(a, JOX_PARAM_restitution, i),
                        ji_load(a->id + i),
                        a->period};
     const JoxInts most = ji_load_bytes(jox_close_counts(near, f->widest) + i);

@@ -144,7 +144,8 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 /* The contacts with walls, in the order of ids. */
 static void lay_walls(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, *e = a->param[JOX_PARAM_restitution];
+    const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
+    const float dt = (float)f->step.dt;
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
@@ -165,7 +166,7 @@ static void lay_walls(JoxForces *f) {
                 .edge = found[k].edge,
                 .normal = found[k].normal,
                 .along = found[k].along,
-                .target = jox_contact_target(found[k].gap, speed, e[i], dt),
+                .target = jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
                 .impulse = jox_kept_impulse(&f->kept_walls, &kept, a->id[i], found[k].edge)};
         }
     }

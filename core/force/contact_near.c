@@ -19,7 +19,8 @@ float jox_contact_target(float gap, float speed, float restitution, float dt) {
 static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal, float gap,
                             float squeeze) {
     const JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
     if (normal.x == 0.0f && normal.y == 0.0f)
         normal.x = 1.0f; /* people in one place part along x */
     float speed = (a->vx[i] - a->vx[j]) * normal.x + (a->vy[i] - a->vy[j]) * normal.y;
@@ -29,8 +30,9 @@ static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 no
         .other_id = a->id[j],
         .normal = normal,
         .squeeze = squeeze,
-        .target = jox_contact_target(gap, speed, jox_minf(e[i], e[j]), (float)f->step.dt),
-        .mass = mass[i] * mass[j] / (mass[i] + mass[j])};
+        .target =
+            jox_contact_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)), (float)f->step.dt),
+        .mass = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j))};
 }
 
 static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
@@ -51,9 +53,9 @@ static bool touches(JoxForces *f, uint32_t i, uint32_t other, bool walls, JoxFou
     const JoxAgents *a = f->step.agents;
     JoxV2 offset = jox_offset(a, other, i);
     float distance2 = jox_length2(offset);
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     float sum = a->breadth[i] + a->breadth[other];
-    float whole = radius[i] + radius[other];
+    float whole = jox_at(radius, i) + jox_at(radius, other);
     float most = whole + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!(distance2 < most * most))
         return false;

@@ -17,7 +17,7 @@ static const float SLACK = 1e-3f;
    step does a share. */
 static inline float braking(const JoxForceStep *step, uint32_t i, float speed, JoxDecay *decay) {
     const JoxPlanning plan = jox_planning_of(step, i);
-    float damping = step->agents->param[JOX_PARAM_damping][i];
+    float damping = jox_param(step->agents, JOX_PARAM_damping, i);
     float lost = 1.0f - jox_decay(decay, damping, plan.interval);
     return speed * jox_minf(1.0f, lost / plan.response);
 }

@@ -71,12 +71,12 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
-    const float *mass = f->step.agents->param[JOX_PARAM_mass];
+    const JoxParameterColumn mass = f->step.agents->param[JOX_PARAM_mass];
     float most = 0.0f;
     for (uint32_t k = f->wall_group[begin]; k < f->wall_group[end]; k++) {
         JoxWallContact *w = &f->wall[k];
         float before = w->impulse, speed = jox_dot(f->work[w->agent], w->normal);
-        w->impulse = jox_maxf(0.0f, before + (w->target - speed) * mass[w->agent]);
+        w->impulse = jox_maxf(0.0f, before + (w->target - speed) * jox_at(mass, w->agent));
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
         move_by(&f->work[w->agent], w->normal, change * f->lightness[w->agent]);

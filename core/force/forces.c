@@ -112,8 +112,10 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = f->step.agents;
     zero_chunk(f, begin, end);
     KERNELS[f->isa](f, begin, end);
-    jox_interleave(&f->builds[begin], a->breadth + begin, a->param[JOX_PARAM_radius] + begin,
-                   a->param[JOX_PARAM_mass] + begin, a->id + begin, end - begin);
+    for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
+        jox_interleave(&f->builds[i], a->breadth + i, jox_params(a, JOX_PARAM_radius, i),
+                       jox_params(a, JOX_PARAM_mass, i), a->id + i,
+                       end - i < JOX_AGENTS_PADDING ? end - i : JOX_AGENTS_PADDING);
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
@@ -141,10 +143,10 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->braced, f->braced_capacity, n);
     JOX_RESERVE(f->builds, f->build_capacity, n);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
-    f->widest = jox_greatest(a->param[JOX_PARAM_radius], n);
-    f->one_radius = n && jox_is_same_of_all(a->param[JOX_PARAM_radius], sizeof(float), n);
+    f->widest = jox_param_greatest(a, JOX_PARAM_radius);
+    f->one_radius = !a->param[JOX_PARAM_radius].mask;
     if (n)
-        jox_decay(&f->decay, a->param[JOX_PARAM_damping][0], (float)step->dt);
+        jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);
     f->bodies = n && step->objects && step->objects->grid.columns;
 }

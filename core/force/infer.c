@@ -18,8 +18,8 @@ static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, response = (float)f->step.response;
-    float lightness = 1.0f / a->param[JOX_PARAM_mass][i];
-    float damping = a->param[JOX_PARAM_damping][i];
+    float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
+    float damping = jox_param(a, JOX_PARAM_damping, i);
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
     JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
@@ -35,12 +35,12 @@ static bool is_under_force(const JoxAgents *a, uint32_t i) {
 /* (8) Whether someone under no force slowed down so that others feel it. */
 static bool slows_down(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    const float absorb = a->param[JOX_PARAM_absorb][i], dt = (float)f->step.dt;
+    const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.dt;
     /* What the feet took: contacts and other forces have their share already. */
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     const JoxV2 old = jox_velocity_before(f, i);
     return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
-           jox_slows(before, after, a->param[JOX_PARAM_brace_angle][i]) &&
+           jox_slows(before, after, jox_param(a, JOX_PARAM_brace_angle, i)) &&
            jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
 }
 
@@ -50,7 +50,7 @@ JoxPassKind jox_passes_on(const JoxForces *f, uint32_t i, JoxDecay *decay, float
     if (!is_under_force(a, i))
         return slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
     *shortfall = shortfall_of(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
-    return *shortfall > JOX_SHORTFALL_LEAST && a->param[JOX_PARAM_absorb][i] > 0.0f
+    return *shortfall > JOX_SHORTFALL_LEAST && jox_param(a, JOX_PARAM_absorb, i) > 0.0f
                ? JOX_PASSES_RESISTANCE
                : JOX_PASSES_NOTHING;
 }
@@ -62,8 +62,8 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
     if (n == 0)
         return;
-    const JoxV2 each = jox_resistance(unit, shortfall, a->param[JOX_PARAM_absorb][i],
-                                      a->param[JOX_PARAM_mass][i], n, (float)f->step.dt);
+    const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
+                                      jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.dt);
     for (uint32_t k = 0; k < n; k++)
         jox_transfer_give(f, chunk, i, found[k], each);
 }
@@ -72,7 +72,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
    who is faster already, or soon will be, is not driven by more than was lost. */
 static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float energy) {
     const JoxAgents *a = f->step.agents;
-    float size = jox_length(force), mass = a->param[JOX_PARAM_mass][to];
+    float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, to);
     if (!(size > 0.0f))
         return 0.0f;
     JoxV2 direction = jox_scale(force, 1.0f / size);
@@ -86,8 +86,8 @@ static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float ene
 /* (8) Someone under no force who slowed down. */
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
-    float absorb = a->param[JOX_PARAM_absorb][i];
+    float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    float absorb = jox_param(a, JOX_PARAM_absorb, i);
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     JoxV2 change = jox_slowing(before, after);
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, jox_unit(before), found);

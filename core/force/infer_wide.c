@@ -13,9 +13,9 @@ static inline JoxMask is_set(JoxVector a) {
 static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
                            JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, *damping = a->param[JOX_PARAM_damping] + i;
+    const float dt = (float)f->step.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats lightness = jf_div(one, jf_load(a->param[JOX_PARAM_mass] + i));
+    const JoxFloats lightness = jf_div(one, jox_param_lanes(a, JOX_PARAM_mass, i));
     const JoxVector others = jox_others_lanes(a, i);
     const JoxVector held = jv_sub(others, jox_unheld_lanes(a, i, others, jox_stands_lanes(a, i)));
     const JoxVector taken =
@@ -32,7 +32,7 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxFloats least = jf_set(f->options.least * (float)f->step.dt);
-    const JoxFloats cosine = jf_load(a->param[JOX_PARAM_brace_angle] + i);
+    const JoxFloats cosine = jox_param_lanes(a, JOX_PARAM_brace_angle, i);
     const JoxVector before = jv_load(a->forced_x, a->forced_y, i);
     const JoxVector after = jv_load(a->vx, a->vy, i);
     const JoxVector change = jv_sub(after, before), way = jv_add(after, before);
@@ -43,7 +43,7 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxMask cut = jf_lt(most, size);
     const JoxVector slowing =
         jv_scale(change, jf_select(cut, jf_div(most, size), one)); /* jox_slowing */
-    const JoxFloats absorb = jf_load(a->param[JOX_PARAM_absorb] + i);
+    const JoxFloats absorb = jox_param_lanes(a, JOX_PARAM_absorb, i);
     const JoxFloats felt = jf_mul(jf_sqrt(jv_dot(slowing, slowing)), absorb);
     return jm_and(jm_and(jf_lt(zero, against), aligned),
                   jm_and(jm_and(is_set(old), jf_lt(zero, absorb)), jf_le(least, felt)));
@@ -65,7 +65,7 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
         if (forced) {
             lacks = shortfall(f, i, old, unit, &decay);
             resists = jm_bits(
-                jm_and(jf_lt(least, lacks), jf_lt(zero, jf_load(a->param[JOX_PARAM_absorb] + i))));
+                jm_and(jf_lt(least, lacks), jf_lt(zero, jox_param_lanes(a, JOX_PARAM_absorb, i))));
         }
         const uint32_t slows = jm_bits(slows_down(f, i, old)) & ~forced;
         jf_store(passing->shortfall + (i - begin), lacks);

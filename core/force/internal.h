@@ -159,7 +159,8 @@ static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) 
 /* What of the others' pushes an agent's feet do not hold, N. */
 static inline JoxV2 jox_unheld_pushes(const JoxAgents *a, uint32_t i) {
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
-    float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
+    float size = jox_length(others),
+          held = jox_stands(a, i) ? 0.0f : jox_param(a, JOX_PARAM_brace, i);
     return jox_scale(others, size > held ? (size - held) / size : 0.0f);
 }
 

@@ -17,18 +17,19 @@ static void pair_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     (void)worker;
     JoxForces *f = context;
     const JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     for (uint32_t k = begin; k < end; k++) {
         JoxPair *p = &f->pairs.items[k];
         uint32_t i = p->first, j = p->second;
-        float touch = radius[i] + radius[j];
+        float touch = jox_at(radius, i) + jox_at(radius, j);
         p->impulse = 0.0f;
         if (!(jox_length2(jox_offset(a, i, j)) < touch * touch))
             continue;
         float speed = (a->vx[i] - a->vx[j]) * p->normal.x + (a->vy[i] - a->vy[j]) * p->normal.y;
-        p->impulse =
-            jox_contact_impulse(speed, jox_minf(e[i], e[j]), 1.0f / mass[i] + 1.0f / mass[j]);
+        p->impulse = jox_contact_impulse(speed, jox_minf(jox_at(e, i), jox_at(e, j)),
+                                         1.0f / jox_at(mass, i) + 1.0f / jox_at(mass, j));
     }
 }
 
@@ -43,11 +44,12 @@ static void touch_bodies(JoxForces *f) {
                                                        t->point.z - body->position.z});
         float speed = (a->vx[t->agent] - body->velocity.x - turning.x) * t->normal.x +
                       (a->vy[t->agent] - body->velocity.y - turning.y) * t->normal.y;
-        float e = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
-        t->impulse = t->gap < 0.0f ? jox_contact_impulse(speed, e,
-                                                         1.0f / a->param[JOX_PARAM_mass][t->agent] +
-                                                             body->inverse_mass)
-                                   : 0.0f;
+        float e = jox_minf(jox_param(a, JOX_PARAM_restitution, t->agent), body->restitution);
+        t->impulse =
+            t->gap < 0.0f
+                ? jox_contact_impulse(
+                      speed, e, 1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + body->inverse_mass)
+                : 0.0f;
     }
 }
 
@@ -60,14 +62,14 @@ void jox_literal_contacts(JoxForces *f) {
 bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     float impulse = jox_length(jox_v2(a->force_x[i], a->force_y[i])) * (float)f->step.dt;
-    return impulse >= ROUNDING * a->param[JOX_PARAM_mass][i] && isfinite(impulse);
+    return impulse >= ROUNDING * jox_param(a, JOX_PARAM_mass, i) && isfinite(impulse);
 }
 
 /* (11) From the velocity that the step began with. */
 static JoxV2 forced_velocity(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     return jox_forced_velocity(jox_velocity_before(f, i), jox_v2(a->force_x[i], a->force_y[i]),
-                               a->param[JOX_PARAM_mass][i], 1.0f, (float)f->step.dt);
+                               jox_param(a, JOX_PARAM_mass, i), 1.0f, (float)f->step.dt);
 }
 
 /* The greatest speed of ORCA never keeps the forced velocity out. */
@@ -102,7 +104,8 @@ static void share(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 fo
 /* (8), (9) k m dv/dt about the old velocity, k m (v - v_f)/dt about the forced one. */
 void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    float size = a->param[JOX_PARAM_absorb][i] * a->param[JOX_PARAM_mass][i] / (float)f->step.dt;
+    float size =
+        jox_param(a, JOX_PARAM_absorb, i) * jox_param(a, JOX_PARAM_mass, i) / (float)f->step.dt;
     JoxV2 before = jox_velocity_before(f, i), after = {a->vx[i], a->vy[i]};
     if (!(size > 0.0f))
         return;
@@ -114,6 +117,6 @@ void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     }
     JoxV2 change = jox_sub(after, before);
     if (jox_length(change) > ROUNDING &&
-        decelerates(change, after, a->param[JOX_PARAM_brace_angle][i]))
+        decelerates(change, after, jox_param(a, JOX_PARAM_brace_angle, i)))
         share(f, chunk, i, before, jox_scale(change, size));
 }

@@ -125,7 +125,7 @@ void jox_load_measure(JoxForces *f, uint32_t i) {
     }
     for (uint32_t k = 0; k < n; k++)
         sum += jox_length(force[k]);
-    a->compression[i] = sum / jox_circumference(a->param[JOX_PARAM_radius][i]);
+    a->compression[i] = sum / jox_circumference(jox_param(a, JOX_PARAM_radius, i));
     a->load[i] = greatest_push(force, n);
     JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
 }

@@ -29,16 +29,17 @@ static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
 static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
-    const float *radius = a->param[JOX_PARAM_radius];
-    float cosine = a->param[JOX_PARAM_push_angle][i], reach = a->param[JOX_PARAM_push_reach][i];
-    float widest = reach + radius[i] + f->widest;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    float cosine = jox_param(a, JOX_PARAM_push_angle, i),
+          reach = jox_param(a, JOX_PARAM_push_reach, i);
+    float widest = reach + jox_at(radius, i) + f->widest;
     uint64_t only = a->push_only[i];
     JoxV2 centre = {a->x[i], a->y[i]};
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
         uint32_t other = near->index[jox_neighbour_at(near, i, k)];
         JoxV2 offset = jox_offset(a, i, other);
-        float most = reach + radius[i] + radius[other], d2 = jox_length2(offset);
+        float most = reach + jox_at(radius, i) + jox_at(radius, other), d2 = jox_length2(offset);
         if (d2 > widest * widest)
             break; /* nearest first */
         if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
@@ -50,15 +51,15 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
         targets[n++] = (Target){.index = other,
                                 .offset = offset,
                                 .to_centre = offset,
-                                .gap = sqrtf(d2) - radius[i] - radius[other]};
+                                .gap = sqrtf(d2) - jox_at(radius, i) - jox_at(radius, other)};
     }
     return n;
 }
 
 static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
-    float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_push_reach][i];
-    float cosine = a->param[JOX_PARAM_push_angle][i];
+    float radius = jox_param(a, JOX_PARAM_radius, i), reach = jox_param(a, JOX_PARAM_push_reach, i);
+    float cosine = jox_param(a, JOX_PARAM_push_angle, i);
     uint64_t only = a->push_only[i];
     JoxV2 centre = {a->x[i], a->y[i]};
     JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
@@ -99,7 +100,7 @@ static uint32_t keep_nearest(Target *targets, uint32_t n) {
 
 static JoxV2 push_on(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *target, uint32_t n) {
     const JoxAgents *a = f->step.agents;
-    float newtons = a->param[JOX_PARAM_push][i];
+    float newtons = jox_param(a, JOX_PARAM_push, i);
     JoxV2 offset = target->offset;
     if (f->options.literal)
         offset = jox_literal_push_offset(f, i, target->to_centre);
@@ -162,10 +163,10 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
 static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    const float *push = f->step.agents->param[JOX_PARAM_push];
+    const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
     const uint8_t *on = f->step.push_on;
     for (uint32_t i = begin; i < end; i++)
-        if (push[i] > 0.0f && (!on || on[i]))
+        if (jox_at(push, i) > 0.0f && (!on || on[i]))
             push_by(f, begin / JOX_FORCE_GRAIN, i);
 }
 

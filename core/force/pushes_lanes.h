@@ -3,7 +3,7 @@
 #ifndef JOX_FORCE_PUSHES_LANES_H
 #define JOX_FORCE_PUSHES_LANES_H
 
-#include "agents/agents.h"
+#include "agents/param_lanes.h"
 #include "force/equations.h"
 #include "simd/vectors.h"
 
@@ -22,7 +22,7 @@ static inline JoxVector jox_others_lanes(const JoxAgents *a, uint32_t i) {
 static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVector others,
                                          JoxMask stands) {
     const JoxFloats zero = jf_set(0.0f), size = jf_sqrt(jv_dot(others, others));
-    const JoxFloats held = jf_select(stands, zero, jf_load(a->param[JOX_PARAM_brace] + i));
+    const JoxFloats held = jf_select(stands, zero, jox_param_lanes(a, JOX_PARAM_brace, i));
     const JoxFloats share = jf_div(jf_sub(size, held), size);
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
 }

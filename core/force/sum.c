@@ -14,8 +14,8 @@ static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
    the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
                            JoxPlanning plan, float step) {
-    float size = jox_length(force), mass = a->param[JOX_PARAM_mass][i];
-    float most = a->param[JOX_PARAM_max_speed][i];
+    float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, i);
+    float most = jox_param(a, JOX_PARAM_max_speed, i);
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
@@ -49,20 +49,21 @@ static bool is_felt(const JoxForces *f, uint32_t i, float size) {
     const JoxAgents *a = f->step.agents;
     bool touched = a->contact_x[i] != 0.0f || a->contact_y[i] != 0.0f;
     float least = touched ? 1e-6f : f->options.least;
-    return size >= least * a->param[JOX_PARAM_mass][i] && isfinite(size);
+    return size >= least * jox_param(a, JOX_PARAM_mass, i) && isfinite(size);
 }
 
 void jox_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass], dt = (float)f->step.dt;
-    a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const float dt = (float)f->step.dt;
+    a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
     JoxV2 force = sum_of_terms(a, i);
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
     JoxV2 moving = jox_moving_force(a, i);
-    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass[i];
-    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass[i];
+    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / jox_at(mass, i);
+    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / jox_at(mass, i);
     if (force.x == 0.0f && force.y == 0.0f)
         return;
     float size = jox_length(force);
@@ -71,7 +72,8 @@ void jox_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
         jox_literal_bound(f, i);
     else if (is_felt(f, i, size))
         bound_by_force(a, i, force, moving,
-                       jox_decay(decay, a->param[JOX_PARAM_damping][i], plan.interval), plan, dt);
+                       jox_decay(decay, jox_param(a, JOX_PARAM_damping, i), plan.interval), plan,
+                       dt);
 }
 
 /* Whole packets by the kernel of the run's instruction set. As printed, each by itself. */

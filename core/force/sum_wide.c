@@ -44,7 +44,7 @@ typedef struct Planning {
 } Planning;
 
 static Planning planning(const JoxForceStep *step, uint32_t i, JoxMask stands, JoxDecay decays[2]) {
-    const float *damping = step->agents->param[JOX_PARAM_damping] + i;
+    const float *damping = jox_params(step->agents, JOX_PARAM_damping, i);
     const JoxPlanning own[2] = {jox_planning(step, false), jox_planning(step, true)};
     return (Planning){
         jf_select(stands, jf_set(own[1].interval), jf_set(own[0].interval)),
@@ -58,8 +58,8 @@ static Planning planning(const JoxForceStep *step, uint32_t i, JoxMask stands, J
 static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
-    const JoxFloats mass = jf_load(a->param[JOX_PARAM_mass] + i);
-    const JoxFloats most = jf_load(a->param[JOX_PARAM_max_speed] + i);
+    const JoxFloats mass = jox_param_lanes(a, JOX_PARAM_mass, i);
+    const JoxFloats most = jox_param_lanes(a, JOX_PARAM_max_speed, i);
     const JoxVector velocity = jv_load(a->vx, a->vy, i),
                     contact = jv_load(a->contact_x, a->contact_y, i);
     const JoxVector force = sum_of_terms(a, i);

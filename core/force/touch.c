@@ -41,7 +41,7 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 at = {a->x[i], a->y[i]};
-        float reach = a->param[JOX_PARAM_radius][i] + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        float reach = jox_param(a, JOX_PARAM_radius, i) + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
         JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
         JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);
         JoxTouch touch;
@@ -134,10 +134,11 @@ void jox_touches_begin(JoxForces *f) {
         JoxTouch *t = &f->touch[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
         float give = jox_body_inverse_mass(body, t->point, t->normal);
-        float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
+        float restitution =
+            jox_minf(jox_param(a, JOX_PARAM_restitution, t->agent), body->restitution);
         float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
                       jox_touch_speed_before(f, t);
-        t->mass = 1.0f / (1.0f / a->param[JOX_PARAM_mass][t->agent] + give);
+        t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
         t->target =
             jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
         t->most = most_of(f, t);

@@ -42,13 +42,13 @@ static uint32_t beyond_no_wall(const JoxForces *f, uint32_t i, uint32_t *found, 
 uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
-    const float *radius = a->param[JOX_PARAM_radius];
-    float cosine = a->param[JOX_PARAM_brace_angle][i];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    float cosine = jox_param(a, JOX_PARAM_brace_angle, i);
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
         uint32_t other = near->index[jox_neighbour_at(near, i, k)];
         JoxV2 offset = jox_offset(a, i, other);
-        float most = radius[i] + radius[other] + f->options.reach;
+        float most = jox_at(radius, i) + jox_at(radius, other) + f->options.reach;
         bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
         found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
         n += near_enough & jox_cone_holds(offset, axis, cosine);

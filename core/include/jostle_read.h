@@ -20,7 +20,7 @@ typedef enum JoType { JO_U8, JO_U16, JO_U32, JO_I32, JO_U64, JO_F32, JO_F64 } Jo
 /* One number of every agent: that of agent i is at data + i * stride. */
 typedef struct JoColumn {
     const void *data; /* NULL where there is no such column, or no agent */
-    size_t stride;    /* bytes */
+    size_t stride;    /* bytes; 0 where one number is that of all */
     uint32_t count;   /* agents */
     JoType type;
 } JoColumn;

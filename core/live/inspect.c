@@ -44,8 +44,8 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     add_figure(json, "y", (double)a->y[i]);
     add_figure(json, "vx", (double)a->vx[i]);
     add_figure(json, "vy", (double)a->vy[i]);
-    add_figure(json, "radius", (double)a->param[JOX_PARAM_radius][i]);
-    add_figure(json, "mass", (double)a->param[JOX_PARAM_mass][i]);
+    add_figure(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
+    add_figure(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
     jox_json_end(json);
 }
 
@@ -94,7 +94,7 @@ static void add_parameters(JoScene *scene, uint32_t i, const JoxWatched *watched
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_json_object(json, NULL);
         jox_json_string(json, "name", jox_parameters[p].name);
-        add_figure(json, "value", jox_parameter_value((JoxParameter)p, a->param[p][i]));
+        add_figure(json, "value", jox_parameter_value((JoxParameter)p, jox_param(a, p, i)));
         jox_json_string(json, "unit", jox_parameters[p].unit);
         if (machine)
             add_setter(scene, i, watched, p, json);

@@ -113,6 +113,7 @@ typedef struct JoxLiveCrowd {
     const float *face_x, *face_y; /* the way they look, of any length; 0 or NULL: as they go */
     const float *value;           /* of the colours that are not made of the other columns */
     const float *radius;          /* m; or NULL */
+    bool one_radius;              /* it is one number, that of all */
     const uint16_t *group;        /* or NULL */
     const uint8_t *state, *flags; /* number in the scene message's list; JOX_LIVE_PARITY ... */
     JoxV2 period;                 /* m: of periodic edges; 0 without */

@@ -202,7 +202,8 @@ static JoxLiveCrowd crowd_of(const JoScene *scene) {
                           .vy = a->vy,
                           .face_x = a->face_x,
                           .face_y = a->face_y,
-                          .radius = a->param[JOX_PARAM_radius],
+                          .radius = a->param[JOX_PARAM_radius].cells,
+                          .one_radius = !a->param[JOX_PARAM_radius].mask,
                           .group = a->group,
                           .period = a->period,
                           .walls = &scene->world->scratch.walls};

@@ -195,7 +195,7 @@ bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out) {
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots);
         uint8_t *at = out->data + PEOPLE_HEAD + 2 * (size_t)crowd->slot[i];
-        const float radius = crowd->radius ? crowd->radius[i] : RADIUS;
+        const float radius = !crowd->radius ? RADIUS : crowd->radius[crowd->one_radius ? 0 : i];
         const uint32_t group = crowd->group ? crowd->group[i] : 0;
         const uint8_t r = (uint8_t)(jox_clampf(radius, 0.0f, 2.55f) * 100.0f + 0.5f);
         const uint8_t g = (uint8_t)(group < 255 ? group : 255);

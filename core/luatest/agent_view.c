@@ -17,7 +17,7 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        jox_test_set_number(L, jox_parameters[p].name, a->param[p][i]);
+        jox_test_set_number(L, jox_parameters[p].name, jox_param(a, p, i));
     if (a->machine[i] != JOX_NO_MACHINE) {
         const JoxMachine *m = machines->set->items[a->machine[i]];
         for (uint32_t s = 0; s < m->memory_count; s++) {

@@ -17,11 +17,12 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
         const JoxValue *value = jox_state_parameter(machine, state, p);
         if (value->kind != JOX_VALUE_EXPRESSION)
             continue;
+        JOX_ASSERT(run->agents->param[p].mask); /* differ_by_programs saw to it */
         jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
                  registers);
         jox_odd_look(run, agents, batch->count, p, registers[0], odd);
         jox_parameter_store_all((JoxParameter)p, registers[0], agents, batch->count,
-                                run->agents->param[p]);
+                                run->agents->param[p].cells);
     }
 }
 
@@ -76,6 +77,18 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
         run->agents->approach[i] = spot.object;
         if (spot.agent != JOX_NO_INDEX)
             run->agents->approached[i] = run->agents->id[spot.agent] + 1;
+    }
+}
+
+/* What expressions write, on many threads, has a cell for each agent. */
+static void differ_by_programs(JoxMachineRun *run) {
+    const JoxMachineScratch *s = run->scratch;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxMachine *machine = run->set->items[s->batches[b].machine];
+        const JoxState *state = &machine->states[s->batches[b].state];
+        for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
+            if (jox_state_parameter(machine, state, p)->kind == JOX_VALUE_EXPRESSION)
+                jox_param_differ(run->agents, p);
     }
 }
 
@@ -216,6 +229,7 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     jox_mem_fill(run->push_toward_y, 0, a->count * sizeof(float));
     jox_mem_fill(a->kicked, 0xff, a->count * sizeof *a->kicked); /* -1 */
     memset(run->scratch->odd, 0, run->scratch->workers * sizeof *run->scratch->odd);
+    differ_by_programs(run);
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
     jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
     if (run->objects && run->objects->count)

@@ -252,7 +252,7 @@ void jox_acts_check(const JoxMachineRun *run) {
         const JoxV2 way = {run->push_toward_x[i], run->push_toward_y[i]};
         JOX_ASSERT((way.x == 0.0f && way.y == 0.0f) || jox_is_unit(way));
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
-            JOX_ASSERT(isfinite(a->param[p][i]));
+            JOX_ASSERT(isfinite(jox_param(a, p, i)));
     }
 }
 

@@ -27,11 +27,11 @@ enum { LOOKED_AT = 16 }; /* steps between two looks at what people perceive */
 
 /* The greatest perception in a batch, m. */
 static float sight_of(const JoxMachineRun *run, const JoxBatchRange *batch) {
-    const float *perception = run->agents->param[JOX_PARAM_perception];
+    const JoxParameterColumn perception = run->agents->param[JOX_PARAM_perception];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     float sight = 0.0f;
     for (uint32_t n = 0; n < batch->count; n++)
-        sight = jox_maxf(sight, perception[agents[n]]);
+        sight = jox_maxf(sight, jox_at(perception, agents[n]));
     return sight;
 }
 

@@ -98,8 +98,8 @@ static void write_parameter(JoxMachineRun *run, uint32_t i, int p) {
     const JoxValue *value =
         jox_state_parameter(machine, &machine->states[run->agents->state[i]], p);
     if (value->kind == JOX_VALUE_CONST || value->kind == JOX_VALUE_OWN)
-        run->agents->param[p][i] =
-            jox_parameter_store((JoxParameter)p, jox_value(run, machine, value, i));
+        jox_param_set(run->agents, p, i,
+                      jox_parameter_store((JoxParameter)p, jox_value(run, machine, value, i)));
 }
 
 void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t number, int parameter,
@@ -123,5 +123,5 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t numb
                 write_parameter(run, i, p);
         }
     }
-    jox_own_settle(a);
+    jox_shared_settle(a);
 }

@@ -101,12 +101,12 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
         measure(run, agents, count, (JoxNow)in->arg, to);
         break;
     case JOX_OP_OWN: {
-        const double *each = g->own[arg].each;
-        if (!each) {
-            fill(to, count, g->own[arg].all);
+        const double *cells = g->own[arg].cells;
+        if (!g->own[arg].mask) {
+            fill(to, count, cells[0]);
             break;
         }
-        EACH_AGENT(each[i]);
+        EACH_AGENT(cells[i]);
     }
     case JOX_OP_MEMORY: {
         const double *cells = g->memory + arg;

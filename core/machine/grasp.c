@@ -14,8 +14,8 @@ static const float STIFFNESS = 2e3f; /* N/m, of an arm */
 static const float STIFF_MOST = 0.12f, DAMPED_MOST = 0.7f;
 
 static float gap(const JoxAgents *a, uint32_t i, uint32_t j) {
-    const float *radius = a->param[JOX_PARAM_radius];
-    return jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    return jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
 }
 
 /* Whom the agent holds now: whom it held, or else who is its target and within reach. */
@@ -34,8 +34,9 @@ static uint32_t find_held(const JoxMachineRun *run, uint32_t i, int32_t target) 
 
 static void pull(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
     JoxAgents *a = run->agents;
-    const float *mass = a->param[JOX_PARAM_mass], dt = (float)run->dt;
-    const float both = mass[i] * mass[j] / (mass[i] + mass[j]);
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const float dt = (float)run->dt;
+    const float both = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
     const JoxV2 way = jox_unit(jox_offset(a, i, j));
     const float apart = jox_maxf(gap(a, i, j), 0.0f);
     const float parting = way.x * (a->vx[j] - a->vx[i]) + way.y * (a->vy[j] - a->vy[i]);

@@ -300,10 +300,10 @@ static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i)
     const JoxState *state = &r->next->states[is];
     for (uint32_t k = 0; k < r->assign_count[was]; k++) {
         const Assignment *assign = &r->assign[was][k];
-        a->param[assign->parameter][i] =
-            assign->own < 0 ? assign->value
-                            : jox_parameter_store((JoxParameter)assign->parameter,
-                                                  jox_own(a, i, (uint32_t)assign->own));
+        jox_param_set(a, (JoxParameter)assign->parameter, i,
+                      assign->own < 0 ? assign->value
+                                      : jox_parameter_store((JoxParameter)assign->parameter,
+                                                            jox_own(a, i, (uint32_t)assign->own)));
     }
     if (r->tags_change[was]) {
         a->ignore[i] = state->ignore;
@@ -380,7 +380,7 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
         if (shorter)
             jox_rows_end(a, i, next);
     }
-    jox_own_settle(a);
+    jox_shared_settle(a);
     jox_edits_end(run, index); /* frees the copy that `old` may be */
     JOX_CHECK(jox_states_check(run));
     return built;

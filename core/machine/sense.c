@@ -43,7 +43,8 @@ bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach
     for (uint32_t n = 0; n < heard->everywhere_count; n++)
         if (heard->everywhere[n] == name)
             return true;
-    float r = jox_minf((float)reach, a->param[JOX_PARAM_perception][i]), x = a->x[i], y = a->y[i];
+    float r = jox_minf((float)reach, jox_param(a, JOX_PARAM_perception, i)), x = a->x[i],
+          y = a->y[i];
     JoxSignal from = {.name = name, .x = x - r};
     uint32_t low = 0, high = heard->heard_count;
     while (low < high) {
@@ -72,7 +73,7 @@ static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint
     const JoxWalls *walls = run->walls;
     const struct JoxWallRing *ring = &walls->rings[gate];
     const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
-    const float perception = run->agents->param[JOX_PARAM_perception][i];
+    const float perception = jox_param(run->agents, JOX_PARAM_perception, i);
     for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
         const JoxV2 a = walls->vertices[v].point,
                     b = walls->vertices[walls->vertices[v].next].point;

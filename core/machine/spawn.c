@@ -95,6 +95,9 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
         a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
+    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++) /* for what is known in the step only */
+        if (jox_state_parameter(kind, &kind->states[kind->start], p)->kind == JOX_VALUE_EXPRESSION)
+            jox_param_set(a, p, agent, jox_parameter_store(p, jox_parameters[p].value));
     enter_between_steps(run, agent, kind->start);
 }
 

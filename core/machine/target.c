@@ -34,14 +34,14 @@ void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int3
     const JoxTarget *target = index < 0 ? NULL : &machine->targets[index];
     const JoxOwnColumn *own =
         target && target->kind == JOX_TARGET_OWN_PLACE ? &run->agents->own[target->arg] : NULL;
-    const bool same = own ? !own->each : !target || target->kind == JOX_TARGET_PLACE;
+    const bool same = own ? !own->mask : !target || target->kind == JOX_TARGET_PLACE;
     const int32_t first = target ? place_of(run, target, agents[0]) : -1;
     if (same)
         for (uint32_t n = 0; n < count; n++)
             places[n] = first;
     else if (own)
         for (uint32_t n = 0; n < count; n++)
-            places[n] = among_places(run, (int32_t)own->each[agents[n]]);
+            places[n] = among_places(run, (int32_t)own->cells[agents[n]]);
     else
         for (uint32_t n = 0; n < count; n++)
             places[n] = place_of(run, target, agents[n]);
@@ -56,7 +56,7 @@ static JoxSpot agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) 
                      .y = a->y[i] + offset.y,
                      .vx = a->vx[other],
                      .vy = a->vy[other],
-                     .radius = a->param[JOX_PARAM_radius][other],
+                     .radius = jox_param(a, JOX_PARAM_radius, other),
                      .place = -1,
                      .object = -1,
                      .agent = other};
@@ -88,7 +88,7 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
             return j;
     }
     uint32_t best = JOX_NO_INDEX;
-    float reach = a->param[JOX_PARAM_perception][i], least = reach * reach;
+    float reach = jox_param(a, JOX_PARAM_perception, i), least = reach * reach;
     for (uint32_t j = 0; a->count <= SMALL_CROWD && j < a->count; j++) {
         float d2 = jox_length2(jox_offset(a, i, j));
         if (j == i || d2 > least || !jox_is_wanted(run, target, i, j))
@@ -111,7 +111,7 @@ static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObjec
 static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                               float *distance2) {
     const JoxAgents *a = run->agents;
-    float reach = a->param[JOX_PARAM_perception][i];
+    float reach = jox_param(a, JOX_PARAM_perception, i);
     int32_t best = -1;
     *distance2 = reach * reach;
     for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
@@ -181,7 +181,7 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
         return INFINITY;
     const JoxAgents *a = run->agents;
     float distance = jox_length((JoxV2){spot->x - a->x[i], spot->y - a->y[i]});
-    return distance - spot->radius - a->param[JOX_PARAM_radius][i];
+    return distance - spot->radius - jox_param(a, JOX_PARAM_radius, i);
 }
 
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {
@@ -200,17 +200,17 @@ float jox_driven(const JoxMachineRun *run, uint32_t i) {
 float jox_headway(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const JoxV2 *heading = run->scratch->heading;
     JoxV2 ahead = jox_unit((JoxV2){a->pref_x[i], a->pref_y[i]});
     if (jox_length2(ahead) == 0.0f)
         ahead = (JoxV2){a->face_x[i], a->face_y[i]};
-    float best = a->param[JOX_PARAM_perception][i];
+    float best = jox_param(a, JOX_PARAM_perception, i);
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
         JoxV2 d = jox_offset(a, i, j);
         float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
-        float sum = radius[i] + radius[j];
+        float sum = jox_at(radius, i) + jox_at(radius, j);
         if (along > 0.0f && aside < sum / 2.0f && jox_dot(heading[j], ahead) >= 0.0f)
             best = jox_minf(best, jox_maxf(along - sum, 0.0f));
     }

@@ -31,9 +31,9 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
     JOX_ASSERT(n->agents >= a->count);
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t count = n->count[i];
-        const float perception = a->param[JOX_PARAM_perception][i];
+        const float perception = jox_param(a, JOX_PARAM_perception, i);
         float before = 0.0f;
-        JOX_ASSERT(count <= n->stride && count <= (uint32_t)a->param[JOX_PARAM_neighbours][i]);
+        JOX_ASSERT(count <= n->stride && count <= (uint32_t)jox_param(a, JOX_PARAM_neighbours, i));
         JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
         for (uint32_t k = count; k < n->stride; k++) /* kernels look them up, for nothing */
             JOX_ASSERT(n->index[jox_neighbour_at(n, i, k)] < n->agents);

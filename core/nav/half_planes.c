@@ -44,23 +44,23 @@ static bool is_hidden(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) 
 
 bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
     const JoxAgents *a = s->agents;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return (a->tags[j] & a->ignore[i]) ||
            (s->touched && (jox_is_close_to(a, i, j) || is_touched(s->touched, i, j))) ||
-           is_hidden(s, i, jox_offset(a, i, j), radius[i] + radius[j]);
+           is_hidden(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 
 /* ORCA's half-plane of agent i for j, who is at p from it. */
 static JoxHalfPlane orca_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
                                     float radii) {
     const JoxAgents *a = s->agents;
-    float share = s->nav->literal ? 0.5f : a->param[JOX_PARAM_yield][i]; /* (3) prints u/2 */
+    float share = s->nav->literal ? 0.5f : jox_param(a, JOX_PARAM_yield, i); /* (3) prints u/2 */
     JoxV2 velocity = {a->vx[i], a->vy[i]}, away = {1.0f, 0.0f};
     if (p.x == 0.0f && p.y == 0.0f)
         away = parting(a->id[i], a->id[j]);
     return jox_orca_half_plane(p, jox_v2(velocity.x - a->vx[j], velocity.y - a->vy[j]), radii,
-                               a->param[JOX_PARAM_horizon][i], s->planning_time, velocity, share,
-                               away);
+                               jox_param(a, JOX_PARAM_horizon, i), s->planning_time, velocity,
+                               share, away);
 }
 
 /* The half-plane of one who walks by the law, in place of ORCA's: those it minds are not approached
@@ -88,7 +88,7 @@ static bool walker_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p
 
 uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const bool walker = jox_solve_walks(s, i);
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
@@ -97,7 +97,7 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
             continue;
         JoxV2 p = jox_offset(a, i, j);
         if (!walker)
-            out[made++] = orca_half_plane(s, i, j, p, radius[i] + radius[j]);
+            out[made++] = orca_half_plane(s, i, j, p, jox_at(radius, i) + jox_at(radius, j));
         else if (walker_half_plane(s, i, j, p, &out[made]))
             made++;
     }
@@ -106,11 +106,11 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
 
 uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
-    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->breadth[i];
+    float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
     if (!s->nav->grid.first)
         return 0;
     return jox_orca_walls(&s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]},
-                          radius, tau, tau * a->param[JOX_PARAM_max_speed][i] + radius, out,
+                          radius, tau, tau * jox_param(a, JOX_PARAM_max_speed, i) + radius, out,
                           JOX_MOST_WALLS);
 }
 

@@ -26,14 +26,15 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
 static inline JoxV2 part_from(const JoxMove *m, const JoxV2 *from, uint32_t i, uint32_t j,
                               float apart) {
     const JoxAgents *a = m->agents;
-    const float *mass = a->param[JOX_PARAM_mass];
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     JOX_ASSERT(j < a->count && j != i);
     JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
     float d2 = jox_length2(d);
     if (d2 >= apart * apart || d2 == 0.0f)
         return (JoxV2){0.0f, 0.0f};
     float distance = sqrtf(d2);
-    float part = m->stiffness * (apart - distance) * mass[j] / (mass[i] + mass[j]);
+    float part =
+        m->stiffness * (apart - distance) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
     return jox_scale(d, part / distance);
 }
 
@@ -42,14 +43,14 @@ static inline JoxV2 part_from(const JoxMove *m, const JoxV2 *from, uint32_t i, u
 static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxMove *m = context;
-    const float *radius = m->agents->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = m->agents->param[JOX_PARAM_radius];
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
             uint32_t j = m->neighbours->index[jox_neighbour_at(m->neighbours, i, k)];
-            shift = jox_add(shift, part_from(m, from, i, j, radius[i] + radius[j]));
+            shift = jox_add(shift, part_from(m, from, i, j, jox_at(radius, i) + jox_at(radius, j)));
         }
         to[i] = jox_add(from[i], shift);
     }

@@ -37,7 +37,7 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
         return NULL;
     float gap = passing;
     for (uint32_t i = 0; i < agents->count; i++)
-        gap = jox_maxf(gap, agents->param[JOX_PARAM_push_reach][i]);
+        gap = jox_maxf(gap, jox_param(agents, JOX_PARAM_push_reach, i));
     float halfway = neighbours->widest + 0.5f * gap;
     jox_wall_grid_fit(&nav->grid,
                       jox_maxf(jox_touch_reach(neighbours, neighbours->widest), halfway));

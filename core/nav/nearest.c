@@ -128,9 +128,9 @@ static void keep(const JoxPerceive *p, uint32_t i, float perception, const Neare
 
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     const JoxAgents *a = p->agents;
-    const float perception = jox_minf(a->param[JOX_PARAM_perception][i], p->sight);
+    const float perception = jox_minf(jox_param(a, JOX_PARAM_perception, i), p->sight);
     Nearest found;
-    found.most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+    found.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
     clear(&found);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);

@@ -9,7 +9,7 @@ static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, const JoxObjec
     JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
     JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
     JoxV2 moving = {o->velocity.x, o->velocity.y}, v = jox_sub(own, moving);
-    float radius = a->param[JOX_PARAM_radius][i], sum = radius + o->disc;
+    float radius = jox_param(a, JOX_PARAM_radius, i), sum = radius + o->disc;
     if (jox_length2(p) > sum * sum || o->footprint_count == 0) {
         float disc = o->footprint_count == 0 ? o->round : o->disc;
         return jox_orca_half_plane(p, v, radius + disc, tau, planning_time, own, 1.0f,
@@ -27,8 +27,8 @@ static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const J
     JoxV2 own = {a->vx[i], a->vy[i]};
     return jox_orca_half_plane(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]),
                                jox_sub(own, jox_v2(o->velocity.x, o->velocity.y)),
-                               a->param[JOX_PARAM_radius][i] + o->sphere, tau, planning_time, own,
-                               1.0f, jox_v2(1.0f, 0.0f));
+                               jox_param(a, JOX_PARAM_radius, i) + o->sphere, tau, planning_time,
+                               own, 1.0f, jox_v2(1.0f, 0.0f));
 }
 
 /* Whether agent i minds the body of a row: its footprint must be within perception; *apart: the
@@ -40,7 +40,7 @@ static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uin
     bool ignored = o->tags & a->ignore[i] && a->approach[i] != (int32_t)row;
     float away = jox_length(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]));
     *apart = away - jox_maxf(o->disc, o->round);
-    float sight = a->param[JOX_PARAM_perception][i];
+    float sight = jox_param(a, JOX_PARAM_perception, i);
     if (ignored || *apart > sight)
         return false;
     return away <= sight || jox_footprint_nearest(o, jox_v2(a->x[i], a->y[i])).gap <= sight;
@@ -68,7 +68,7 @@ static bool is_clear(const JoxContactPlanes *touched, const JoxAgents *a, uint32
 static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
                         JoxNearest *nearest) {
     JoxV2 at = {a->x[i], a->y[i]};
-    float sight = a->param[JOX_PARAM_perception][i], apart;
+    float sight = jox_param(a, JOX_PARAM_perception, i), apart;
     JoxObjectWalk walk = jox_objects_near(objects, at, sight), again = walk;
     uint32_t row, count = 0;
     while (jox_objects_next(&walk, &row))
@@ -95,7 +95,7 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
         bool approached = a->approach[i] == (int32_t)nearest.rows[k];
         if (!is_clear(touched, a, i, objects, nearest.rows[k]))
             continue;
-        float tau = approached ? planning_time : a->param[JOX_PARAM_horizon][i];
+        float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);
         const JoxObject *o = &objects->rows[nearest.rows[k]];
         out[made++] = nav->literal ? half_plane_of_sphere(a, i, o, planning_time, tau)
                                    : half_plane_of(a, i, o, planning_time, tau);

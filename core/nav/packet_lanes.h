@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/param_lanes.h"
 #include "geom/wall_grid_lanes.h"
 #include "nav/kernels.h"
 #include "nav/rest_lanes.h"
@@ -210,14 +211,14 @@ static inline JoxSelf jox_self_of(const JoxPacket *p) {
     return (JoxSelf){
         .x = jf_load(a->x + i),
         .y = jf_load(a->y + i),
-        .radius = jf_load(a->param[JOX_PARAM_radius] + i),
+        .radius = jox_param_lanes(a, JOX_PARAM_radius, i),
         .room = p->walkers ? jf_sub(jf_set(1.0f), jf_mul(jf_set((float)p->s->nav->walk->room_eager),
                                                          jf_load(a->eager + i)))
                            : jf_set(1.0f),
         .orca = {.velocity = jv_load(a->vx, a->vy, i),
-                 .inverse = jf_div(jf_set(1.0f), jf_load(a->param[JOX_PARAM_horizon] + i)),
+                 .inverse = jf_div(jf_set(1.0f), jox_param_lanes(a, JOX_PARAM_horizon, i)),
                  .share =
-                     p->s->nav->literal ? jf_set(0.5f) : jf_load(a->param[JOX_PARAM_yield] + i)},
+                     p->s->nav->literal ? jf_set(0.5f) : jox_param_lanes(a, JOX_PARAM_yield, i)},
     };
 }
 
@@ -305,13 +306,14 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bo
                 JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->neighbours;
     const JoxAgents *a = p->s->agents;
-    const float *motions = &near->motions[0].x, *radius = a->param[JOX_PARAM_radius];
+    const float *motions = &near->motions[0].x;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
     const bool alike = p->s->one_radius;
     for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         JoxFloats motion[4];
         jf_records_at(motions, others, motion);
-        const JoxFloats other = alike ? self->radius : jf_pick_at(radius, others);
+        const JoxFloats other = alike ? self->radius : jox_param_of(radius, others);
         JoxPair q = {jf_sub(motion[0], self->x), jf_sub(motion[1], self->y),
                      jf_sub(self->orca.velocity.x, motion[2]),
                      jf_sub(self->orca.velocity.y, motion[3]), jf_add(self->radius, other)};

@@ -20,8 +20,8 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
 }
 
 static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
-    const uint32_t most = (uint32_t)jox_greatest(a->param[JOX_PARAM_neighbours], a->count);
-    out->widest = jox_greatest(a->param[JOX_PARAM_radius], a->count);
+    const uint32_t most = (uint32_t)jox_param_greatest(a, JOX_PARAM_neighbours);
+    out->widest = jox_param_greatest(a, JOX_PARAM_radius);
     jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/param_lanes.h"
 #include "nav/near_lanes.h"
 
 /* Of the grid, the cells within reach of each lane. */
@@ -297,7 +298,7 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
 /* Those who may touch, of the lanes whose neighbours may lack some. */
 static void find_touching(const Packet *packet, JoxMask sees) {
     const JoxPerceive *p = packet->p;
-    const JoxFloats radius = jf_load(p->agents->param[JOX_PARAM_radius] + packet->first);
+    const JoxFloats radius = jox_param_lanes(p->agents, JOX_PARAM_radius, packet->first);
     JoxFloats range = jf_add(jf_add(radius, jf_set(p->out->widest)), jf_set(JOX_TOUCH_LEAST));
     range = jf_min(jf_add(range, jf_set(JOX_TOUCH_MOST)), jf_set(p->sight));
     JoxFloats reach = jf_select(sees, jf_load(p->agents->search + packet->first), jf_set(0.0f));
@@ -327,9 +328,9 @@ static void perceive_packet(Packet *packet) {
     const JoxAgents *a = p->agents;
     const uint32_t i = packet->first;
     const JoxFloats perception =
-        jf_min(jf_load(a->param[JOX_PARAM_perception] + i), jf_set(p->sight));
+        jf_min(jox_param_lanes(a, JOX_PARAM_perception, i), jf_set(p->sight));
     const JoxFloats last = jf_load(a->search + i), zero = jf_set(0.0f);
-    const JoxInts most = jf_to_ints(jf_load(a->param[JOX_PARAM_neighbours] + i));
+    const JoxInts most = jf_to_ints(jox_param_lanes(a, JOX_PARAM_neighbours, i));
     const JoxFloats first = jf_set(jox_maxf(p->nav->search, JOX_SEARCH_LEAST));
     JoxFloats radius = jf_select(jf_lt(zero, last), jf_add(last, jf_set(JOX_SEARCH_SLACK)), first);
     jf_store(packet->at_x, jf_load(a->x + i));
@@ -368,12 +369,11 @@ static uint32_t levels_of(const float *neighbours, uint32_t count) {
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
     Packet packet; /* large: what stands behind the ends of its lists is read, and thrown away */
     packet.p = p;
-    const float *most = p->agents->param[JOX_PARAM_neighbours];
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
         packet.first = i;
         packet.lanes = (1u << count) - 1;
-        packet.levels = levels_of(most + i, count);
+        packet.levels = levels_of(jox_params(p->agents, JOX_PARAM_neighbours, i), count);
         perceive_packet(&packet);
     }
 }

@@ -69,7 +69,7 @@ static bool is_free(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float r
     for (int32_t y = cy - 1; y <= cy + 1; y++)
         for (int32_t x = cx - 1; x <= cx + 1; x++)
             for (uint32_t j = t->head[bucket_of(t, x, y)]; j != JOX_NO_INDEX; j = t->next[j]) {
-                float other = a->param[JOX_PARAM_radius][j];
+                float other = jox_param(a, JOX_PARAM_radius, j);
                 float least = radius + other - DEEP * 2.0f * jox_minf(radius, other);
                 if (jox_length2((JoxV2){a->x[j] - p.x, a->y[j] - p.y}) < least * least)
                     return false;
@@ -123,7 +123,7 @@ static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radiu
 static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool born,
                      JoxPlacement *result) {
     JoxV2 p = {a->x[i], a->y[i]}, spot;
-    float radius = a->param[JOX_PARAM_radius][i];
+    float radius = jox_param(a, JOX_PARAM_radius, i);
     if (!find_spot(t, &nav->grid, p, radius, born ? 0.0f : TOUCHING * radius, &spot) &&
         !find_spot(t, &nav->grid, p, radius, INFINITY, &spot)) {
         if (result->stuck++ == 0)
@@ -146,7 +146,7 @@ static void start_at(JoxAgents *a, uint32_t i) {
 static Occupied begin_spots(JoxNav *nav, const JoxAgents *a) {
     float widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++)
-        widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
+        widest = jox_maxf(widest, jox_param(a, JOX_PARAM_radius, i));
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, jox_maxf(widest, 1.0f));
     Occupied t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023, .each = 4};
@@ -169,7 +169,7 @@ static void end_spots(Occupied *t) {
 
 bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *a, uint32_t agent, JoxV2 *at) {
     Occupied t = begin_spots(nav, a);
-    const float radius = a->param[JOX_PARAM_radius][agent];
+    const float radius = jox_param(a, JOX_PARAM_radius, agent);
     const JoxV2 p = *at;
     JOX_ASSERT(agent < a->count);
     for (uint32_t i = 0; i < a->count; i++)
@@ -191,7 +191,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
         JoxV2 p = {a->x[i], a->y[i]};
         moves[i] = a->id[i] >= first_id;
         if (walls_came && !moves[i])
-            moves[i] = in_wall(&nav->grid, p, STANDING * a->param[JOX_PARAM_radius][i]);
+            moves[i] = in_wall(&nav->grid, p, STANDING * jox_param(a, JOX_PARAM_radius, i));
         if (!moves[i])
             occupy(&t, i);
     }
@@ -200,7 +200,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
         if (!moves[i])
             continue;
         JoxV2 p = {a->x[i], a->y[i]};
-        if (id < first_id || !is_free(&t, &nav->grid, p, a->param[JOX_PARAM_radius][i]))
+        if (id < first_id || !is_free(&t, &nav->grid, p, jox_param(a, JOX_PARAM_radius, i)))
             relocate(&t, nav, a, i, id >= first_id, &result);
         start_at(a, i);
         occupy(&t, i);

@@ -68,27 +68,30 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
 static float wall_reach(const JoxAgents *a, float planning_time) {
-    const float *radius = a->param[JOX_PARAM_radius], *speed = a->param[JOX_PARAM_max_speed];
-    const float *horizon = a->param[JOX_PARAM_wall_horizon], *limit = a->speed_limit;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn speed = a->param[JOX_PARAM_max_speed];
+    const JoxParameterColumn horizon = a->param[JOX_PARAM_wall_horizon];
+    const float *limit = a->speed_limit;
     JoxFour reach = {0.0f};
     uint32_t i = 0;
     for (; i + 4 <= a->count; i += 4) {
-        const JoxFour planned = jox_load_four(horizon + i) * jox_load_four(speed + i);
+        const JoxFour planned = jox_load_four(jox_params(a, JOX_PARAM_wall_horizon, i)) *
+                                jox_load_four(jox_params(a, JOX_PARAM_max_speed, i));
         const JoxFour shifted = jox_load_four(limit + i) * planning_time + 0.5f;
         const JoxFour farther = jox_greater_four(planned, shifted);
-        reach = jox_greater_four(jox_load_four(radius + i) + farther, reach);
+        reach =
+            jox_greater_four(jox_load_four(jox_params(a, JOX_PARAM_radius, i)) + farther, reach);
     }
     float most = jox_greatest_of_four(reach, 0.0f);
     for (; i < a->count; i++)
-        most = jox_maxf(most, radius[i] +
-                                  jox_maxf(horizon[i] * speed[i], limit[i] * planning_time + 0.5f));
+        most = jox_maxf(most, jox_at(radius, i) + jox_maxf(jox_at(horizon, i) * jox_at(speed, i),
+                                                           limit[i] * planning_time + 0.5f));
     return most;
 }
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
                        double planning_time, bool plans, JoxPool *pool) {
-    const float *radius = agents->param[JOX_PARAM_radius];
     JoxSolve solve = {.nav = nav,
                       .agents = agents,
                       .neighbours = neighbours,
@@ -96,8 +99,7 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                       .touched = in_force(touched),
                       .planning_time = (float)planning_time,
                       .plans = plans,
-                      .one_radius = agents->count &&
-                                    jox_is_same_of_all(radius, sizeof *radius, agents->count),
+                      .one_radius = !agents->param[JOX_PARAM_radius].mask,
                       .clear2 = nav->grid.walls ? nav->clear2 : NULL};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
@@ -113,14 +115,14 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
 
 /* As perceive does: the nearest within the agent's perception, nearest first, ties by id. */
 static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
-    const uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
-    const float reach = jox_minf(a->param[JOX_PARAM_perception][i], jox_nav_sight(a));
+    const uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
+    const float reach = jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a));
     float distance2[JOX_MOST_NEIGHBOURS];
     jox_neighbours_reserve(out, i + 1, most > 0 ? most : 1);
     out->count[i] = 0;
     for (uint32_t j = 0; j < a->count; j++) {
         const float d2 = jox_length2(jox_offset(a, i, j));
-        out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][j]);
+        out->widest = jox_maxf(out->widest, jox_param(a, JOX_PARAM_radius, j));
         uint32_t k = out->count[i];
         if (j == i || most == 0 || !(d2 < reach * reach))
             continue;
@@ -183,7 +185,7 @@ static JoxV2 wish_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts 
     bool kept_off = false;
     if (jox_solve_walks(s, i))
         return jox_v2(a->walk_x[i], a->walk_y[i]);
-    if (length2 < JOX_STANDS * JOX_STANDS || (gets_on && !(a->param[JOX_PARAM_push][i] > 0.0f)))
+    if (length2 < JOX_STANDS * JOX_STANDS || (gets_on && !(jox_param(a, JOX_PARAM_push, i) > 0.0f)))
         return w;
     for (uint32_t k = made->walls; k < made->walls + made->contacts + made->agents; k++) {
         const JoxV2 n = planes[k].normal;

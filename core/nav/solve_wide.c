@@ -35,7 +35,7 @@ static JoxVector wish(const JoxPacket *p) {
     JoxFloats along = jf_add(jf_mul(jf_load(a->vx + i), w.x), jf_mul(jf_load(a->vy + i), w.y));
     JoxFloats length2 = jf_add(jf_mul(w.x, w.x), jf_mul(w.y, w.y));
     JoxMask gets_on = jf_lt(jf_mul(slow, length2), along);
-    JoxMask pushes = jf_lt(jf_set(0.0f), jf_load(a->param[JOX_PARAM_push] + i));
+    JoxMask pushes = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_push, i));
     JoxMask stands = jf_lt(length2, jf_mul(jf_set(JOX_STANDS), jf_set(JOX_STANDS)));
     uint32_t aside = p->lanes & ~jm_bits(jm_or(jm_without(gets_on, pushes), stands));
     if (aside)
@@ -201,7 +201,7 @@ static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
     const JoxAgents *a = s->agents;
     const JoxContactPlanes *t = s->touched;
     const uint32_t there = end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : JOX_ALL_LANES;
-    const JoxMask walks = jf_lt(jf_set(0.0f), jf_load(a->param[JOX_PARAM_time_gap] + first));
+    const JoxMask walks = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_time_gap, first));
     p->first = first;
     p->lanes = there;
     for (uint32_t lane = 0; !s->plans && there >> lane; lane++)

@@ -33,8 +33,8 @@ static inline JoxMinds jox_minds(const JoxAgents *a, uint32_t i, uint32_t j, Jox
 /* Distance of the centres, m, within which i's way and j's are one, by how i minds j. */
 static inline float jox_walk_width(const JoxWalkLaw *law, const JoxAgents *a, uint32_t i,
                                    uint32_t j, JoxMinds minds) {
-    const float *radius = a->param[JOX_PARAM_radius];
-    float radii = radius[i] + radius[j];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    float radii = jox_at(radius, i) + jox_at(radius, j);
     if (minds == JOX_MINDS_CROSSING)
         return radii * (float)law->width_cross;
     return radii * (float)law->width * (1.0f - (float)law->room_eager * a->eager[i]);

@@ -4,6 +4,7 @@
 #ifndef JOX_NAV_WALK_LANES_H
 #define JOX_NAV_WALK_LANES_H
 
+#include "agents/param_lanes.h"
 #include "base/number/exponential.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
@@ -60,7 +61,7 @@ static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */
 static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     const JoxNeighbours *n = w->neighbours;
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
-    const JoxFloats haste = jf_load(w->agents->param[JOX_PARAM_haste] + first);
+    const JoxFloats haste = jox_param_lanes(w->agents, JOX_PARAM_haste, first);
     const JoxFloats twice = jf_mul(jf_set(2.0f), haste);
     const JoxFloats most = jf_set((float)w->law->eager_most);
     uint32_t crowded = 0;
@@ -94,7 +95,7 @@ static inline double jox_drawn(uint64_t bits) {
 static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, JoxFloats eagerness) {
     const JoxAgents *a = w->agents;
     const JoxWalkLaw *law = w->law;
-    const float *base = a->param[JOX_PARAM_time_gap] + first;
+    const float *base = jox_params(a, JOX_PARAM_time_gap, first);
     double wander[JOX_WIDTH], own[JOX_WIDTH];
     float eager[JOX_WIDTH], gap[JOX_WIDTH];
     jf_store(eager, eagerness);

@@ -80,7 +80,7 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
     const JoxWallGrid *grid = &w->nav->grid;
     const JoxV2 aim = {a->aim_x[i], a->aim_y[i]};
     Seeker p = {.at = {a->x[i], a->y[i]},
-                .keep = (float)w->law->wall_radius * a->param[JOX_PARAM_radius][i],
+                .keep = (float)w->law->wall_radius * jox_param(a, JOX_PARAM_radius, i),
                 .speed = jox_length((JoxV2){a->pref_x[i], a->pref_y[i]}),
                 .per_time = 1.0f / (float)w->law->wall_time};
     for (int k = 0; k < EDGE_LANES; k++) {

@@ -4,6 +4,7 @@
    stand behind a wall, and walls (walk_walls_wide.c). */
 #include <math.h>
 
+#include "agents/param_lanes.h"
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
@@ -147,7 +148,8 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
         jf_records(&p->w->neighbours->motions[0].x, others, record);
         row->offset = offset_of(p, record, periodic);
         row->velocity = (JoxVector){record[2], record[3]};
-        const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
+        const JoxFloats radii =
+            jf_add(p->radius, jox_param_pick(a->param[JOX_PARAM_radius], others));
         const JoxFloats d2 = jv_dot(row->offset, row->offset);
         row->per_width = jf_div(one, jf_mul(width, radii));
         row->length = jf_mul(length, radii);
@@ -356,7 +358,7 @@ static void walk_packet(Packet *p) {
     JoxAgents *a = p->w->agents;
     const uint32_t i = p->first;
     p->aim = (JoxVector){jf_load(a->aim_x + i), jf_load(a->aim_y + i)};
-    p->radius = jf_load(a->param[JOX_PARAM_radius] + i);
+    p->radius = jox_param_lanes(a, JOX_PARAM_radius, i);
     (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose(p);
     const JoxVector velocity = approach(p, &to), course = turn_course(p, to.e);
@@ -384,7 +386,7 @@ static inline uint32_t lanes_before(uint32_t first, uint32_t end) {
 static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     JoxAgents *a = p->w->agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
-    const JoxMask walk = jf_lt(zero, jf_load(a->param[JOX_PARAM_time_gap] + first));
+    const JoxMask walk = jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, first));
     const uint32_t walkers = jm_bits(walk) & lanes_before(first, end);
     p->first = first;
     p->lanes = p->near_walls = 0;
@@ -434,9 +436,9 @@ float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
         const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));
         const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
         const JoxMask walks =
-            jm_and(jf_lt(zero, jf_load(a->param[JOX_PARAM_time_gap] + i)), jm_of_bits(lanes));
+            jm_and(jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, i)), jm_of_bits(lanes));
         const JoxFloats keep =
-            jf_mul(jf_set((float)w->law->wall_radius), jf_load(a->param[JOX_PARAM_radius] + i));
+            jf_mul(jf_set((float)w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, i));
         const JoxFloats far = jf_add(keep, jf_mul(speed, jf_set((float)w->law->wall_time)));
         reach = jf_max(reach, jf_select(walks, far, none));
         float x[JOX_WIDTH], y[JOX_WIDTH];

@@ -122,7 +122,7 @@ void jox_draw_classes(JoxDrawing *d) {
 
 static float radius_of(const JoxDrawing *d, uint32_t i) {
     const JoxPicture *p = d->picture;
-    float radius = p->frame->radius ? p->frame->radius[i] : p->radius;
+    float radius = jox_frame_radius(p->frame, i, p->radius);
     return jox_maxf(radius * d->scale, LEAST * d->unit);
 }
 

@@ -23,6 +23,7 @@ typedef struct JoxFrame {
     const float *vx, *vy; /* m/s: displacement over a step, or over a stretch about the moment */
     /* NULL where they are not known, as in a recording made by others. */
     const float *radius;       /* m */
+    bool one_radius;           /* it is one number, that of all */
     const float *force;        /* magnitude of the net force, N */
     const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
     const float *load;         /* greatest push borne from any one direction, N */
@@ -42,5 +43,10 @@ typedef struct JoxFrame {
     const JoxWallLoad *wall_loads;  /* by piece; NULL where they are not known */
     uint32_t wall_load_count;
 } JoxFrame;
+
+/* m: of person i, or `unknown`. */
+static inline float jox_frame_radius(const JoxFrame *frame, uint32_t i, float unknown) {
+    return frame->radius ? frame->radius[frame->one_radius ? 0 : i] : unknown;
+}
 
 #endif

@@ -25,7 +25,7 @@ static void take(JoxMoment *m, const JoxStorySample *sample) {
     for (m->count = 0; m->count < frame->count; m->count++)
         m->people[m->count] =
             (JoxMomentPerson){frame->key[m->count], frame->x[m->count], frame->y[m->count],
-                              frame->radius ? frame->radius[m->count] : 0.0f};
+                              jox_frame_radius(frame, m->count, 0.0f)};
     JOX_RESERVE(m->field, m->cell_capacity, cells);
     memcpy(m->field, grid->now, cells * sizeof *m->field);
     m->cells = cells;

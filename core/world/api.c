@@ -199,7 +199,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
         return (JoAgent){0};
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        world->state.agents.param[p][i] = jox_parameter_store((JoxParameter)p, values[p]);
+        jox_param_set(&world->state.agents, p, i, jox_parameter_store((JoxParameter)p, values[p]));
     return jox_world_handle(world, i);
 }
 
@@ -234,7 +234,7 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
                           .fy = a->force_y[i],
                           .compression = a->compression[i],
                           .load = a->load[i],
-                          .radius = a->param[JOX_PARAM_radius][i],
+                          .radius = jox_param(a, JOX_PARAM_radius, i),
                           .state = state};
 }
 

@@ -17,13 +17,13 @@ static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
     float least = INFINITY;
     if (body->footprint_count >= 3 &&
         jox_polygon_contains(body->footprint, body->footprint_count, at))
-        return -a->param[JOX_PARAM_radius][i];
+        return -jox_param(a, JOX_PARAM_radius, i);
     for (uint32_t k = 0; k < body->footprint_count; k++) {
         JoxV2 side = jox_segment_nearest(body->footprint[k],
                                          body->footprint[(k + 1) % body->footprint_count], at);
         least = jox_minf(least, jox_length2(jox_sub(at, side)));
     }
-    return sqrtf(least) - a->param[JOX_PARAM_radius][i];
+    return sqrtf(least) - jox_param(a, JOX_PARAM_radius, i);
 }
 
 /* Until somebody touches a bonded body: how fast those before it were in the last second. */
@@ -58,7 +58,7 @@ void jox_bonds_note_touch(const JoxBodyStage *stage) {
    pushes it. */
 static bool presses(const JoxAgents *a, uint32_t i, float gap) {
     return (gap < SKIN && a->compression[i] > 0.0f) ||
-           (gap < a->param[JOX_PARAM_push_reach][i] && a->param[JOX_PARAM_push][i] > 0.0f);
+           (gap < jox_param(a, JOX_PARAM_push_reach, i) && jox_param(a, JOX_PARAM_push, i) > 0.0f);
 }
 
 /* How many rows have at least half as many people as the first; `row`: of those in the queue, which
@@ -82,7 +82,7 @@ static uint32_t full_rows(const uint32_t *row, const uint32_t *queue, uint32_t c
 static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     const JoxAgents *a = stage->agents;
     const JoxNeighbours *near = stage->neighbours;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
     for (uint32_t i = 0; i < a->count; i++)
@@ -94,7 +94,7 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
         uint32_t i = queue[at];
         for (uint32_t k = 0; k < near->count[i] && a->compression[i] > 0.0f; k++) {
             uint32_t j = near->index[jox_neighbour_at(near, i, k)];
-            float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
+            float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
             if (row[j] || !presses(a, j, gap))
                 continue;
             JOX_ASSERT(row[i] > 0); /* only those whom a chain reached are in the queue */

@@ -41,7 +41,8 @@ static const char *agents_fault(const JoWorld *w) {
         JOX_MUST(names_one(a->queue_at[i], w->model.place_count));
         JOX_MUST(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
         JOX_MUST(names_one(a->struck[i], bodies));
-        JOX_MUST(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
+        JOX_MUST(jox_param(a, JOX_PARAM_radius, i) > 0.0f &&
+                 jox_param(a, JOX_PARAM_mass, i) > 0.0f);
         JOX_MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
         const char *fault = machine_fault(w, i);
         if (fault)
@@ -79,7 +80,7 @@ static const char *numbers_fault(const JoWorld *w) {
         JOX_MUST(all_within(others[c], n, MOST));
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         for (uint32_t i = 0; i < n; i++)
-            JOX_MUST(jox_parameter_is_stored((JoxParameter)p, a->param[p][i]));
+            JOX_MUST(jox_parameter_is_stored((JoxParameter)p, jox_param(a, p, i)));
     for (uint32_t i = 0; i < n; i++)
         JOX_MUST(!isnan(a->lasts[i]));
     return NULL;

@@ -30,8 +30,8 @@ static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
                                    .y = a->prev_y[i],
                                    .move_x = a->x[i] - a->prev_x[i],
                                    .move_y = a->y[i] - a->prev_y[i],
-                                   .radius = a->param[JOX_PARAM_radius][i],
-                                   .mass = a->param[JOX_PARAM_mass][i],
+                                   .radius = jox_param(a, JOX_PARAM_radius, i),
+                                   .mass = jox_param(a, JOX_PARAM_mass, i),
                                    .vx = a->vx[i],
                                    .vy = a->vy[i]};
     }
@@ -49,13 +49,13 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
         uint32_t i = s->discs->agents[hit->disc];
         JOX_ASSERT(a->id[i] == s->discs->discs[hit->disc].id);
         JOX_ASSERT(hit->object < s->objects->count && isfinite(jox_length(hit->impulse)));
-        float mass = a->param[JOX_PARAM_mass][i];
+        float mass = jox_param(a, JOX_PARAM_mass, i);
         a->vx[i] += hit->impulse.x / mass;
         a->vy[i] += hit->impulse.y / mass;
         a->force_x[i] += hit->impulse.x / dt;
         a->force_y[i] += hit->impulse.y / dt;
         float force = jox_length(hit->impulse) / dt;
-        a->compression[i] += force / (6.2831853f * a->param[JOX_PARAM_radius][i]);
+        a->compression[i] += force / (6.2831853f * jox_param(a, JOX_PARAM_radius, i));
         a->load[i] += force;
         a->contacts[i] += a->contacts[i] < 255;
         if (a->struck[i] < 0)
@@ -110,7 +110,7 @@ static const float CARRY_HEIGHT = 1.2f; /* m: of the hand */
 
 /* In front of the agent, clear of its disc. */
 static JoxV3 before(const JoxAgents *a, uint32_t i, const JoxObject *object, JoxV2 way) {
-    float gap = a->param[JOX_PARAM_radius][i] + object->disc + 0.02f;
+    float gap = jox_param(a, JOX_PARAM_radius, i) + object->disc + 0.02f;
     return (JoxV3){a->x[i] + way.x * gap, a->y[i] + way.y * gap, CARRY_HEIGHT};
 }
 

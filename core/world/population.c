@@ -232,7 +232,7 @@ static bool is_in_room(const Room *room, JoxV2 p) {
 }
 
 static void take_room(Room *room, const JoxAgents *a, uint32_t i) {
-    const double radius = a->param[JOX_PARAM_radius][i];
+    const double radius = jox_param(a, JOX_PARAM_radius, i);
     room->covered += PI * radius * radius;
 }
 
@@ -390,7 +390,7 @@ static void set_going(JoWorld *world, uint32_t agent, JoxV2 velocity) {
 
 static bool is_free(const JoxAgents *a, JoxV2 at) {
     for (uint32_t i = 0; i < a->count; i++) {
-        const float least = CLEAR * a->param[JOX_PARAM_radius][i];
+        const float least = CLEAR * jox_param(a, JOX_PARAM_radius, i);
         if (jox_length2(jox_sub(at, jox_v2(a->x[i], a->y[i]))) < least * least)
             return false;
     }

@@ -7,16 +7,16 @@
 
 /* Bins every agent by how deep it overlaps the neighbour it overlaps most. */
 static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     for (uint32_t i = 0; i < a->count; i++) {
         float deepest = 0.0f;
         for (uint32_t k = 0; k < n->count[i]; k++) {
             uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* they have moved since: measure */
-            float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
+            float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
             deepest = -gap > deepest ? -gap : deepest;
         }
-        JOX_ASSERT(deepest >= 0.0f && radius[i] > 0.0f);
-        int bin = (int)(deepest / (2.0f * radius[i]) * JOX_OVERLAP_BINS);
+        JOX_ASSERT(deepest >= 0.0f && jox_at(radius, i) > 0.0f);
+        int bin = (int)(deepest / (2.0f * jox_at(radius, i)) * JOX_OVERLAP_BINS);
         s->overlap[bin < JOX_OVERLAP_BINS ? bin : JOX_OVERLAP_BINS - 1]++;
     }
     s->overlap_samples += a->count;

@@ -133,7 +133,7 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {
     if (world->state.settled)
         world->state.first_unsettled = world->state.agents.next_id;
     world->state.settled = false;
-    uint32_t i = jox_agents_add(&world->state.agents);
+    uint32_t i = jox_agents_add_alike(&world->state.agents);
     JoxAgents *a = &world->state.agents;
     a->x[i] = a->prev_x[i] = a->still_x[i] = x;
     a->y[i] = a->prev_y[i] = a->still_y[i] = y;

@@ -58,19 +58,50 @@ static void own_values_of_all_are_held_once(void **state) {
         jox_own_set(&a, at, 0, -0.0);
         jox_own_set(&a, at, 1, i < 99 ? 3.0 : 4.0);
     }
-    assert_true(!a.own[0].each && signbit(jox_own(&a, 50, 0)));
-    assert_non_null(a.own[1].each);
-    jox_own_settle(&a);
+    assert_true(!a.own[0].mask && signbit(jox_own(&a, 50, 0)));
+    assert_true(a.own[1].mask);
+    jox_shared_settle(&a);
     assert_true(jox_own(&a, 0, 1) == 3.0 && jox_own(&a, 98, 1) == 3.0 && jox_own(&a, 99, 1) == 4.0);
     const uint64_t differing = hash_of(&a);
     jox_own_set(&a, 99, 1, 3.0);
     jox_own_set(&a, 7, 0, 0.0); /* another bit: another value */
     jox_own_set(&a, 7, 0, -0.0);
     const uint64_t before = hash_of(&a);
-    assert_true(a.own[0].each && a.own[1].each && before != differing);
-    jox_own_settle(&a);
-    assert_true(!a.own[0].each && !a.own[1].each && hash_of(&a) == before);
+    assert_true(a.own[0].mask && a.own[1].mask && before != differing);
+    jox_shared_settle(&a);
+    assert_true(!a.own[0].mask && !a.own[1].mask && hash_of(&a) == before);
     assert_true(jox_own(&a, 99, 1) == 3.0 && signbit(jox_own(&a, 7, 0)));
+    jox_agents_free(&a);
+}
+
+/* So does a column of a parameter; a packet reads it wherever it begins. */
+static void parameters_of_all_are_held_once(void **state) {
+    (void)state;
+    const JoxParameter p = JOX_PARAM_speed;
+    JoxAgents a = {0};
+    for (uint32_t i = 0; i < 100; i++)
+        jox_param_set(&a, p, jox_agents_add_alike(&a), 2.0f);
+    assert_true(!a.param[p].mask && jox_param(&a, p, 99) == 2.0f);
+    for (uint32_t k = 0; k < JOX_AGENTS_PADDING; k++)
+        assert_true(jox_params(&a, p, 96)[k] == 2.0f);
+    const uint32_t other = jox_agents_add(&a); /* with the default */
+    assert_true(a.param[p].mask && jox_param(&a, p, other) == 1.3f);
+    assert_true(jox_param(&a, p, 0) == 2.0f && jox_param(&a, p, 99) == 2.0f);
+    assert_true(jox_param_greatest(&a, p) == 2.0f && jox_params(&a, p, other)[0] == 1.3f);
+    assert_true(jox_param(&a, p, jox_agents_add_alike(&a)) == 1.3f);
+    assert_true(!a.param[JOX_PARAM_mass].mask && jox_param_greatest(&a, JOX_PARAM_mass) == 70.0f);
+    uint32_t order[102];
+    for (uint32_t i = 0; i < 102; i++)
+        order[i] = 101 - i;
+    jox_agents_permute(&a, order);
+    assert_true(jox_param(&a, p, 0) == 1.3f && jox_param(&a, p, 2) == 2.0f);
+    jox_shared_settle(&a);
+    assert_true(a.param[p].mask);
+    a.removed[0] = a.removed[1] = 1;
+    jox_agents_compact(&a);
+    const uint64_t each = hash_of(&a);
+    jox_shared_settle(&a);
+    assert_true(!a.param[p].mask && jox_param(&a, p, 50) == 2.0f && hash_of(&a) == each);
     jox_agents_free(&a);
 }
 
@@ -187,8 +218,9 @@ static void a_new_agent_has_the_defaults(void **state) {
     (void)state;
     JoxAgents a = {0};
     uint32_t i = jox_agents_add(&a);
-    assert_true(a.param[JOX_PARAM_radius][i] == 0.2f && a.param[JOX_PARAM_mass][i] == 70.0f);
-    assert_true(fabsf(a.param[JOX_PARAM_push_angle][i] - 0.5f) < 1e-6f);
+    assert_true(jox_param(&a, JOX_PARAM_radius, i) == 0.2f &&
+                jox_param(&a, JOX_PARAM_mass, i) == 70.0f);
+    assert_true(fabsf(jox_param(&a, JOX_PARAM_push_angle, i) - 0.5f) < 1e-6f);
     assert_true(isinf(a.lasts[i]) && a.goal[i] == -1);
     assert_true(jox_parameter_store(JOX_PARAM_mass, NAN) == 70.0f);
     assert_true(jox_parameter_store(JOX_PARAM_mass, -1e300) == 1.0f);
@@ -265,7 +297,7 @@ static void state_is_restored_whatever_the_order(void **state) {
     jox_agents_sections(&b, &s);
     assert_true(jox_sections_end(&s));
     assert_int_equal(b.own_count, 4);
-    assert_true(!b.own[0].each && b.own[1].each && jox_own(&b, 3, 0) == 5.0);
+    assert_true(!b.own[0].mask && b.own[1].mask && jox_own(&b, 3, 0) == 5.0);
     jox_agents_forget(&b);
     assert_true(isnan(b.forced_x[0]) && b.x[3] == 4 * 37 % 120);
     assert_true(hash_of(&b) == hash);
@@ -307,6 +339,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
         cmocka_unit_test(own_values_of_all_are_held_once),
+        cmocka_unit_test(parameters_of_all_are_held_once),
         cmocka_unit_test(rows_may_be_wide),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
         cmocka_unit_test(whatever_leaves_the_rest_keeps_its_cells),

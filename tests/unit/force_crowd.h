@@ -53,8 +53,8 @@ static inline void see(Crowd *c) {
     for (uint32_t i = 0; i < a->count; i++)
         n->motions[i] = (JoxMotion){a->x[i], a->y[i], a->vx[i], a->vy[i]};
     for (uint32_t i = 0; i < a->count; i++) {
-        uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i], count = 0;
-        float sight = a->param[JOX_PARAM_perception][i];
+        uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i), count = 0;
+        float sight = jox_param(a, JOX_PARAM_perception, i);
         for (uint32_t k = 0; k < a->count; k++) {
             float dx = a->x[k] - a->x[i], dy = a->y[k] - a->y[i], d2 = dx * dx + dy * dy;
             if (k == i || d2 > sight * sight)
@@ -107,7 +107,7 @@ static inline void close_crowd(Crowd *c) {
 }
 
 static inline void set_param(Crowd *c, uint32_t i, JoxParameter p, double value) {
-    c->agents.param[p][i] = jox_parameter_store(p, value);
+    jox_param_set(&c->agents, p, i, jox_parameter_store(p, value));
 }
 
 static inline void assert_near(double value, double wanted, double within) {

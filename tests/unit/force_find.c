@@ -43,11 +43,11 @@ static void add(Crowd *c, uint32_t k) {
     uint32_t i = jox_agents_add(a);
     a->x[i] = draw(c, 0.0, size);
     a->y[i] = draw(c, 0.0, size);
-    a->param[JOX_PARAM_radius][i] = draw(c, 0.15, 0.3);
+    jox_param_set(a, JOX_PARAM_radius, i, draw(c, 0.15, 0.3));
     if (c->kind == LATTICE) { /* neighbours touch in a point */
         a->x[i] = 0.5f * (float)(k % 19);
         a->y[i] = 0.5f * (float)(k / 19);
-        a->param[JOX_PARAM_radius][i] = 0.25f;
+        jox_param_set(a, JOX_PARAM_radius, i, 0.25f);
     }
     if (c->kind == COINCIDENT) {
         a->x[i] = 0.5f * (float)(k % 9);
@@ -56,11 +56,11 @@ static void add(Crowd *c, uint32_t k) {
     a->vx[i] = draw(c, -1.5, 1.5);
     a->vy[i] = draw(c, -1.5, 1.5);
     a->pref_x[i] = draw(c, -1.0, 1.0);
-    a->param[JOX_PARAM_mass][i] = draw(c, 40.0, 110.0);
-    a->param[JOX_PARAM_restitution][i] = draw(c, -0.5, 0.5);
+    jox_param_set(a, JOX_PARAM_mass, i, draw(c, 40.0, 110.0));
+    jox_param_set(a, JOX_PARAM_restitution, i, draw(c, -0.5, 0.5));
     if (c->number / KINDS % 2) {
-        a->param[JOX_PARAM_neighbours][i] = floorf(draw(c, 0.0, 16.999));
-        a->param[JOX_PARAM_perception][i] = draw(c, 0.2, 4.0);
+        jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw(c, 0.0, 16.999)));
+        jox_param_set(a, JOX_PARAM_perception, i, draw(c, 0.2, 4.0));
     }
 }
 

@@ -154,12 +154,12 @@ static void the_plane_asks_for_the_forced_velocity(void **state) {
     assert_near(a->half_plane_offset[0], 0.1, 1e-6);
     assert_true(a->half_plane_x[1] == 0 && a->half_plane_y[1] == 0);
     assert_near(a->half_plane_offset[2], exp(-0.25) + 3, 1e-5);
-    assert_true(a->speed_limit[0] == a->param[JOX_PARAM_max_speed][0]);
+    assert_true(a->speed_limit[0] == jox_param(a, JOX_PARAM_max_speed, 0));
     assert_near(a->speed_limit[2], 1 + 3, 1e-5);
     a->ext_x[2] = a->contact_x[2]; /* the same by other means is capped */
     a->contact_x[2] = 0;
     jox_force_sum(c.forces);
-    assert_true(a->speed_limit[2] == a->param[JOX_PARAM_max_speed][2]);
+    assert_true(a->speed_limit[2] == jox_param(a, JOX_PARAM_max_speed, 2));
     close_crowd(&c);
 }
 
@@ -350,7 +350,7 @@ static void contacts_keep_momentum(void **state) {
     double x = 0, y = 0, size = 0, before = 0, after = 0;
     for (uint32_t i = 0; i < MANY; i++) {
         JoxAgents *a = &c.agents;
-        double m = a->param[JOX_PARAM_mass][i];
+        double m = jox_param(a, JOX_PARAM_mass, i);
         double vx = a->vx[i] + a->contact_x[i] * 0.05 / m;
         double vy = a->vy[i] + a->contact_y[i] * 0.05 / m;
         x += a->contact_x[i];

@@ -46,9 +46,9 @@ static void fill(JoxAgents *a, Draws *d) {
         a->push_y[i] = some(d, 300.0f);
         a->contact_x[i] = draw(d, 0.0, 1.0) < 0.5f ? 0.0f : some(d, 900.0f);
         a->contact_y[i] = a->contact_x[i] == 0.0f ? 0.0f : some(d, 900.0f);
-        a->param[JOX_PARAM_mass][i] = draw(d, 40.0, 120.0);
-        a->param[JOX_PARAM_damping][i] = d->number % 2 ? draw(d, 1.0, 4.0) : 2.5f;
-        a->param[JOX_PARAM_brace][i] = draw(d, 0.0, 400.0);
+        jox_param_set(a, JOX_PARAM_mass, i, draw(d, 40.0, 120.0));
+        jox_param_set(a, JOX_PARAM_damping, i, d->number % 2 ? draw(d, 1.0, 4.0) : 2.5f);
+        jox_param_set(a, JOX_PARAM_brace, i, draw(d, 0.0, 400.0));
         if (d->number % 3 == 0 && k / JOX_LANES % 2) /* whole packets that nothing presses */
             a->ext_x[i] = a->inferred_x[i] = a->inferred_y[i] = a->push_y[i] = a->contact_x[i] =
                 a->contact_y[i] = 0.0f;
@@ -77,8 +77,8 @@ static void move(JoxAgents *a, JoxForces *f, Draws *d) {
         a->next_y[i] = draw(d, 0.0, 1.0) < 0.2f ? some(d, 1.0f) : kept * a->forced_y[i];
         a->vx[i] = draw(d, 0.0, 1.0) < 0.1f ? 0.0f : a->next_x[i];
         a->vy[i] = a->next_y[i];
-        a->param[JOX_PARAM_absorb][i] = draw(d, 0.0, 1.0) < 0.1f ? 0.0f : draw(d, 0.1, 0.9);
-        a->param[JOX_PARAM_brace_angle][i] = draw(d, -0.2, 1.0);
+        jox_param_set(a, JOX_PARAM_absorb, i, draw(d, 0.0, 1.0) < 0.1f ? 0.0f : draw(d, 0.1, 0.9));
+        jox_param_set(a, JOX_PARAM_brace_angle, i, draw(d, -0.2, 1.0));
         if (draw(d, 0.0, 1.0) < 0.3f)
             a->half_plane_x[i] = a->half_plane_y[i] = 0.0f;
         if (draw(d, 0.0, 1.0) < 0.1f)

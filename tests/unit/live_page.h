@@ -112,7 +112,7 @@ static inline bool reload_text(JoScene *scene, uint32_t index, const char *text)
 
 /* Wanted speed of the agent at an index, m/s. */
 static inline double speed_of(const JoScene *scene, uint32_t agent) {
-    return (double)scene->world->state.agents.param[JOX_PARAM_speed][agent];
+    return (double)jox_param(&scene->world->state.agents, JOX_PARAM_speed, agent);
 }
 
 /* A sheet of one state with a wanted speed and what else the state says. */

@@ -88,7 +88,7 @@ static Figures figures_of(const JoWorld *w, bool by_forces) {
     const JoxAgents *a = &w->state.agents;
     Figures f = {0};
     for (uint32_t i = 0; i < a->count; i++) {
-        double m = (double)a->param[JOX_PARAM_mass][i];
+        double m = (double)jox_param(a, JOX_PARAM_mass, i);
         double vx = (double)(by_forces ? a->forced_x[i] : a->vx[i]);
         double vy = (double)(by_forces ? a->forced_y[i] : a->vy[i]);
         f.kinetic += 0.5 * m * (vx * vx + vy * vy);

@@ -36,8 +36,8 @@ static void fill(JoxAgents *a, Draws *d) {
         a->density[i] = draw(d, 0.0, 9.0);
         a->face_x[i] = 1.0f;
         a->face_y[i] = 0.0f;
-        a->param[JOX_PARAM_speed][i] = draw(d, 0.0, 2.0);
-        a->param[JOX_PARAM_max_speed][i] = draw(d, 0.2, 3.0);
+        jox_param_set(a, JOX_PARAM_speed, i, draw(d, 0.0, 2.0));
+        jox_param_set(a, JOX_PARAM_max_speed, i, draw(d, 0.2, 3.0));
     }
 }
 
@@ -79,7 +79,7 @@ static JoxV2 added(JoxV2 sum, JoxV2 way, float by) {
 }
 
 static JoxV2 finished(const JoxAgents *a, JoxV2 sum, uint32_t i) {
-    float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
+    float speed = jox_minf(jox_param(a, JOX_PARAM_speed, i), jox_param(a, JOX_PARAM_max_speed, i));
     return jox_scale(jox_length2(sum) > 1.0f ? jox_unit(sum) : sum, speed);
 }
 

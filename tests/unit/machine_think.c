@@ -129,7 +129,7 @@ static void operators_compute(void **state) {
         Fixture f;
         begin(&f, m, 1);
         think(&f);
-        assert_true(fabsf(f.agents.param[JOX_PARAM_push][0] - (float)(CASES[i].result + 10)) <
+        assert_true(fabsf(jox_param(&f.agents, JOX_PARAM_push, 0) - (float)(CASES[i].result + 10)) <
                     1e-5f);
         end(&f);
     }

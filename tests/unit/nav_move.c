@@ -151,7 +151,7 @@ static void test_move(void **state) {
 /* As it is said: a share of `turn` between two values that were drawn, evenly in time. */
 static float breadth_by_hand(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
-    const float radius = a->param[JOX_PARAM_radius][i], turn = a->param[JOX_PARAM_turn][i];
+    const float radius = jox_param(a, JOX_PARAM_radius, i), turn = jox_param(a, JOX_PARAM_turn, i);
     if (!step->turning || jox_stands(a, i))
         return radius;
     const double own = (double)a->id[i] * 0.6180339887498949;
@@ -175,8 +175,8 @@ static void test_breadth(void **state) {
             begin(&c, 0);
             JoxAgents *a = &c.agents;
             for (uint32_t i = 0; i < PEOPLE; i++) {
-                a->param[JOX_PARAM_radius][i] = draw(number, &drawn, 0.1, 0.4);
-                a->param[JOX_PARAM_turn][i] = draw(number, &drawn, 0.0, 0.5);
+                jox_param_set(a, JOX_PARAM_radius, i, draw(number, &drawn, 0.1, 0.4));
+                jox_param_set(a, JOX_PARAM_turn, i, draw(number, &drawn, 0.0, 0.5));
                 a->pref_x[i] = draw(number, &drawn, -0.1, 0.3);
                 a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
             }
@@ -190,7 +190,7 @@ static void test_breadth(void **state) {
             for (uint32_t i = 0; i < PEOPLE; i++) {
                 const float expected = breadth_by_hand(&f->step, i);
                 assert_memory_equal(&a->breadth[i], &expected, sizeof expected);
-                turned += expected < a->param[JOX_PARAM_radius][i];
+                turned += expected < jox_param(a, JOX_PARAM_radius, i);
             }
             assert_true(number == 5 ? turned == 0 : turned > PEOPLE / 4);
             jox_forces_free(f);

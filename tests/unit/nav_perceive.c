@@ -50,11 +50,11 @@ static void fill(JoxAgents *a, uint32_t crowd) {
         JoxV2 at = place(kind, k, crowd, &drawn);
         a->x[i] = periodic ? fmodf(at.x, 15.0f) : at.x;
         a->y[i] = periodic ? fmodf(at.y, 15.0f) : at.y;
-        a->param[JOX_PARAM_radius][i] = (float)draw(crowd, &drawn, 0.1, 0.3);
+        jox_param_set(a, JOX_PARAM_radius, i, (float)draw(crowd, &drawn, 0.1, 0.3));
         if (!mixed)
             continue;
-        a->param[JOX_PARAM_neighbours][i] = floorf((float)draw(crowd, &drawn, 0.0, 16.999));
-        a->param[JOX_PARAM_perception][i] = (float)draw(crowd, &drawn, 0.0, 5.0);
+        jox_param_set(a, JOX_PARAM_neighbours, i, floorf((float)draw(crowd, &drawn, 0.0, 16.999)));
+        jox_param_set(a, JOX_PARAM_perception, i, (float)draw(crowd, &drawn, 0.0, 5.0));
     }
 }
 
@@ -156,7 +156,7 @@ static float sight_of(const JoxAgents *a, float reach) {
 
 static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
                              Other *all) {
-    float range = sight_of(a, jox_touch_reach(n, a->param[JOX_PARAM_radius][i]));
+    float range = sight_of(a, jox_touch_reach(n, jox_param(a, JOX_PARAM_radius, i)));
     assert_int_equal(n->touch_count[i] == JOX_TOUCH_IS_SEEN, seen >= range);
     if (n->touch_count[i] == JOX_TOUCH_IS_SEEN)
         return;
@@ -170,8 +170,8 @@ static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_
 static void compare(const JoxAgents *a, const JoxNeighbours *n) {
     static Other all[MOST_PEOPLE];
     for (uint32_t i = 0; i < a->count; i++) {
-        const uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
-        const float perception = sight_of(a, a->param[JOX_PARAM_perception][i]);
+        const uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
+        const float perception = sight_of(a, jox_param(a, JOX_PARAM_perception, i));
         uint32_t count = reference(a, i, perception, all);
         count = count < most ? count : most;
         assert_int_equal(n->count[i], count);

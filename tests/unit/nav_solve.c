@@ -70,14 +70,14 @@ static void add(Crowd *c, uint32_t k, bool mixed) {
         a->vx[i] = a->vy[i] = 0.25f;
     a->walk_x[i] = 0.7f * wants.x;
     a->walk_y[i] = 0.7f * wants.y;
-    a->param[JOX_PARAM_radius][i] = c->number % 3 == 1 ? 0.22f : draw(c, 0.15, 0.3);
-    a->param[JOX_PARAM_push][i] = chance(c, 0.5) ? 100.0f : 0.0f;
+    jox_param_set(a, JOX_PARAM_radius, i, c->number % 3 == 1 ? 0.22f : draw(c, 0.15, 0.3));
+    jox_param_set(a, JOX_PARAM_push, i, chance(c, 0.5) ? 100.0f : 0.0f);
     a->tags[i] = chance(c, 0.5);
     if (!mixed)
         return;
-    a->param[JOX_PARAM_neighbours][i] = floorf(draw(c, 0.0, 16.999));
-    a->param[JOX_PARAM_perception][i] = draw(c, 0.5, 4.0);
-    a->param[JOX_PARAM_time_gap][i] = chance(c, 0.3) ? 0.8f : 0.0f;
+    jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw(c, 0.0, 16.999)));
+    jox_param_set(a, JOX_PARAM_perception, i, draw(c, 0.5, 4.0));
+    jox_param_set(a, JOX_PARAM_time_gap, i, chance(c, 0.3) ? 0.8f : 0.0f);
     a->ignore[i] = chance(c, 0.2);
 }
 
@@ -91,7 +91,7 @@ static void press(Crowd *c, bool pressed) {
     t->planes = jox_alloc((size_t)a->count * MOST_PLANES, sizeof *t->planes);
     t->agents = pressed ? a->count : 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
         a->speed_limit[i] = draw(c, 0.8, 2.5);
         a->forced_x[i] = a->vx[i] + draw(c, -0.2, 0.2);
         a->forced_y[i] = a->vy[i] + draw(c, -0.2, 0.2);
@@ -159,7 +159,7 @@ static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uin
     if (jox_solve_walks(s, i))
         return (JoxV2){a->walk_x[i], a->walk_y[i]};
     bool gets_on = jox_dot(velocity, wanted) > 0.2f * jox_length2(wanted);
-    if (jox_stands(a, i) || (gets_on && !(a->param[JOX_PARAM_push][i] > 0.0f)))
+    if (jox_stands(a, i) || (gets_on && !(jox_param(a, JOX_PARAM_push, i) > 0.0f)))
         return wanted;
     for (uint32_t k = 0; k < count; k++) {
         float against = -jox_dot(others[k].normal, wanted);

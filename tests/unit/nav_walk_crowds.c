@@ -66,8 +66,8 @@ static void add_people(Crowd *c, float side) {
         a->vx[i] = v.x;
         a->vy[i] = v.y;
         a->bound[i] = k % 2 ? 0 : -1;
-        a->param[JOX_PARAM_time_gap][i] = 1.0f;
-        a->param[JOX_PARAM_haste][i] = draw(k, 8);
+        jox_param_set(a, JOX_PARAM_time_gap, i, 1.0f);
+        jox_param_set(a, JOX_PARAM_haste, i, draw(k, 8));
     }
 }
 
@@ -82,7 +82,7 @@ static void want(Crowd *c) {
         a->pref_y[i] = draw(k, 6) < 0.1f ? 0.0f : pref.y;
         a->way[i] = 20.0f * draw(k, 7);
         a->speed_limit[i] = 3.0f;
-        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }
 }
 
@@ -184,16 +184,17 @@ static void without_a_time_gap_orca_is_unchanged(void **state) {
     Crowd with, without;
     begin(&with, (Frame){0}, &law, 10.0f);
     begin(&without, (Frame){0}, &law, 10.0f);
-    for (uint32_t i = 0; i < PEOPLE; i++)
-        with.agents.param[JOX_PARAM_time_gap][i] = without.agents.param[JOX_PARAM_time_gap][i] =
-            0.0f;
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        jox_param_set(&with.agents, JOX_PARAM_time_gap, i, 0.0f);
+        jox_param_set(&without.agents, JOX_PARAM_time_gap, i, 0.0f);
+    }
     plan(&with, NULL, true);
     plan(&without, NULL, false);
     assert_memory_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
     assert_memory_equal(with.agents.next_y, without.agents.next_y, PEOPLE * sizeof(float));
     /* The same people with a time gap do something else. */
     for (uint32_t i = 0; i < PEOPLE; i++)
-        with.agents.param[JOX_PARAM_time_gap][i] = 1.0f;
+        jox_param_set(&with.agents, JOX_PARAM_time_gap, i, 1.0f);
     plan(&with, NULL, true);
     assert_memory_not_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
     end(&with);

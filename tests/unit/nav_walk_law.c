@@ -65,8 +65,8 @@ static void add(Packet *p, double x, double y) {
     a->course_y[i] = (float)jox_sin(heading);
     a->bound[i] = draw(p, 0.0, 1.0) < 0.5 ? 1 : -1;
     a->way[i] = (float)draw(p, 0.0, 9.0);
-    a->param[JOX_PARAM_radius][i] = (float)draw(p, 0.15, 0.25);
-    a->param[JOX_PARAM_time_gap][i] = (float)draw(p, 0.4, 1.6);
+    jox_param_set(a, JOX_PARAM_radius, i, (float)draw(p, 0.15, 0.25));
+    jox_param_set(a, JOX_PARAM_time_gap, i, (float)draw(p, 0.4, 1.6));
 }
 
 static void begin(Packet *p, uint32_t number) {
@@ -111,8 +111,8 @@ static void lower(double *value, double to) {
 }
 
 static double radii(const Packet *p, uint32_t j) {
-    const float *radius = p->agents.param[JOX_PARAM_radius];
-    return (double)radius[p->me] + (double)radius[j];
+    const JoxParameterColumn radius = p->agents.param[JOX_PARAM_radius];
+    return (double)jox_at(radius, p->me) + (double)jox_at(radius, j);
 }
 
 /* Behind one who goes first: the speed that keeps the time gap, in the way or beside it,
@@ -127,7 +127,7 @@ static void follow(Packet *p, Way *w, uint32_t j, double wanted) {
     p->on_edge |= fabs(q - 1.0) < 1e-5 || fabs(aside - sqrt(3.0) * along) < 1e-5;
     if (along <= 0.0 || (q >= 1.0 && aside >= sqrt(3.0) * along))
         return;
-    double gap = (double)a->param[JOX_PARAM_time_gap][p->me] * (1.0 - law->gap_eager * eager);
+    double gap = (double)jox_param(a, JOX_PARAM_time_gap, p->me) * (1.0 - law->gap_eager * eager);
     double free = along - law->length * r * room * sqrt(fmax(0.0, 1.0 - q * q * q * q * q * q));
     if (q >= 1.0)
         free = hypot(along, law->flank / (1.0 - law->flank_eager * eager) * aside) -
@@ -168,7 +168,8 @@ static double distance(const Packet *p, uint32_t edge, double x, double y) {
 /* Going aside: how far somebody gets before they are `keep` from a wall. */
 static void mind_wall(Packet *p, Way *w, uint32_t edge, double speed) {
     const double stride = 0.0005;
-    double keep = p->law.wall_radius * (double)p->agents.param[JOX_PARAM_radius][p->me], path = 0.0;
+    double keep = p->law.wall_radius * (double)jox_param(&p->agents, JOX_PARAM_radius, p->me),
+           path = 0.0;
     if (distance(p, edge, 0.0, 0.0) < keep) { /* so near, not towards it */
         JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
         path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;

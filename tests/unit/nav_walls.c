@@ -49,8 +49,8 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         JoxV2 way = jox_unit((JoxV2){goals[a->id[i]].x - a->x[i], goals[a->id[i]].y - a->y[i]});
         a->pref_x[i] = way.x * speed;
         a->pref_y[i] = way.y * speed;
-        a->speed_limit[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
-        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+        a->speed_limit[i] = jox_maxf(jox_param(a, JOX_PARAM_max_speed, i), speed);
+        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }
     jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, dt, true, pool);
     jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, 1.0, pool);
@@ -71,8 +71,8 @@ static void neighbours_are_exactly_the_nearest(void **state) {
             if (i % 17 == 3) /* some in one and the same place */
                 x = y = 1.0f;
             add(&f, x, y);
-            f.agents.param[JOX_PARAM_perception][i] = 0.5f + (float)(i % 7) * 0.7f;
-            f.agents.param[JOX_PARAM_neighbours][i] = (float)(i % 13);
+            jox_param_set(&f.agents, JOX_PARAM_perception, i, 0.5f + (float)(i % 7) * 0.7f);
+            jox_param_set(&f.agents, JOX_PARAM_neighbours, i, (float)(i % 13));
             goals[i] = (JoxV2){side - x, side - y};
         }
         for (int s = 0; s < 7; s++) { /* sorted at some, drifted at others */
@@ -81,8 +81,8 @@ static void neighbours_are_exactly_the_nearest(void **state) {
             jox_nav_sort(f.nav, a, f.tick);
             jox_nav_perceive(f.nav, a, &f.neighbours, NULL);
             for (uint32_t i = 0; i < count; i++) {
-                float reach = a->param[JOX_PARAM_perception][i];
-                uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i], n = 0;
+                float reach = jox_param(a, JOX_PARAM_perception, i);
+                uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i), n = 0;
                 uint32_t best[16];
                 float d2s[16];
                 for (uint32_t j = 0; j < count && most > 0; j++) {

@@ -192,15 +192,15 @@ static void own_values_are_kept_by_name(void **state) {
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < 40; i++) {
         speed[a->id[i]] = speed_of(scene, i);
-        push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
+        push[a->id[i]] = (double)jox_param(a, JOX_PARAM_push, i);
     }
     assert_true(reload_text(scene, 0, AFTER));
     step(scene, 1);
     for (uint32_t i = 0; i < 40; i++) {
-        double more = (double)a->param[JOX_PARAM_push][i] - push[a->id[i]];
+        double more = (double)jox_param(a, JOX_PARAM_push, i) - push[a->id[i]];
         assert_true(speed_of(scene, i) == speed[a->id[i]]);
         assert_true(more > 4.99 && more < 6.01);
-        assert_true(a->param[JOX_PARAM_max_speed][i] >= 2.0f);
+        assert_true(jox_param(a, JOX_PARAM_max_speed, i) >= 2.0f);
     }
     jo_scene_free(scene);
 }
@@ -219,7 +219,7 @@ static void values_that_move_are_carried(void **state) {
     double push[40];
     step(scene, 2);
     for (uint32_t i = 0; i < 40; i++)
-        push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
+        push[a->id[i]] = (double)jox_param(a, JOX_PARAM_push, i);
     assert_true(push[3] != push[4]);
     static const int ORDER[] = {1, 0, 2, 0, 1, 2, 1};
     bool moved = false;
@@ -234,9 +234,9 @@ static void values_that_move_are_carried(void **state) {
         before = slot;
         step(scene, 1);
         for (uint32_t i = 0; i < 40; i++)
-            assert_true((double)a->param[JOX_PARAM_push][i] == push[a->id[i]]);
+            assert_true((double)jox_param(a, JOX_PARAM_push, i) == push[a->id[i]]);
         for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
-            assert_true(a->param[JOX_PARAM_mass][i] == 53.0f);
+            assert_true(jox_param(a, JOX_PARAM_mass, i) == 53.0f);
     }
     assert_true(moved);
     jo_scene_free(scene);
@@ -275,9 +275,9 @@ static void a_parameter_taken_out_falls_back(void **state) {
     JoScene *scene = load_own(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
     step(scene, 2);
     float push = jox_parameter_store(JOX_PARAM_push, jox_parameters[JOX_PARAM_push].value);
-    assert_true(scene->world->state.agents.param[JOX_PARAM_push][2] == 80.0f);
+    assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == 80.0f);
     assert_true(reload_text(scene, 0, FAST("1.5", "")));
-    assert_true(scene->world->state.agents.param[JOX_PARAM_push][2] == push);
+    assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == push);
     jo_scene_free(scene);
 }
 

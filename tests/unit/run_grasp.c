@@ -36,8 +36,9 @@ static void go(Pair *p, int steps) {
 }
 
 static float gap(const Pair *p) {
-    const float *radius = p->a->param[JOX_PARAM_radius];
-    return jox_length(jox_offset(p->a, p->one, p->other)) - radius[p->one] - radius[p->other];
+    const JoxParameterColumn radius = p->a->param[JOX_PARAM_radius];
+    return jox_length(jox_offset(p->a, p->one, p->other)) - jox_at(radius, p->one) -
+           jox_at(radius, p->other);
 }
 
 static const char *state_of(const Pair *p, uint32_t i) {

@@ -195,7 +195,7 @@ static void a_push_acts_for_one_step(void **state) {
 
 static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
     const JoxAgents *a = &scene->world->state.agents;
-    return (double)a->param[p][jox_agents_find(a, id)];
+    return (double)jox_param(a, p, jox_agents_find(a, id));
 }
 
 static void a_parameter_is_set_for_all(void **state) {

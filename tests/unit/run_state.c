@@ -385,9 +385,12 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     REFUSED(a->y[3], NAN);
     REFUSED(a->vx[3], INFINITY);
     REFUSED(a->vy[3], 1e30f);
-    REFUSED(a->param[JOX_PARAM_radius][3], -1.0f);
-    REFUSED(a->param[JOX_PARAM_perception][3], NAN);
-    REFUSED(a->param[JOX_PARAM_neighbours][3], 1e6f);
+    jox_param_differ(a, JOX_PARAM_radius);
+    REFUSED(a->param[JOX_PARAM_radius].cells[3], -1.0f);
+    jox_param_differ(a, JOX_PARAM_perception);
+    REFUSED(a->param[JOX_PARAM_perception].cells[3], NAN);
+    jox_param_differ(a, JOX_PARAM_neighbours);
+    REFUSED(a->param[JOX_PARAM_neighbours].cells[3], 1e6f);
     REFUSED(world->state.tick, (uint64_t)1 << 40);
     REFUSED(world->state.statistics.removed, 1u << 30);
     REFUSED(world->state.statistics.failures, UINT64_MAX);

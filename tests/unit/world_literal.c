@@ -58,7 +58,7 @@ static void want(JoWorld *w, uint32_t id, double x, double y) {
 }
 
 static void set(JoWorld *w, uint32_t id, JoxParameter parameter, double value) {
-    w->state.agents.param[parameter][at(w, id)] = jox_parameter_store(parameter, value);
+    jox_param_set(&w->state.agents, parameter, at(w, id), jox_parameter_store(parameter, value));
 }
 
 static void force(JoWorld *w, uint32_t id, double x, double y) {

@@ -54,7 +54,7 @@ static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i,
         return lua_pushinteger(L, a->team[i]), true;
     int parameter = jox_parameter_find(name);
     if (parameter >= 0)
-        return lua_pushnumber(L, a->param[parameter][i]), true;
+        return lua_pushnumber(L, jox_param(a, parameter, i)), true;
     if (strcmp(name, "goal") != 0)
         return false;
     if (a->goal[i] >= 0 && (uint32_t)a->goal[i] < machines->place_count)

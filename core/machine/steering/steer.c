@@ -32,12 +32,12 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JoxV2 from = {a->x[i], a->y[i]};
     const int32_t index = jox_target_place(run, i, target);
     if (index >= 0 && run->places[index].kind == JOX_PLACE_POINT)
-        return jox_steer_arrive(from, run->places[index].centre, a->param[JOX_PARAM_speed][i]);
+        return jox_steer_arrive(from, run->places[index].centre, jox_param(a, JOX_PARAM_speed, i));
     JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
     if (spot.place < 0 && spot.agent == JOX_NO_INDEX && spot.object < 0) /* one's own post */
-        return jox_steer_arrive(from, (JoxV2){spot.x, spot.y}, a->param[JOX_PARAM_speed][i]);
+        return jox_steer_arrive(from, (JoxV2){spot.x, spot.y}, jox_param(a, JOX_PARAM_speed, i));
     if (spot.place < 0) /* something that moves is run at, not arrived at */
         return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
     const JoxPlace *place = &run->places[spot.place];
@@ -48,7 +48,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
         return (JoxV2){0.0f, 0.0f};
     return place->kind == JOX_PLACE_POLYGON
                ? jox_unit(jox_sub(to, from))
-               : jox_steer_arrive(from, to, a->param[JOX_PARAM_speed][i]);
+               : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
 }
 
 static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
@@ -59,7 +59,7 @@ static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
         return jox_steer_seek(run, i, term->target);
     const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
-    return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
+    return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, jox_param(a, JOX_PARAM_speed, i));
 }
 
 static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
@@ -80,13 +80,14 @@ JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
     const JoxV2 *heading = run->scratch->heading;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
-    float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
+    float sum = 0.0f, reach = jox_param(a, JOX_PARAM_perception, i);
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
         JoxV2 d = jox_offset(a, i, j);
-        float along = jox_dot(d, ahead), aside = jox_dot(d, right), wide = radius[i] + radius[j];
+        float along = jox_dot(d, ahead), aside = jox_dot(d, right),
+              wide = jox_at(radius, i) + jox_at(radius, j);
         if (along <= 0.0f || jox_dot(heading[j], ahead) >= 0.0f || fabsf(aside) > 2.0f * wide)
             continue;
         float nearness = jox_maxf(0.0f, 1.0f - along / reach);
@@ -121,7 +122,7 @@ static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *te
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
     JoxV2 behind = jox_scale(jox_unit(jox_sub(from, to)), (float)term->args[0]);
-    return jox_steer_arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
+    return jox_steer_arrive(from, jox_add(to, behind), jox_param(a, JOX_PARAM_speed, i));
 }
 
 static const double TURNING = 8.0; /* s in which who wanders may turn round twice */
@@ -147,7 +148,7 @@ JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxV2 at = {a->x[i], a->y[i]};
     const int32_t place = jox_target_place(run, i, target);
     JoxV2 way = roam(run, i), normal;
-    const float reach = FEELS + a->param[JOX_PARAM_radius][i];
+    const float reach = FEELS + jox_param(a, JOX_PARAM_radius, i);
     const JoxV2 next = jox_add(at, jox_scale(way, reach));
     if (place >= 0 && !jox_place_contains(run->places, (uint32_t)place, next)) {
         const JoxV2 in = jox_place_contains(run->places, (uint32_t)place, at)
@@ -163,7 +164,7 @@ JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
 }
 
 static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
-    float speed = jox_maxf(run->agents->param[JOX_PARAM_speed][i], 1e-3f);
+    float speed = jox_maxf(jox_param(run->agents, JOX_PARAM_speed, i), 1e-3f);
     return jox_scale(jox_player_wants(run, i), 1.0f / speed);
 }
 
@@ -183,7 +184,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return jox_steer_wander(run, i, term->target);
     case JOX_STEER_FORMATION:
         return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, run->scratch->row[i],
-                                a->param[JOX_PARAM_speed][i]);
+                                jox_param(a, JOX_PARAM_speed, i));
     case JOX_STEER_SPREAD:
         return spread(run, i);
     case JOX_STEER_TOGETHER:

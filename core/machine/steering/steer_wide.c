@@ -1,4 +1,5 @@
 /* The kernel of prefer: a lane is an agent of a batch. */
+#include "agents/param_lanes.h"
 #include "base/assert.h"
 #include "machine/kernels.h"
 #include "simd/vectors.h"
@@ -78,7 +79,7 @@ void JOX_WIDE(jox_steer_arrive)(JoxSteer *s) {
         const JoxVector before = jv_load(s->way_x, s->way_y, n);
         const JoxVector way = jv_sub(jv_load(s->to_x, s->to_y, n), pick(a->x, a->y, at));
         const JoxFloats distance = jf_sqrt(length2(way));
-        const JoxFloats speed = jf_pick(a->param[JOX_PARAM_speed], at);
+        const JoxFloats speed = jox_param_pick(a->param[JOX_PARAM_speed], at);
         JoxFloats share = jf_min(one, jf_div(distance, jf_mul(speed, jf_set(JOX_SLOWING))));
         share = jf_select(jf_lt(zero, speed), share, one);
         const JoxMask is_there = jf_lt(distance, jf_set(1e-4f));
@@ -107,8 +108,8 @@ void JOX_WIDE(jox_steer_finish)(JoxSteer *s) {
         const JoxInts at = ji_load(s->index + n);
         JoxVector sum = jv_load(s->sum_x, s->sum_y, n);
         sum = jv_select(jf_lt(jf_set(1.0f), length2(sum)), unit(sum), sum);
-        const JoxFloats speed = jf_min(jf_pick(a->param[JOX_PARAM_speed], at),
-                                       jf_pick(a->param[JOX_PARAM_max_speed], at));
+        const JoxFloats speed = jf_min(jox_param_pick(a->param[JOX_PARAM_speed], at),
+                                       jox_param_pick(a->param[JOX_PARAM_max_speed], at));
         jv_store(s->way_x, s->way_y, n, jv_scale(sum, speed));
     }
     for (uint32_t n = 0; n < s->count; n++) {

@@ -93,7 +93,7 @@ static void add(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t 
     action->at = body->position;
     action->speed = sqrtf(jox_length2(jox_v2(body->velocity.x, body->velocity.y)) +
                           body->velocity.z * body->velocity.z);
-    action->gap = gap_to(before, body, frame->radius ? frame->radius[i] : 0.0f);
+    action->gap = gap_to(before, body, jox_frame_radius(frame, i, 0.0f));
     action->lies = body->grounded;
 }
 

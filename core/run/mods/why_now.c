@@ -189,7 +189,7 @@ static void add_parameter(Now *now, int p) {
                                                         : (double)NAN;
     /* Written into the column itself: that holds until the next state that says otherwise. */
     const bool apart =
-        !isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != a->param[p][now->i];
+        !isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != jox_param(a, p, now->i);
     if (given && !said && !wrote)
         add_unplaced(now, JO_SET_UNSEEN, "");
     if (!apart)
@@ -240,7 +240,7 @@ static bool list(Now *now, const char *name, double *value) {
         return true;
     }
     if (p >= 0) {
-        *value = jox_parameter_value((JoxParameter)p, a->param[p][now->i]);
+        *value = jox_parameter_value((JoxParameter)p, jox_param(a, p, now->i));
         add_parameter(now, p);
         return true;
     }

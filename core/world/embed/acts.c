@@ -122,7 +122,7 @@ bool jo_agent_parameter(const JoWorld *world, JoAgent agent, const char *name, d
     const int p = jox_parameter_find(name);
     if (i == JOX_NO_INDEX || p < 0)
         return false;
-    *value = jox_parameter_value((JoxParameter)p, world->state.agents.param[p][i]);
+    *value = jox_parameter_value((JoxParameter)p, jox_param(&world->state.agents, p, i));
     return true;
 }
 

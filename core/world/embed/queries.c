@@ -203,7 +203,7 @@ JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to
     for (uint32_t i = 0; kinds & JO_CAST_AGENTS && i < a->count; i++) {
         const JoxV2 at =
             jox_add(s.from, jox_wrap(a, (JoxV2){a->x[i] - s.from.x, a->y[i] - s.from.y}));
-        meet_disc(&s, at, s.radius + a->param[JOX_PARAM_radius][i], JO_TOUCHED_AGENT, a->id[i]);
+        meet_disc(&s, at, s.radius + jox_param(a, JOX_PARAM_radius, i), JO_TOUCHED_AGENT, a->id[i]);
     }
     if (kinds & JO_CAST_BODIES)
         meet_bodies(world, &s);

@@ -219,7 +219,7 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
                         info->greatest, *info->unit ? " " : "", info->unit, value);
         return false;
     }
-    a->param[p][i] = jox_parameter_store((JoxParameter)p, value);
+    jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, value));
     if (a->machine[i] == JOX_NO_MACHINE)
         return true;
     tell_machines(world);
