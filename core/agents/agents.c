@@ -134,14 +134,14 @@ uint32_t jox_agents_add_alike(JoxAgents *a) {
             jox_param_set(a, p, i, jox_parameter_store(p, jox_parameters[p].value));
     a->face_x[i] = 1.0f;
     a->lasts[i] = INFINITY;
-    a->goal[i] = a->kicked[i] = a->struck[i] = a->approach[i] = a->queue_at[i] = a->bound[i] = -1;
-    a->machine[i] = JOX_NO_MACHINE;
+    a->goal[i] = -1;
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     return i;
 }
 
 uint32_t jox_agents_add(JoxAgents *a) {
     const uint32_t i = jox_agents_add_alike(a);
+    a->machine[i] = JOX_NO_MACHINE;
     for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
         jox_param_set(a, p, i, jox_parameter_store(p, jox_parameters[p].value));
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
@@ -290,6 +290,15 @@ static void close_column(void *context, void **column, size_t size) {
     }
 }
 
+static void note_moves(JoxAgents *a, const Leaving *leaving) {
+    for (uint32_t k = 0; k < leaving->count; k++) {
+        const uint32_t begin = leaving->index[k] - k;
+        const uint32_t end = k + 1 < leaving->count ? leaving->index[k + 1] - k - 1 : a->count;
+        for (uint32_t i = begin; i < end; i++)
+            a->moved_up[i] += k + 1;
+    }
+}
+
 uint32_t jox_agents_compact(JoxAgents *a) {
     uint32_t gone = 0;
     if (!a->count || (!a->removed[0] && jox_is_same_of_all(a->removed, 1, a->count)))
@@ -301,6 +310,7 @@ uint32_t jox_agents_compact(JoxAgents *a) {
     Leaving leaving = {a->order, gone, a->count};
     visit_columns(a, COLUMN_SCRATCH, close_column, &leaving);
     a->count -= gone;
+    note_moves(a, &leaving);
     reindex(a);
     JOX_CHECK(jox_agents_check(a));
     return gone;

@@ -57,9 +57,9 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(STATE, float, eager)    /* eagerness, 0 to 1: the crowd's, within the bounds of haste */     \
     X(STATE, float, course_x) /* direction in which it has walked of late, unit or (0, 0) */       \
     X(STATE, float, course_y)                                                                      \
-    X(STATE, int32_t, bound) /* place that it is bound for by a field, or -1 */                    \
-    X(SCRATCH, float, way)   /* way left to it, m */                                               \
-    X(SCRATCH, float, aim_x) /* direction of the preferred velocity, unit or (0, 0) */             \
+    X(STATE, uint32_t, bound) /* reference to the place that it is bound for by a field */         \
+    X(SCRATCH, float, way)    /* way left to it, m */                                              \
+    X(SCRATCH, float, aim_x)  /* direction of the preferred velocity, unit or (0, 0) */            \
     X(SCRATCH, float, aim_y)                                                                       \
     X(SCRATCH, float, walk_x) /* velocity that the walking law wants, where one plans */           \
     X(SCRATCH, float, walk_y)                                                                      \
@@ -74,8 +74,8 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(STATE, float, load)                                                                          \
     X(SCRATCH, float, given_x) /* force from outside in the last step, N, for who looks at it */   \
     X(SCRATCH, float, given_y)                                                                     \
-    X(SCRATCH, uint32_t, index_in_step) /* its index when velocities were chosen */                \
-    X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
+    X(SCRATCH, uint32_t, moved_up) /* places, since velocities were chosen: who was before left */ \
+    X(SCRATCH, float, forced_x)    /* velocity that the force gives by the end of the step, m/s */ \
     X(SCRATCH, float, forced_y)                                                                    \
     X(SCRATCH, float, breadth)      /* radius at which it touches, m */                            \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
@@ -95,19 +95,28 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(STATE, float, still)       /* seconds since it last moved 0.25 m */                          \
     X(STATE, float, still_x)     /* where that was */                                              \
     X(STATE, float, still_y)                                                                       \
-    X(STATE, int32_t, queue_at)    /* place whose queue it stands in, or -1 */                     \
+    X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
-    X(STATE, int32_t, kicked)      /* body kicked last step, or -1 */                              \
-    X(STATE, int32_t, struck)      /* fast body that hit it last step, or -1 */                    \
+    X(STATE, uint32_t, kicked)     /* reference to the body kicked last step */                    \
+    X(STATE, uint32_t, struck)     /* reference to the fast body that hit it last step */          \
     X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \
     X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
     X(STATE, uint64_t, push_only)  /* tags that are pushed; 0 means all */                         \
-    X(STATE, int32_t, approach)    /* body index that is approached, not anticipated; -1 none */   \
+    X(STATE, uint32_t, approach)   /* reference to the body that is approached, not anticipated */ \
     X(STATE, uint32_t, approached) /* id + 1 of the agent that is approached; 0 none */            \
     X(STATE, uint32_t, grasped)    /* id + 1 of the agent that it holds; 0 none */                 \
     X(STATE, uint8_t, held)        /* agents that hold it */
 
 #define JOX_NO_MACHINE UINT16_MAX
+
+/* A reference in a column: index + 1, so that 0 is none, which takes no memory. */
+static inline uint32_t jox_reference(int32_t index) {
+    return (uint32_t)index + 1;
+}
+/* The index that is referred to, or -1. */
+static inline int32_t jox_referred(uint32_t reference) {
+    return (int32_t)(reference - 1);
+}
 
 /* Columns of what is mostly the same of all: then it is held once. Agent i's value is
    cells[i & mask]: `mask` is UINT32_MAX where there is a cell for each, else 0, and
@@ -213,12 +222,12 @@ static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) 
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
 void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
 void jox_agents_widen(JoxAgents *agents, uint32_t own_count, uint32_t memory_stride);
-/* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
-   kicked, struck and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
+/* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal
+   -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
    sort). Who gives it a machine sets all its own values. */
 uint32_t jox_agents_add(JoxAgents *agents);
-/* Likewise, but parameters that are the same of all so far are the new one's too, for who sets them
-   next: the way by the defaults would give each column a cell for each. */
+/* Likewise, for who sets the machine, which is the first, and all parameters, which have any
+   values, next: the way by the defaults would take memory for each agent. */
 uint32_t jox_agents_add_alike(JoxAgents *agents);
 /* The first agent that differs gives a column a cell for each. Not while others read the column. */
 void jox_param_set(JoxAgents *agents, JoxParameter p, uint32_t i, float stored);

@@ -45,7 +45,7 @@ static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxKeptImpulses *were = &f->kept_pairs;
     uint32_t listed = 0, kept = 0;
-    memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
+    jox_mem_fill(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];

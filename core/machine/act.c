@@ -36,15 +36,14 @@ static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, 
         column[agents[n]] = value;
 }
 
-/* The same of four bytes each, all of them `byte`. */
-static void fill_words(void *column, const uint32_t *agents, uint32_t count, uint8_t byte) {
-    uint32_t *words = column;
+/* Zeroes in a column of words. */
+static void clear_words(uint32_t *words, const uint32_t *agents, uint32_t count) {
     if (agents[count - 1] - agents[0] == count - 1) {
-        jox_mem_fill(words + agents[0], byte, count * sizeof *words);
+        jox_mem_fill(words + agents[0], 0, count * sizeof *words);
         return;
     }
     for (uint32_t n = 0; n < count; n++)
-        words[agents[n]] = byte * 0x01010101u;
+        words[agents[n]] = 0;
 }
 
 static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
@@ -59,10 +58,10 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     for (uint32_t n = 0; state->push_when >= 0 && n < batch->count; n++)
         run->push_on[agents[n]] = registers[0][n] != 0.0;
     fill_bytes(run->push_nearest, agents, batch->count, state->push_nearest);
-    fill_words(run->agents->approach, agents, batch->count, 0xff); /* -1 */
-    fill_words(run->agents->approached, agents, batch->count, 0);
+    clear_words(run->agents->approach, agents, batch->count);
+    clear_words(run->agents->approached, agents, batch->count);
     if (state->grasp < 0)
-        fill_words(run->agents->grasped, agents, batch->count, 0); /* it lets go */
+        clear_words(run->agents->grasped, agents, batch->count); /* it lets go */
     for (uint32_t n = 0; state->push_toward >= 0 && n < batch->count; n++) {
         const uint32_t i = agents[n];
         JoxSpot spot = jox_target_find(run, i, state->push_toward);
@@ -74,7 +73,7 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     for (uint32_t n = 0; state->approach >= 0 && n < batch->count; n++) {
         const uint32_t i = agents[n];
         const JoxSpot spot = jox_target_find(run, i, state->approach);
-        run->agents->approach[i] = spot.object;
+        run->agents->approach[i] = jox_reference(spot.object);
         if (spot.agent != JOX_NO_INDEX)
             run->agents->approached[i] = run->agents->id[spot.agent] + 1;
     }
@@ -127,7 +126,7 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
     run->kicks[run->kick_count++] = (JoxImpulse){
         (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position, 0.0f};
-    a->kicked[i] = ball.object;
+    a->kicked[i] = jox_reference(ball.object);
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
@@ -176,7 +175,7 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     add_grip(run, (JoxGrip){.object = (uint32_t)row,
                             .agent_id = a->id[i],
                             .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
-    a->kicked[i] = row;
+    a->kicked[i] = jox_reference(row);
 }
 
 /* Lists all who are in states of which something holds, by id. */
@@ -227,7 +226,7 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     jox_mem_fill(run->push_nearest, 0, a->count);
     jox_mem_fill(run->push_toward_x, 0, a->count * sizeof(float));
     jox_mem_fill(run->push_toward_y, 0, a->count * sizeof(float));
-    jox_mem_fill(a->kicked, 0xff, a->count * sizeof *a->kicked); /* -1 */
+    jox_mem_fill(a->kicked, 0, a->count * sizeof *a->kicked);
     memset(run->scratch->odd, 0, run->scratch->workers * sizeof *run->scratch->odd);
     differ_by_programs(run);
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);

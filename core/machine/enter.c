@@ -46,7 +46,7 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
         if (jox_is_odd(p, number))
             jox_odd_note(run, i, p, number);
     }
-    if (a->ignore[i] != state->ignore) /* what stays zero takes no memory */
+    if (a->ignore[i] != state->ignore)
         a->ignore[i] = state->ignore;
     if (a->push_only[i] != state->push_only)
         a->push_only[i] = state->push_only;
@@ -65,13 +65,15 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
     JOX_ASSERT(to < machine->state_count && i < a->count);
-    a->state[i] = to;
-    a->entered[i] = run->tick;
+    if (a->state[i] != to) /* what stays zero takes no memory */
+        a->state[i] = to;
+    if (a->entered[i] != run->tick)
+        a->entered[i] = run->tick;
     if (a->was_true[i])
         a->was_true[i] = 0;
     a->lasts[i] = INFINITY;
-    if (jox_queue_target(state) < 0)
-        a->queue_at[i] = -1;
+    if (jox_queue_target(state) < 0 && a->queue_at[i])
+        a->queue_at[i] = 0;
     if (state->has_lasts)
         a->lasts[i] =
             (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);

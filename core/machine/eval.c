@@ -111,9 +111,9 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         spot = jox_target_find(run, i, in->target);
         return spot.object >= 0 && run->objects->rows[spot.object].grounded;
     case JOX_OP_KICKED:
-        return jox_target_means(run, i, in->target, run->agents->kicked[i]);
+        return jox_target_means(run, i, in->target, jox_referred(run->agents->kicked[i]));
     case JOX_OP_HIT_BY: /* who was hit may be far from what bounced off by now */
-        if (jox_target_means(run, i, in->target, run->agents->struck[i]))
+        if (jox_target_means(run, i, in->target, jox_referred(run->agents->struck[i])))
             return true;
         spot = jox_target_find(run, i, in->target);
         return is_touching(run, i, &spot, 0.1f) && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;

@@ -37,8 +37,10 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     JOX_RESERVE(run->taken, run->taken_capacity, n);
     run->push_on = jox_realloc(run->push_on, n, 1);
     run->push_nearest = jox_realloc(run->push_nearest, n, 1);
-    run->push_toward_x = jox_realloc(run->push_toward_x, n, sizeof(float));
-    run->push_toward_y = jox_realloc(run->push_toward_y, n, sizeof(float));
+    jox_free(run->push_toward_x); /* filled anew in each step; what stays zero takes no memory */
+    jox_free(run->push_toward_y);
+    run->push_toward_x = jox_alloc(n, sizeof(float));
+    run->push_toward_y = jox_alloc(n, sizeof(float));
 }
 
 void jox_machines_scratch_free(JoxMachineRun *run) {
@@ -160,8 +162,9 @@ static void rank_queues(JoxMachineRun *run) {
         for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(run, i, target);
-            if (a->queue_at[i] != s->queue[i]) { /* from state to state it keeps its turn */
-                a->queue_at[i] = s->queue[i];
+            if (a->queue_at[i] !=
+                jox_reference(s->queue[i])) { /* from state to state it keeps its turn */
+                a->queue_at[i] = jox_reference(s->queue[i]);
                 a->queued[i] = run->tick;
             }
             if (s->queue[i] >= 0)

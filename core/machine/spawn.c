@@ -90,8 +90,9 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
     const JoxMachine *kind = run->set->items[machine];
-    JOX_ASSERT(machine < run->set->count && a->machine[agent] == JOX_NO_MACHINE);
-    a->machine[agent] = (uint16_t)machine;
+    JOX_ASSERT(machine < run->set->count);
+    if (a->machine[agent] != machine)
+        a->machine[agent] = (uint16_t)machine;
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
         a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;

@@ -37,7 +37,7 @@ static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const J
 static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
                   float *apart) {
     const JoxObject *o = &objects->rows[row];
-    bool ignored = o->tags & a->ignore[i] && a->approach[i] != (int32_t)row;
+    bool ignored = o->tags & a->ignore[i] && jox_referred(a->approach[i]) != (int32_t)row;
     float away = jox_length(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]));
     *apart = away - jox_maxf(o->disc, o->round);
     float sight = jox_param(a, JOX_PARAM_perception, i);
@@ -92,7 +92,7 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
     JoxNearest nearest = {.most = most};
     uint32_t count = rows_of(a, i, objects, &nearest), made = 0;
     for (uint32_t k = 0; k < count; k++) {
-        bool approached = a->approach[i] == (int32_t)nearest.rows[k];
+        bool approached = jox_referred(a->approach[i]) == (int32_t)nearest.rows[k];
         if (!is_clear(touched, a, i, objects, nearest.rows[k]))
             continue;
         float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);

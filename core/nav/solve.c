@@ -152,7 +152,7 @@ typedef struct Touched {
 
 static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
                          const JoxContactPlanes *in_step, Touched *out) {
-    const uint32_t was = a->index_in_step[i];
+    const uint32_t was = i + a->moved_up[i];
     *out = (Touched){.all = {.planes = out->planes, .agents = i + 1}};
     JOX_RESERVE_ZEROED(out->all.starts, out->all.starts_capacity, i + 1);
     JOX_RESERVE_ZEROED(out->all.people, out->all.people_capacity, i + 1);
@@ -169,7 +169,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
         out->planes[k].other = UINT32_MAX; /* unless they are still there */
         for (uint32_t m = 0; m < n->count[i]; m++) {
             const uint32_t j = n->index[jox_neighbour_at(n, i, m)];
-            if (a->index_in_step[j] == other)
+            if (j + a->moved_up[j] == other)
                 out->planes[k].other = j;
         }
     }

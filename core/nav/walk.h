@@ -21,7 +21,7 @@ static inline JoxMinds jox_minds(const JoxAgents *a, uint32_t i, uint32_t j, Jox
     JoxV2 own = {a->aim_x[i], a->aim_y[i]}, other = {a->aim_x[j], a->aim_y[j]};
     if (other.x == 0.0f && other.y == 0.0f)
         return JOX_MINDS_CROSSING;
-    if (a->bound[i] >= 0 && a->bound[i] == a->bound[j]) {
+    if (a->bound[i] && a->bound[i] == a->bound[j]) {
         bool first = a->way[j] != a->way[i] ? a->way[j] < a->way[i] : a->id[j] < a->id[i];
         return first ? JOX_MINDS_AHEAD : JOX_MINDS_NOT;
     }

@@ -33,8 +33,8 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *
     jf_records(&nav->headings[0].aim_x, others, heading);
     const JoxVector aim = {heading[0], heading[1]};
     const JoxMask stands = jf_le(jf_add(jf_abs(aim.x), jf_abs(aim.y)), zero);
-    const JoxInts bound = ji_load((const uint32_t *)a->bound + first);
-    const JoxMask alike = jm_and(ji_equal(bound, jf_bits(heading[3])), ji_less(ji_set(-1), bound));
+    const JoxInts bound = ji_load(a->bound + first);
+    const JoxMask alike = jm_and(ji_equal(bound, jf_bits(heading[3])), ji_less(ji_set(0), bound));
     JoxMask goes_first = jf_lt(heading[2], way);
     const JoxMask tie = jm_without(jm_without(alike, goes_first), jf_lt(way, heading[2]));
     if (jm_bits(tie)) { /* few are as far */

@@ -36,11 +36,12 @@ typedef struct JoxFrame {
     const char *const *states;      /* their names, of all machines */
     uint32_t state_count;
     const JoxColour *state_colours; /* that they were given; NULL: none was */
-    const int32_t *kicked;          /* body that the person kicked or threw in this step, or -1 */
-    const int32_t *struck;          /* fast body that hit the person in this step, or -1 */
-    const JoxObjects *objects;      /* bodies as people saw them when this step began */
-    const JoxWalls *walls;          /* as they stand now */
-    const JoxWallLoad *wall_loads;  /* by piece; NULL where they are not known */
+    /* Bodies, each as its index + 1, or 0: what the person kicked or threw in this step, and what
+       fast one hit them. */
+    const uint32_t *kicked, *struck;
+    const JoxObjects *objects;     /* bodies as people saw them when this step began */
+    const JoxWalls *walls;         /* as they stand now */
+    const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
     uint32_t wall_load_count;
 } JoxFrame;
 

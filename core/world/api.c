@@ -198,6 +198,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     if (!agent_parameters(def, values, error))
         return (JoAgent){0};
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
+    world->state.agents.machine[i] = JOX_NO_MACHINE;
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_param_set(&world->state.agents, p, i, jox_parameter_store((JoxParameter)p, values[p]));
     return jox_world_handle(world, i);

@@ -37,10 +37,8 @@ static const char *agents_fault(const JoWorld *w) {
         JOX_MUST(!a->removed[i]);
         JOX_MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
         JOX_MUST(names_one(a->goal[i], w->model.place_count));
-        JOX_MUST(names_one(a->bound[i], w->model.place_count));
-        JOX_MUST(names_one(a->queue_at[i], w->model.place_count));
-        JOX_MUST(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
-        JOX_MUST(names_one(a->struck[i], bodies));
+        JOX_MUST(a->bound[i] <= w->model.place_count && a->queue_at[i] <= w->model.place_count);
+        JOX_MUST(a->kicked[i] <= bodies && a->struck[i] <= bodies && a->approach[i] <= bodies);
         JOX_MUST(jox_param(a, JOX_PARAM_radius, i) > 0.0f &&
                  jox_param(a, JOX_PARAM_mass, i) > 0.0f);
         JOX_MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));

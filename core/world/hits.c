@@ -58,8 +58,8 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
         a->compression[i] += force / (6.2831853f * jox_param(a, JOX_PARAM_radius, i));
         a->load[i] += force;
         a->contacts[i] += a->contacts[i] < 255;
-        if (a->struck[i] < 0)
-            a->struck[i] = (int32_t)hit->object;
+        if (!a->struck[i])
+            a->struck[i] = jox_reference((int32_t)hit->object);
     }
     JOX_ASSERT(!(report->hit_residual > 0.01 + 1e-3 * report->hit_impulse));
     JoxExchange *exchange = &s->statistics->exchange;
@@ -93,8 +93,8 @@ JoxBodiesReport jox_bodies_advance(const JoxBodyStage *s) {
     float dt = (float)s->substep->dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
     give_impulses(s, impulses, count);
-    for (uint32_t i = 0; s->substep->first && i < s->agents->count; i++)
-        s->agents->struck[i] = -1;
+    if (s->substep->first)
+        jox_mem_fill(s->agents->struck, 0, s->agents->count * sizeof *s->agents->struck);
     if (s->substep->first)
         jox_bodies_impulses(s->bodies, s->machines->kicks, s->machines->kick_count);
     bool fast = s->forces && jox_bodies_any_fast(s->bodies, dt);

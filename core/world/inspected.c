@@ -29,7 +29,7 @@ static void end(JoWorld *w, uint32_t n) {
 /* The forces of the last step. */
 static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
-    const JoxV2 body = jox_force_of_bodies(w->scratch.forces, a->index_in_step[i]);
+    const JoxV2 body = jox_force_of_bodies(w->scratch.forces, i + a->moved_up[i]);
 #define PART(X, keep, name, label)                                                                 \
     seen->forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
     JOX_FORCE_TERMS(PART, )

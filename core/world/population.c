@@ -151,7 +151,8 @@ static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupV
     const JoxGroup *group = &world->model.groups[number];
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->state.agents;
-    a->group[i] = (uint16_t)number;
+    if (a->group[i] != number)
+        a->group[i] = (uint16_t)number;
     a->team[i] = (uint16_t)next_team(world, number);
     for (uint32_t t = 0; t < group->tag_count; t++) {
         int tag = jox_world_tag(world, group->tags[t]);

@@ -141,8 +141,8 @@ static void count_held(const JoxRouteStage *w) {
     if (routes->capacity)
         memset(routes->held, 0, routes->capacity * sizeof *routes->held);
     for (uint32_t i = 0; i < a->count; i++)
-        if (a->bound[i] >= 0 && (uint32_t)a->bound[i] < routes->capacity)
-            routes->held[a->bound[i]] += held_up(a, i);
+        if (a->bound[i] && a->bound[i] <= routes->capacity)
+            routes->held[jox_referred(a->bound[i])] += held_up(a, i);
 }
 
 static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
@@ -152,7 +152,8 @@ static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *cr
     crowd->at = jox_alloc(a->count + 1, sizeof *crowd->at);
     crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */
-        uint32_t i = a->by_rank[rank], held = a->bound[i] == (int32_t)place ? held_up(a, i) : 0;
+        uint32_t i = a->by_rank[rank],
+                 held = jox_referred(a->bound[i]) == (int32_t)place ? held_up(a, i) : 0;
         if (held == 0)
             continue;
         crowd->at[crowd->count] = (JoxV2){a->x[i], a->y[i]};

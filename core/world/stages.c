@@ -89,8 +89,7 @@ void jox_stage_push(const JoxPushStage *s) {
 
 void jox_stage_solve(const JoxSolveStage *s) {
     JoxForceTotals totals = jox_force_totals(s->forces_of);
-    for (uint32_t i = 0; i < s->agents->count; i++)
-        s->agents->index_in_step[i] = i;
+    jox_mem_fill(s->agents->moved_up, 0, s->agents->count * sizeof *s->agents->moved_up);
     s->statistics->contact_passes += totals.passes;
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;

@@ -142,8 +142,8 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
 /* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
    them: for those of single agents too. */
 void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);
-/* Adds an agent at (x, y), m; it is settled before the next step. Who calls this sets all of its
-   parameters. Returns its index, valid until the next step. */
+/* Adds an agent at (x, y), m; it is settled before the next step. Who calls this sets its
+   machine and all of its parameters. Returns its index, valid until the next step. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
 /* Brings walls into effect, moves agents that were born in them or in each other or that stand
    where walls came, and says how many. Runs by itself before a step. */

@@ -65,10 +65,10 @@ static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
     JoxNav *nav = jox_nav_create(NULL);
     uint32_t i = jox_agents_add(&agents);
     agents.ignore[i] = 2;
-    agents.approach[i] = -1;
+    agents.approach[i] = 0;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
     assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 0);
-    agents.approach[i] = 1;
+    agents.approach[i] = jox_reference(1);
     assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 1);
     assert_true(fabsf(planes[0].normal.y + 1.0f) < 1e-5f);
     assert_true(fabsf(planes[0].offset + 0.6f / 0.05f) < 1e-3f);

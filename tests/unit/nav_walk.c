@@ -55,7 +55,7 @@ static void of_those_bound_for_one_place_who_is_nearer_goes_first(void **state) 
     assert_int_equal(minds(&a, 1, behind), JOX_MINDS_AHEAD);
     a.bound[1] = 3; /* elsewhere: then headings decide */
     assert_int_equal(minds(&a, 0, behind), JOX_MINDS_CROSSING);
-    a.bound[0] = a.bound[1] = -1; /* nowhere is no common place */
+    a.bound[0] = a.bound[1] = 0; /* nowhere is no common place */
     assert_int_equal(minds(&a, 1, behind), JOX_MINDS_CROSSING);
     jox_agents_free(&a);
 }
@@ -106,7 +106,7 @@ static void of_two_bound_for_one_place_one_follows(void **state) {
     (void)state;
     JoxAgents a;
     set_up_pair(&a);
-    a.bound[0] = a.bound[1] = 0;
+    a.bound[0] = a.bound[1] = 1;
     for (uint32_t k = 0; k < 1000; k++) {
         double u[5];
         for (uint32_t n = 0; n < 5; n++)

@@ -65,7 +65,7 @@ static void add_people(Crowd *c, float side) {
         a->y[i] = a->prev_y[i] = at.y;
         a->vx[i] = v.x;
         a->vy[i] = v.y;
-        a->bound[i] = k % 2 ? 0 : -1;
+        a->bound[i] = k % 2 ? 1 : 0;
         jox_param_set(a, JOX_PARAM_time_gap, i, 1.0f);
         jox_param_set(a, JOX_PARAM_haste, i, draw(k, 8));
     }

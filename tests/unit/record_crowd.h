@@ -27,7 +27,7 @@ static struct {
     uint8_t failed[MOST];
     uint16_t group[MOST];
     uint32_t state[MOST];
-    const int32_t *kicked, *struck;
+    const uint32_t *kicked, *struck;
     const JoxObjects *objects;
     JoxV2 period;
     JoxWalls walls;

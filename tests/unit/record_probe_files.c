@@ -98,7 +98,7 @@ static void a_log_tells_each_action(void **state) {
     rows[1].position = (JoxV3){0, 3, 0.5f};
     rows[1].velocity = (JoxV3){0, -3, 4};
     const JoxObjects objects = {.rows = rows, .count = 3};
-    int32_t kicked[2] = {-1, -1}, struck[2] = {-1, -1};
+    uint32_t kicked[2] = {0, 0}, struck[2] = {0, 0};
     JoxProbe *p = jox_probe_create(&DEF);
     nobody(2);
     crowd.objects = &objects;
@@ -109,8 +109,8 @@ static void a_log_tells_each_action(void **state) {
     crowd.state[0] = 1;
     crowd.x[0] = 0.5f; /* after the step: rows have where it was before */
     show(p, 0.2);
-    kicked[0] = 0;
-    struck[1] = 1;
+    kicked[0] = 1;
+    struck[1] = 2;
     show(p, 0.3);
     assert_near(figure(p, "entered"), 1, 0);
     assert_near(figure(p, "kicks"), 1, 0);

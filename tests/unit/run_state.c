@@ -378,7 +378,7 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
 #define REFUSED(variable, value) REFUSED_AS("it is none of a run", variable, value)
     REFUSED(a->group[3], 7);
     REFUSED(a->goal[3], 9999);
-    REFUSED(a->bound[3], -2);
+    REFUSED(a->bound[3], UINT32_MAX);
     REFUSED(a->queue_at[3], INT32_MAX);
     REFUSED(a->kicked[3], 5);
     REFUSED(a->x[3], 1e30f);

@@ -162,7 +162,8 @@ static void prefer_batch(const Prefer *p, const JoxBatchRange *batch, JoxRegiste
     for (uint32_t n = 0; n < s.count; n++) {
         if (state->face >= 0)
             look(run, state, s.index[n]);
-        a->bound[s.index[n]] = -1;
+        if (a->bound[s.index[n]])
+            a->bound[s.index[n]] = 0;
     }
     if (is_function(state))
         return;

@@ -35,7 +35,7 @@ static void bind(const Asking *q, uint32_t k, const JoxField *field, float way) 
     const uint32_t i = q->s->index[q->number[k]];
     if (!jox_walks(a, i) || !field)
         return;
-    a->bound[i] = (int32_t)q->place;
+    a->bound[i] = jox_reference((int32_t)q->place);
     a->way[i] = way;
 }
 

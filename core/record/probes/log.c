@@ -111,10 +111,10 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         if (seen[i] && before->known) {
             if (now != before->state)
                 add(log, frame, i, ENTERS, nearest(frame, before));
-            if (frame->kicked && frame->kicked[i] >= 0)
-                add(log, frame, i, KICKS, frame->kicked[i]);
-            if (frame->struck && frame->struck[i] >= 0)
-                add(log, frame, i, HIT, frame->struck[i]);
+            if (frame->kicked && frame->kicked[i])
+                add(log, frame, i, KICKS, (int32_t)frame->kicked[i] - 1);
+            if (frame->struck && frame->struck[i])
+                add(log, frame, i, HIT, (int32_t)frame->struck[i] - 1);
         }
         *before = (Before){frame->x[i], frame->y[i], jox_length(jox_v2(frame->vx[i], frame->vy[i])),
                            now, true};

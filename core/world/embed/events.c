@@ -111,8 +111,8 @@ static void read_presence(const JoWorld *w, JoxHappened *h) {
             held = h->seen[before++].grasped;
         else
             h->entered[h->entered_count++] = presence(&now);
-        if (a->kicked[i] >= 0)
-            note(h, a, i, JO_DONE_KICK, (uint32_t)a->kicked[i]);
+        if (a->kicked[i])
+            note(h, a, i, JO_DONE_KICK, a->kicked[i] - 1);
         if (now.grasped && now.grasped != held)
             note(h, a, i, JO_DONE_GRASP, now.grasped - 1);
         h->seeing[r] = now;
