@@ -22,14 +22,6 @@ bool jox_polygon_contains(const JoxV2 *ring, uint32_t count, JoxV2 p) {
     return inside;
 }
 
-JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 p) {
-    JoxV2 ab = jox_sub(b, a);
-    float l2 = jox_length2(ab);
-    float t = l2 > 0.0f ? jox_clampf(jox_dot(jox_sub(p, a), ab) / l2, 0.0f, 1.0f) : 0.0f;
-    JOX_ASSERT(!(t < 0.0f || t > 1.0f));
-    return jox_add(a, jox_scale(ab, t));
-}
-
 float jox_polygon_distance(const JoxV2 *ring, uint32_t count, JoxV2 p, bool solid) {
     if (solid && jox_polygon_contains(ring, count, p))
         return 0.0f;

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/assert.h"
 #include "base/vec.h"
 
 /* Twice the signed area is positive for counter-clockwise rings. */
@@ -23,7 +24,14 @@ static inline bool jox_is_within(JoxV2 point, JoxV2 low, JoxV2 high) {
     return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y;
 }
 
-JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 point);
+/* The point of a segment that is nearest to another. */
+static inline JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 p) {
+    JoxV2 ab = jox_sub(b, a);
+    float l2 = jox_length2(ab);
+    float t = l2 > 0.0f ? jox_clampf(jox_dot(jox_sub(p, a), ab) / l2, 0.0f, 1.0f) : 0.0f;
+    JOX_ASSERT(!(t < 0.0f || t > 1.0f));
+    return jox_add(a, jox_scale(ab, t));
+}
 /* Of segments whose boxes meet: see jox_segment_crossing. */
 int jox_segment_crosses(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q);
 /* +1 if the way from p to q crosses a-b from its right to its left, -1 for left to right, else 0.

@@ -54,30 +54,16 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     f->cells = jox_alloc(count, sizeof *f->cells);
     JoxFieldWork work = {.f = f,
                          .count = (int)count,
-                         .first = jox_alloc(count + 1, sizeof(uint32_t)),
-                         .solid = jox_alloc(count, sizeof(uint16_t)),
                          .time = jox_alloc(count, sizeof(float)),
-                         .slowness = jox_alloc(count, sizeof(float)),
-                         .node = jox_alloc(count, 1),
-                         .x = jox_alloc(count, sizeof(float)),
-                         .y = jox_alloc(count, sizeof(float)),
-                         .links = jox_alloc(count, 1),
-                         .corners = jox_alloc(count, 1)};
-    jox_field_mark(&work, walls, marks);
+                         .slowness = jox_alloc(count, sizeof(float))};
+    JoxFieldMarks *own = NULL;
+    jox_field_mark(&work, walls, marks ? marks : &own);
     jox_field_crowd(&work, crowd);
     jox_field_march(&work, places, place);
     jox_field_patch(&work);
-    jox_free(work.first);
-    jox_free(work.solid);
+    jox_field_marks_free(own);
     jox_free(work.time);
     jox_free(work.slowness);
-    jox_free(work.node);
-    jox_free(work.x);
-    jox_free(work.y);
-    jox_free(work.links);
-    jox_free(work.corners);
-    jox_free(work.patched);
-    jox_free(work.sight);
     return f;
 }
 

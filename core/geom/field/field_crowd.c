@@ -11,7 +11,7 @@ static JoxFieldSpreadKernel *const SPREAD[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static float *open_floor(const JoxFieldWork *w) {
     float *open = jox_alloc((size_t)w->count, sizeof *open);
     for (int i = 0; i < w->count; i++)
-        open[i] = w->node[i] == JOX_FIELD_BLOCKED ? 0.0f : 1.0f;
+        open[i] = w->walled.node[i] == JOX_FIELD_BLOCKED ? 0.0f : 1.0f;
     return open;
 }
 

@@ -77,7 +77,7 @@ static inline void offer(JoxFieldWork *w, Heap *h, int cell, float time, float l
                          float far) {
     if (!(time < w->time[cell]))
         return;
-    JOX_ASSERT(w->node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f && length >= 0.0f);
+    JOX_ASSERT(w->walled.node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f && length >= 0.0f);
     const JoxV2 unit = jox_scale(way, 1.0f / far);
     w->time[cell] = time;
     w->f->cells[cell].length = length;
@@ -108,7 +108,7 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
     for (int r = r0; r <= r1; r++)
         for (int c = c0; c <= c1; c++) {
             int cell = r * f->columns + c;
-            if (w->node[cell] == JOX_FIELD_BLOCKED)
+            if (w->walled.node[cell] == JOX_FIELD_BLOCKED)
                 continue;
             JoxV2 p = jox_field_node(w, cell), goal = jox_place_nearest(place, 0, p);
             float distance = jox_length(jox_sub(goal, p));
@@ -170,16 +170,16 @@ static void march(JoxFieldWork *w, Heap *h) {
         JoxV2 from = jox_field_node(w, i);
         for (int k = 0; k < 8; k++) {
             int j = i + steps[k];
-            if (!(w->links[i] >> k & 1) || h->place[j] == FINISHED)
+            if (!(w->walled.links[i] >> k & 1) || h->place[j] == FINISHED)
                 continue;
-            JOX_ASSERT(j >= 0 && j < w->count && w->links[j] >> ((k + 4) & 7) & 1);
+            JOX_ASSERT(j >= 0 && j < w->count && w->walled.links[j] >> ((k + 4) & 7) & 1);
             JoxV2 p = jox_field_node(w, j), way = jox_sub(from, p);
             float far = jox_length(way);
             offer(w, h, j, w->time[i] + w->slowness[j] * far, f->cells[i].length + far, way, far);
             int back = (k + 4) & 7, left = (back + 1) & 7, right = (back + 7) & 7;
-            if (w->corners[j] >> back & 1 && h->place[j + steps[left]] == FINISHED)
+            if (w->walled.corners[j] >> back & 1 && h->place[j + steps[left]] == FINISHED)
                 by_side(w, h, j, p, i, j + steps[left]);
-            if (w->corners[j] >> right & 1 && h->place[j + steps[right]] == FINISHED)
+            if (w->walled.corners[j] >> right & 1 && h->place[j + steps[right]] == FINISHED)
                 by_side(w, h, j, p, i, j + steps[right]);
         }
     }
@@ -194,8 +194,8 @@ static void straighten(JoxFieldWork *w) {
     int up = f->columns;
     for (int i = 0; i < w->count; i++) {
         JoxFieldCell *cell = &f->cells[i];
-        if (w->links[i] != 0xff || w->corners[i] != 0xff || jox_field_has_edges(w, i) ||
-            !(t[i] < INFINITY))
+        if (w->walled.links[i] != 0xff || w->walled.corners[i] != 0xff ||
+            jox_field_has_edges(w, i) || !(t[i] < INFINITY))
             continue;
         JoxV2 way = {2.0f * (t[i - 1] - t[i + 1]) + (t[i - 1 - up] - t[i + 1 - up]) +
                          (t[i - 1 + up] - t[i + 1 + up]),

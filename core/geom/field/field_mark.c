@@ -54,9 +54,9 @@ static void enter(JoxFieldWork *w, uint32_t edge, float reach) {
             if (jox_length2(jox_sub(p, jox_segment_nearest(a, b, p))) > reach * reach)
                 continue;
             if (f->refs)
-                f->refs[--w->first[cell]] = edge;
+                f->refs[--w->walled.first[cell]] = edge;
             else
-                w->first[cell]++;
+                w->walled.first[cell]++;
         }
     }
 }
@@ -66,12 +66,12 @@ static void sort_edges(JoxFieldWork *w, float reach) {
     for (uint32_t e = 0; e < f->edge_count; e++)
         enter(w, e, reach);
     for (int i = 0; i < w->count; i++)
-        w->first[i + 1] += w->first[i];
-    f->ref_count = w->first[w->count];
+        w->walled.first[i + 1] += w->walled.first[i];
+    f->ref_count = w->walled.first[w->count];
     f->refs = jox_alloc((size_t)f->ref_count + 1, sizeof *f->refs);
     for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as each list fills from its end */
         enter(w, e, reach);
-    JOX_ASSERT(w->first[0] == 0);
+    JOX_ASSERT(w->walled.first[0] == 0);
 }
 
 /* ---- solids ---- */
@@ -88,7 +88,8 @@ static void fill_row(JoxFieldWork *w, int row, const float *x, int crossings) {
         int first = from > 0.0f ? (int)jox_minf(from, most + 1.0f) : 0;
         int last = to < most ? (int)jox_maxf(to, -1.0f) : (int)most;
         for (int j = first; j <= last; j++)
-            w->solid[base + j / JOX_FIELD_SIDE] |= (uint16_t)(1 << (shift + j % JOX_FIELD_SIDE));
+            w->walled.solid[base + j / JOX_FIELD_SIDE] |=
+                (uint16_t)(1 << (shift + j % JOX_FIELD_SIDE));
     }
 }
 
@@ -134,18 +135,18 @@ static void fill_solids(JoxFieldWork *w, const JoxWalls *walls) {
 /* The centre where it will do, else the sample that is freest. */
 static void place_node(JoxFieldWork *w, int cell) {
     JoxField *f = w->f;
-    uint32_t first = w->first[cell], last = w->first[cell + 1];
+    uint32_t first = w->walled.first[cell], last = w->walled.first[cell + 1];
     float best = -1.0f;
-    w->node[cell] = JOX_FIELD_BLOCKED;
+    w->walled.node[cell] = JOX_FIELD_BLOCKED;
     for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
         int s = k == 0 ? JOX_FIELD_MIDDLE : k <= JOX_FIELD_MIDDLE ? k - 1 : k;
-        if (w->solid[cell] >> s & 1)
+        if (w->walled.solid[cell] >> s & 1)
             continue;
         float d = jox_field_nearest(f, first, last, jox_field_sample(f, cell, s), NULL, NULL);
         if (d < f->clearance || d <= best)
             continue;
         best = d;
-        w->node[cell] = (uint8_t)s;
+        w->walled.node[cell] = (uint8_t)s;
         if (s == JOX_FIELD_MIDDLE)
             break;
     }
@@ -153,34 +154,48 @@ static void place_node(JoxFieldWork *w, int cell) {
     w->slowness[cell] = 1.0f + SLOWING * lack * lack;
 }
 
-/* Where the nodes are: jox_field_sample of each. */
+static void lay_axis(JoxFieldAxis *axis, float low, float size, int most) {
+    for (int c = 0; c < most; c++)
+        for (int s = 0; s < JOX_FIELD_SIDE; s++, axis++) {
+            axis->at = low + ((float)c + ((float)s + 0.5f) / (float)JOX_FIELD_SIDE) * size;
+            const float x = (axis->at - low) / size - 0.5f;
+            axis->first = (int)floorf(x);
+            for (int k = 0; k < 2; k++)
+                axis->share[k] = 1.0f - fabsf(x - (float)(axis->first + k));
+        }
+}
+
+/* Where samples are, and the nodes: jox_field_sample of each. */
 static void lay_nodes(JoxFieldWork *w) {
     const JoxField *f = w->f;
-    float within[JOX_FIELD_SIDE];
-    for (int k = 0; k < JOX_FIELD_SIDE; k++)
-        within[k] = ((float)k + 0.5f) / (float)JOX_FIELD_SIDE;
+    JoxFieldWalled *of = &w->walled;
+    of->columns = jox_alloc((size_t)f->columns, JOX_FIELD_SIDE * sizeof *of->columns);
+    of->rows = jox_alloc((size_t)f->rows, JOX_FIELD_SIDE * sizeof *of->rows);
+    lay_axis(of->columns, f->low.x, f->size, f->columns);
+    lay_axis(of->rows, f->low.y, f->size, f->rows);
     for (int r = 0; r < f->rows; r++)
         for (int c = 0; c < f->columns; c++) {
             const int cell = r * f->columns + c;
-            const int node = w->node[cell] == JOX_FIELD_BLOCKED ? JOX_FIELD_MIDDLE : w->node[cell];
-            w->x[cell] = f->low.x + ((float)c + within[node % JOX_FIELD_SIDE]) * f->size;
-            w->y[cell] = f->low.y + ((float)r + within[node / JOX_FIELD_SIDE]) * f->size;
+            const int node =
+                of->node[cell] == JOX_FIELD_BLOCKED ? JOX_FIELD_MIDDLE : of->node[cell];
+            of->x[cell] = of->columns[c * JOX_FIELD_SIDE + node % JOX_FIELD_SIDE].at;
+            of->y[cell] = of->rows[r * JOX_FIELD_SIDE + node / JOX_FIELD_SIDE].at;
         }
 }
 
 static void link_cell(JoxFieldWork *w, int cell) {
-    if (w->node[cell] == JOX_FIELD_BLOCKED)
+    if (w->walled.node[cell] == JOX_FIELD_BLOCKED)
         return;
     for (int k = 0; k < 4; k++) {
         int other = jox_field_next(w->f, cell, k);
-        if (other < 0 || w->node[other] == JOX_FIELD_BLOCKED)
+        if (other < 0 || w->walled.node[other] == JOX_FIELD_BLOCKED)
             continue;
         if ((jox_field_has_edges(w, cell) || jox_field_has_edges(w, other)) &&
             !jox_field_sees(w, jox_field_node(w, cell), jox_field_node(w, other),
                             CORNER * w->f->clearance))
             continue;
-        w->links[cell] |= (uint8_t)(1 << k);
-        w->links[other] |= (uint8_t)(1 << (k + 4));
+        w->walled.links[cell] |= (uint8_t)(1 << k);
+        w->walled.links[other] |= (uint8_t)(1 << (k + 4));
     }
 }
 
@@ -193,28 +208,38 @@ static bool in_triangle(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 p) {
 static void span_corners(JoxFieldWork *w, int cell) {
     for (int t = 0; t < 8; t++) {
         int next = (t + 1) & 7, across = (t + (t & 1 ? 3 : 2)) & 7;
-        if (!(w->links[cell] >> t & 1) || !(w->links[cell] >> next & 1))
+        if (!(w->walled.links[cell] >> t & 1) || !(w->walled.links[cell] >> next & 1))
             continue;
         int one = jox_field_next(w->f, cell, t), two = jox_field_next(w->f, cell, next);
-        if (!(w->links[one] >> across & 1))
+        if (!(w->walled.links[one] >> across & 1))
             continue;
         JoxV2 a = jox_field_node(w, cell), b = jox_field_node(w, one), c = jox_field_node(w, two);
         bool empty = true; /* nothing crosses the sides: look for walls wholly within */
-        for (uint32_t k = w->first[cell]; empty && k < w->first[cell + 1]; k++)
+        for (uint32_t k = w->walled.first[cell]; empty && k < w->walled.first[cell + 1]; k++)
             empty = !in_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
         if (empty)
-            w->corners[cell] |= (uint8_t)(1 << t);
+            w->walled.corners[cell] |= (uint8_t)(1 << t);
     }
+}
+
+static void make_room(JoxFieldWork *w) {
+    const size_t count = (size_t)w->count;
+    w->walled = (JoxFieldWalled){.first = jox_alloc(count + 1, sizeof(uint32_t)),
+                                 .solid = jox_alloc(count, sizeof(uint16_t)),
+                                 .node = jox_alloc(count, 1),
+                                 .x = jox_alloc(count, sizeof(float)),
+                                 .y = jox_alloc(count, sizeof(float)),
+                                 .links = jox_alloc(count, 1),
+                                 .corners = jox_alloc(count, 1)};
 }
 
 void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **marks) {
     JoxField *f = w->f;
     float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
     collect(f, walls);
-    if (marks && jox_field_recall(w, *marks)) {
-        lay_nodes(w);
+    if (jox_field_recall(w, *marks))
         return;
-    }
+    make_room(w);
     sort_edges(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
@@ -225,6 +250,5 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
     for (int i = 0; i < w->count; i++)
         span_corners(w, i);
     jox_field_look_about(w);
-    if (marks)
-        jox_field_remember(w, marks);
+    jox_field_remember(w, marks);
 }

@@ -27,13 +27,17 @@ typedef struct JoxFieldPatch {
 } JoxFieldPatch;
 
 /* What walls let the samples of patches see: bits of JoxFieldSight, sample by sample. */
-typedef uint16_t JoxFieldSight;
+typedef uint32_t JoxFieldSight;
 enum {
     JOX_SIGHT_NODES = 0x000f,   /* of the four nodes about the sample */
     JOX_SIGHT_OPEN = 0x0010,    /* no edge is near enough to stand in the way ahead */
-    JOX_SIGHT_BY_WALL = 0x0020, /* an edge is nearer than the clearance */
+    JOX_SIGHT_BY_WALL = 0x0020, /* an edge is within the clearance; its patch has the way off it */
     JOX_SIGHT_SOLID = 0x0040,   /* within matter that an edge bounds; its patch has the way out */
-    JOX_SIGHT_DEEP = 0x0080     /* within matter that no near edge bounds */
+    JOX_SIGHT_DEEP = 0x0080,    /* within matter that no near edge bounds */
+    /* The cell's node, and those of its ring, one after the other: whether it is known, and whether
+       the sample sees it. Found once a field needs it. */
+    JOX_SIGHT_KNOWN = 1 << 8,
+    JOX_SIGHT_SEEN = 1 << 17
 };
 
 typedef struct JoxFieldEdge {
@@ -54,13 +58,18 @@ struct JoxField {
     uint32_t ref_count;
 };
 
-typedef struct JoxFieldWork {
-    JoxField *f;
-    int count;        /* cells */
+/* Along one axis: where the samples of a column (of a row) lie, and the first of the two whose
+   middles they are between, with the share of each. */
+typedef struct JoxFieldAxis {
+    float at; /* m */
+    int first;
+    float share[2];
+} JoxFieldAxis;
+
+/* What walls do to each cell, which is kept from field to field. */
+typedef struct JoxFieldWalled {
     uint32_t *first;  /* refs of cell i: first[i] to first[i + 1] */
     uint16_t *solid;  /* bits: samples inside solids */
-    float *time;      /* of the way from the node at 1 m/s in the open, s */
-    float *slowness;  /* s/m at the node */
     uint8_t *node;    /* sample, or JOX_FIELD_BLOCKED */
     float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
     uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
@@ -68,6 +77,15 @@ typedef struct JoxFieldWork {
     /* The cells that have patches, in the order of f->patches, and what their samples see. */
     int32_t *patched;
     JoxFieldSight *sight;
+    JoxFieldAxis *columns, *rows; /* JOX_FIELD_SIDE for each */
+} JoxFieldWalled;
+
+typedef struct JoxFieldWork {
+    JoxField *f;
+    int count;       /* cells */
+    float *time;     /* of the way from the node at 1 m/s in the open, s */
+    float *slowness; /* s/m at the node */
+    JoxFieldWalled walled;
 } JoxFieldWork;
 
 /* So close to the goal, in cells, the ways of nodes are as long as their share of it: four of them
@@ -85,16 +103,18 @@ static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
     return (JoxV2){f->low.x + x * f->size, f->low.y + y * f->size};
 }
 static inline JoxV2 jox_field_node(const JoxFieldWork *w, int cell) {
-    return (JoxV2){w->x[cell], w->y[cell]};
+    return (JoxV2){w->walled.x[cell], w->walled.y[cell]};
 }
 /* The neighbour on the ring, or -1 beyond the border. */
-static inline int jox_field_next(const JoxField *f, int cell, int ring) {
-    int c = cell % f->columns + JOX_FIELD_RING[ring][0];
-    int r = cell / f->columns + JOX_FIELD_RING[ring][1];
+static inline int jox_field_next_to(const JoxField *f, int column, int row, int ring) {
+    int c = column + JOX_FIELD_RING[ring][0], r = row + JOX_FIELD_RING[ring][1];
     return c < 0 || r < 0 || c >= f->columns || r >= f->rows ? -1 : r * f->columns + c;
 }
+static inline int jox_field_next(const JoxField *f, int cell, int ring) {
+    return jox_field_next_to(f, cell % f->columns, cell / f->columns, ring);
+}
 static inline bool jox_field_has_edges(const JoxFieldWork *w, int cell) {
-    return w->first[cell] != w->first[cell + 1];
+    return w->walled.first[cell] != w->walled.first[cell + 1];
 }
 
 /* How much shorter the way is `off` from a node than from it, by the slope there. */
@@ -113,18 +133,46 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
 
 /* Edges by cell, solids, nodes, links, the slowness near walls, and what patches see. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls, JoxFieldMarks **marks);
-/* A node of the four about a point, -1 where there is none or it counts for nothing, and its share.
- */
+/* One of the nine samples of a cell. */
+typedef struct JoxFieldSpot {
+    int cell, column, row, sample;
+    const JoxFieldAxis *x, *y;
+} JoxFieldSpot;
+static inline JoxFieldSpot jox_field_spot(const JoxFieldWork *w, int cell, int sample) {
+    const int column = cell % w->f->columns, row = cell / w->f->columns;
+    return (JoxFieldSpot){.cell = cell,
+                          .column = column,
+                          .row = row,
+                          .sample = sample,
+                          .x =
+                              &w->walled.columns[column * JOX_FIELD_SIDE + sample % JOX_FIELD_SIDE],
+                          .y = &w->walled.rows[row * JOX_FIELD_SIDE + sample / JOX_FIELD_SIDE]};
+}
+/* jox_field_sample of it. */
+static inline JoxV2 jox_field_spot_at(const JoxFieldSpot *spot) {
+    return (JoxV2){spot->x->at, spot->y->at};
+}
+/* A node of the four about a sample, -1 where there is none or it counts for nothing, and its
+   share. */
 typedef struct JoxFieldAbout {
     int cell;
     float weight;
 } JoxFieldAbout;
-void jox_field_about(const JoxFieldWork *work, JoxV2 p, JoxFieldAbout about[4]);
+static inline JoxFieldAbout jox_field_about(const JoxFieldWork *w, const JoxFieldSpot *spot,
+                                            int k) {
+    const JoxField *f = w->f;
+    const int c = spot->x->first + (k & 1), r = spot->y->first + (k >> 1),
+              cell = r * f->columns + c;
+    const float weight = spot->x->share[k & 1] * spot->y->share[k >> 1];
+    const bool within = c >= 0 && r >= 0 && c < f->columns && r < f->rows;
+    const bool counts = within && w->walled.node[cell] != JOX_FIELD_BLOCKED && weight > 1e-4f;
+    return (JoxFieldAbout){counts ? cell : -1, weight};
+}
 /* field_sight.c: which cells are blended or have a patch, and of patches all that does not depend
    on where the goal is: what their samples see, and the ways out of solids. */
 void jox_field_look_about(JoxFieldWork *work);
-/* field_marks.c: takes over what was marked of the same edges over the same grid; false if it was
-   not. Keeps it for the next time. */
+/* field_marks.c: uses what was marked of the same edges over the same grid; false if it was not.
+   Keeps it for the next time: from then on `marks` own what is walled. */
 bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
 void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
 /* Slowness where people are held up; NULL: nobody. */

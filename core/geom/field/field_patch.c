@@ -24,21 +24,21 @@ typedef struct Blend {
 } Blend;
 
 /* The way from a point, blended from the nodes of the four cells about it that it sees. */
-static Blend blend(const JoxFieldWork *w, JoxV2 p, JoxFieldSight sight) {
+static Blend blend(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSight sight) {
     const JoxField *f = w->f;
+    const JoxV2 p = jox_field_spot_at(spot);
     Blend m = {.unreachable = false};
-    JoxFieldAbout about[4];
-    jox_field_about(w, p, about);
     for (int k = 0; k < 4; k++) {
-        const int cell = about[k].cell;
         if (!(sight >> k & 1))
             continue;
+        const JoxFieldAbout about = jox_field_about(w, spot, k);
+        const int cell = about.cell;
         JOX_ASSERT(cell >= 0);
         if (!(w->time[cell] < INFINITY)) {
             m.unreachable = true;
             continue;
         }
-        const float weight = about[k].weight;
+        const float weight = about.weight;
         const JoxV2 off = jox_sub(p, jox_field_node(w, cell));
         m.way = jox_add(m.way, jox_scale((JoxV2){f->cells[cell].x, f->cells[cell].y}, weight));
         m.length += weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], off));
@@ -51,19 +51,31 @@ static Blend blend(const JoxFieldWork *w, JoxV2 p, JoxFieldSight sight) {
     return m;
 }
 
-/* The soonest way by one of the nodes about a cell that a point sees; false if it sees none. */
-static bool by_a_node(const JoxFieldWork *w, int cell, JoxV2 p, Blend *m) {
+/* Whether a sample sees the node of a cell, its own or `place - 1` on its ring. */
+static bool sees_node(const JoxFieldWork *w, JoxV2 p, int cell, int place, JoxFieldSight *sight) {
+    if (!(*sight & (JoxFieldSight)JOX_SIGHT_KNOWN << place)) {
+        *sight |= (JoxFieldSight)JOX_SIGHT_KNOWN << place;
+        if (jox_field_sees(w, p, jox_field_node(w, cell), JOX_FIELD_KEEP * w->f->clearance))
+            *sight |= (JoxFieldSight)JOX_SIGHT_SEEN << place;
+    }
+    return *sight & (JoxFieldSight)JOX_SIGHT_SEEN << place;
+}
+
+/* The soonest way by one of the nodes about a cell that a sample sees; false if it sees none. */
+static bool by_a_node(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSight *sight,
+                      Blend *m) {
     const JoxField *f = w->f;
+    const JoxV2 p = jox_field_spot_at(spot);
     float best = INFINITY;
     for (int k = -1; k < 8; k++) {
-        int other = k < 0 ? cell : jox_field_next(f, cell, k);
-        if (other < 0 || w->node[other] == JOX_FIELD_BLOCKED)
+        int other = k < 0 ? spot->cell : jox_field_next_to(f, spot->column, spot->row, k);
+        if (other < 0 || w->walled.node[other] == JOX_FIELD_BLOCKED)
             continue;
         JoxV2 way = jox_sub(jox_field_node(w, other), p);
         float far = jox_length(way), time = w->time[other] + far * w->slowness[other];
         bool reached = time < INFINITY;
         if ((reached && time >= best) || (!reached && m->unreachable) ||
-            !jox_field_sees(w, p, jox_field_node(w, other), JOX_FIELD_KEEP * f->clearance))
+            !sees_node(w, p, other, k + 1, sight))
             continue;
         m->unreachable = m->unreachable || !reached;
         if (!reached)
@@ -95,34 +107,47 @@ static bool leads_on(const JoxFieldWork *w, JoxV2 p, const Blend *m, JoxFieldSig
     return jox_field_sees(w, p, ahead, m->length < goal ? 0.0f : JOX_FIELD_KEEP * f->clearance);
 }
 
-static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s,
-                   JoxFieldSight sight) {
+static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const JoxFieldSpot *spot,
+                   JoxFieldSight *seen) {
     const JoxField *f = w->f;
-    const JoxV2 p = jox_field_sample(f, cell, s);
+    const JoxFieldSight sight = *seen;
+    const JoxV2 p = jox_field_spot_at(spot);
+    const int s = spot->sample;
     patch->length[s] = INFINITY;
     if (sight & JOX_SIGHT_DEEP)
         return UNKNOWN;
     if (sight & JOX_SIGHT_SOLID)
         return SOLID;
+    const JoxV2 off = {patch->x[s], patch->y[s]};
+    set(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
     if (patch->on_edge >> s & 1)
         return ON_EDGE;
-    Blend m = blend(w, p, sight);
+    Blend m = blend(w, spot, sight);
     if (m.weight > 0.0f && jox_length(m.way) < JOX_FIELD_ARRIVED && m.length < f->size) {
         set(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
         return FOUND;
     }
-    if (!leads_on(w, p, &m, sight) && !by_a_node(w, cell, p, &m))
+    if (!leads_on(w, p, &m, sight) && !by_a_node(w, spot, seen, &m))
         return m.unreachable ? UNREACHABLE : UNKNOWN;
     m.way = jox_unit(m.way);
-    if (sight & JOX_SIGHT_BY_WALL && m.length > f->clearance + f->size) { /* and off the wall */
-        JoxV2 at = p;
-        const float near =
-            jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, NULL);
-        m.way = jox_unit(
-            jox_add(m.way, jox_scale(jox_sub(p, at), (1.0f - near / f->clearance) / near)));
-    }
+    if (sight & JOX_SIGHT_BY_WALL && m.length > f->clearance + f->size)
+        m.way = jox_unit(jox_add(m.way, off));
     set(patch, s, m.way, m.length);
     return FOUND;
+}
+
+static void judge_patch(Patching *g, uint32_t patch) {
+    const JoxFieldWork *w = g->w;
+    const size_t first = (size_t)patch * JOX_FIELD_SAMPLES;
+    const JoxFieldSpot corner = jox_field_spot(w, w->walled.patched[patch], 0);
+    for (int s = 0; s < JOX_FIELD_SAMPLES; s++) {
+        JoxFieldSpot spot = corner;
+        spot.sample = s;
+        spot.x += s % JOX_FIELD_SIDE;
+        spot.y += s / JOX_FIELD_SIDE;
+        g->states[first + (size_t)s] =
+            (uint8_t)judge(w, &w->f->patches[patch], &spot, &w->walled.sight[first + (size_t)s]);
+    }
 }
 
 /* ---- samples that see nothing ---- */
@@ -131,7 +156,7 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s,
 static int32_t beside(const Patching *g, int32_t sample, int side) {
     const JoxField *f = g->w->f;
     int32_t patch = sample / JOX_FIELD_SAMPLES;
-    int s = sample % JOX_FIELD_SAMPLES, cell = g->w->patched[patch];
+    int s = sample % JOX_FIELD_SAMPLES, cell = g->w->walled.patched[patch];
     int x = s % JOX_FIELD_SIDE + JOX_FIELD_RING[2 * side][0];
     int y = s / JOX_FIELD_SIDE + JOX_FIELD_RING[2 * side][1];
     if (x < 0 || y < 0 || x == JOX_FIELD_SIDE || y == JOX_FIELD_SIDE) {
@@ -146,12 +171,14 @@ static int32_t beside(const Patching *g, int32_t sample, int side) {
 }
 
 static JoxV2 place_of(const Patching *g, int32_t sample) {
-    return jox_field_sample(g->w->f, g->w->patched[sample / JOX_FIELD_SAMPLES],
+    return jox_field_sample(g->w->f, g->w->walled.patched[sample / JOX_FIELD_SAMPLES],
                             sample % JOX_FIELD_SAMPLES);
 }
 
 static bool is_matter(const Patching *g, int32_t sample) {
-    return g->w->solid[g->w->patched[sample / JOX_FIELD_SAMPLES]] >> sample % JOX_FIELD_SAMPLES & 1;
+    return g->w->walled.solid[g->w->walled.patched[sample / JOX_FIELD_SAMPLES]] >>
+               sample % JOX_FIELD_SAMPLES &
+           1;
 }
 
 /* Sample j follows i, or straight what i follows if nothing is between; and keeps off walls. */
@@ -208,7 +235,7 @@ static void lead_out(JoxFieldWork *w) {
     JoxField *f = w->f;
     int *queue = jox_alloc((size_t)w->count, sizeof *queue), filled = 0;
     for (int i = 0; i < w->count; i++)
-        if (f->cells[i].patch >= 0 && w->solid[i])
+        if (f->cells[i].patch >= 0 && w->walled.solid[i])
             queue[filled++] = i;
     for (int k = 0; k < filled; k++)
         for (int side = 0; side < 8; side++) {
@@ -239,11 +266,8 @@ void jox_field_patch(JoxFieldWork *w) {
     Patching g = {.w = w};
     g.towards = jox_alloc(samples + 1, sizeof *g.towards);
     g.states = jox_alloc(samples + 1, 1);
-    for (size_t k = 0; k < samples; k++) {
-        const size_t p = k / JOX_FIELD_SAMPLES;
-        g.states[k] = (uint8_t)judge(w, &f->patches[p], w->patched[p], (int)(k % JOX_FIELD_SAMPLES),
-                                     w->sight[k]);
-    }
+    for (uint32_t p = 0; p < f->patch_count; p++)
+        judge_patch(&g, p);
     follow_all(&g);
     if (any_is_deep(w))
         lead_out(w);

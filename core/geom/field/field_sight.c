@@ -62,7 +62,8 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
         int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
         int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
         int cell = r * f->columns + c;
-        for (uint32_t i = w->first[cell]; cell != before && i < w->first[cell + 1]; i++)
+        for (uint32_t i = w->walled.first[cell]; cell != before && i < w->walled.first[cell + 1];
+             i++)
             if (edge_hides(&f->edges[f->refs[i]], p, q, least))
                 return false;
         before = cell;
@@ -73,30 +74,18 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
 /* ---- patches ---- */
 
 static bool is_clear(const JoxFieldWork *w, int cell) {
-    if (w->node[cell] != JOX_FIELD_MIDDLE)
+    if (w->walled.node[cell] != JOX_FIELD_MIDDLE)
         return false;
     for (int k = 0; k < 8; k++) {
         int other = jox_field_next(w->f, cell, k);
         int after = jox_field_next(w->f, cell, (k + 1) & 7);
-        if (other >= 0 && (!(w->links[cell] >> k & 1) || w->node[other] != JOX_FIELD_MIDDLE))
+        if (other >= 0 &&
+            (!(w->walled.links[cell] >> k & 1) || w->walled.node[other] != JOX_FIELD_MIDDLE))
             return false;
-        if (other >= 0 && after >= 0 && !(w->corners[cell] >> k & 1))
+        if (other >= 0 && after >= 0 && !(w->walled.corners[cell] >> k & 1))
             return false;
     }
     return true;
-}
-
-void jox_field_about(const JoxFieldWork *w, JoxV2 p, JoxFieldAbout about[4]) {
-    const JoxField *f = w->f;
-    const float x = (p.x - f->low.x) / f->size - 0.5f, y = (p.y - f->low.y) / f->size - 0.5f;
-    const int column = (int)floorf(x), row = (int)floorf(y);
-    for (int k = 0; k < 4; k++) {
-        const int c = column + (k & 1), r = row + (k >> 1), cell = r * f->columns + c;
-        const float weight = (1.0f - fabsf(x - (float)c)) * (1.0f - fabsf(y - (float)r));
-        const bool within = c >= 0 && r >= 0 && c < f->columns && r < f->rows;
-        const bool counts = within && w->node[cell] != JOX_FIELD_BLOCKED && weight > 1e-4f;
-        about[k] = (JoxFieldAbout){counts ? cell : -1, weight};
-    }
 }
 
 /* Straight out of matter: towards the nearest edge, or off the edge it lies upon. */
@@ -108,26 +97,29 @@ static JoxV2 out_of_solid(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
 }
 
 /* Of the four nodes about a point, those that it sees (bits). */
-static uint16_t nodes_seen(const JoxFieldWork *w, JoxV2 p) {
-    JoxFieldAbout about[4];
-    uint16_t seen = 0;
-    jox_field_about(w, p, about);
-    for (int k = 0; k < 4; k++)
-        if (about[k].cell >= 0 && jox_field_sees(w, p, jox_field_node(w, about[k].cell),
-                                                 JOX_FIELD_KEEP * w->f->clearance))
-            seen |= (uint16_t)(1 << k);
+static JoxFieldSight nodes_seen(const JoxFieldWork *w, const JoxFieldSpot *spot) {
+    const JoxV2 p = jox_field_spot_at(spot);
+    JoxFieldSight seen = 0;
+    for (int k = 0; k < 4; k++) {
+        const int cell = jox_field_about(w, spot, k).cell;
+        if (cell >= 0 &&
+            jox_field_sees(w, p, jox_field_node(w, cell), JOX_FIELD_KEEP * w->f->clearance))
+            seen |= (JoxFieldSight)1 << k;
+    }
     return seen;
 }
 
 static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
     const JoxField *f = w->f;
-    JoxV2 p = jox_field_sample(f, cell, s), at = p;
+    const JoxFieldSpot spot = jox_field_spot(w, cell, s);
+    const JoxV2 p = jox_field_spot_at(&spot);
+    JoxV2 at = p;
     uint32_t edge = 0;
     float near = jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, &edge);
     float half = 0.5f * f->size / (float)JOX_FIELD_SIDE;
     if (near < 1.5f * half) /* more than half its diagonal */
         patch->cut |= (uint16_t)(1 << s);
-    if (w->solid[cell] >> s & 1) {
+    if (w->walled.solid[cell] >> s & 1) {
         if (patch->count == 0)
             return JOX_SIGHT_DEEP; /* no edge near: it follows a neighbour later */
         JoxV2 out = out_of_solid(f, p, at, edge);
@@ -139,9 +131,13 @@ static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell,
         patch->on_edge |= (uint16_t)(1 << s);
         return 0;
     }
-    JoxFieldSight sight = nodes_seen(w, p);
-    if (near < f->clearance)
+    JoxFieldSight sight = nodes_seen(w, &spot);
+    if (near < f->clearance) {
+        const JoxV2 off = jox_scale(jox_sub(p, at), (1.0f - near / f->clearance) / near);
+        patch->x[s] = off.x;
+        patch->y[s] = off.y;
         sight |= JOX_SIGHT_BY_WALL;
+    }
     if (near > JOX_FIELD_AHEAD * f->size + JOX_FIELD_KEEP * f->clearance + TOUCH)
         sight |= JOX_SIGHT_OPEN;
     return sight;
@@ -156,18 +152,19 @@ void jox_field_look_about(JoxFieldWork *w) {
             continue;
         JOX_RESERVE(f->patches, f->patch_capacity, f->patch_count + 1);
         f->cells[i].patch = (int32_t)f->patch_count;
-        f->patches[f->patch_count++] =
-            (JoxFieldPatch){.first = w->first[i], .count = w->first[i + 1] - w->first[i]};
+        f->patches[f->patch_count++] = (JoxFieldPatch){
+            .first = w->walled.first[i], .count = w->walled.first[i + 1] - w->walled.first[i]};
     }
     JOX_ASSERT(f->patch_count <= (uint32_t)w->count);
-    w->patched = jox_alloc((size_t)f->patch_count + 1, sizeof *w->patched);
-    w->sight = jox_alloc((size_t)f->patch_count + 1, JOX_FIELD_SAMPLES * sizeof *w->sight);
+    w->walled.patched = jox_alloc((size_t)f->patch_count + 1, sizeof *w->walled.patched);
+    w->walled.sight =
+        jox_alloc((size_t)f->patch_count + 1, JOX_FIELD_SAMPLES * sizeof *w->walled.sight);
     for (int i = 0; i < w->count; i++) {
         const int32_t p = f->cells[i].patch;
         if (p < 0)
             continue;
-        w->patched[p] = i;
+        w->walled.patched[p] = i;
         for (int s = 0; s < JOX_FIELD_SAMPLES; s++)
-            w->sight[p * JOX_FIELD_SAMPLES + s] = look(w, &f->patches[p], i, s);
+            w->walled.sight[p * JOX_FIELD_SAMPLES + s] = look(w, &f->patches[p], i, s);
     }
 }

@@ -47,7 +47,7 @@ static void spread(JoxFieldWork *w, const float *open, const Span *s, JoxV2 at, 
     float area = f->size * f->size, *share = shares;
     for (int r = s->r0; r <= s->r1; r++, share += columns) {
         const int first = r * f->columns + s->c0;
-        share_row(w->x + first, w->y + first, open + first, at, columns, share);
+        share_row(w->walled.x + first, w->walled.y + first, open + first, at, columns, share);
     }
     const float sum = sum_of(shares, cells);
     if (!(sum > 0.0f))
