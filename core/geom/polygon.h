@@ -32,15 +32,17 @@ static inline JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 p) {
     JOX_ASSERT(!(t < 0.0f || t > 1.0f));
     return jox_add(a, jox_scale(ab, t));
 }
+/* Whether the boxes about a-b and p-q have a point in common. */
+static inline bool jox_boxes_meet(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
+    return !(jox_maxf(p.x, q.x) < jox_minf(a.x, b.x) || jox_minf(p.x, q.x) > jox_maxf(a.x, b.x) ||
+             jox_maxf(p.y, q.y) < jox_minf(a.y, b.y) || jox_minf(p.y, q.y) > jox_maxf(a.y, b.y));
+}
 /* Of segments whose boxes meet: see jox_segment_crossing. */
 int jox_segment_crosses(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q);
 /* +1 if the way from p to q crosses a-b from its right to its left, -1 for left to right, else 0.
    Half-open, so that a way split at any point counts once. */
 static inline int jox_segment_crossing(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
-    if (jox_maxf(p.x, q.x) < jox_minf(a.x, b.x) || jox_minf(p.x, q.x) > jox_maxf(a.x, b.x) ||
-        jox_maxf(p.y, q.y) < jox_minf(a.y, b.y) || jox_minf(p.y, q.y) > jox_maxf(a.y, b.y))
-        return 0;
-    return jox_segment_crosses(a, b, p, q);
+    return jox_boxes_meet(a, b, p, q) ? jox_segment_crosses(a, b, p, q) : 0;
 }
 
 #endif
