@@ -83,9 +83,9 @@ static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t m
     uint32_t n = 0;
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && n < most; k++) {
         const JoxPair *p = &pairs[f->ends[k].pair];
-        float force = p->impulse * per_second + p->squeeze;
-        if (force > 0.0f)
-            out[n++] = jox_scale(p->normal, p->first == i ? force : -force);
+        const float force = p->impulse * per_second + p->squeeze;
+        out[n] = jox_scale(p->normal, p->first == i ? force : -force);
+        n += force > 0.0f; /* no branch that would be guessed wrong */
     }
     for (uint32_t k = 0; k < jox_touches_of(f, i) && n < most; k++) {
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];

@@ -26,32 +26,45 @@ static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
     return jox_unit(jox_v2(a->pref_x[i], a->pref_y[i]));
 }
 
-static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+/* People within reach and within the cone ahead, nearest first. All are written, and kept if they
+   count: no branch that would be guessed wrong. */
+static uint32_t people_in_reach(const JoxForces *f, uint32_t i, JoxV2 aim, uint32_t *found) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    float cosine = jox_param(a, JOX_PARAM_push_angle, i),
-          reach = jox_param(a, JOX_PARAM_push_reach, i);
-    float widest = reach + jox_at(radius, i) + f->widest;
-    uint64_t only = a->push_only[i];
-    JoxV2 centre = {a->x[i], a->y[i]};
+    const float cosine = jox_param(a, JOX_PARAM_push_angle, i);
+    const float reach = jox_param(a, JOX_PARAM_push_reach, i) + jox_at(radius, i), widest = reach + f->widest;
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
-        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-        JoxV2 offset = jox_offset(a, i, other);
-        float most = reach + jox_at(radius, i) + jox_at(radius, other), d2 = jox_length2(offset);
+        const uint32_t other = near->index[jox_neighbour_at(near, i, k)];
+        const JoxV2 offset = jox_offset(a, i, other);
+        const float most = reach + jox_at(radius, other), d2 = jox_length2(offset);
         if (d2 > widest * widest)
             break; /* nearest first */
-        if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
-            continue;
-        if (only && !(a->tags[other] & only))
+        found[n] = other;
+        n += (d2 < most * most) & jox_cone_holds(offset, aim, cosine);
+    }
+    return n;
+}
+
+static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+    const JoxAgents *a = f->step.agents;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    const JoxV2 centre = {a->x[i], a->y[i]};
+    const uint64_t only = a->push_only[i];
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
+    const uint32_t count = people_in_reach(f, i, aim, found);
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxV2 offset = jox_offset(a, i, found[k]);
+        if (only && !(a->tags[found[k]] & only))
             continue;
         if (jox_force_is_walled_off(f, centre, jox_add(centre, offset)))
             continue;
-        targets[n++] = (Target){.index = other,
+        targets[n++] = (Target){.index = found[k],
                                 .offset = offset,
                                 .to_centre = offset,
-                                .gap = sqrtf(d2) - jox_at(radius, i) - jox_at(radius, other)};
+                                .gap = jox_length(offset) - jox_at(radius, i) -
+                                       jox_at(radius, found[k])};
     }
     return n;
 }
