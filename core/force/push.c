@@ -33,7 +33,8 @@ static uint32_t people_in_reach(const JoxForces *f, uint32_t i, JoxV2 aim, uint3
     const JoxNeighbours *near = f->step.neighbours;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const float cosine = jox_param(a, JOX_PARAM_push_angle, i);
-    const float reach = jox_param(a, JOX_PARAM_push_reach, i) + jox_at(radius, i), widest = reach + f->widest;
+    const float reach = jox_param(a, JOX_PARAM_push_reach, i) + jox_at(radius, i),
+                widest = reach + f->widest;
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
         const uint32_t other = near->index[jox_neighbour_at(near, i, k)];
@@ -47,10 +48,21 @@ static uint32_t people_in_reach(const JoxForces *f, uint32_t i, JoxV2 aim, uint3
     return n;
 }
 
+/* Whether a wall stands between agent i and another, who is at `offset`: there itself, or its image
+   beyond a periodic edge. */
+static bool is_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
+    const JoxAgents *a = f->step.agents;
+    const float *clear2 = f->step.clear2, d2 = jox_length2(offset);
+    const bool images = a->period.x > 0.0f || a->period.y > 0.0f;
+    if (!f->step.walls || (clear2 && !images && d2 < clear2[i] && d2 < clear2[other]))
+        return false;
+    const JoxV2 centre = {a->x[i], a->y[i]};
+    return jox_force_is_walled_off(f, centre, jox_add(centre, offset));
+}
+
 static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    const JoxV2 centre = {a->x[i], a->y[i]};
     const uint64_t only = a->push_only[i];
     uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
     const uint32_t count = people_in_reach(f, i, aim, found);
@@ -58,13 +70,13 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
         const JoxV2 offset = jox_offset(a, i, found[k]);
         if (only && !(a->tags[found[k]] & only))
             continue;
-        if (jox_force_is_walled_off(f, centre, jox_add(centre, offset)))
+        if (is_hidden(f, i, found[k], offset))
             continue;
-        targets[n++] = (Target){.index = found[k],
-                                .offset = offset,
-                                .to_centre = offset,
-                                .gap = jox_length(offset) - jox_at(radius, i) -
-                                       jox_at(radius, found[k])};
+        targets[n++] =
+            (Target){.index = found[k],
+                     .offset = offset,
+                     .to_centre = offset,
+                     .gap = jox_length(offset) - jox_at(radius, i) - jox_at(radius, found[k])};
     }
     return n;
 }

@@ -44,6 +44,10 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
     return &nav->grid;
 }
 
+const float *jox_nav_clear2(const JoxNav *nav) {
+    return nav->clear_reach == nav->grid.reach ? nav->clear2 : NULL;
+}
+
 void jox_nav_sections(JoxNav *nav, JoxSections *s) {
     jox_sections_module(s, "nav");
     JOX_SECTION(s, "wall_reach", nav->grid.reach);
