@@ -127,9 +127,9 @@ typedef struct JoxWalk {
 /* The directions that are judged: the way, and 15 to 75 degrees to its left and right. */
 enum { JOX_WALK_DIRECTIONS = 11 };
 
-/* The speed that each direction allows, and what it is worth, m/s, by lane. */
+/* The speed that walls allow in each direction, m/s, by lane; INFINITY where there are none. */
 typedef struct JoxWalkTable {
-    float allowed[JOX_WALK_DIRECTIONS][JOX_LANES], worth[JOX_WALK_DIRECTIONS][JOX_LANES];
+    float allowed[JOX_WALK_DIRECTIONS][JOX_LANES];
 } JoxWalkTable;
 
 /* Agents [begin, end): aim_x, aim_y. Returns how far walls matter to those who walk by the law, m,
@@ -144,8 +144,8 @@ typedef void JoxWalkKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
 JOX_ISAS(X)
 #undef X
 
-/* For one agent: lowers what walls allow in its lane of the table, which holds no more than the
-   speed wanted. Straight on the way itself leads round walls. */
+/* For one agent: what walls allow, in its lane of the table, but for straight on: the way itself
+   leads round walls. What is more than the speed wanted is of no account. */
 typedef void JoxWalkWallsKernel(const JoxWalk *walk, uint32_t agent, uint32_t lane,
                                 JoxWalkTable *table);
 #define X(name, isa) JoxWalkWallsKernel jox_walk_mind_walls_##name;

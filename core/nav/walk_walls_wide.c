@@ -95,8 +95,6 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
         const JoxWallVertex *edge = &grid->walls->vertices[edges[k]];
         mind_edge(&p, edge, grid->walls->vertices[edge->next].point);
     }
-    for (int k = 1; k < JOX_WALK_DIRECTIONS; k++) {
-        table->allowed[k][lane] = jox_minf(table->allowed[k][lane], p.allowed[k]);
-        table->worth[k][lane] = jox_minf(table->worth[k][lane], p.allowed[k]);
-    }
+    for (int k = 1; k < JOX_WALK_DIRECTIONS; k++)
+        table->allowed[k][lane] = p.allowed[k];
 }

@@ -198,7 +198,7 @@ static inline JoxFloats follow(const Follow *f, const Row *row, JoxVector e) {
     const JoxFloats q = jf_mul(aside, row->per_width), q2 = squared(q);
     const JoxMask in_way = jf_lt(q, one);
     const JoxFloats beside = jf_add(squared(along), squared(jf_mul(f->flank, aside)));
-    const JoxFloats round = jf_max(jf_sub(one, jf_mul(squared(q2), q2)), zero);
+    const JoxFloats round = jf_sub(one, jf_mul(squared(q2), q2)); /* in the way at least 0 */
     const JoxFloats length = jf_sqrt(jf_select(in_way, round, beside));
     const JoxFloats gap =
         jf_select(in_way, jf_sub(along, jf_mul(row->length, length)), jf_sub(length, row->length));
@@ -268,30 +268,62 @@ static JoxVector turned(JoxVector aim, uint32_t k) {
                        jf_add(jf_mul(cosine, aim.y), jf_mul(sine, aim.x))};
 }
 
-/* Of directions, each allowed and worth so much, the one that gets on best: by what it is worth
-   along the way, less what turning from the course costs. */
-static Choice best_of(const Packet *p, const JoxWalkTable *table) {
+/* What directions are compared by: how one gets on along the way, less what turning from the course
+   costs. */
+typedef struct Taste {
+    JoxVector course;
+    JoxFloats turn, right; /* m/s: cost of turning, worth of the right */
+} Taste;
+
+static Taste taste_of(const Packet *p) {
     const JoxWalkLaw *law = p->w->law;
     const JoxAgents *a = p->w->agents;
-    const JoxVector course = {jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)};
-    const JoxFloats turn = jf_mul(jf_set((float)law->turn_cost), p->speed);
-    const JoxFloats right = jf_mul(jf_set((float)law->right), p->speed);
-    JoxFloats most = jf_set(-INFINITY);
-    Choice best = {p->aim, p->speed};
-    for (uint32_t k = 0; k < JOX_WALK_DIRECTIONS; k++) {
+    return (Taste){{jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)},
+                   jf_mul(jf_set((float)law->turn_cost), p->speed),
+                   jf_mul(jf_set((float)law->right), p->speed)};
+}
+
+/* Never falls as `worth` grows. */
+static inline JoxFloats taste(const Taste *t, uint32_t k, JoxVector e, JoxFloats worth) {
+    const JoxFloats turning = jf_sub(jf_set(1.0f), jv_dot(e, t->course));
+    worth = jf_mul(jf_max(worth, jf_set(WORST)), jf_set(jox_walk_cosine[k]));
+    worth = jf_sub(worth, jf_mul(t->turn, turning));
+    return jox_walk_sine[k] < 0.0f ? jf_add(worth, t->right) : worth;
+}
+
+/* The best of all directions, for `lanes`; what the first is worth is known. One that is no better
+   for any of them, whatever people leave of it, is not judged. */
+static Choice best_of(const Packet *p, const Follow *f, uint32_t lanes, Judgement ahead,
+                      const JoxWalkTable *walls) {
+    const Taste t = taste_of(p);
+    Choice best = {turned(p->aim, 0), ahead.allowed};
+    JoxFloats most = taste(&t, 0, best.e, ahead.worth);
+    for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k++) {
         const JoxVector e = turned(p->aim, k);
-        const JoxFloats turning = jf_sub(jf_set(1.0f), jv_dot(e, course));
-        JoxFloats worth = jf_max(jf_load(table->worth[k]), jf_set(WORST));
-        worth = jf_sub(jf_mul(worth, jf_set(jox_walk_cosine[k])), jf_mul(turn, turning));
-        if (jox_walk_sine[k] < 0.0f)
-            worth = jf_add(worth, right);
+        const JoxFloats wall = walls ? jf_load(walls->allowed[k]) : jf_set(INFINITY);
+        if (!(lanes & ~jm_bits(jf_le(taste(&t, k, e, jf_min(p->speed, wall)), most))))
+            continue;
+        const Judgement j = judge(p, f, e);
+        const JoxFloats worth = taste(&t, k, e, jf_min(j.worth, wall));
         const JoxMask better = jf_lt(most, worth);
         most = jf_select(better, worth, most);
-        best.e.x = jf_select(better, e.x, best.e.x);
-        best.e.y = jf_select(better, e.y, best.e.y);
-        best.allowed = jf_select(better, jf_load(table->allowed[k]), best.allowed);
+        best.e = jv_select(better, e, best.e);
+        best.allowed = jf_select(better, jf_min(j.allowed, wall), best.allowed);
     }
     return best;
+}
+
+/* Whether walls are about any of `lanes`, and what they allow. */
+static bool mind_walls(const Packet *p, uint32_t lanes, JoxWalkTable *table) {
+    if (!lanes)
+        return false;
+    for (uint32_t k = 0; k < JOX_WALK_DIRECTIONS; k++)
+        jf_store(table->allowed[k], jf_set(INFINITY));
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        JOX_WIDE(jox_walk_mind_walls)(p->w, p->first + lane, lane, table);
+    }
+    return true;
 }
 
 /* Straight on where that is as good as free, else the best of all directions. */
@@ -303,20 +335,9 @@ static Choice choose(const Packet *p) {
     if (!seek)
         return (Choice){p->aim, ahead.allowed};
     JoxWalkTable table;
-    // cppcheck-suppress uninitvar
-    jf_store(table.allowed[0], ahead.allowed);
-    jf_store(table.worth[0], ahead.worth);
-    for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k++) {
-        const Judgement j = judge(p, &f, turned(p->aim, k));
-        jf_store(table.allowed[k], j.allowed);
-        jf_store(table.worth[k], j.worth);
-    }
-    for (uint32_t lane = 0; p->near_walls >> lane; lane++)
-        if (seek & p->near_walls & 1u << lane)
-            JOX_WIDE(jox_walk_mind_walls)(p->w, p->first + lane, lane, &table);
-    Choice best = best_of(p, &table);
-    best.e.x = jf_select(straight, p->aim.x, best.e.x);
-    best.e.y = jf_select(straight, p->aim.y, best.e.y);
+    const bool walls = mind_walls(p, seek & p->near_walls, &table);
+    Choice best = best_of(p, &f, seek, ahead, walls ? &table : NULL);
+    best.e = jv_select(straight, p->aim, best.e);
     best.allowed = jf_select(straight, ahead.allowed, best.allowed);
     return best;
 }
