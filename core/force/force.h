@@ -37,7 +37,7 @@ typedef struct JoxForceStep {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxWallGrid *walls; /* as far as jox_nav_touching_walls serves; NULL: none */
-    const float *clear2;      /* m2: no wall hides who is nearer, until people move; NULL: unknown */
+    const float *clear2; /* m2: no wall hides who is nearer, until people move; NULL: unknown */
     JoxPool *pool;
     double time; /* s: simulated, at the beginning of the step */
     uint64_t seed;

@@ -41,7 +41,8 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
    passes a force on, over a gap of at most `passing` metres; NULL without walls. */
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
                                           const JoxAgents *agents, float passing);
-/* jox_wall_grid_clear2 of each agent by that grid, m2, where it is known since prefer, else NULL. */
+/* jox_wall_grid_clear2 of each agent by that grid, m2, where it is known since prefer, else NULL.
+ */
 const float *jox_nav_clear2(const JoxNav *nav);
 /* The end of prefer: aim of everybody and, of those who keep a time gap and plan in this step,
    walk: the velocity that the walking law wants among others and walls; their eagerness and course.

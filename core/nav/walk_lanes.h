@@ -1,6 +1,6 @@
-/* The precedence of the walking law (walk.h) for all lanes of a packet, to the bit, and people's
-   tempers: how eager they are, and the time gap that they keep at present. For kernels: part of
-   those that include it. */
+/* The precedence of the walking law (walk.h) for all lanes of a packet, to the bit, people's
+   tempers: how eager they are, and the time gap that they keep at present, and how they come to
+   the velocity that they choose. For kernels: part of those that include it. */
 #ifndef JOX_NAV_WALK_LANES_H
 #define JOX_NAV_WALK_LANES_H
 
@@ -113,6 +113,39 @@ static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, JoxFloat
                             jox_exp_within(law->gap_noise * wander[lane]));
     }
     return jf_load(gap);
+}
+
+/* ---- velocities ---- */
+
+/* People get up to a speed slowly, and slow down and turn fast; turning by up to 60 degrees costs
+   them no speed. */
+static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector e,
+                                     JoxFloats allowed) {
+    const JoxAgents *a = w->agents;
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
+    const JoxFloats stop = jf_set(w->stop), keeps = jf_sub(one, stop);
+    const JoxFloats speed = jf_max(allowed, zero);
+    const JoxVector v = {jf_load(a->vx + first), jf_load(a->vy + first)};
+    const JoxFloats now = jf_sqrt(jv_dot(v, v)), along = jv_dot(v, e);
+    const JoxVector aside = {jf_sub(v.x, jf_mul(e.x, along)), jf_sub(v.y, jf_mul(e.y, along))};
+    JoxFloats kept = jf_max(zero, jf_min(now, jf_add(along, along)));
+    const JoxFloats rate = jf_select(jf_lt(kept, speed), jf_set(w->start), stop);
+    kept = jf_add(kept, jf_mul(jf_sub(speed, kept), rate));
+    return (JoxVector){jf_add(jf_mul(e.x, kept), jf_mul(aside.x, keeps)),
+                       jf_add(jf_mul(e.y, kept), jf_mul(aside.y, keeps))};
+}
+
+/* The course follows the direction chosen; where they are opposite it becomes that. */
+static inline JoxVector jox_turn_course(const JoxWalk *w, uint32_t first, JoxVector e) {
+    const JoxAgents *a = w->agents;
+    const JoxFloats share = jf_set(w->course), zero = jf_set(0.0f);
+    JoxVector course = {jf_load(a->course_x + first), jf_load(a->course_y + first)};
+    course.x = jf_add(course.x, jf_mul(jf_sub(e.x, course.x), share));
+    course.y = jf_add(course.y, jf_mul(jf_sub(e.y, course.y), share));
+    const JoxFloats length2 = jv_dot(course, course), by = jf_div(jf_set(1.0f), jf_sqrt(length2));
+    const JoxMask turns = jf_lt(zero, length2);
+    return (JoxVector){jf_select(turns, jf_mul(course.x, by), e.x),
+                       jf_select(turns, jf_mul(course.y, by), e.y)};
 }
 
 #endif

@@ -238,20 +238,39 @@ static inline void cross(const Packet *p, const Row *row, JoxVector e, Judgement
     j->worth = jf_min(j->worth, jf_select(soon, jf_mul(p->meeting, time), none));
 }
 
-static Judgement judge(const Packet *p, const Follow *f, JoxVector e) {
+/* Of a direction in which those ahead allow the speed `followed`. */
+static Judgement judgement(const Packet *p, JoxFloats followed, JoxVector e) {
     Judgement j = {p->speed, p->speed};
-    JoxFloats followed = jf_set(INFINITY);
-    for (uint32_t k = 0; k < p->rows; k++) {
-        const Row *row = &p->row[k];
-        if (jm_bits(row->ahead))
-            followed = jf_min(followed, follow(f, row, e));
-    }
     for (uint32_t k = 0; k < p->rows && p->any_crosses; k++)
         if (jm_bits(p->row[k].crossing))
             cross(p, &p->row[k], e, &j);
     j.allowed = jf_min(j.allowed, ease(p, followed));
     j.worth = jf_min(j.worth, j.allowed);
     return j;
+}
+
+static Judgement judge(const Packet *p, const Follow *f, JoxVector e) {
+    JoxFloats followed = jf_set(INFINITY);
+    for (uint32_t k = 0; k < p->rows; k++) {
+        const Row *row = &p->row[k];
+        if (jm_bits(row->ahead))
+            followed = jf_min(followed, follow(f, row, e));
+    }
+    return judgement(p, followed, e);
+}
+
+/* Two directions at once: neither waits for the other. */
+static void judge_both(const Packet *p, const Follow *f, const JoxVector e[2], Judgement out[2]) {
+    JoxFloats one = jf_set(INFINITY), other = one;
+    for (uint32_t k = 0; k < p->rows; k++) {
+        const Row *row = &p->row[k];
+        if (!jm_bits(row->ahead))
+            continue;
+        one = jf_min(one, follow(f, row, e[0]));
+        other = jf_min(other, follow(f, row, e[1]));
+    }
+    out[0] = judgement(p, one, e[0]);
+    out[1] = judgement(p, other, e[1]);
 }
 
 /* ---- the choice ---- */
@@ -291,26 +310,52 @@ static inline JoxFloats taste(const Taste *t, uint32_t k, JoxVector e, JoxFloats
     return jox_walk_sine[k] < 0.0f ? jf_add(worth, t->right) : worth;
 }
 
-/* The best of all directions, for `lanes`; what the first is worth is known. One that is no better
-   for any of them, whatever people leave of it, is not judged. */
+/* The best so far. */
+typedef struct Best {
+    Choice choice;
+    JoxFloats taste;
+} Best;
+
+static inline void offer(Best *best, const Taste *t, uint32_t k, JoxVector e, Judgement j) {
+    const JoxFloats worth = taste(t, k, e, j.worth);
+    const JoxMask better = jf_lt(best->taste, worth);
+    best->taste = jf_select(better, worth, best->taste);
+    best->choice.e = jv_select(better, e, best->choice.e);
+    best->choice.allowed = jf_select(better, j.allowed, best->choice.allowed);
+}
+
+/* Directions k and k + 1, to either side. One that is no better for any of `lanes`, whatever people
+   leave of it, is not judged. */
+static void try_sides(const Packet *p, const Follow *f, uint32_t lanes, const JoxWalkTable *walls,
+                      const Taste *t, uint32_t k, Best *best) {
+    const JoxVector e[2] = {turned(p->aim, k), turned(p->aim, k + 1)};
+    JoxFloats wall[2];
+    uint32_t asked = 0;
+    for (uint32_t d = 0; d < 2; d++) {
+        wall[d] = walls ? jf_load(walls->allowed[k + d]) : jf_set(INFINITY);
+        const JoxFloats most = taste(t, k + d, e[d], jf_min(p->speed, wall[d]));
+        asked |= (uint32_t)((lanes & ~jm_bits(jf_le(most, best->taste))) != 0) << d;
+    }
+    Judgement j[2];
+    if (asked == 3)
+        judge_both(p, f, e, j);
+    else if (asked)
+        j[asked - 1] = judge(p, f, e[asked - 1]);
+    for (uint32_t d = 0; d < 2; d++)
+        if (asked >> d & 1)
+            offer(best, t, k + d, e[d],
+                  (Judgement){jf_min(j[d].allowed, wall[d]), jf_min(j[d].worth, wall[d])});
+}
+
+/* The best of all directions, for `lanes`; what the first is worth is known. */
 static Choice best_of(const Packet *p, const Follow *f, uint32_t lanes, Judgement ahead,
                       const JoxWalkTable *walls) {
     const Taste t = taste_of(p);
-    Choice best = {turned(p->aim, 0), ahead.allowed};
-    JoxFloats most = taste(&t, 0, best.e, ahead.worth);
-    for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k++) {
-        const JoxVector e = turned(p->aim, k);
-        const JoxFloats wall = walls ? jf_load(walls->allowed[k]) : jf_set(INFINITY);
-        if (!(lanes & ~jm_bits(jf_le(taste(&t, k, e, jf_min(p->speed, wall)), most))))
-            continue;
-        const Judgement j = judge(p, f, e);
-        const JoxFloats worth = taste(&t, k, e, jf_min(j.worth, wall));
-        const JoxMask better = jf_lt(most, worth);
-        most = jf_select(better, worth, most);
-        best.e = jv_select(better, e, best.e);
-        best.allowed = jf_select(better, jf_min(j.allowed, wall), best.allowed);
-    }
-    return best;
+    const JoxVector e = turned(p->aim, 0);
+    Best best = {{e, ahead.allowed}, taste(&t, 0, e, ahead.worth)};
+    for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k += 2)
+        try_sides(p, f, lanes, walls, &t, k, &best);
+    return best.choice;
 }
 
 /* Whether walls are about any of `lanes`, and what they allow. */
@@ -342,38 +387,7 @@ static Choice choose(const Packet *p) {
     return best;
 }
 
-/* ---- the velocity ---- */
-
-/* People get up to a speed slowly, and slow down and turn fast; turning by up to 60 degrees costs
-   them no speed. */
-static JoxVector approach(const Packet *p, const Choice *to) {
-    const JoxAgents *a = p->w->agents;
-    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats stop = jf_set(p->w->stop), keeps = jf_sub(one, stop);
-    const JoxFloats speed = jf_max(to->allowed, zero);
-    const JoxVector v = {jf_load(a->vx + p->first), jf_load(a->vy + p->first)};
-    const JoxFloats now = jf_sqrt(jv_dot(v, v)), along = jv_dot(v, to->e);
-    const JoxVector aside = {jf_sub(v.x, jf_mul(to->e.x, along)),
-                             jf_sub(v.y, jf_mul(to->e.y, along))};
-    JoxFloats kept = jf_max(zero, jf_min(now, jf_add(along, along)));
-    const JoxFloats rate = jf_select(jf_lt(kept, speed), jf_set(p->w->start), stop);
-    kept = jf_add(kept, jf_mul(jf_sub(speed, kept), rate));
-    return (JoxVector){jf_add(jf_mul(to->e.x, kept), jf_mul(aside.x, keeps)),
-                       jf_add(jf_mul(to->e.y, kept), jf_mul(aside.y, keeps))};
-}
-
-/* The course follows the direction chosen; where they are opposite it becomes that. */
-static JoxVector turn_course(const Packet *p, JoxVector e) {
-    const JoxAgents *a = p->w->agents;
-    const JoxFloats share = jf_set(p->w->course), zero = jf_set(0.0f);
-    JoxVector course = {jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)};
-    course.x = jf_add(course.x, jf_mul(jf_sub(e.x, course.x), share));
-    course.y = jf_add(course.y, jf_mul(jf_sub(e.y, course.y), share));
-    const JoxFloats length2 = jv_dot(course, course), by = jf_div(jf_set(1.0f), jf_sqrt(length2));
-    const JoxMask turns = jf_lt(zero, length2);
-    return (JoxVector){jf_select(turns, jf_mul(course.x, by), e.x),
-                       jf_select(turns, jf_mul(course.y, by), e.y)};
-}
+/* ---- packets ---- */
 
 static void walk_packet(Packet *p) {
     JoxAgents *a = p->w->agents;
@@ -382,7 +396,8 @@ static void walk_packet(Packet *p) {
     p->radius = jox_param_lanes(a, JOX_PARAM_radius, i);
     (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose(p);
-    const JoxVector velocity = approach(p, &to), course = turn_course(p, to.e);
+    const JoxVector velocity = jox_approach(p->w, i, to.e, to.allowed);
+    const JoxVector course = jox_turn_course(p->w, i, to.e);
     float out[4][JOX_WIDTH];
     jf_store(out[0], velocity.x);
     jf_store(out[1], velocity.y);
