@@ -35,13 +35,27 @@ static inline JoxFour greater_length2(JoxFour most, Forces of) {
     return jox_keep_four(length2 > most, length2) + jox_keep_four(length2 <= most, most);
 }
 
+/* What presses on somebody, N; as many zeros behind it as make four of the last. */
+typedef struct Pressing {
+    uint32_t count;
+    float x[MOST_FORCES + 4], y[MOST_FORCES + 4];
+} Pressing;
+
+static inline JoxV2 force_of(const Pressing *p, uint32_t k) {
+    return (JoxV2){p->x[k], p->y[k]};
+}
+
+static inline bool has_room(const Pressing *p) {
+    return p->count < MOST_FORCES;
+}
+
 /* Of each of four borders of half-planes, which pass through one force each, the greatest length2
    of the sum of the forces within: with those on the border to either side of it and to neither. */
-static JoxFour push_by_borders(Forces border, const JoxV2 *force, uint32_t count, JoxFour most2) {
+static JoxFour push_by_borders(Forces border, const Pressing *p, JoxFour most2) {
     const JoxFour zero = {0.0f};
     Forces left = {zero, zero}, right = left, along = left;
-    for (uint32_t m = 0; m < count; m++) {
-        const Forces here = {four_of(force[m].x), four_of(force[m].y)};
+    for (uint32_t m = 0; m < p->count; m++) {
+        const Forces here = {four_of(p->x[m]), four_of(p->y[m])};
         const JoxFour side = border.x * here.y - border.y * here.x;
         const JoxFour ahead = border.x * here.x + border.y * here.y;
         add_where(&left, side > zero, here);
@@ -57,51 +71,56 @@ static JoxFour push_by_borders(Forces border, const JoxV2 *force, uint32_t count
 /* The greatest, over half-planes, of the length of the sum of the forces within: that is the
    greatest sum of positive parts over directions. A border that passes through a force is tried
    with it on either side and on neither: it may lie within or without the half-plane. */
-static float greatest_push(const JoxV2 *force, uint32_t count) {
-    if (count == 0)
+static float greatest_push(const Pressing *p) {
+    const JoxV2 one = force_of(p, 0), other = force_of(p, 1);
+    if (p->count == 0)
         return 0.0f;
-    if (count == 1)
-        return jox_length(force[0]);
-    if (count == 2)
-        return sqrtf(jox_maxf(jox_length2(jox_add(force[0], force[1])),
-                              jox_maxf(jox_length2(force[0]), jox_length2(force[1]))));
+    if (p->count == 1)
+        return jox_length(one);
+    if (p->count == 2)
+        return sqrtf(jox_maxf(jox_length2(jox_add(one, other)),
+                              jox_maxf(jox_length2(one), jox_length2(other))));
     JoxFour most2 = {0.0f};
-    for (uint32_t k = 0; k < count; k += 4) {
-        JoxV2 at[4] = {{0.0f, 0.0f}};
-        memcpy(at, force + k, (count - k < 4 ? count - k : 4) * sizeof *at);
-        const Forces border = {{at[0].x, at[1].x, at[2].x, at[3].x},
-                               {at[0].y, at[1].y, at[2].y, at[3].y}};
-        most2 = push_by_borders(border, force, count, most2);
+    for (uint32_t k = 0; k < p->count; k += 4) {
+        const Forces border = {jox_load_four(p->x + k), jox_load_four(p->y + k)};
+        most2 = push_by_borders(border, p, most2);
     }
     return sqrtf(jox_maxf(jox_maxf(most2[0], most2[1]), jox_maxf(most2[2], most2[3])));
 }
 
-/* All that presses on agent i, N. */
-static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t most) {
+/* Notes a force, if it counts; without a branch, which would be guessed wrong. */
+static inline void press(Pressing *p, JoxV2 force, bool counts) {
+    p->x[p->count] = force.x;
+    p->y[p->count] = force.y;
+    p->count += counts;
+}
+
+/* All that presses on agent i. */
+static void forces_on(const JoxForces *f, uint32_t i, Pressing *out) {
     const JoxPair *pairs = f->pairs.items;
     const float per_second = 1.0f / (float)f->step.dt;
-    uint32_t n = 0;
-    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && n < most; k++) {
+    out->count = 0;
+    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && has_room(out); k++) {
         const JoxPair *p = &pairs[f->ends[k].pair];
         const float force = p->impulse * per_second + p->squeeze;
-        out[n] = jox_scale(p->normal, p->first == i ? force : -force);
-        n += force > 0.0f; /* no branch that would be guessed wrong */
+        press(out, jox_scale(p->normal, p->first == i ? force : -force), force > 0.0f);
     }
-    for (uint32_t k = 0; k < jox_touches_of(f, i) && n < most; k++) {
+    for (uint32_t k = 0; k < jox_touches_of(f, i) && has_room(out); k++) {
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];
-        if (t->impulse > 0.0f)
-            out[n++] = jox_scale(t->normal, t->impulse * per_second);
+        press(out, jox_scale(t->normal, t->impulse * per_second), t->impulse > 0.0f);
     }
-    for (uint32_t k = f->wall_first[i]; k < f->wall_first[i] + f->wall_number[i] && n < most; k++)
-        if (f->wall[k].impulse > 0.0f)
-            out[n++] = jox_scale(f->wall[k].normal, f->wall[k].impulse * per_second);
-    for (uint32_t k = f->pushed ? f->starts[i] : 0; f->pushed && k < f->starts[i + 1] && n < most;
-         k++)
-        if (f->sorted[k].from_id != f->step.agents->id[i])
-            out[n++] = (JoxV2){f->sorted[k].x, f->sorted[k].y};
-    if ((f->braced[i].x != 0.0f || f->braced[i].y != 0.0f) && n < most)
-        out[n++] = f->braced[i];
-    return n;
+    for (uint32_t k = 0; k < f->wall_number[i] && has_room(out); k++) {
+        const JoxWallContact *w = &f->wall[f->wall_first[i] + k];
+        press(out, jox_scale(w->normal, w->impulse * per_second), w->impulse > 0.0f);
+    }
+    for (uint32_t k = f->pushed ? f->starts[i] : 0;
+         f->pushed && k < f->starts[i + 1] && has_room(out); k++)
+        press(out, jox_v2(f->sorted[k].x, f->sorted[k].y),
+              f->sorted[k].from_id != f->step.agents->id[i]);
+    if ((f->braced[i].x != 0.0f || f->braced[i].y != 0.0f) && has_room(out))
+        press(out, f->braced[i], true);
+    memset(out->x + out->count, 0, 4 * sizeof *out->x);
+    memset(out->y + out->count, 0, 4 * sizeof *out->y);
 }
 
 bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
@@ -116,17 +135,17 @@ bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
 
 void jox_load_measure(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
-    JoxV2 force[MOST_FORCES];
-    const uint32_t n = forces_on(f, i, force, MOST_FORCES);
+    Pressing pressing; /* filled as far as it is read */
+    forces_on(f, i, &pressing);
     float sum = 0.0f;
-    if (n == 0) {
+    if (pressing.count == 0) {
         a->compression[i] = a->load[i] = 0.0f;
         return;
     }
-    for (uint32_t k = 0; k < n; k++)
-        sum += jox_length(force[k]);
+    for (uint32_t k = 0; k < pressing.count; k++)
+        sum += jox_length(force_of(&pressing, k));
     a->compression[i] = sum / jox_circumference(jox_param(a, JOX_PARAM_radius, i));
-    a->load[i] = greatest_push(force, n);
+    a->load[i] = greatest_push(&pressing);
     JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
 }
 
