@@ -1,7 +1,7 @@
 /* The kernel of the walking law (core/walking.md). A lane is an agent, a packet is JOX_WIDTH of
    them: whom each minds stands in rows, one of each lane in a row, and the directions are judged
-   one after another, each for all lanes. One lane at a time are done people's tempers, whoever may
-   stand behind a wall, and walls (walk_walls_wide.c). */
+   straight on first, then two by two, each for all lanes. One lane at a time are done people's
+   tempers, whoever may stand behind a wall, and walls (walk_walls_wide.c). */
 #include <math.h>
 
 #include "agents/param_lanes.h"
