@@ -222,12 +222,12 @@ static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) 
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
 void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
 void jox_agents_widen(JoxAgents *agents, uint32_t own_count, uint32_t memory_stride);
-/* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal
-   -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
-   sort). Who gives it a machine sets all its own values. */
+/* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal -1,
+   machine JOX_NO_MACHINE. Returns its index (valid until the next sort). Who gives it a machine
+   sets all its own values. */
 uint32_t jox_agents_add(JoxAgents *agents);
-/* Likewise, for who sets the machine, which is the first, and all parameters, which have any
-   values, next: the way by the defaults would take memory for each agent. */
+/* Likewise, for who sets machine and parameters next: the machine is the first, and parameters have
+   any values. The way by the defaults would take memory for each agent. */
 uint32_t jox_agents_add_alike(JoxAgents *agents);
 /* The first agent that differs gives a column a cell for each. Not while others read the column. */
 void jox_param_set(JoxAgents *agents, JoxParameter p, uint32_t i, float stored);

@@ -134,6 +134,7 @@ static void restore_indices(JoxAgents *a, JoxSections *s) {
 
 void jox_agents_sections(JoxAgents *a, JoxSections *s) {
     jox_sections_module(s, "agents");
+    jox_shared_create(a); /* there may never have been anybody */
     if (s->mode == JOX_SECTIONS_RESTORE) {
         uint32_t own = a->own_count, memory = a->memory_stride;
         if (!restore_sizes(a, s))

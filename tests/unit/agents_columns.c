@@ -335,6 +335,24 @@ static void what_is_no_state_is_refused(void **state) {
     jox_agents_free(&b);
 }
 
+/* Where there never was anybody, there are no columns yet. */
+static void nobody_is_restored(void **state) {
+    (void)state;
+    JoxAgents a = {0}, b = {0};
+    JoxText saved = {0};
+    JoxSections s = jox_sections_save(&saved);
+    jox_agents_sections(&a, &s);
+    jox_sections_end(&s);
+    s = jox_sections_restore(saved.data, saved.length);
+    jox_agents_sections(&b, &s);
+    assert_true(jox_sections_end(&s));
+    assert_true(b.count == 0 && hash_of(&a) == hash_of(&b));
+    assert_true(jox_param(&b, JOX_PARAM_mass, jox_agents_add(&b)) == 70.0f);
+    jox_text_free(&saved);
+    jox_agents_free(&a);
+    jox_agents_free(&b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
@@ -348,6 +366,7 @@ int main(void) {
         cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
         cmocka_unit_test(state_is_restored_whatever_the_order),
         cmocka_unit_test(what_is_no_state_is_refused),
+        cmocka_unit_test(nobody_is_restored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
