@@ -55,8 +55,8 @@ JoColumn jo_world_column(const JoWorld *world, const char *name) {
 #undef X
     const int p = jox_parameter_find(name);
     if (p >= 0)
-        return (JoColumn){a->param[p].cells, a->param[p].mask ? sizeof(float) : 0, a->count,
-                          JO_F32};
+        return (JoColumn){a->param[p].cells, a->param[p].mask || !a->count ? sizeof(float) : 0,
+                          a->count, JO_F32};
     return (JoColumn){0};
 }
 

@@ -190,14 +190,17 @@ class Scene:
         """A column, one number for each agent, in place and read-only: it holds until the next step or the next call
         that changes the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
         column = lib.jo_world_column(self._live(), named(name))
-        if not column.stride:
+        if not column.stride and not column.count:
             raise KeyError(name)
         dtype = TYPES[column.type]
         if not column.count:
             return np.empty(0, dtype)
         owner = ffi.gc(ffi.cast("char *", column.data), self._drop_view)
         self._views += 1
-        view = np.frombuffer(ffi.buffer(owner, column.count * column.stride), dtype)
+        extent = (column.count - 1) * column.stride + np.dtype(dtype).itemsize
+        view = np.frombuffer(ffi.buffer(owner, extent), dtype)
+        if not column.stride:  # one number is that of all
+            view = np.broadcast_to(view, column.count)
         view.flags.writeable = False
         return view
 
