@@ -224,6 +224,12 @@ static void reindex(JoxAgents *a) {
     }
 }
 
+/* Of a column that may be shared: all of the one packet are alike. */
+static void check_shared(const void *cells, uint32_t mask, size_t size) {
+    JOX_ASSERT(cells && (mask == 0 || mask == UINT32_MAX));
+    JOX_ASSERT(mask || jox_is_same_of_all(cells, size, JOX_AGENTS_PADDING));
+}
+
 void jox_agents_check(const JoxAgents *a) {
     JOX_ASSERT(a->count <= a->capacity && a->slot_count <= a->slot_capacity);
     JOX_ASSERT(a->count + a->free_count == a->slot_count); /* every slot is held or free */
@@ -234,6 +240,10 @@ void jox_agents_check(const JoxAgents *a) {
     }
     for (uint32_t k = 0; k < a->free_count; k++)
         JOX_ASSERT(a->slot_index[a->free_slots[k]] == JOX_NO_INDEX);
+    for (int p = 0; p < JOX_PARAM_COUNT && a->capacity; p++)
+        check_shared(a->param[p].cells, a->param[p].mask, sizeof(float));
+    for (uint32_t s = 0; s < a->own_count; s++)
+        check_shared(a->own[s].cells, a->own[s].mask, sizeof(double));
 }
 
 void jox_agents_permute(JoxAgents *a, const uint32_t *order) {

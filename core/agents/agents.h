@@ -260,7 +260,7 @@ uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
 void jox_agents_sections(JoxAgents *agents, JoxSections *sections);
 /* Overwrites the scratch columns, with NaN where they hold numbers: no later step may notice. */
 void jox_agents_forget(JoxAgents *agents);
-/* Called through JOX_CHECK: indices, ids, ranks and handles agree. */
+/* Called through JOX_CHECK: indices, ids, ranks and handles agree, shared cells are alike. */
 void jox_agents_check(const JoxAgents *agents);
 void jox_agents_free(JoxAgents *agents);
 

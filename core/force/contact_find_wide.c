@@ -47,8 +47,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
         m->y = jf_wrap(m->y, self->period.y);
     }
     m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
-    const JoxFloats whole =
-        jf_add(self->radius, f->one_radius ? self->radius : jox_param_of(radius, others));
+    const JoxFloats whole = jf_add(self->radius, jox_param_of(radius, others));
     const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));
     lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
     if (!lanes)

@@ -144,7 +144,6 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->builds, f->build_capacity, n);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
-    f->one_radius = !a->param[JOX_PARAM_radius].mask;
     if (n)
         jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);

@@ -99,9 +99,8 @@ struct JoxForces {
     /* State: from which the next step's solve starts. */
     JoxKeptImpulses kept_pairs, kept_walls, kept_touches;
 
-    float widest;    /* greatest radius, m */
-    bool one_radius; /* all have the same */
-    bool bodies;     /* some can be met */
+    float widest; /* greatest radius, m */
+    bool bodies;  /* some can be met */
     JoxPendingImpulse *pending;
     size_t pending_capacity;
     uint32_t pending_count, pending_sorted;

@@ -82,12 +82,14 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
 /* What expressions write, on many threads, has a cell for each agent. */
 static void differ_by_programs(JoxMachineRun *run) {
     const JoxMachineScratch *s = run->scratch;
+    const JoxState *last = NULL; /* those in one state come one after the other */
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxMachine *machine = run->set->items[s->batches[b].machine];
         const JoxState *state = &machine->states[s->batches[b].state];
-        for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++)
+        for (JoxParameter p = 0; state != last && p < JOX_PARAM_COUNT; p++)
             if (jox_state_parameter(machine, state, p)->kind == JOX_VALUE_EXPRESSION)
                 jox_param_differ(run->agents, p);
+        last = state;
     }
 }
 

@@ -162,9 +162,9 @@ static void rank_queues(JoxMachineRun *run) {
         for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(run, i, target);
-            if (a->queue_at[i] !=
-                jox_reference(s->queue[i])) { /* from state to state it keeps its turn */
-                a->queue_at[i] = jox_reference(s->queue[i]);
+            const uint32_t at = jox_reference(s->queue[i]);
+            if (a->queue_at[i] != at) { /* from state to state it keeps its turn */
+                a->queue_at[i] = at;
                 a->queued[i] = run->tick;
             }
             if (s->queue[i] >= 0)

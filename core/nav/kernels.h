@@ -43,9 +43,8 @@ typedef struct JoxSolve {
     const JoxObjects *objects;       /* NULL: none */
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
     float planning_time;             /* s */
-    bool plans;      /* else those who want to get on go on with what they planned */
-    bool one_radius; /* all agents have the same */
-    float *clear2;   /* nav's, m2: no wall hides who is nearer; NULL: it is not known */
+    bool plans;    /* else those who want to get on go on with what they planned */
+    float *clear2; /* nav's, m2: no wall hides who is nearer; NULL: it is not known */
 } JoxSolve;
 
 /* How many half-planes of each kind an agent has, in their order, which is that of

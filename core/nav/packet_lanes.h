@@ -309,11 +309,10 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bo
     const float *motions = &near->motions[0].x;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
-    const bool alike = p->s->one_radius;
     for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         JoxFloats motion[4];
         jf_records_at(motions, others, motion);
-        const JoxFloats other = alike ? self->radius : jox_param_of(radius, others);
+        const JoxFloats other = jox_param_of(radius, others);
         JoxPair q = {jf_sub(motion[0], self->x), jf_sub(motion[1], self->y),
                      jf_sub(self->orca.velocity.x, motion[2]),
                      jf_sub(self->orca.velocity.y, motion[3]), jf_add(self->radius, other)};

@@ -99,7 +99,6 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                       .touched = in_force(touched),
                       .planning_time = (float)planning_time,
                       .plans = plans,
-                      .one_radius = !agents->param[JOX_PARAM_radius].mask,
                       .clear2 = nav->grid.walls ? nav->clear2 : NULL};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));

@@ -93,10 +93,10 @@ JoxBodiesReport jox_bodies_advance(const JoxBodyStage *s) {
     float dt = (float)s->substep->dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
     give_impulses(s, impulses, count);
-    if (s->substep->first)
+    if (s->substep->first) {
         jox_mem_fill(s->agents->struck, 0, s->agents->count * sizeof *s->agents->struck);
-    if (s->substep->first)
         jox_bodies_impulses(s->bodies, s->machines->kicks, s->machines->kick_count);
+    }
     bool fast = s->forces && jox_bodies_any_fast(s->bodies, dt);
     uint32_t discs = fast ? list_discs(s->agents, s->discs) : 0;
     JoxBodiesReport report = jox_bodies_step(s->bodies, dt, fast ? s->discs->discs : NULL, discs);

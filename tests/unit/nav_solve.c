@@ -185,7 +185,7 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
     memset(a->next_x, 0, a->count * sizeof *next_x);
     memset(a->next_y, 0, a->count * sizeof *next_y);
     memset(a->failed, 0, a->count);
-    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans, false, NULL};
+    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans, NULL};
     uint32_t failures = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
