@@ -12,20 +12,6 @@ void jox_memory_error(JoError *error) {
     snprintf(error->text, sizeof error->text, "out of memory");
 }
 
-locale_t jox_plain_locale(void) {
-    static locale_t plain;
-    locale_t seen = __atomic_load_n(&plain, __ATOMIC_ACQUIRE);
-    if (!seen) {
-        locale_t made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-        if (__atomic_compare_exchange_n(&plain, &seen, made, false, __ATOMIC_ACQ_REL,
-                                        __ATOMIC_ACQUIRE))
-            seen = made;
-        else
-            freelocale(made);
-    }
-    return seen;
-}
-
 void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error) {
     guard->error = error;
     if (!heap)
@@ -34,7 +20,7 @@ void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error) {
     guard->heap_before = jox_heap_use(guard->heap);
     guard->overlay_before = jox_overlay_use(NULL);
     jox_overlay_use(guard->overlay_before);
-    guard->locale_before = uselocale(jox_plain_locale());
+    guard->numeric_before = jox_numeric_use(jox_numeric_plain());
     guard->outer = innermost;
     innermost = guard;
     jox_recovery_push(&guard->recovery);
@@ -49,7 +35,7 @@ void jox_guard_fail(JoxGuard *guard) {
     jox_memory_error(guard->error);
     jox_heap_use(guard->heap_before);
     jox_overlay_use(guard->overlay_before);
-    uselocale(guard->locale_before);
+    jox_numeric_use(guard->numeric_before);
     innermost = guard->outer;
     jox_recovery_pop(&guard->recovery);
     if (guard->heap == guard->heap_before) /* a call within a call on the same thing: both fail */
@@ -61,7 +47,7 @@ void jox_guard_close(JoxGuard *guard) {
     if (innermost == guard)
         innermost = guard->outer;
     jox_heap_use(guard->heap_before);
-    uselocale(guard->locale_before);
+    jox_numeric_use(guard->numeric_before);
     if (guard->heap == &guard->own)
         jox_heap_end(&guard->own);
 }
@@ -69,14 +55,16 @@ void jox_guard_close(JoxGuard *guard) {
 JoxOutside jox_guard_leave(void) {
     JoxGuard *guard = innermost;
     innermost = guard ? guard->outer : NULL;
-    return (JoxOutside){guard, jox_heap_use(guard ? guard->heap_before : NULL),
-                        uselocale(guard ? guard->locale_before : (locale_t)0)};
+    const JoxNumeric now = jox_numeric_use(jox_numeric_plain());
+    if (guard)
+        jox_numeric_use(guard->numeric_before);
+    return (JoxOutside){guard, jox_heap_use(guard ? guard->heap_before : NULL), now};
 }
 
 void jox_guard_return(JoxOutside outside) {
     innermost = outside.guard;
     jox_heap_use(outside.heap);
-    uselocale(outside.locale);
+    jox_numeric_use(outside.numeric);
 }
 
 void jox_error(JoError *error, JoCode code, const char *format, ...) {

@@ -5,7 +5,7 @@
  *         return signal_everybody(scene, name, error);
  *     }
  *
- * Within it numbers are read and written as in C, whatever the program's locale is.
+ * Within it numbers are read, written and computed as number/numeric.h says.
  *
  * The statement behind JOX_GUARD is what the call does where memory is out, now or in an earlier
  * call with the same heap. The guard ends with the block in which it stands. It may stand once in a
@@ -14,9 +14,8 @@
 #ifndef JOX_BASE_GUARD_H
 #define JOX_BASE_GUARD_H
 
-#include <locale.h>
-
 #include "base/mem.h"
+#include "base/number/numeric.h"
 #include "base/overlay.h"
 #include "jostle.h"
 
@@ -25,7 +24,7 @@ typedef struct JoxGuard {
     JoxHeap own; /* of the call, where it was given no heap */
     JoxHeap *heap, *heap_before;
     const JoxOverlay *overlay_before;
-    locale_t locale_before;
+    JoxNumeric numeric_before;
     struct JoxGuard *outer;
     JoError *error;
     bool failed;
@@ -46,20 +45,15 @@ void jox_guard_fail(JoxGuard *guard);
 void jox_guard_close(JoxGuard *guard);
 
 /* Around a call back into the program, which runs as outside the innermost public call: with the
-   heap and the locale that were in use where that was made. A callback that stands in a public call
-   itself may leave that one too. */
+   heap and the numeric settings that were in use where that was made. A callback that stands in a
+   public call itself may leave that one too. */
 typedef struct JoxOutside {
     JoxGuard *guard;
     JoxHeap *heap;
-    locale_t locale;
+    JoxNumeric numeric;
 } JoxOutside;
 JoxOutside jox_guard_leave(void);
 void jox_guard_return(JoxOutside outside);
-
-/* The locale of C, in which numbers are read and written: where a program's own has decimal commas,
-   `1.5` is read as 1. For uselocale, which sets it for the calling thread alone; where memory is
-   out, what leaves the thread's locale as it is. */
-locale_t jox_plain_locale(void);
 
 /* Fills an error, which may be NULL, with a formatted text. */
 void jox_error(JoError *error, JoCode code, const char *format, ...)

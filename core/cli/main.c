@@ -5,6 +5,7 @@
 
 #include "base/confine.h"
 #include "base/mem.h"
+#include "base/number/numeric.h"
 #include "cli/cli.h"
 
 static void print_help(FILE *out) {
@@ -40,6 +41,7 @@ static int run(const CliCommand *command, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+    jox_numeric_use(jox_numeric_plain());
     /* A pipe that was closed, or a file that became too large, is an error of one write, and no end
        of a run whose other files are good. */
     signal(SIGPIPE, SIG_IGN);

@@ -6,8 +6,8 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
-#include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/numeric.h"
 #include "jostle_host.h"
 #include "simd/pause.h"
 #include "task/processors.h"
@@ -132,10 +132,10 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
 /* Of a program's threads, which may count on beyond what they were told. */
 static void run_job(void *data, uint32_t worker) {
     JoxPool *pool = data;
-    const locale_t before = uselocale(jox_plain_locale());
+    const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
     if (worker < pool->threads)
         run_chunks(pool, worker);
-    uselocale(before);
+    jox_numeric_use(before);
 }
 
 /* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a

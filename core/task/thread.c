@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <stdlib.h>
 
-#include "base/guard.h"
+#include "base/number/numeric.h"
 
 typedef struct Start {
     void *(*run)(void *);
@@ -13,7 +13,7 @@ typedef struct Start {
 static void *begin(void *data) {
     const Start start = *(Start *)data;
     free(data);
-    uselocale(jox_plain_locale());
+    jox_numeric_use(jox_numeric_plain());
     return start.run(start.argument);
 }
 

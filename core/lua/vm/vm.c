@@ -1,13 +1,12 @@
 /* Lua states: the cap on memory, the budget of instructions, the one protected call. */
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/clock.h"
-#include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/numeric.h"
 #include "lua/vm/vm.h"
 
 enum {
@@ -341,7 +340,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     else if (!vm->untimed)
         instructions = step_budget(vm, instructions);
     vm->left = instructions;
-    const locale_t before = uselocale(jox_plain_locale());
+    const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
     if (sampled) {
         vm->watch_from = jox_clock_thread();
@@ -363,7 +362,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         watch(vm, 1.0, 1e9);
     else if (sampled) /* a short one stands for others */
         watch(vm, SAMPLED, 0.1);
-    uselocale(before);
+    jox_numeric_use(before);
     if (status == LUA_OK) {
         lua_remove(vm->L, handler);
         return true;

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/numeric.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
 #include "run/run.h"
@@ -21,9 +21,9 @@ static char *csv_of(const JoxProbe *probe) {
     FILE *file = open_memstream(&text, &length);
     if (!file)
         return NULL;
-    const locale_t before = uselocale(jox_plain_locale());
+    const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
     jox_probe_csv(probe, file);
-    uselocale(before);
+    jox_numeric_use(before);
     if (fclose(file) == 0)
         return text;
     free(text);

@@ -1,0 +1,134 @@
+/* Subnormal numbers: the engine takes them as zero, and the program that calls it keeps its own. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/number/numeric.h"
+#include "jostle_read.h"
+#include "task/pool.h"
+
+static bool has_subnormals(void) {
+    volatile float tiny = FLT_MIN;
+    tiny = tiny * 0.5f;
+    return tiny + tiny > 0.0f;
+}
+
+/* Messages, and how many came while the program's own setting was in use. */
+typedef struct Heard {
+    uint32_t all, ieee;
+} Heard;
+
+static void hear(void *context, const char *text) {
+    (void)text;
+    Heard *heard = context;
+    heard->all++;
+    heard->ieee += has_subnormals();
+}
+
+/* Each thread of a loop. */
+static void look(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    for (uint32_t k = begin; k < end; k++)
+        ((bool *)context)[k] = has_subnormals();
+}
+
+static JoxNumeric ieee(void) {
+    JoxNumeric numeric = jox_numeric_plain();
+    numeric.mode = 0;
+    return numeric;
+}
+
+static JoSceneDef def_of(const char *path, uint32_t threads, Heard *heard) {
+    JoSceneDef def = jo_default_scene_def();
+    def.path = path;
+    def.threads = threads;
+    def.message = hear;
+    def.message_context = heard;
+    return def;
+}
+
+static JoScene *load(const char *path, uint32_t threads, Heard *heard) {
+    JoError error = {0};
+    const JoSceneDef def = def_of(path, threads, heard);
+    JoScene *scene = jo_scene_load(&def, &error);
+    if (!scene)
+        fail_msg("%s:%d: %s", error.file, error.line, error.text);
+    return scene;
+}
+
+/* Calls, those that fail too, leave what a program does with subnormal numbers as it was, and a
+   callback of it does the same. */
+static void a_program_keeps_its_own(void **state) {
+    (void)state;
+    const JoxNumeric before = jox_numeric_use(ieee());
+    for (int flushed = 0; flushed < 2; flushed++) {
+        JoError error = {0};
+        Heard heard = {0};
+        jox_numeric_use(flushed ? jox_numeric_plain() : ieee());
+        JoScene *scene = load("scenes/bottleneck.yaml", 2, &heard);
+        assert_int_equal(has_subnormals(), !flushed);
+        for (int k = 0; k < 20; k++)
+            assert_true(jo_scene_step(scene, &error));
+        assert_true(jo_scene_finish(scene, &error));
+        jo_scene_free(scene);
+        assert_int_equal(has_subnormals(), !flushed);
+        JoSceneDef def = def_of("no such scene", 2, &heard);
+        assert_null(jo_scene_load(&def, &error));
+        assert_int_equal(has_subnormals(), !flushed);
+        assert_true(heard.all > 0 && heard.ieee == (flushed ? 0 : heard.all));
+    }
+    jox_numeric_use(before);
+}
+
+static void threads_have_none(void **state) {
+    (void)state;
+    bool has[64];
+    JoxPool *pool = jox_pool_create(4);
+    const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
+    for (int round = 0; round < 20; round++) {
+        jox_parallel_for(pool, 64, 1, look, has);
+        for (int k = 0; k < 64; k++)
+            assert_false(has[k]);
+    }
+    jox_numeric_use(before);
+    jox_pool_free(pool);
+}
+
+static uint32_t subnormal_in(JoScene *scene, const char *name) {
+    const JoColumn column = jo_world_column(jo_scene_world(scene), name);
+    uint32_t count = 0;
+    assert_true(column.count > 1000 && column.type == JO_F32);
+    for (uint32_t i = 0; i < column.count; i++) {
+        const float *value = (const void *)((const char *)column.data + i * column.stride);
+        count += fpclassify(*value) == FP_SUBNORMAL;
+    }
+    return count;
+}
+
+/* People who walk straight ahead lose what they moved across their way, bit by bit. */
+static void what_decays_ends(void **state) {
+    (void)state;
+    JoError error = {0};
+    Heard heard = {0};
+    JoScene *scene = load("scenes/one-way.yaml", 1, &heard);
+    for (int k = 0; k < 120; k++) {
+        assert_true(jo_scene_step(scene, &error));
+        assert_int_equal(subnormal_in(scene, "vy"), 0);
+    }
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_program_keeps_its_own),
+        cmocka_unit_test(threads_have_none),
+        cmocka_unit_test(what_decays_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
