@@ -45,7 +45,7 @@ static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxKeptImpulses *were = &f->kept_pairs;
     uint32_t listed = 0, kept = 0;
-    jox_mem_fill(f->colours_of, 0, a->count * sizeof *f->colours_of);
+    memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];
@@ -185,14 +185,14 @@ static void reserve(JoxForces *f, uint32_t pairs, uint32_t walls) {
     const uint32_t agents = f->step.agents->count;
     /* For a dense crowd from the start, so that no steady step grows it. */
     const uint32_t room = pairs > 4 * agents ? pairs : 4 * agents;
-    JOX_RESERVE(f->colours_of, f->colours_of_capacity, agents);
+    f->colours_of = jox_stage_memory_take(f->memory, agents, sizeof *f->colours_of);
     JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
     JOX_RESERVE(f->listed, f->listed_capacity, agents);
     JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)agents + 1);
     JOX_RESERVE(f->pairs.items, f->pairs.capacity, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
-    JOX_RESERVE(f->work, f->work_capacity, agents + JOX_LANES);
-    JOX_RESERVE(f->lightness, f->lightness_capacity, agents + JOX_LANES);
+    f->work = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->work);
+    f->lightness = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->lightness);
     JOX_RESERVE(f->wall, f->wall_capacity, walls);
     JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
 }

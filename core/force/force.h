@@ -16,6 +16,7 @@
 #include "geom/wall_grid.h"
 #include "jostle.h"
 #include "task/pool.h"
+#include "task/stage_memory.h"
 
 typedef struct JoxForces JoxForces;
 
@@ -77,6 +78,9 @@ void jox_forces_free(JoxForces *forces);
 void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
 /* The instruction set of the kernels, which changes no result; at first the widest that runs. */
 void jox_forces_set_isa(JoxForces *forces, JoIsa isa);
+
+/* Memory that push, from jox_force_begin on, shares with other stages; at first its own. */
+void jox_forces_set_memory(JoxForces *forces, JoxStageMemory *memory);
 
 /* The walls whose loads are told; not copied; call again when they change. NULL: none. */
 void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls);

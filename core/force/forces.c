@@ -25,6 +25,10 @@ void jox_forces_set_isa(JoxForces *f, JoIsa isa) {
     f->isa = isa;
 }
 
+void jox_forces_set_memory(JoxForces *f, JoxStageMemory *memory) {
+    f->memory = memory;
+}
+
 float jox_force_passing_reach(const JoxForces *f) {
     return f->options.reach;
 }
@@ -33,6 +37,7 @@ JoxForces *jox_forces_create(const JoxForceOptions *options) {
     JoxForces *f = jox_alloc(1, sizeof *f);
     jox_forces_set_options(f, options);
     f->isa = jox_isa_resolve(JO_ISA_WIDEST);
+    f->memory = &f->own_memory;
     return f;
 }
 
@@ -42,7 +47,6 @@ void jox_forces_free(JoxForces *f) {
     void *owned[] = {f->transfers.items,
                      f->transfers.counts,
                      f->starts,
-                     f->builds,
                      f->sorted,
                      f->found.items,
                      f->slots.items,
@@ -59,7 +63,6 @@ void jox_forces_free(JoxForces *f) {
                      f->pairs.items,
                      f->listed,
                      f->colour_sizes,
-                     f->colours_of,
                      f->ends,
                      f->end_starts,
                      f->wall,
@@ -68,8 +71,6 @@ void jox_forces_free(JoxForces *f) {
                      f->touch_first,
                      f->touch_number,
                      f->motions,
-                     f->work,
-                     f->lightness,
                      f->residuals,
                      f->braced,
                      f->planes.starts,
@@ -87,6 +88,7 @@ void jox_forces_free(JoxForces *f) {
                      f->chunk};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
+    jox_stage_memory_free(&f->own_memory);
     jox_free(f);
 }
 
@@ -118,6 +120,14 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
                        end - i < JOX_AGENTS_PADDING ? end - i : JOX_AGENTS_PADDING);
 }
 
+/* Of so many agents: builds, and what contact_layout.c takes, bytes. */
+static size_t memory_of_push(size_t agents) {
+    return jox_stage_memory_bytes(agents, sizeof(JoxBuild)) +
+           jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
+           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxV2)) +
+           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(float));
+}
+
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
@@ -140,8 +150,13 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->starts, f->start_capacity, (size_t)n + 1);
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
-    JOX_RESERVE(f->braced, f->braced_capacity, n);
-    JOX_RESERVE(f->builds, f->build_capacity, n);
+    if (n > f->braced_capacity) { /* what stays zero takes no memory */
+        jox_free(f->braced);
+        f->braced_capacity = n + n / 4;
+        f->braced = jox_alloc(f->braced_capacity, sizeof *f->braced);
+    }
+    jox_stage_memory_begin(f->memory, memory_of_push(n));
+    f->builds = jox_stage_memory_take(f->memory, n, sizeof *f->builds);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
     if (n)

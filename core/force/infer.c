@@ -169,8 +169,7 @@ static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 
 void jox_force_infer(JoxForces *f) {
     JoxAgents *a = f->step.agents;
-    uint32_t room = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
-    jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
+    jox_transfers_begin(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, infer_chunk, f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_chunk, f);
     f->totals.passed = jox_transfers_sort(f);

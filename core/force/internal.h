@@ -37,10 +37,10 @@ struct JoxForces {
     JoxForceStep step;
     JoxForceTotals totals;
     uint32_t chunks;
-    JoIsa isa;        /* of the kernels */
-    JoxDecay decay;   /* of the first agent in a step: most have its damping */
-    JoxBuild *builds; /* of all agents, as contacts are found */
-    size_t build_capacity;
+    JoIsa isa;                          /* of the kernels */
+    JoxDecay decay;                     /* of the first agent in a step: most have its damping */
+    JoxStageMemory *memory, own_memory; /* of push; own: where it was given none */
+    JoxBuild *builds;                   /* of all agents, as contacts are found */
 
     JoxChunkList transfers;
     uint32_t *starts; /* per receiver, and one more */
@@ -59,8 +59,7 @@ struct JoxForces {
     bool cut; /* a list of those within touching range is: contacts are found one by one */
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
-    size_t colours_of_capacity;
-    JoxListed *listed; /* per agent */
+    JoxListed *listed;    /* per agent */
     size_t listed_capacity;
     uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk; then where its next stands */
     size_t colour_size_capacity;
@@ -85,7 +84,7 @@ struct JoxForces {
     JoxV2 *work;      /* velocities while contacts are solved */
     float *lightness; /* 1 / mass */
     float *residuals; /* per chunk of a pass */
-    size_t work_capacity, lightness_capacity, residual_capacity;
+    size_t residual_capacity;
     JoxV2 *braced; /* per agent: what its own pushes press it with, N */
     size_t braced_capacity;
     JoxContactPlanes planes;
@@ -122,6 +121,8 @@ uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uin
 /* Whether a wall stands between two points of an agent's surroundings that are no farther apart
    than the walls' grid serves: no force goes through it. */
 bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
+/* Empties the list of forces between agents. */
+void jox_transfers_begin(JoxForces *forces);
 /* Lists a force that agent i, of that chunk, gives agent `to`. */
 void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].

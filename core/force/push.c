@@ -149,7 +149,6 @@ static int64_t to_fixed(double momentum) {
 }
 
 static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
-    const JoxAgents *a = f->step.agents;
     JoxV2 aim = aim_of(&f->step, i);
     if (aim.x == 0.0f && aim.y == 0.0f)
         return;
@@ -162,7 +161,6 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
         return;
     if (f->step.push_nearest && f->step.push_nearest[i])
         n = keep_nearest(targets, n);
-    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < n; k++) {
         JoxV2 force = push_on(f, i, aim, &targets[k], n);
@@ -171,14 +169,13 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
         if (targets[k].is_body)
             wait_for_body(f, chunk, i, &targets[k], force);
         else
-            list[f->transfers.counts[chunk]++] =
-                (JoxTransfer){targets[k].index, a->id[i], force.x, force.y};
+            jox_transfer_give(f, chunk, i, targets[k].index, force);
     }
     struct JoxForceChunk *totals = &f->chunk[chunk];
     totals->pushers++;
     f->braced[i] = jox_scale(sum, -1.0f);
     if (f->options.react) {
-        list[f->transfers.counts[chunk]++] = (JoxTransfer){i, a->id[i], -sum.x, -sum.y};
+        jox_transfer_give(f, chunk, i, i, jox_scale(sum, -1.0f));
     } else {
         totals->ground_x += to_fixed(sum.x * f->step.dt);
         totals->ground_y += to_fixed(sum.y * f->step.dt);
@@ -198,8 +195,7 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
 void jox_force_push(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     float dt = (float)f->step.dt;
-    uint32_t room = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
-    jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
+    jox_transfers_begin(f);
     jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
                      sizeof(JoxTouch));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);

@@ -58,11 +58,26 @@ uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t
     return n;
 }
 
+/* What a chunk lists stands in runs of this many. The first runs of all chunks stand side by side,
+   then the second ones, and so on: where each gives little, few pages of memory are written. */
+enum { RUN = 16 };
+
+void jox_transfers_begin(JoxForces *f) {
+    const uint32_t most = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
+    jox_chunks_begin(&f->transfers, f->chunks, (most + RUN - 1) / RUN * RUN, sizeof(JoxTransfer));
+}
+
+/* The first of a run. */
+static JoxTransfer *run_of(const JoxForces *f, uint32_t chunk, uint32_t run) {
+    return (JoxTransfer *)f->transfers.items + ((size_t)run * f->chunks + chunk) * RUN;
+}
+
 void jox_transfer_give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
-    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
+    const uint32_t at = f->transfers.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
-    JOX_ASSERT(chunk < f->chunks && f->transfers.counts[chunk] < f->transfers.room);
-    list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
+    JOX_ASSERT(chunk < f->chunks && at < f->transfers.room);
+    run_of(f, chunk, at / RUN)[at % RUN] =
+        (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
 uint32_t jox_transfers_sort(JoxForces *f) {
@@ -75,22 +90,19 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     uint32_t room = 6 * f->step.agents->count;
     JOX_RESERVE(f->sorted, f->sorted_capacity, total > room ? total : room);
     memset(f->starts, 0, ((size_t)n + 1) * sizeof *f->starts);
-    const JoxTransfer *items = f->transfers.items;
-    for (uint32_t c = 0; c < f->chunks; c++) {
-        const JoxTransfer *t = items + (size_t)c * f->transfers.room;
-        for (uint32_t i = 0; i < f->transfers.counts[c]; i++)
-            f->starts[t[i].to]++;
-    }
+    for (uint32_t c = 0; c < f->chunks; c++)
+        for (uint32_t k = 0; k < f->transfers.counts[c]; k++)
+            f->starts[run_of(f, c, k / RUN)[k % RUN].to]++;
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) {
         sum += f->starts[i];
         f->starts[i] = sum; /* the end; filling backwards makes it the start */
     }
-    for (uint32_t c = 0; c < f->chunks; c++) {
-        const JoxTransfer *t = items + (size_t)c * f->transfers.room;
-        for (uint32_t i = 0; i < f->transfers.counts[c]; i++)
-            f->sorted[--f->starts[t[i].to]] = t[i];
-    }
+    for (uint32_t c = 0; c < f->chunks; c++)
+        for (uint32_t k = 0; k < f->transfers.counts[c]; k++) {
+            const JoxTransfer *t = &run_of(f, c, k / RUN)[k % RUN];
+            f->sorted[--f->starts[t->to]] = *t;
+        }
     JOX_ASSERT(f->starts[0] == 0 && f->starts[n] == total);
     JOX_CHECK(jox_transfers_check(f));
     return total;

@@ -71,7 +71,7 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
 }
 
 /* Puts agents that are listed by id into the order of their cells, those of a cell by id. */
-static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id) {
+static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id, uint32_t *order) {
     const uint32_t cells = nav->columns * nav->rows;
     uint32_t *first = nav->cell_first;
     memset(first, 0, (cells + 1) * sizeof *first);
@@ -86,7 +86,7 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id)
         first[cell] = sum;
     }
     for (uint32_t k = a->count; k-- > 0;) /* from their ends back to their beginnings */
-        nav->order[--first[a->cell[by_id[k]]]] = by_id[k];
+        order[--first[a->cell[by_id[k]]]] = by_id[k];
 }
 
 /* Some have left since, and the others stand in their order: where each cell begins now. */
@@ -115,8 +115,10 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     }
     jox_nav_reserve(nav, a->count);
     const float farthest = fit_cells(nav, a);
-    sort_by_cell(nav, a, a->by_rank);
-    jox_agents_permute(a, nav->order);
+    jox_stage_memory_begin(nav->memory, jox_stage_memory_bytes(a->count, sizeof(uint32_t)));
+    uint32_t *order = jox_stage_memory_take(nav->memory, a->count, sizeof *order);
+    sort_by_cell(nav, a, a->by_rank, order);
+    jox_agents_permute(a, order);
     nav->sorted_count = a->count;
     nav->sorted_next_id = a->next_id;
     nav->stray_count = 0;

@@ -53,16 +53,16 @@ struct JoxNav {
        see an edge. More than there is room for: the agents are sorted. */
     uint32_t strays[JOX_MOST_STRAYS + JOX_LANES], stray_count;
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
-    uint32_t *order;
     uint32_t capacity;
     JoxDrift *chunk_drift; /* in a step, per chunk of move */
-    JoxV2 *position[2];    /* for projection */
+    JoxV2 *position[2];    /* of the memory of move, for projection */
     uint32_t *chunk_relaxed;
     JoxHeading *headings; /* of walk, and of solve where somebody walks */
     float *chunk_reach;   /* m: of walk; below 0 where nobody walks */
     float *clear2;        /* m2: jox_wall_grid_clear2 of each, by walk, or by solve */
     float clear_reach;    /* m: of the grid by which clear2 is known; -1: it is not */
     JoxWallGrid grid;
+    JoxStageMemory *memory, own_memory; /* own: where it was given none */
     bool literal;
     JoIsa isa;              /* of the kernels */
     const JoxWalkLaw *walk; /* the model's */

@@ -125,6 +125,10 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                     .dt = (float)dt,
                     .response = (float)response,
                     .on_the_way = (float)on_the_way};
+    jox_stage_memory_begin(nav->memory, 2 * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
+    for (int i = 0; i < 2; i++)
+        nav->position[i] =
+            jox_stage_memory_take(nav->memory, agents->count, sizeof *nav->position[i]);
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {

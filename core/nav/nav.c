@@ -13,6 +13,7 @@ JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     nav->walk = walk;
     nav->clear_reach = -1.0f;
     nav->isa = jox_isa_resolve(JO_ISA_WIDEST);
+    nav->memory = &nav->own_memory;
     return nav;
 }
 
@@ -23,6 +24,10 @@ void jox_nav_set_literal(JoxNav *nav, bool literal) {
 void jox_nav_set_isa(JoxNav *nav, JoIsa isa) {
     JOX_ASSERT(jox_isa_runs(isa));
     nav->isa = isa;
+}
+
+void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory) {
+    nav->memory = memory;
 }
 
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
@@ -69,14 +74,12 @@ void jox_nav_free(JoxNav *nav) {
         return;
     jox_wall_grid_free(&nav->grid);
     jox_free(nav->cell_first);
-    jox_free(nav->order);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
     jox_free(nav->headings);
     jox_free(nav->chunk_reach);
     jox_free(nav->clear2);
-    for (int i = 0; i < 2; i++)
-        jox_free(nav->position[i]);
+    jox_stage_memory_free(&nav->own_memory);
     jox_free(nav);
 }
 
@@ -84,12 +87,9 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     if (count <= nav->capacity)
         return;
     uint32_t n = nav->capacity = count + count / 4 + 64;
-    nav->order = jox_realloc(nav->order, n, sizeof *nav->order);
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(JoxDrift));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));
     nav->chunk_reach = jox_realloc(nav->chunk_reach, n / JOX_NAV_GRAIN + 1, sizeof(float));
     nav->clear2 = jox_realloc(nav->clear2, n + JOX_LANES, sizeof(float));
-    for (int i = 0; i < 2; i++)
-        nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
 }

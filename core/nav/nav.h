@@ -11,6 +11,7 @@
 #include "geom/walls.h"
 #include "jostle.h"
 #include "task/pool.h"
+#include "task/stage_memory.h"
 
 typedef struct JoxNav JoxNav;
 
@@ -21,6 +22,8 @@ void jox_nav_free(JoxNav *nav);
 void jox_nav_set_literal(JoxNav *nav, bool literal);
 /* The instruction set of the kernels, which changes no result; at first the widest that runs. */
 void jox_nav_set_isa(JoxNav *nav, JoIsa isa);
+/* Memory that the sort of agents and move share with other stages; at first their own. */
+void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 

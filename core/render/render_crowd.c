@@ -66,7 +66,7 @@ static void find_area(JoxRender *r) {
         widen(&box, r->crowd->low);
         widen(&box, r->crowd->high);
     }
-    const JoxFrame *frame = r->scene ? jox_run_frame(r->scene) : NULL;
+    const JoxFrame *frame = r->scene ? jox_run_frame(r->scene, 0) : NULL;
     for (uint32_t i = 0; frame && i < frame->count; i++)
         widen(&box, jox_v2(frame->x[i], frame->y[i]));
     if (!(box.low.x <= box.high.x)) /* nobody, and no walls: places alone */
@@ -297,7 +297,7 @@ static void name_states(JoxRender *r) {
 /* Takes the present moment in. */
 static void look(JoxRender *r) {
     if (r->scene) {
-        r->frame = *jox_run_frame(r->scene);
+        r->frame = *jox_run_frame(r->scene, JOX_FRAME_WHOLE);
         if (!r->states)
             name_states(r);
         r->frame.states = r->states;

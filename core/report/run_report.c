@@ -55,13 +55,13 @@ static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, 
 /* The story goes on with each sample of the density. */
 static void sample_story(RunReport *r, JoScene *scene) {
     const JoxLocal *local = jox_run_local(scene);
-    const JoxFrame *frame = jox_run_frame(scene);
-    if (local->time == frame->time)
-        jox_story_sample(&r->story, &(JoxStorySample){.frame = frame,
-                                                      .grid = local->grid,
-                                                      .walls = &scene->world->model.all_walls,
-                                                      .left = scene->world->state.exits.left,
-                                                      .bodies = scene->world->state.bodies});
+    if (local->time != jo_world_time(scene->world))
+        return;
+    jox_story_sample(&r->story, &(JoxStorySample){.frame = jox_run_frame(scene, JOX_FRAME_WHOLE),
+                                                  .grid = local->grid,
+                                                  .walls = &scene->world->model.all_walls,
+                                                  .left = scene->world->state.exits.left,
+                                                  .bodies = scene->world->state.bodies});
 }
 
 /* Points of the paths of those who came first, and of what moves. */

@@ -87,7 +87,8 @@ static bool local_frame(void *self, JoScene *scene, JoError *error) {
     JoxLocal *local = *(JoxLocal **)self;
     (void)error;
     if (jox_local_is_due(local, jo_world_time(scene->world)))
-        jox_local_frame(local, jox_run_frame(scene), NULL);
+        jox_local_frame(local, jox_run_frame(scene, local->pressure ? JOX_FRAME_VELOCITIES : 0),
+                        NULL);
     return true;
 }
 
@@ -155,7 +156,7 @@ static bool danger_begin(void *self, JoScene *scene, const void *options, JoErro
 
 static bool danger_frame(void *self, JoScene *scene, JoError *error) {
     (void)error;
-    jox_danger_frame(*(JoxDanger **)self, jox_run_frame(scene), &scene->world->state.exits);
+    jox_danger_frame(*(JoxDanger **)self, jox_run_frame(scene, 0), &scene->world->state.exits);
     return true;
 }
 

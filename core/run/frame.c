@@ -15,7 +15,8 @@ struct JoxRunFrame {
     size_t name_capacity, states_capacity, state_capacity, group_colour_capacity;
     size_t state_colour_capacity;
     uint32_t *state, state_count;
-    uint64_t made; /* the tick of the frame, plus 1 */
+    uint64_t made;  /* the tick of the frame, plus 1 */
+    uint32_t parts; /* that it has */
 };
 
 /* All states of all machines in one list, which a reload may change, and each person's. */
@@ -38,33 +39,45 @@ static void list_states(JoxRunFrame *f, const JoWorld *world) {
         }
     for (uint32_t i = 0; i < a->count; i++)
         f->state[i] = a->machine[i] == JOX_NO_MACHINE ? 0 : first[a->machine[i]] + a->state[i];
+    f->frame.state = f->state;
+    f->frame.states = f->states;
+    f->frame.state_count = f->state_count;
+    f->frame.state_colours = f->state_colours;
 }
 
-const JoxFrame *jox_run_frame(JoScene *scene) {
-    const JoWorld *world = scene->world;
+/* Of the step that was made: a velocity is what one has moved by. */
+static void list_velocities(JoxRunFrame *f, const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
-    if (!scene->frame)
-        scene->frame = jox_alloc(1, sizeof *scene->frame);
-    JoxRunFrame *f = scene->frame;
-    if (f->made == world->state.tick + 1)
-        return &f->frame;
-    f->made = world->state.tick + 1;
+    const float rate = (float)(1.0 / world->model.def.dt);
     JOX_RESERVE(f->vx, f->vx_capacity, a->count + 1);
     JOX_RESERVE(f->vy, f->vy_capacity, a->count + 1);
+    for (uint32_t i = 0; i < a->count; i++) {
+        f->vx[i] = (a->x[i] - a->prev_x[i]) * rate;
+        f->vy[i] = (a->y[i] - a->prev_y[i]) * rate;
+    }
+    f->frame.vx = f->vx;
+    f->frame.vy = f->vy;
+}
+
+static void list_forces(JoxRunFrame *f, const JoxAgents *a) {
     JOX_RESERVE(f->force, f->force_capacity, a->count + 1);
+    for (uint32_t i = 0; i < a->count; i++)
+        f->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
+    f->frame.force = f->force;
+}
+
+/* What the world has as frames have it. */
+static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    f->made = world->state.tick + 1;
+    f->parts = 0;
     JOX_RESERVE(f->names, f->name_capacity, scene->spec->group_count + 1);
     JOX_RESERVE(f->group_colours, f->group_colour_capacity, scene->spec->group_count + 1);
     for (uint32_t g = 0; g < scene->spec->group_count; g++) {
         f->names[g] = scene->spec->groups[g].name;
         f->group_colours[g] = scene->spec->groups[g].colour;
     }
-    float rate = (float)(1.0 / world->model.def.dt);
-    for (uint32_t i = 0; i < a->count; i++) {
-        f->vx[i] = (a->x[i] - a->prev_x[i]) * rate;
-        f->vy[i] = (a->y[i] - a->prev_y[i]) * rate;
-        f->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-    }
-    list_states(f, world);
     f->frame = (JoxFrame){.time = (double)world->state.tick * world->model.def.dt,
                           .count = a->count,
                           .period = a->period,
@@ -74,11 +87,8 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .slot = a->slot,
                           .x = a->x,
                           .y = a->y,
-                          .vx = f->vx,
-                          .vy = f->vy,
                           .radius = a->param[JOX_PARAM_radius].cells,
                           .one_radius = !a->param[JOX_PARAM_radius].mask,
-                          .force = f->force,
                           .compression = a->compression,
                           .load = a->load,
                           .failed = a->failed,
@@ -86,15 +96,28 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .groups = f->names,
                           .group_count = scene->spec->group_count,
                           .group_colours = f->group_colours,
-                          .state = f->state,
-                          .states = f->states,
-                          .state_count = f->state_count,
-                          .state_colours = f->state_colours,
                           .kicked = a->kicked,
                           .struck = a->struck,
                           .objects = &world->scratch.objects,
                           .walls = &world->scratch.walls};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
+}
+
+const JoxFrame *jox_run_frame(JoScene *scene, uint32_t parts) {
+    const JoWorld *world = scene->world;
+    if (!scene->frame)
+        scene->frame = jox_alloc(1, sizeof *scene->frame);
+    JoxRunFrame *f = scene->frame;
+    if (f->made != world->state.tick + 1)
+        begin_frame(f, scene);
+    const uint32_t lacking = parts & ~f->parts;
+    if (lacking & JOX_FRAME_VELOCITIES)
+        list_velocities(f, world);
+    if (lacking & JOX_FRAME_FORCES)
+        list_forces(f, &world->state.agents);
+    if (lacking & JOX_FRAME_STATES)
+        list_states(f, world);
+    f->parts |= lacking;
     return &f->frame;
 }
 

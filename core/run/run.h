@@ -185,9 +185,11 @@ void jox_run_texts(const JoScene *scene, JoxOverlay *out);
 void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
 /* Fills `error` with what could not be written, and frees the text. Returns false. */
 bool jox_run_failed(JoError *error, JoxText *why);
-/* frame.c: the frame of the present step, made once; it holds until the next. */
+/* frame.c: the frame of the present step, made once; it holds until the next. `parts`: bits of what
+   is needed that the world has not in this form; what nobody needs in a step may be NULL. */
 typedef struct JoxRunFrame JoxRunFrame;
-const JoxFrame *jox_run_frame(JoScene *scene);
+enum { JOX_FRAME_VELOCITIES = 1, JOX_FRAME_FORCES = 2, JOX_FRAME_STATES = 4, JOX_FRAME_WHOLE = 7 };
+const JoxFrame *jox_run_frame(JoScene *scene, uint32_t parts);
 void jox_run_free_frame(JoScene *scene);
 /* figures.c: whether the step that was done is one of those that come every `interval` seconds, or
    every step where that is longer. */

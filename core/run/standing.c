@@ -18,9 +18,10 @@ typedef enum NoWay { LEADS, SEEMS_SHUT, TOLD } NoWay;
 
 typedef struct Stand {
     JoxV2 at;
-    double since; /* s; NAN: did not want to get on when last seen */
+    uint32_t since; /* tick; NEVER: did not want to get on when last seen */
     uint32_t id;
 } Stand;
+enum { NEVER = UINT32_MAX };
 
 typedef struct Standing {
     Stand *people; /* by slot */
@@ -41,30 +42,31 @@ typedef struct Standing {
 static Stand *stand_of(Standing *s, const JoxAgents *a, uint32_t i) {
     JOX_RESERVE(s->people, s->capacity, a->slot_count);
     for (; s->seen < a->slot_count; s->seen++)
-        s->people[s->seen] = (Stand){.since = NAN};
+        s->people[s->seen] = (Stand){.since = NEVER};
     Stand *stand = &s->people[a->slot[i]];
     if (stand->id != a->id[i])
-        *stand = (Stand){.since = NAN, .id = a->id[i]};
+        *stand = (Stand){.since = NEVER, .id = a->id[i]};
     return stand;
 }
 
 static void look(Standing *s, const JoWorld *world, uint32_t i) {
     const JoxAgents *a = &world->state.agents;
-    double now = jo_world_time(world);
+    const uint32_t tick = (uint32_t)world->state.tick;
     JoxV2 at = {a->x[i], a->y[i]};
     Stand *stand = stand_of(s, a, i);
     if (jox_stands(a, i)) {
-        stand->since = NAN;
+        stand->since = NEVER;
         return;
     }
     JoxV2 moved = jox_wrap(a, jox_sub(at, stand->at));
-    if (isnan(stand->since) || jox_length2(moved) > MOVED * MOVED) {
+    if (stand->since == NEVER || jox_length2(moved) > MOVED * MOVED) {
         stand->at = at;
-        stand->since = now;
+        stand->since = tick;
     }
-    if (now - stand->since > s->longest.seconds)
-        s->longest = (JoxStood){now - stand->since, now, stand->at, a->id[i]};
-    if (now - stand->since >= STILL - 1e-9)
+    const double now = jo_world_time(world), stood = now - stand->since * world->model.def.dt;
+    if (stood > s->longest.seconds)
+        s->longest = (JoxStood){stood, now, stand->at, a->id[i]};
+    if (stood >= STILL - 1e-9)
         s->stills[s->still_count++] = at;
 }
 

@@ -68,7 +68,8 @@ static void sample(Collected *c, JoScene *scene) {
         add(c, name, "", exits->items[e].people);
     }
     add(c, "greatest density", "1/m2", c->now);
-    add(c, "mean speed", "m/s", c->samples > 1 ? mean_speed(jox_run_frame(scene)) : NAN);
+    add(c, "mean speed", "m/s",
+        c->samples > 1 ? mean_speed(jox_run_frame(scene, JOX_FRAME_VELOCITIES)) : NAN);
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW) {
             snprintf(name, sizeof name, "passed %.150s", jox_probe_def(probe)->name);

@@ -20,10 +20,12 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->scratch.nav = jox_nav_create(&world->model.walking);
     jox_nav_set_literal(world->scratch.nav, def->literal);
     jox_nav_set_isa(world->scratch.nav, world->model.def.isa);
+    jox_nav_set_memory(world->scratch.nav, &world->scratch.memory);
     JoxForceOptions options = jox_force_default_options();
     options.literal = def->literal;
     world->scratch.forces = jox_forces_create(&options);
     jox_forces_set_isa(world->scratch.forces, world->model.def.isa);
+    jox_forces_set_memory(world->scratch.forces, &world->scratch.memory);
     JoxBodiesDef bodies = jox_bodies_def();
     bodies.gravity = def->gravity;
     bodies.lost = def->lost_bodies;
@@ -63,6 +65,7 @@ static void free_world(JoWorld *world) {
     jox_machines_free(&world->machines);
     jox_nav_free(world->scratch.nav);
     jox_forces_free(world->scratch.forces);
+    jox_stage_memory_free(&world->scratch.memory);
     jox_bodies_free(world->state.bodies);
     jox_agents_free(&world->state.agents);
     jox_walls_free(&world->model.all_walls);

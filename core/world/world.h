@@ -16,6 +16,7 @@
 #include "jostle.h"
 #include "machine/run.h"
 #include "nav/nav.h"
+#include "task/stage_memory.h"
 #include "world/drag.h"
 #include "world/events.h"
 #include "world/exits.h"
@@ -97,6 +98,7 @@ typedef struct JoxWorldScratch {
     JoxPool *pool;
     bool timed; /* somebody may ask for times */
     JoxNeighbours neighbours;
+    JoxStageMemory memory; /* of nav and forces */
     JoxNav *nav;
     JoxForces *forces;
     JoxWalls walls;     /* those that stand */
