@@ -28,7 +28,6 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     s->in_state = jox_realloc(s->in_state, n, sizeof *s->in_state);
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
-    s->heading = jox_realloc(s->heading, n, sizeof *s->heading);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
     s->spare = jox_realloc(s->spare, JOX_SORT_SPARE(n), sizeof *s->spare);
     s->queue = jox_realloc(s->queue, n, sizeof *s->queue);

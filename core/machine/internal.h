@@ -36,9 +36,10 @@ typedef struct JoxMachineScratch {
     int16_t *fired;     /* per agent: transition to take, -1 none */
     uint32_t *rank;     /* per agent: place in the queue it stands in */
     int32_t *queue;     /* per agent that queues: where */
-    JoxV2 *heading;     /* per agent: the velocity it preferred in the step before */
-    uint32_t *list;     /* agents that take something, by id */
-    uint32_t *spare;    /* room to sort it */
+    JoxV2 *heading;     /* per agent: the velocity it preferred in the step before; or NULL */
+    size_t heading_capacity;
+    uint32_t *list;  /* agents that take something, by id */
+    uint32_t *spare; /* room to sort it */
     uint32_t list_count;
     JoxV2 *row;                  /* per agent that stands in a row: where in it */
     struct JoxRowEntry *entries; /* those who do */
@@ -98,6 +99,13 @@ float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t inde
    size. */
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t agent);
 float jox_driven(const JoxMachineRun *run, uint32_t agent);
+/* The velocity that an agent preferred in the step before, m/s. Where no machine asks, none is
+   kept, and whoever looks on sees the present one. */
+static inline JoxV2 jox_heading_of(const JoxMachineRun *run, uint32_t agent) {
+    const JoxAgents *a = run->agents;
+    return run->scratch->heading ? run->scratch->heading[agent]
+                                 : (JoxV2){a->pref_x[agent], a->pref_y[agent]};
+}
 /* Free distance ahead, m. */
 float jox_headway(const JoxMachineRun *run, uint32_t agent);
 

@@ -325,8 +325,9 @@ typedef struct JoxMachine {
     } * renamed; /* states, own values and memory of older versions */
     uint32_t renamed_count;
     uint32_t hook_count;
-    bool views; /* hooks look at other agents: as they were before the step */
-    int32_t vm; /* which Lua state owns the hooks; -1 none */
+    bool views;    /* hooks look at other agents: as they were before the step */
+    bool headings; /* it asks where others headed in the step before; set when it is put in a set */
+    int32_t vm;    /* which Lua state owns the hooks; -1 none */
 } JoxMachine;
 
 /* A state, and a transition, that do nothing yet: every index is -1. The names are taken over. */

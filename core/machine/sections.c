@@ -99,14 +99,20 @@ void jox_machines_forget(JoxMachineRun *run) {
     struct {
         void *cells;
         size_t size;
-    } all[] = {{s->grouped, sizeof *s->grouped}, {s->in_state, sizeof *s->in_state},
-               {s->fired, sizeof *s->fired},     {s->rank, sizeof *s->rank},
-               {s->queue, sizeof *s->queue},     {s->heading, sizeof *s->heading},
-               {s->list, sizeof *s->list},       {run->push_on, 1},
-               {run->push_nearest, 1},           {run->push_toward_x, 4},
+    } all[] = {{s->grouped, sizeof *s->grouped},
+               {s->in_state, sizeof *s->in_state},
+               {s->fired, sizeof *s->fired},
+               {s->rank, sizeof *s->rank},
+               {s->queue, sizeof *s->queue},
+               {s->list, sizeof *s->list},
+               {run->push_on, 1},
+               {run->push_nearest, 1},
+               {run->push_toward_x, 4},
                {run->push_toward_y, 4}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         memset(all[k].cells, 0xa5, n * all[k].size);
+    if (s->heading)
+        memset(s->heading, 0xa5, s->heading_capacity * sizeof *s->heading);
     if (s->place_capacity)
         memset(s->place_people, 0xa5, s->place_capacity * sizeof *s->place_people);
 }

@@ -25,10 +25,25 @@ static void number(JoxMachineRun *run, JoxMachine *machine) {
     }
 }
 
+/* Whether a state evades, or something asks for headway, as functions may. */
+static bool asks_for_headings(const JoxMachine *machine) {
+    bool asks = machine->hook_count > 0;
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        for (uint32_t t = 0; t < machine->states[s].steer_count; t++)
+            asks |= machine->states[s].steer[t].kind == JOX_STEER_EVADE;
+    for (uint32_t e = 0; e < machine->expression_count; e++)
+        for (uint32_t k = 0; k < machine->expressions[e].count; k++) {
+            const JoxInstruction *in = &machine->expressions[e].code[k];
+            asks |= in->op == JOX_OP_NOW && in->arg == JOX_NOW_headway;
+        }
+    return asks;
+}
+
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
     JOX_CHECK(jox_machine_check(machine));
     number(run, machine);
+    machine->headings = asks_for_headings(machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
     jox_counts_begin(&run->state->counts[index], machine, run->tick);

@@ -201,7 +201,6 @@ float jox_headway(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    const JoxV2 *heading = run->scratch->heading;
     JoxV2 ahead = jox_unit((JoxV2){a->pref_x[i], a->pref_y[i]});
     if (jox_length2(ahead) == 0.0f)
         ahead = (JoxV2){a->face_x[i], a->face_y[i]};
@@ -211,7 +210,7 @@ float jox_headway(const JoxMachineRun *run, uint32_t i) {
         JoxV2 d = jox_offset(a, i, j);
         float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
         float sum = jox_at(radius, i) + jox_at(radius, j);
-        if (along > 0.0f && aside < sum / 2.0f && jox_dot(heading[j], ahead) >= 0.0f)
+        if (along > 0.0f && aside < sum / 2.0f && jox_dot(jox_heading_of(run, j), ahead) >= 0.0f)
             best = jox_minf(best, jox_maxf(along - sum, 0.0f));
     }
     return best;

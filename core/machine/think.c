@@ -252,8 +252,19 @@ static bool any_views(const JoxMachineRun *run) {
 /* Kept apart, since the stage prefer writes new ones while agents look at each other's. */
 static void keep_headings(JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
+    JoxMachineScratch *s = run->scratch;
+    bool asked = false;
+    for (uint32_t m = 0; m < run->set->count; m++)
+        asked |= run->set->items[m]->headings;
+    if (!asked) {
+        jox_free(s->heading);
+        s->heading = NULL;
+        s->heading_capacity = 0;
+        return;
+    }
+    JOX_RESERVE(s->heading, s->heading_capacity, a->count);
     for (uint32_t i = 0; i < a->count; i++)
-        run->scratch->heading[i] = (JoxV2){a->pref_x[i], a->pref_y[i]};
+        s->heading[i] = (JoxV2){a->pref_x[i], a->pref_y[i]};
 }
 
 void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {

@@ -79,7 +79,6 @@ static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
 JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
-    const JoxV2 *heading = run->scratch->heading;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
     float sum = 0.0f, reach = jox_param(a, JOX_PARAM_perception, i);
@@ -88,7 +87,8 @@ JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
         JoxV2 d = jox_offset(a, i, j);
         float along = jox_dot(d, ahead), aside = jox_dot(d, right),
               wide = jox_at(radius, i) + jox_at(radius, j);
-        if (along <= 0.0f || jox_dot(heading[j], ahead) >= 0.0f || fabsf(aside) > 2.0f * wide)
+        if (along <= 0.0f || jox_dot(jox_heading_of(run, j), ahead) >= 0.0f ||
+            fabsf(aside) > 2.0f * wide)
             continue;
         float nearness = jox_maxf(0.0f, 1.0f - along / reach);
         sum += aside > 0.5f * wide ? -nearness : nearness;
