@@ -267,7 +267,7 @@ $(B)/units: tests/unit/all/units.c $(UNIT:%=%.o) $(B)/internal.a
 	$(call say,LINK,$@)
 	@mkdir -p $@.parts && rm -f $@.parts/*
 	@printf 'UNIT(%s)\n' $(notdir $(UNIT)) >$@.parts/list.h
-	$(Q)$(CC) -std=c17 $(OPT) $(WARN) -fPIC -DUNITS='"$@.parts/list.h"' -I. $(CPPFLAGS_ALL) -c $< -o $@.parts/units.o
+	$(Q)$(CC) -std=c17 $(OPT) $(WARN) -fPIC -DUNITS='"$@.parts/list.h"' -I. -c $< -o $@.parts/units.o
 	$(Q)for unit in $(notdir $(UNIT)); do \
 	    $(CROSS)objcopy --redefine-sym main=unit_$$unit $(B)/unit/$$unit.o $@.parts/$$unit.o || exit 1; done
 	$(Q)$(LINK) $@.parts/*.o $(B)/internal.a -o $@ -lcmocka $(LIBS)

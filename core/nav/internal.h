@@ -55,7 +55,6 @@ struct JoxNav {
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
     uint32_t capacity;
     JoxDrift *chunk_drift; /* in a step, per chunk of move */
-    JoxV2 *position[2];    /* of the memory of move, for projection */
     uint32_t *chunk_relaxed;
     JoxHeading *headings; /* of walk, and of solve where somebody walks */
     float *chunk_reach;   /* m: of walk; below 0 where nobody walks */

@@ -92,7 +92,8 @@ typedef struct JoxMove {
     float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
                                         step, and its mean over the step */
     float stiffness;                 /* share of an overlap removed by one sweep */
-    int from;                        /* which position buffer a sweep reads */
+    JoxV2 *position[2];              /* m: before a sweep, and behind it */
+    int from;                        /* which of them a sweep reads */
 } JoxMove;
 
 #define JOX_STILL_REACH 0.25f /* m: less than this counts as not having moved */

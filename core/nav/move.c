@@ -44,8 +44,8 @@ static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t wor
     (void)worker;
     JoxMove *m = context;
     const JoxParameterColumn radius = m->agents->param[JOX_PARAM_radius];
-    const JoxV2 *from = m->nav->position[m->from];
-    JoxV2 *to = m->nav->position[!m->from];
+    const JoxV2 *from = m->position[m->from];
+    JoxV2 *to = m->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
@@ -70,8 +70,8 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
     (void)worker;
     JoxMove *m = context;
     const JoxContactPlanes *t = m->touched;
-    const JoxV2 *from = m->nav->position[m->from];
-    JoxV2 *to = m->nav->position[!m->from];
+    const JoxV2 *from = m->position[m->from];
+    JoxV2 *to = m->position[!m->from];
     memcpy(to + begin, from + begin, (end - begin) * sizeof *to);
     for (uint32_t i = begin; i < end; i++) {
         if (!t->people[i] && !t->bodies[i]) {
@@ -127,8 +127,8 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                     .on_the_way = (float)on_the_way};
     jox_stage_memory_begin(nav->memory, 2 * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
     for (int i = 0; i < 2; i++)
-        nav->position[i] =
-            jox_stage_memory_take(nav->memory, agents->count, sizeof *nav->position[i]);
+        move.position[i] =
+            jox_stage_memory_take(nav->memory, agents->count, sizeof *move.position[i]);
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {

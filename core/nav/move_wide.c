@@ -28,7 +28,7 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
         jv_store(a->vx, a->vy, i, jv_add(forced, jv_scale(rest, response)));
         jv_store(x, y, 0, to);
         for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
-            m->nav->position[0][i + lane] = (JoxV2){x[lane], y[lane]};
+            m->position[0][i + lane] = (JoxV2){x[lane], y[lane]};
     }
 }
 
@@ -102,8 +102,8 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         const uint32_t there = lanes_of(i, end);
         float x[JOX_WIDTH] = {0.0f}, y[JOX_WIDTH] = {0.0f};
         for (uint32_t lane = 0; there >> lane; lane++) {
-            x[lane] = m->nav->position[0][i + lane].x;
-            y[lane] = m->nav->position[0][i + lane].y;
+            x[lane] = m->position[0][i + lane].x;
+            y[lane] = m->position[0][i + lane].y;
         }
         const uint32_t walled = there & near_walls(grid, from, jv_sub(jv_load(x, y, 0), from));
         for (uint32_t lane = 0; walled >> lane; lane++) {

@@ -27,6 +27,7 @@ typedef struct Crowd {
     JoxNav *nav;
     JoxWalls walls;
     JoxMove move;
+    JoxV2 at[PEOPLE + JOX_LANES];
 } Crowd;
 
 static void begin(Crowd *c, uint32_t number) {
@@ -60,8 +61,12 @@ static void begin(Crowd *c, uint32_t number) {
         a->still[i] = draw(number, &drawn, 0.0, 5.0);
         a->breadth[i] = 0.2f;
     }
-    c->move =
-        (JoxMove){.nav = c->nav, .agents = a, .dt = 0.05f, .response = 0.6f, .on_the_way = 0.35f};
+    c->move = (JoxMove){.nav = c->nav,
+                        .agents = a,
+                        .dt = 0.05f,
+                        .response = 0.6f,
+                        .on_the_way = 0.35f,
+                        .position = {c->at}};
 }
 
 static void end(Crowd *c) {

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/number/numeric.h"
-
 typedef int UnitMain(int argc, char **argv);
 
 #define UNIT(name) UnitMain unit_##name;
@@ -33,7 +31,6 @@ static int run(const char *name) {
 
 int main(int argc, char **argv) {
     int worst = argc < 2 ? 2 : 0;
-    jox_numeric_use(jox_numeric_plain()); /* as within public calls */
     if (argc < 2)
         fprintf(stderr, "usage: %s NAME...\n", argv[0]);
     for (int n = 1; n < argc; n++) {
