@@ -13,6 +13,8 @@ enum { MOST_FIELDS = 64 };
    doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
 static const float MOST_CELLS = 400000.0f;
+/* Of a field that goes by where the crowd is: it is old news soon, and made again and again. */
+static const float MOST_CROWD_CELLS = 100000.0f;
 static const float CLEARANCE = 0.15f;  /* m: half of a person who turns sideways */
 static const float MOST_ROOM = 1.5f;   /* times the box that is needed */
 static const float SPARE = 3.0f;       /* m more, once people have gone beyond the box before */
@@ -181,7 +183,8 @@ static bool is_room(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells; where
    it can be, it is that of the field before: so those that are made anew judge narrow gaps alike,
    and what walls do to them needs no second look. */
-static void lay_out(const JoxRouteStage *w, const JoxField *before, Making *making) {
+static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_cells,
+                    Making *making) {
     const JoxWalls *walls = w->all_walls;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < walls->count + w->agents->count; i++) {
@@ -194,7 +197,7 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, Making *maki
     low = jox_sub(low, (JoxV2){MARGIN, MARGIN});
     high = jox_add(high, (JoxV2){MARGIN, MARGIN});
     int c = 0;
-    while (c < 3 && (high.x - low.x) * (high.y - low.y) > MOST_CELLS * CELLS[c] * CELLS[c])
+    while (c < 3 && (high.x - low.x) * (high.y - low.y) > most_cells * CELLS[c] * CELLS[c])
         c++;
     float cell = CELLS[c];
     JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
@@ -219,7 +222,8 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
     jox_obstacles_add(&routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
     copy_places(w, place, making);
-    lay_out(w, routes->fields[place * JOX_ROUTE_KINDS + kind], making);
+    lay_out(w, routes->fields[place * JOX_ROUTE_KINDS + kind],
+            kind == JOX_ROUTE_CROWD ? MOST_CROWD_CELLS : MOST_CELLS, making);
     if (kind == JOX_ROUTE_CROWD) {
         copy_crowd(w, place, &making->crowd);
         making->keeps_marks = true;
