@@ -39,6 +39,23 @@ static JoxV2 velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
     return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
 }
 
+/* Of all who are seen. */
+static void take_velocities(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
+    jox_track_reserve(&l->track, frame);
+    if (frame->count > l->people) {
+        l->people = frame->count;
+        l->vx = jox_realloc(l->vx, l->people, sizeof *l->vx);
+        l->vy = jox_realloc(l->vy, l->people, sizeof *l->vy);
+    }
+    for (uint32_t i = 0; i < frame->count; i++) {
+        if (seen && !seen[i])
+            continue;
+        const JoxV2 v = velocity(l, frame, i);
+        l->vx[i] = v.x;
+        l->vy[i] = v.y;
+    }
+}
+
 /* Times are multiples of a step, whose sum may fall short of them by a hair. */
 static int64_t stretch_of(double t) {
     return (int64_t)floor(t / JOX_PRESSURE_PACE + 1e-6);
@@ -55,17 +72,16 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     l->time = frame->time;
     l->samples++;
     if (l->pressure)
-        jox_track_reserve(&l->track, frame);
+        take_velocities(l, frame, seen);
+    const JoxDensityCrowd crowd = {.count = frame->count,
+                                   .x = frame->x,
+                                   .y = frame->y,
+                                   .period = frame->period,
+                                   .seen = seen,
+                                   .weights = {NULL, l->vx, l->vy}};
     jox_density_walls(l->grid, frame->walls);
-    jox_density_begin(l->grid, l->pressure ? 3 : 1);
-    for (uint32_t i = 0; i < frame->count; i++) {
-        if (seen && !seen[i])
-            continue;
-        JoxV2 v = l->pressure ? velocity(l, frame, i) : jox_v2(0, 0);
-        jox_density_put(l->grid, frame->period, frame->x[i], frame->y[i],
-                        (float[3]){1.0f, v.x, v.y});
-    }
-    jox_density_end(l->grid, (float *[3]){l->grid->now, l->flow_x, l->flow_y});
+    jox_density_sample(l->grid, &crowd, l->pressure ? 3 : 1,
+                       (float *[]){l->grid->now, l->flow_x, l->flow_y});
     jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
     if (l->tracked) /* else nobody's way since the last sample is known */
         jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
@@ -97,6 +113,8 @@ void jox_local_free(JoxLocal *l) {
     jox_pressure_free(l->pressure);
     jox_free(l->flow_x);
     jox_free(l->flow_y);
+    jox_free(l->vx);
+    jox_free(l->vy);
     jox_free(l->track.items);
     jox_free(l);
 }

@@ -15,6 +15,8 @@ typedef struct JoxLocal {
     JoxDensity *grid; /* its `now` is the last sample's, 1/m2; its `most` of any place and time */
     float *flow_x, *flow_y; /* density times velocity, 1/(m s); NULL unless asked for */
     JoxPressure *pressure;  /* NULL unless asked for */
+    float *vx, *vy;         /* m/s: of the last sample's people, where pressure is asked for */
+    uint32_t people;        /* that there is room for in them */
     double time;            /* s: of the last sample; NAN before the first */
     double mean_from;       /* s: means over time begin then */
     uint32_t samples;

@@ -80,6 +80,7 @@ static bool local_begin(void *self, JoScene *scene, const void *options, JoError
     jox_run_area(scene, &low, &high);
     JoxLocal *local = *(JoxLocal **)self = jox_local_create(low, high);
     local->mean_from = scene->spec->heatmap_from;
+    local->grid->isa = scene->world->model.def.isa;
     return true;
 }
 

@@ -14,7 +14,7 @@ enum { PEOPLE = 35000, ROUNDS = 20, FIELDS = 3 };
 static const double PI = 3.14159265358979;
 static const float SIZE = 50.0f, CELL = 0.316f;
 
-static float x[PEOPLE], y[PEOPLE];
+static float x[PEOPLE], y[PEOPLE], vx[PEOPLE], vy[PEOPLE];
 static float *fields[FIELDS];
 
 static double now(void) {
@@ -35,6 +35,8 @@ static void gather(void) {
         float r = 14.0f + 34.0f * at[0] * sqrtf(at[0]), a = 6.2831853f * at[1];
         x[i] = r * cosf(a);
         y[i] = r * sinf(a);
+        vx[i] = 0.5f;
+        vy[i] = -0.5f;
     }
 }
 
@@ -80,10 +82,8 @@ static void add_up(const JoxDensity *d) {
 }
 
 static void sample(JoxDensity *d) {
-    jox_density_begin(d, FIELDS);
-    for (int i = 0; i < PEOPLE; i++)
-        jox_density_put(d, (JoxV2){0, 0}, x[i], y[i], (float[FIELDS]){1.0f, 0.5f, -0.5f});
-    jox_density_end(d, fields);
+    const JoxDensityCrowd crowd = {.count = PEOPLE, .x = x, .y = y, .weights = {NULL, vx, vy}};
+    jox_density_sample(d, &crowd, FIELDS, fields);
 }
 
 int main(void) {

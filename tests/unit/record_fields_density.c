@@ -271,6 +271,7 @@ static void edges_and_changes(void **state) {
     JoxDensity *d = grid(0, 10, 0.2f);
     JoxWalls walls = {0};
     float x = 0.1f, y = 5.0f;
+    jox_density_want_mean(d);
     jox_density_add(d, (JoxV2){10, 0}, &x, &y, 1, 0);
     assert_near(at(d, 9.9f, 5), exp(-0.04) / 3.14159265, 0.01);
     assert_near(whole(d), 1.0, 1e-3);
@@ -360,15 +361,19 @@ static void runs_change_nothing(void **state) {
     for (uint32_t r = 0; r < d->floor->run_count; r++)
         plain += d->floor->runs[r].plain;
     assert_in_range(plain, 50, d->floor->run_count - 50);
-    jox_density_begin(d, 1);
-    srand(5);
-    for (int i = 0; i < 200; i++)
-        jox_density_put(d, NO_PERIOD, 20.0f * (float)rand() / (float)RAND_MAX,
-                        20.0f * (float)rand() / (float)RAND_MAX, (float[1]){1.0f});
+    float x[200], y[200];
+    const JoxDensityCrowd crowd = {.count = 200, .x = x, .y = y};
+    uint32_t chance = 5;
+    for (int i = 0; i < 200; i++) {
+        x[i] = 20.0f * dice(&chance);
+        y[i] = 20.0f * dice(&chance);
+    }
+    jox_density_strip(d, 1, 0, d->high);
+    jox_density_put(d, &crowd);
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     float *is = jox_alloc(cells, sizeof *is), *next = jox_alloc(cells, sizeof *next);
     for (size_t c = 0; c < cells; c++)
-        is[c] = d->mass[0][c] * d->floor->per[c];
+        is[c] = d->work.mass[0][c] * d->floor->per[c];
     const float wide = d->kernel / d->cell, whole_way = 0.5f * (wide * wide - 1.0f / 6.0f);
     const int steps = (int)ceilf(whole_way / JOX_DENSITY_SHARE);
     for (int s = 0; s < steps; s++) {
@@ -377,10 +382,10 @@ static void runs_change_nothing(void **state) {
         is = next;
         next = swap;
     }
-    jox_density_spread(d, 0);
+    jox_density_diffuse(d, 0);
     for (size_t c = 0; c < cells; c++)
-        if (d->mass[0][c] != is[c])
-            fail_msg("cell %zu: %.9g is not %.9g", c, (double)d->mass[0][c], (double)is[c]);
+        if (d->work.mass[0][c] != is[c])
+            fail_msg("cell %zu: %.9g is not %.9g", c, (double)d->work.mass[0][c], (double)is[c]);
     jox_free(is);
     jox_free(next);
     jox_density_free(d);
@@ -426,7 +431,6 @@ static void where_nobody_stands_changes_nothing(void **state) {
         float x[60], y[60], one[60], weight[60];
         JoxDensity *d = grid(-wide, wide, 0.5f);
         float *other = jox_alloc((size_t)d->columns * d->rows, sizeof *other);
-        jox_density_begin(d, 2);
         for (uint32_t i = 0; i < count; i++) {
             x[i] = i % 2 ? x[i - 1] + d->cell : wide * (2.1f * dice(&seed) - 1.05f);
             y[i] = i % 2 ? y[i - 1] : wide * (2.1f * dice(&seed) - 1.05f);
@@ -436,9 +440,9 @@ static void where_nobody_stands_changes_nothing(void **state) {
             }
             one[i] = 1.0f;
             weight[i] = i % 2 ? -1.0f : 1.0f;
-            jox_density_put(d, NO_PERIOD, x[i], y[i], (float[]){1.0f, weight[i]});
         }
-        jox_density_end(d, (float *[]){d->now, other});
+        const JoxDensityCrowd crowd = {.count = count, .x = x, .y = y, .weights = {one, weight}};
+        jox_density_sample(d, &crowd, 2, (float *[]){d->now, other});
         for (size_t c = 0; c < (size_t)d->columns * d->rows; c += 1 + c % 5) {
             const JoxV2 p = jox_density_middle(d, c);
             assert_near(d->now[c], summed(d, x, y, one, count, p), 1e-5);

@@ -269,6 +269,7 @@ static void density_is_that_of_the_people(void **state) {
         y[i] = -8 + 9 * (float)(dice >> 8) / 16777216.0f;
     }
     JoxDensity *d = jox_density_create((JoxV2){-5, -15}, (JoxV2){20, 9}, JOX_DENSITY_CELL, 1.5f);
+    jox_density_want_mean(d);
     jox_density_add(d, (JoxV2){0, 0}, x, y, PEOPLE, 3);
     const double R = 1.5, PI = 3.14159265358979323846;
     double whole = 0, most = 0, worst = 0;

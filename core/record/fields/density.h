@@ -18,47 +18,66 @@
 #include "base/sections.h"
 #include "base/vec.h"
 #include "geom/walls.h"
+#include "simd/isa.h"
 
 #define JOX_DENSITY_KERNEL 0.70710678f /* m: R / sqrt 2, the Gaussian's standard deviation */
 #define JOX_DENSITY_CELL 0.2f          /* m */
-enum { JOX_DENSITY_FIELDS = 6 };       /* that can be spread at once */
+enum { JOX_DENSITY_FIELDS = 3 };       /* that can be spread at once */
 
 typedef struct JoxDensityFloor JoxDensityFloor; /* where the walls let people through */
+
+/* What a sample works with, of a strip of rows at a time. */
+typedef struct JoxDensityWork {
+    int first, end, fields;
+    size_t room;                     /* cells of `mass` */
+    float *mass[JOX_DENSITY_FIELDS]; /* of who was put there */
+    /* For each row of all: which stretches of columns may hold something, as bits. */
+    uint64_t *marks;
+    float *lines[JOX_DENSITY_FIELDS]; /* without walls: the last rows, spread along x */
+    float *spare;                     /* with walls: of all cells, for steps */
+} JoxDensityWork;
 
 typedef struct JoxDensity {
     JoxV2 low;
     float cell; /* m */
     uint32_t columns, rows;
     float *now;  /* of the last frame, 1/m2, row by row from the lowest y */
-    double *sum; /* over frames */
+    double *sum; /* over frames; NULL where means are not wanted */
     uint32_t frames;
     float most; /* greatest value of any frame */
     JoxV2 most_at;
     double most_time; /* s */
 
     /* The cells that are read and `edge` more at every side, for who stands outside. */
+    JoIsa isa;    /* of the kernels; results do not depend on it */
     float kernel; /* m: the standard deviation */
     int edge, wide, high;
-    float *mass[JOX_DENSITY_FIELDS], *spare; /* of who was put there; of a cell */
-    uint64_t *marks;                         /* for each row: where `spare` may hold something */
-    int fields;
-    int from_x, from_y, to_x, to_y; /* the cells in which there is anything, the last included */
-    JoxDensityFloor *floor;         /* NULL: no walls */
+    int stretch; /* columns of a mark are 2 to this */
+    JoxDensityWork work;
+    JoxDensityFloor *floor; /* NULL: no walls */
 } JoxDensity;
 
-/* Cells are widened where the area would take more than four million. */
+/* The people of a sample. */
+typedef struct JoxDensityCrowd {
+    uint32_t count;
+    const float *x, *y;  /* m */
+    JoxV2 period;        /* m: who stands beyond a periodic edge is put there too; 0: none */
+    const uint8_t *seen; /* 1 for who is put; NULL: everyone */
+    const float *weights[JOX_DENSITY_FIELDS]; /* of each, by field; NULL: 1 */
+} JoxDensityCrowd;
+
+/* Cells are widened where the area would take more than two million. */
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
 /* The walls as they stand now; NULL for none. Cheap where nothing has changed. */
 void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
-/* A sample: begin, put each person with a weight for each of the fields, end. Who stands beyond a
-   periodic edge (period 0: none) is put there too. `out`: columns times rows values each, the sums
-   of the weights per m2. */
-void jox_density_begin(JoxDensity *density, int fields);
-void jox_density_put(JoxDensity *density, JoxV2 period, float x, float y, const float *weights);
-void jox_density_end(JoxDensity *density, float *const *out);
-/* Notes `now` as of time t, s, for the greatest value, and for the mean. */
+/* A sample. `out`: columns times rows values for each of the fields, the sums of weights per m2. */
+void jox_density_sample(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
+                        float *const *out);
+/* From here on means over frames are kept. */
+void jox_density_want_mean(JoxDensity *density);
+/* Notes `now` as of time t, s, for the greatest value and, where it is wanted, the mean. */
 void jox_density_note(JoxDensity *density, double t, bool mean);
-/* A frame of `count` people: begin, put, end and note. */
+/* A frame of `count` people: a sample into `now`, noted. */
 void jox_density_add(JoxDensity *density, JoxV2 period, const float *x, const float *y,
                      uint32_t count, double t);
 /* The cell whose value holds for somebody at (x, y): the nearest on the same side of the walls.

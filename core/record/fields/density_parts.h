@@ -7,6 +7,7 @@
 /* Of the difference of two nodes' densities, most that goes over a whole side in a step; more than
    1/4 would overshoot. */
 #define JOX_DENSITY_SHARE 0.2f
+enum { JOX_DENSITY_MOST_REACH = 511 }; /* cells that the kernel reaches over, and edges are wider */
 
 /* Each cell is a point of the floor, its node. Who stands between nodes is shared among those
    around, and what is shared goes from node to node in steps. */
@@ -38,6 +39,10 @@ struct JoxDensityFloor {
     uint32_t *first, *passing, passing_capacity;
 };
 
+/* density_put.c: makes room for the given rows, in which there is nobody then; puts a crowd there.
+   Within walls a strip is all there is. */
+void jox_density_strip(JoxDensity *density, int fields, int first, int end);
+void jox_density_put(JoxDensity *density, const JoxDensityCrowd *crowd);
 /* density_nodes.c: the lowest corner of all cells; a whole number within 0..most. */
 JoxV2 jox_density_corner(const JoxDensity *density);
 int jox_density_clamped(double value, int most);
@@ -60,9 +65,14 @@ bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c */
 void jox_density_free_floor(JoxDensityFloor *floor);
-/* density_spread.c: lists the runs of a floor; makes a field's masses densities, in 1/cell, by the
- * kernel. */
+/* density_diffuse.c: lists the runs of a floor; makes a field's masses densities, in 1/cell, by the
+   kernel. */
 void jox_density_list_runs(JoxDensity *density);
-void jox_density_spread(JoxDensity *density, int field);
+void jox_density_diffuse(JoxDensity *density, int field);
+/* density_spread.c: what the kernel has left to add, cells2, as sharing somebody among the nodes
+   around has added 1/6 already, in the mean over where one can stand; a sample without walls. */
+float jox_density_variance(const JoxDensity *density);
+void jox_density_spread(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
+                        float *const *out);
 
 #endif

@@ -21,6 +21,8 @@ typedef struct Map {
     JoxDensity *grid;
     JoxLocal *local; /* for crowd pressure */
     float *now[FIELDS];
+    float *speeds; /* m/s: of the last sample's people */
+    uint32_t speed_capacity;
     double *density, *speed, *compression; /* sums over samples */
     float *compression_most;
     double *pressure; /* sum over the samples of `local` that measured it, by its cells */
@@ -116,20 +118,26 @@ static double mean_pressure(const Map *m, JoxV2 at) {
 
 static void sample(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
-    jox_density_begin(m->grid, FIELDS);
+    JOX_RESERVE(m->speeds, m->speed_capacity, frame->count + 1);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])
             continue;
-        float vx = frame->vx[i], vy = frame->vy[i], speed = sqrtf(vx * vx + vy * vy);
-        float pressed = frame->compression ? frame->compression[i] : 0.0f;
-        jox_density_put(m->grid, frame->period, frame->x[i], frame->y[i],
-                        (float[FIELDS]){1.0f, speed, pressed});
+        const float vx = frame->vx[i], vy = frame->vy[i];
+        m->speeds[i] = sqrtf(vx * vx + vy * vy);
         if (frame->compression)
             note_compression(m, frame, i);
-        m->speed_sum += speed;
+        m->speed_sum += m->speeds[i];
         m->people++;
     }
-    jox_density_end(m->grid, m->now);
+    const JoxDensityCrowd crowd = {.count = frame->count,
+                                   .x = frame->x,
+                                   .y = frame->y,
+                                   .period = frame->period,
+                                   .seen = seen,
+                                   .weights = {NULL, m->speeds, frame->compression}};
+    if (!frame->compression)
+        memset(m->now[COMPRESSION], 0, cells_of(m->grid) * sizeof(float));
+    jox_density_sample(m->grid, &crowd, frame->compression ? FIELDS : COMPRESSION, m->now);
     m->has_compression |= frame->compression != NULL;
     sum_up(m, frame->time);
 }
@@ -289,6 +297,7 @@ static void release(void *state) {
     for (int f = 0; f < FIELDS; f++)
         jox_free(m->now[f]);
     jox_free(m->density);
+    jox_free(m->speeds);
     jox_free(m->speed);
     jox_free(m->pressure);
     jox_free(m->measured);
