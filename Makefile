@@ -205,7 +205,7 @@ endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Kernels, and what has loops over numbers that become vector operations, of the same bits.
-VECTORISED := core/record/fields/density core/record/fields/density_put \
+VECTORISED := core/record/fields/density core/record/fields/density_put core/record/fields/density_diffuse \
            core/world/guard core/world/statistics core/agents/agents core/force/forces core/force/infer core/force/load \
            core/machine/group core/machine/think core/machine/target core/nav/perceive core/nav/move \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))

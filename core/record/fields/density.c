@@ -152,6 +152,9 @@ void jox_density_free(JoxDensity *d) {
         jox_free(d->work.lines[f]);
     }
     jox_free(d->work.spare);
+    jox_free(d->work.spans);
+    jox_free(d->work.reached[0]);
+    jox_free(d->work.reached[1]);
     jox_free(d->work.marks);
     jox_free(d->now);
     jox_free(d->sum);

@@ -31,10 +31,19 @@ typedef struct JoxDensityWork {
     int first, end, fields;
     size_t room;                     /* cells of `mass` */
     float *mass[JOX_DENSITY_FIELDS]; /* of who was put there */
-    /* For each row of all: which stretches of columns may hold something, as bits. */
+    /* Without walls, for each row of all: which stretches of columns may hold something, as bits.
+     */
     uint64_t *marks;
     float *lines[JOX_DENSITY_FIELDS]; /* without walls: the last rows, spread along x */
-    float *spare;                     /* with walls: of all cells, for steps */
+    /* With walls, of all cells: for steps; as bits, which of them hold something before and after
+     * one. */
+    float *spare;
+    uint64_t *reached[2];
+    struct JoxDensitySpan {     /* cells of a row that are stepped: from..to - 1 */
+        int row, low, from, to; /* those from `low` on may be stepped with them */
+        bool plain;             /* open on all sides */
+    } * spans;
+    size_t span_count, span_capacity;
 } JoxDensityWork;
 
 typedef struct JoxDensity {

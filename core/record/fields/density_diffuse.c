@@ -9,10 +9,14 @@
 #include "record/fields/density_kernels.h"
 #include "record/fields/density_parts.h"
 
-#define X(name, isa) [isa] = {jox_density_step_mixed_##name, jox_density_step_plain_##name},
-static const struct {
+#define X(name, isa)                                                                               \
+    [isa] = {jox_density_held_##name, jox_density_reach_##name, jox_density_step_mixed_##name,     \
+             jox_density_step_plain_##name},
+static const struct Kernels {
+    JoxDensityHeldKernel *held;
+    JoxDensityReachKernel *reach;
     JoxDensityStepKernel *mixed, *plain;
-} STEP[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static size_t at(const JoxDensity *d, int column, int row) {
@@ -44,7 +48,7 @@ static void add_run(JoxDensityFloor *f, uint32_t first, int from, int to, CellKi
     }
 }
 
-void jox_density_list_runs(JoxDensity *d) {
+static void list_runs(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     f->run_count = 0;
     for (int row = 0; row < d->high; row++) {
@@ -60,32 +64,118 @@ void jox_density_list_runs(JoxDensity *d) {
     f->run_first[d->high] = f->run_count;
 }
 
+/* ---- what can be reached ---- */
+
+/* Cells are bits of words, row by row. */
+
+static size_t words_of(const JoxDensity *d) {
+    return jox_density_words(d) * (size_t)d->high;
+}
+
+static void list_ways(JoxDensity *d) {
+    JoxDensityFloor *f = d->floor;
+    if (!f->right) {
+        f->right = jox_alloc(words_of(d), sizeof *f->right);
+        f->up = jox_alloc(words_of(d), sizeof *f->up);
+    }
+    memset(f->right, 0, words_of(d) * sizeof *f->right);
+    memset(f->up, 0, words_of(d) * sizeof *f->up);
+    for (int row = 0; row < d->high; row++)
+        for (int c = 0; c < d->wide; c++) {
+            if (f->open_x[at(d, c, row)] > 0.0f)
+                *jox_density_word(d, f->right, c, row) |= jox_density_bit(c);
+            if (f->open_y[at(d, c, row)] > 0.0f)
+                *jox_density_word(d, f->up, c, row) |= jox_density_bit(c);
+        }
+}
+
+void jox_density_list_floor(JoxDensity *d) {
+    list_runs(d);
+    list_ways(d);
+}
+
+static void reach_cell(const JoxDensity *d, uint32_t from, uint32_t to, uint64_t *is,
+                       uint64_t *next) {
+    const int wide = d->wide, column = (int)from % wide, row = (int)from / wide;
+    if (*jox_density_word(d, is, column, row) & jox_density_bit(column))
+        *jox_density_word(d, next, (int)to % wide, (int)to / wide) |=
+            jox_density_bit((int)to % wide);
+}
+
+/* What is somewhere now is there or in a cell beside it after a step. */
+static void reach(const JoxDensity *d, uint64_t *is, uint64_t *next) {
+    const JoxDensityFloor *f = d->floor;
+    const int row = (int)jox_density_words(d);
+    KERNELS[jox_isa_resolve(d->isa)].reach(is, f->right, f->up, row, row, row * (d->high - 1),
+                                           next);
+    for (uint32_t s = 0; s < f->slant_count; s++) {
+        reach_cell(d, f->slants[s].a, f->slants[s].b, is, next);
+        reach_cell(d, f->slants[s].b, f->slants[s].a, is, next);
+    }
+}
+
+/* The first column from `from` on, below `to`, that is set, or with `flip` all bits that is not;
+   eight at a time, of which one is set. `to`: there is none. */
+static int seek(const uint64_t *row, int from, int to, uint64_t flip) {
+    while (from < to) {
+        uint64_t word = row[from / 64];
+        word |= word >> 4 & UINT64_C(0x0f0f0f0f0f0f0f0f);
+        word |= word >> 2 & UINT64_C(0x3333333333333333);
+        word |= word >> 1 & UINT64_C(0x5555555555555555);
+        word = (word & UINT64_C(0x0101010101010101)) * 255;
+        word = (word ^ flip) >> (from % 64);
+        if (word) {
+            from += __builtin_ctzll(word);
+            break;
+        }
+        from += 64 - from % 64;
+    }
+    return from < to ? from : to;
+}
+
+/* ---- spans ---- */
+
+/* The cells of a run where `is` has something: all else is zero and stays so. */
+static void add_spans(JoxDensityWork *w, const struct JoxDensityRun *run, int row,
+                      const uint64_t *is) {
+    const int low = run->plain ? run->from : 1; /* what holds for any cell holds for others, too */
+    for (int end, c = seek(is, run->from, run->to, 0); c < run->to; c = seek(is, end, run->to, 0)) {
+        end = seek(is, c, run->to, ~UINT64_C(0));
+        JOX_RESERVE(w->spans, w->span_capacity, w->span_count + 1);
+        w->spans[w->span_count++] = (struct JoxDensitySpan){row, low, c, end, run->plain};
+    }
+}
+
+static void list_spans(JoxDensity *d, uint64_t *is) {
+    const JoxDensityFloor *f = d->floor;
+    d->work.span_count = 0;
+    for (int row = 1; row < d->high - 1; row++) {
+        const uint64_t *bits = jox_density_word(d, is, 0, row);
+        uint64_t any = 0;
+        for (size_t k = 0; k < jox_density_words(d); k++)
+            any |= bits[k];
+        for (uint32_t r = f->run_first[row]; r < f->run_first[row + 1] && any; r++)
+            add_spans(&d->work, &f->runs[r], row, bits);
+    }
+}
+
 /* ---- steps ---- */
 
-/* Columns and rows, the last included. */
-typedef struct Box {
-    int left, low, right, top;
-} Box;
-
-/* One step over the given cells. Those without nodes are zero and stay so. */
-static void step(const JoxDensity *d, float share, const float *from, float *to, Box box) {
+/* One step of what is listed. */
+static void step(const JoxDensity *d, float share, const float *from, float *to) {
     const JoxDensityFloor *f = d->floor;
-    JoxDensityStepKernel *const mixed = STEP[jox_isa_resolve(d->isa)].mixed;
-    JoxDensityStepKernel *const plain = STEP[jox_isa_resolve(d->isa)].plain;
-    for (int row = box.low; row <= box.top; row++) {
-        const size_t line = at(d, 0, row);
+    const struct Kernels *kernels = &KERNELS[jox_isa_resolve(d->isa)];
+    for (size_t k = 0; k < d->work.span_count; k++) {
+        const struct JoxDensitySpan *span = &d->work.spans[k];
+        const size_t line = at(d, 0, span->row);
         const JoxDensityStep s = {.share = share,
                                   .wide = d->wide,
                                   .u = from + line,
                                   .open_x = f->open_x + line,
                                   .open_y = f->open_y + line,
                                   .per = f->per + line};
-        for (uint32_t r = f->run_first[row]; r < f->run_first[row + 1]; r++) {
-            const struct JoxDensityRun *run = &f->runs[r];
-            const int first = run->from > box.left ? run->from : box.left;
-            const int end = run->to < box.right + 1 ? run->to : box.right + 1;
-            (run->plain ? plain : mixed)(&s, first, end, to + line);
-        }
+        (span->plain ? kernels->plain : kernels->mixed)(&s, span->low, span->from, span->to,
+                                                        to + line);
     }
     for (uint32_t s = 0; s < f->slant_count; s++) {
         const uint32_t a = f->slants[s].a, b = f->slants[s].b;
@@ -95,46 +185,41 @@ static void step(const JoxDensity *d, float share, const float *from, float *to,
     }
 }
 
-/* The cells in which there may be anything; false: none. */
-static bool box_of(const JoxDensity *d, Box *box) {
-    uint64_t all = 0;
-    *box = (Box){.low = d->high, .top = -1};
-    for (int row = 0; row < d->high; row++) {
-        all |= d->work.marks[row];
-        if (d->work.marks[row] && row < box->low)
-            box->low = row;
-        if (d->work.marks[row])
-            box->top = row;
-    }
-    if (!all)
-        return false;
-    box->left = __builtin_ctzll(all) << d->stretch;
-    box->right = ((64 - __builtin_clzll(all)) << d->stretch) - 1;
-    return true;
-}
-
-/* With `by` more at every side, of cells that have some on all sides. */
-static Box grown(const JoxDensity *d, Box box, int by) {
-    return (Box){box.left - by > 1 ? box.left - by : 1, box.low - by > 1 ? box.low - by : 1,
-                 box.right + by < d->wide - 2 ? box.right + by : d->wide - 2,
-                 box.top + by < d->high - 2 ? box.top + by : d->high - 2};
+/* Masses become densities; `held`: where there are some. */
+static void divide_by_area(JoxDensity *d, float *mass, uint64_t *held) {
+    JoxDensityHeldKernel *const look = KERNELS[jox_isa_resolve(d->isa)].held;
+    for (int row = 0; row < d->high; row++)
+        for (int c = 0; c < d->wide; c += 64) {
+            const int count = d->wide - c < 64 ? d->wide - c : 64;
+            const float *per = d->floor->per + at(d, c, row);
+            float *cells = mass + at(d, c, row);
+            const uint64_t some = look(cells, count);
+            *jox_density_word(d, held, c, row) = some;
+            for (int k = 0; k < count && some; k++)
+                cells[k] *= per[k];
+        }
 }
 
 void jox_density_diffuse(JoxDensity *d, int field) {
+    enum { LISTED = 8 }; /* steps for which cells are listed at once */
     JoxDensityWork *w = &d->work;
+    const size_t cells = (size_t)d->wide * (size_t)d->high;
     const float whole = 0.5f * jox_density_variance(d);
     const int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
-    Box box;
-    if (!box_of(d, &box))
-        return;
     if (!w->spare)
-        w->spare = jox_alloc((size_t)d->wide * (size_t)d->high, sizeof *w->spare);
-    memset(w->spare, 0, (size_t)d->wide * (size_t)d->high * sizeof *w->spare);
-    for (int row = box.low; row <= box.top; row++)
-        for (int c = box.left; c <= box.right && c < d->wide; c++)
-            w->mass[field][at(d, c, row)] *= d->floor->per[at(d, c, row)];
-    for (int s = 1; s <= steps; s++) { /* as far as a slant reaches */
-        step(d, whole / (float)steps, w->mass[field], w->spare, grown(d, box, 2 * s));
+        w->spare = jox_alloc(cells, sizeof *w->spare);
+    for (int k = 0; k < 2; k++)
+        if (!w->reached[k])
+            w->reached[k] = jox_alloc(words_of(d), sizeof *w->reached[k]);
+    memset(w->spare, 0, cells * sizeof *w->spare);
+    divide_by_area(d, w->mass[field], w->reached[0]);
+    for (int s = 0; s < steps; s++) {
+        if (s % LISTED == 0) {
+            for (int k = s; k < s + LISTED && k < steps; k++)
+                reach(d, w->reached[k % 2], w->reached[(k + 1) % 2]);
+            list_spans(d, w->reached[(s + LISTED < steps ? s + LISTED : steps) % 2]);
+        }
+        step(d, whole / (float)steps, w->mass[field], w->spare);
         float *swap = w->mass[field];
         w->mass[field] = w->spare;
         w->spare = swap;

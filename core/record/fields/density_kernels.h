@@ -30,25 +30,34 @@ typedef struct JoxDensityPlaced {
 /* Places `count` people, no more than at once; false: none is wanted. */
 typedef bool JoxDensityPlaceKernel(const JoxDensityAxis *axis, const float *at, uint32_t count,
                                    JoxDensityPlaced *placed);
+/* Which of so many cells, no more than 64, hold something: bits. */
+typedef uint64_t JoxDensityHeldKernel(const float *cells, int count);
 /* out[c] = scale * the sum of taps[k] * rows[k][c], added from the first row on. */
 typedef void JoxDensitySumKernel(const float *const *rows, const float *taps, int count,
                                  float scale, float *out, int columns);
 
-/* A step of diffusion along a row: what it reads, of density_diffuse.c. Pointers are to the row's
-   first cell; those that end in `_down` are of the row below. */
+/* A step of diffusion along a row: what it reads, from the row's first cell on (see
+   density_diffuse.c). */
 typedef struct JoxDensityStep {
     float share;
     int wide;       /* from a row to the next */
     const float *u; /* densities */
     const float *open_x, *open_y, *per;
 } JoxDensityStep;
-/* Cells from..to - 1. */
-typedef void JoxDensityStepKernel(const JoxDensityStep *step, int from, int to, float *out);
+/* Cells from..to - 1; those from `low` on may be stepped, too. */
+typedef void JoxDensityStepKernel(const JoxDensityStep *step, int low, int from, int to,
+                                  float *out);
+/* Of words from..to - 1 of cells as bits, `row` words to a row: what can be reached from `is` in a
+   step by the ways to the right of cells and up from them. */
+typedef void JoxDensityReachKernel(const uint64_t *is, const uint64_t *right, const uint64_t *up,
+                                   int row, int from, int to, uint64_t *next);
 
 #define X(name, isa)                                                                               \
     JoxDensityPlaceKernel jox_density_place_##name;                                                \
+    JoxDensityHeldKernel jox_density_held_##name;                                                  \
     JoxDensitySumKernel jox_density_sum_##name;                                                    \
-    JoxDensityStepKernel jox_density_step_mixed_##name, jox_density_step_plain_##name;
+    JoxDensityStepKernel jox_density_step_mixed_##name, jox_density_step_plain_##name;             \
+    JoxDensityReachKernel jox_density_reach_##name;
 JOX_ISAS(X)
 #undef X
 

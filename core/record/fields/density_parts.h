@@ -31,6 +31,7 @@ struct JoxDensityFloor {
         bool plain;
     } * runs;
     uint32_t run_count, run_capacity, *run_first;
+    uint64_t *right, *up; /* cells as bits: whether there is a way to the next along x, along y */
     /* Stretches of walls, and by cell those that pass through it. */
     struct JoxDensityBar {
         double ax, ay, bx, by;
@@ -65,9 +66,20 @@ bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c */
 void jox_density_free_floor(JoxDensityFloor *floor);
-/* density_diffuse.c: lists the runs of a floor; makes a field's masses densities, in 1/cell, by the
-   kernel. */
-void jox_density_list_runs(JoxDensity *density);
+/* Cells as bits, in whole words for each row. */
+static inline size_t jox_density_words(const JoxDensity *density) {
+    return (size_t)density->wide / 64 + 1;
+}
+static inline uint64_t *jox_density_word(const JoxDensity *density, uint64_t *bits, int column,
+                                         int row) {
+    return bits + (size_t)row * jox_density_words(density) + column / 64;
+}
+static inline uint64_t jox_density_bit(int column) {
+    return UINT64_C(1) << (column % 64);
+}
+/* density_diffuse.c: lists the runs and ways of a floor; makes a field's masses densities, in
+   1/cell, by the kernel. */
+void jox_density_list_floor(JoxDensity *density);
 void jox_density_diffuse(JoxDensity *density, int field);
 /* density_spread.c: what the kernel has left to add, cells2, as sharing somebody among the nodes
    around has added 1/6 already, in the mean over where one can stand; a sample without walls. */

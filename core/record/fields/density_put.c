@@ -1,4 +1,4 @@
-/* Who is put on the nodes of a strip of rows, and which stretches of them then hold something. */
+/* Who is put on the nodes of a strip of rows. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -28,9 +28,6 @@ void jox_density_strip(JoxDensity *d, int fields, int first, int end) {
             w->mass[f] = jox_alloc(w->room, sizeof(float));
         memset(w->mass[f], 0, cells * sizeof(float));
     }
-    if (!w->marks)
-        w->marks = jox_alloc((size_t)d->high, sizeof *w->marks);
-    memset(w->marks + first, 0, (size_t)(end - first) * sizeof *w->marks);
     w->first = first;
     w->end = end;
     w->fields = fields;
@@ -38,52 +35,34 @@ void jox_density_strip(JoxDensity *d, int fields, int first, int end) {
 
 /* ---- people ---- */
 
-/* A part of somebody goes to a node; of the strip's alone. */
-static void give(JoxDensity *d, int column, int row, float share, const float *weights) {
-    JoxDensityWork *w = &d->work;
-    const size_t node = (size_t)(row - w->first) * (size_t)d->wide + (size_t)column;
-    for (int f = 0; f < w->fields; f++)
-        w->mass[f][node] += share * weights[f];
-}
-
-static void mark(JoxDensity *d, int column, int row) {
-    d->work.marks[row] |= UINT64_C(1) << (column >> d->stretch);
-}
-
 /* Somebody within sight of a wall or a solid. */
 static void put_near(JoxDensity *d, float x, float y, const float *weights) {
     uint32_t nodes[4];
     float shares[4];
     const int count = jox_density_share(d, x, y, nodes, shares);
-    for (int k = 0; k < count; k++) {
-        const int column = (int)nodes[k] % d->wide, row = (int)nodes[k] / d->wide;
-        if (shares[k] == 0.0f)
-            continue;
-        give(d, column, row, shares[k], weights);
-        mark(d, column, row);
+    for (int k = 0; k < count; k++)
+        for (int f = 0; f < d->work.fields; f++)
+            d->work.mass[f][nodes[k]] += shares[k] * weights[f];
+}
+
+/* Of an array of a strip, at the lower left of four nodes that take `mass`, of rows `below` and
+   `above` those that the strip has. */
+static inline void add(float *at, ptrdiff_t wide, const float shares[4], float weight, bool below,
+                       bool above) {
+    if (below) {
+        at[0] += shares[0] * weight;
+        at[1] += shares[1] * weight;
+    }
+    if (above) {
+        at[wide] += shares[2] * weight;
+        at[wide + 1] += shares[3] * weight;
     }
 }
 
-/* Somebody between four nodes, of which this is the lowest. */
-static void put_between(JoxDensity *d, int column, int row, float right, float above,
-                        const float *weights) {
-    const float left = 1.0f - right, below = 1.0f - above;
-    if (row >= d->work.first) {
-        give(d, column, row, left * below, weights);
-        give(d, column + 1, row, right * below, weights);
-        mark(d, column, row);
-        mark(d, column + 1, row);
-    }
-    if (row + 1 < d->work.end) {
-        give(d, column, row + 1, left * above, weights);
-        give(d, column + 1, row + 1, right * above, weights);
-        mark(d, column, row + 1);
-        mark(d, column + 1, row + 1);
-    }
-}
-
+/* A chunk of a crowd. */
 typedef struct Chunk {
     JoxDensityPlaced across, up;
+    uint32_t from, count; /* of the crowd's people */
 } Chunk;
 
 static bool is_near(const JoxDensity *d, int column, int row, float right, float above) {
@@ -91,23 +70,37 @@ static bool is_near(const JoxDensity *d, int column, int row, float right, float
     return d->floor && d->floor->near[own_row * d->wide + own_column];
 }
 
-/* Person i of the crowd, the k-th of the chunk, with all images. */
-static void put_images(JoxDensity *d, const JoxDensityCrowd *crowd, const Chunk *chunk, uint32_t i,
-                       uint32_t k) {
-    float weights[JOX_DENSITY_FIELDS];
-    for (int f = 0; f < d->work.fields; f++)
-        weights[f] = crowd->weights[f] ? crowd->weights[f][i] : 1.0f;
-    for (uint32_t c = chunk->across.images[k]; c; c &= c - 1)
-        for (uint32_t r = chunk->up.images[k]; r; r &= r - 1) {
-            const int a = __builtin_ctz(c), b = __builtin_ctz(r);
-            const int column = (int)chunk->across.node[a][k], row = (int)chunk->up.node[b][k];
-            const float right = chunk->across.share[a][k], above = chunk->up.share[b][k];
-            if (is_near(d, column, row, right, above))
-                put_near(d, crowd->x[i] + (float)(a - 1) * crowd->period.x,
-                         crowd->y[i] + (float)(b - 1) * crowd->period.y, weights);
-            else
-                put_between(d, column, row, right, above, weights);
-        }
+/* The k-th of the chunk, as images a along x and b along y. */
+static inline void put_image(JoxDensity *d, const JoxDensityCrowd *crowd, const Chunk *chunk,
+                             uint32_t k, int a, int b, int fields, const float *weights) {
+    const JoxDensityWork *w = &d->work;
+    const int column = (int)chunk->across.node[a][k], row = (int)chunk->up.node[b][k];
+    const float right = chunk->across.share[a][k], above = chunk->up.share[b][k];
+    if (is_near(d, column, row, right, above)) {
+        put_near(d, crowd->x[chunk->from + k] + (float)(a - 1) * crowd->period.x,
+                 crowd->y[chunk->from + k] + (float)(b - 1) * crowd->period.y, weights);
+        return;
+    }
+    const float left = 1.0f - right, below = 1.0f - above;
+    const float shares[4] = {left * below, right * below, left * above, right * above};
+    const ptrdiff_t node = (ptrdiff_t)(row - w->first) * d->wide + column;
+    for (int f = 0; f < fields; f++)
+        add(w->mass[f] + node, d->wide, shares, weights[f], row >= w->first, row + 1 < w->end);
+}
+
+static inline __attribute__((always_inline)) void
+put_chunk(JoxDensity *d, const JoxDensityCrowd *crowd, const Chunk *chunk, int fields) {
+    float weights[JOX_DENSITY_FIELDS] = {0.0f};
+    for (uint32_t k = 0; k < chunk->count; k++) {
+        const uint32_t i = chunk->from + k;
+        if (crowd->seen && !crowd->seen[i])
+            continue;
+        for (int f = 0; f < fields; f++)
+            weights[f] = crowd->weights[f] ? crowd->weights[f][i] : 1.0f;
+        for (uint32_t c = chunk->across.images[k]; c; c &= c - 1)
+            for (uint32_t r = chunk->up.images[k]; r; r &= r - 1)
+                put_image(d, crowd, chunk, k, __builtin_ctz(c), __builtin_ctz(r), fields, weights);
+    }
 }
 
 void jox_density_put(JoxDensity *d, const JoxDensityCrowd *crowd) {
@@ -123,12 +116,14 @@ void jox_density_put(JoxDensity *d, const JoxDensityCrowd *crowd) {
     Chunk chunk;
     for (uint32_t from = 0; from < crowd->count; from += JOX_DENSITY_AT_ONCE) {
         const uint32_t left = crowd->count - from;
-        const uint32_t count = left < JOX_DENSITY_AT_ONCE ? left : JOX_DENSITY_AT_ONCE;
-        if (!place(&up, crowd->y + from, count, &chunk.up) ||
-            !place(&across, crowd->x + from, count, &chunk.across))
+        chunk.from = from;
+        chunk.count = left < JOX_DENSITY_AT_ONCE ? left : JOX_DENSITY_AT_ONCE;
+        if (!place(&up, crowd->y + from, chunk.count, &chunk.up) ||
+            !place(&across, crowd->x + from, chunk.count, &chunk.across))
             continue;
-        for (uint32_t k = 0; k < count; k++)
-            if (!crowd->seen || crowd->seen[from + k])
-                put_images(d, crowd, &chunk, from + k, k);
+        if (w->fields == 1) /* known when this is compiled, as it mostly is */
+            put_chunk(d, crowd, &chunk, 1);
+        else
+            put_chunk(d, crowd, &chunk, w->fields);
     }
 }

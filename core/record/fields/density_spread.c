@@ -9,8 +9,11 @@
 #include "record/fields/density_kernels.h"
 #include "record/fields/density_parts.h"
 
-#define X(name, isa) [isa] = jox_density_sum_##name,
-static JoxDensitySumKernel *const SUM[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = {jox_density_held_##name, jox_density_sum_##name},
+static const struct Kernels {
+    JoxDensityHeldKernel *held;
+    JoxDensitySumKernel *sum;
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 enum {
@@ -45,8 +48,29 @@ static void tabulate(const JoxDensity *d, Taps *taps) {
 
 /* ---- where there is something ---- */
 
+static float *row_of(const JoxDensity *d, int field, int row) {
+    return d->work.mass[field] + (size_t)(row - d->work.first) * (size_t)d->wide;
+}
+
 /* What is nothing adds nothing, to the bit, so that columns are passed over of which no mark is
    set. */
+
+/* Of a row of the strip. */
+static uint64_t marks_in(const JoxDensity *d, int field, int row) {
+    JoxDensityHeldKernel *const look = KERNELS[jox_isa_resolve(d->isa)].held;
+    const float *cells = row_of(d, field, row);
+    uint64_t marks = 0;
+    for (int c = 0; c < d->wide; c += 64) {
+        uint64_t some = look(cells + c, d->wide - c < 64 ? d->wide - c : 64);
+        while (some) {
+            const int first = __builtin_ctzll(some), beyond = ((first >> d->stretch) + 1)
+                                                              << d->stretch;
+            marks |= UINT64_C(1) << ((c + first) >> d->stretch);
+            some = beyond < 64 ? some & ~UINT64_C(0) << beyond : 0;
+        }
+    }
+    return marks;
+}
 
 /* Takes the first stretches that stand side by side out of the marks: columns from..to. */
 static bool next_span(const JoxDensity *d, uint64_t *marks, int *from, int *to) {
@@ -94,10 +118,10 @@ static float *line_of(const JoxDensity *d, const Taps *taps, int field, int row)
     return d->work.lines[field] + (size_t)(row % taps->count) * d->columns;
 }
 
-/* A row of the strip along x. `marks` of it: before and after. */
+/* A row of the strip along x, where `marks` has something of it. */
 static void along_x(JoxDensity *d, const Taps *taps, int field, int row, uint64_t marks,
                     JoxDensitySumKernel *sum) {
-    const float *in = d->work.mass[field] + (size_t)(row - d->work.first) * (size_t)d->wide;
+    const float *in = row_of(d, field, row);
     float *out = line_of(d, taps, field, row);
     const float *from[MOST_TAPS];
     memset(out, 0, d->columns * sizeof *out);
@@ -134,14 +158,15 @@ static void along_y(const JoxDensity *d, const Taps *taps, int field, int row, f
 }
 
 static void spread_row(JoxDensity *d, const Taps *taps, int row, float *const *out) {
-    JoxDensitySumKernel *const sum = SUM[jox_isa_resolve(d->isa)];
-    uint64_t *marks = &d->work.marks[row];
-    const uint64_t about = marks_about(d, *marks, taps->reach);
+    JoxDensitySumKernel *const sum = KERNELS[jox_isa_resolve(d->isa)].sum;
     const int done = row - taps->reach; /* all that it is made of is there */
     const int read = done - d->edge;
-    for (int f = 0; f < d->work.fields && about; f++)
-        along_x(d, taps, f, row, about, sum);
-    *marks = about;
+    uint64_t marks = 0;
+    for (int f = 0; f < d->work.fields; f++)
+        marks |= marks_in(d, f, row);
+    marks = d->work.marks[row] = marks_about(d, marks, taps->reach);
+    for (int f = 0; f < d->work.fields && marks; f++)
+        along_x(d, taps, f, row, marks, sum);
     for (int f = 0; f < d->work.fields && read >= 0 && read < (int)d->rows; f++)
         along_y(d, taps, f, done, out[f] + (size_t)read * d->columns, sum);
 }
@@ -153,6 +178,8 @@ void jox_density_spread(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
     Taps taps;
     tabulate(d, &taps);
     JOX_ASSERT(taps.reach < d->edge);
+    if (!w->marks)
+        w->marks = jox_alloc((size_t)d->high, sizeof *w->marks);
     for (int f = 0; f < fields; f++)
         if (!w->lines[f])
             w->lines[f] = jox_alloc((size_t)taps.count * d->columns, sizeof(float));

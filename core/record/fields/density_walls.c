@@ -338,15 +338,16 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
     list_bars(d, walls);
     place_nodes(d, solids);
     make_ways(d, solids);
-    jox_density_list_runs(d);
+    jox_density_list_floor(d);
     jox_density_solids_free(solids);
 }
 
 void jox_density_free_floor(JoxDensityFloor *f) {
     if (!f)
         return;
-    void *arrays[] = {f->node, f->open_x, f->open_y, f->slants,  f->near, f->area,     f->per,
-                      f->room, f->bars,   f->first,  f->passing, f->runs, f->run_first};
+    void *arrays[] = {f->node,    f->open_x, f->open_y,    f->slants, f->near,
+                      f->area,    f->per,    f->room,      f->bars,   f->first,
+                      f->passing, f->runs,   f->run_first, f->right,  f->up};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     jox_free(f);

@@ -48,6 +48,18 @@ bool JOX_WIDE(jox_density_place)(const JoxDensityAxis *axis, const float *at, ui
     return some != 0;
 }
 
+uint64_t JOX_WIDE(jox_density_held)(const float *cells, int count) {
+    uint64_t held = 0;
+    int c = 0;
+    for (; c + JOX_WIDTH <= count; c += JOX_WIDTH) {
+        const JoxMask none = jf_le(jf_abs(jf_load(cells + c)), jf_set(0.0f));
+        held |= (uint64_t)(~jm_bits(none) & JOX_ALL_LANES) << c;
+    }
+    for (; c < count; c++)
+        held |= (uint64_t) !(fabsf(cells[c]) <= 0.0f) << c;
+    return held;
+}
+
 /* ---- sums of rows ---- */
 
 enum { BLOCK = 4 }; /* packets whose sums are in registers at a time */
@@ -89,23 +101,58 @@ void JOX_WIDE(jox_density_sum)(const float *const *rows, const float *taps, int 
     }
 }
 
-/* ---- steps: loops of which compilers make lanes ---- */
+/* ---- steps ---- */
 
-void JOX_WIDE(jox_density_step_mixed)(const JoxDensityStep *s, int from, int to,
-                                      float *restrict out) {
-    const float share = s->share, *u = s->u, *up = u + s->wide, *down = u - s->wide;
-    const float *x = s->open_x, *y = s->open_y, *y_down = y - s->wide, *per = s->per;
-    for (int c = from; c < to; c++)
-        out[c] = u[c] + share * per[c] *
-                            (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
-                             y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+void JOX_WIDE(jox_density_reach)(const uint64_t *restrict is, const uint64_t *restrict right,
+                                 const uint64_t *restrict up, int row, int from, int to,
+                                 uint64_t *restrict next) {
+    for (int i = from; i < to; i++)
+        next[i] = is[i] | (is[i] & right[i]) << 1 | (is[i - 1] & right[i - 1]) >> 63 |
+                  ((is[i] >> 1 | is[i + 1] << 63) & right[i]) | (is[i - row] & up[i - row]) |
+                  (is[i + row] & up[i]);
+}
+
+static inline void mixed_packet(const JoxDensityStep *s, int c, float *out) {
+    const float *at = s->u + c, *x = s->open_x + c, *y = s->open_y + c;
+    const JoxFloats u = jf_load(at), share = jf_mul(jf_set(s->share), jf_load(s->per + c));
+    const JoxFloats right = jf_mul(jf_load(x), jf_sub(jf_load(at + 1), u));
+    const JoxFloats left = jf_mul(jf_load(x - 1), jf_sub(u, jf_load(at - 1)));
+    const JoxFloats up = jf_mul(jf_load(y), jf_sub(jf_load(at + s->wide), u));
+    const JoxFloats down = jf_mul(jf_load(y - s->wide), jf_sub(u, jf_load(at - s->wide)));
+    const JoxFloats gained = jf_sub(jf_add(jf_sub(right, left), up), down);
+    jf_store(out + c, jf_add(u, jf_mul(share, gained)));
 }
 
 /* The same, where all that is multiplied by is 1. */
-void JOX_WIDE(jox_density_step_plain)(const JoxDensityStep *s, int from, int to,
-                                      float *restrict out) {
-    const float share = s->share, *u = s->u, *up = u + s->wide, *down = u - s->wide;
-    for (int c = from; c < to; c++)
-        out[c] = u[c] + share * ((u[c + 1] - u[c]) - (u[c] - u[c - 1]) + (up[c] - u[c]) -
-                                 (u[c] - down[c]));
+static inline void plain_packet(const JoxDensityStep *s, int c, float *out) {
+    const float *at = s->u + c;
+    const JoxFloats u = jf_load(at);
+    const JoxFloats right = jf_sub(jf_load(at + 1), u), left = jf_sub(u, jf_load(at - 1));
+    const JoxFloats up = jf_sub(jf_load(at + s->wide), u);
+    const JoxFloats down = jf_sub(u, jf_load(at - s->wide));
+    const JoxFloats gained = jf_sub(jf_add(jf_sub(right, left), up), down);
+    jf_store(out + c, jf_add(u, jf_mul(jf_set(s->share), gained)));
 }
+
+static void step_cell(const JoxDensityStep *s, int c, float *out) {
+    const float *u = s->u + c, *x = s->open_x + c, *y = s->open_y + c;
+    out[c] = *u + s->share * s->per[c] *
+                      (x[0] * (u[1] - *u) - x[-1] * (*u - u[-1]) + y[0] * (u[s->wide] - *u) -
+                       y[-s->wide] * (*u - u[-s->wide]));
+}
+
+/* In packets, of which the last may have cells in it that were stepped before: what comes of them
+   is the same once more. */
+#define STEP(name, packet)                                                                         \
+    void JOX_WIDE(name)(const JoxDensityStep *s, int low, int from, int to, float *out) {          \
+        for (; from + JOX_WIDTH <= to; from += JOX_WIDTH)                                          \
+            packet(s, from, out);                                                                  \
+        if (from < to && to - JOX_WIDTH >= low) {                                                  \
+            packet(s, to - JOX_WIDTH, out);                                                        \
+            return;                                                                                \
+        }                                                                                          \
+        for (; from < to; from++)                                                                  \
+            step_cell(s, from, out);                                                               \
+    }
+STEP(jox_density_step_mixed, mixed_packet)
+STEP(jox_density_step_plain, plain_packet)
