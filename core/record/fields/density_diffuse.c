@@ -200,18 +200,22 @@ static void divide_by_area(JoxDensity *d, float *mass, uint64_t *held) {
         }
 }
 
+float *jox_density_spare(JoxDensity *d) {
+    if (!d->work.spare)
+        d->work.spare = jox_alloc((size_t)d->wide * (size_t)d->high, sizeof *d->work.spare);
+    return d->work.spare;
+}
+
 void jox_density_diffuse(JoxDensity *d, int field) {
     enum { LISTED = 8 }; /* steps for which cells are listed at once */
     JoxDensityWork *w = &d->work;
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     const float whole = 0.5f * jox_density_variance(d);
     const int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
-    if (!w->spare)
-        w->spare = jox_alloc(cells, sizeof *w->spare);
     for (int k = 0; k < 2; k++)
         if (!w->reached[k])
             w->reached[k] = jox_alloc(words_of(d), sizeof *w->reached[k]);
-    memset(w->spare, 0, cells * sizeof *w->spare);
+    memset(jox_density_spare(d), 0, cells * sizeof *w->spare);
     divide_by_area(d, w->mass[field], w->reached[0]);
     for (int s = 0; s < steps; s++) {
         if (s % LISTED == 0) {

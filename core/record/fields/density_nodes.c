@@ -52,21 +52,31 @@ bool jox_density_locate(const JoxDensity *d, float x, float y, int *column, int 
     return true;
 }
 
+JoxV2 jox_density_node_at(const JoxDensity *d, int column, int row) {
+    const JoxDensityFloor *f = d->floor;
+    const JoxV2 low = jox_density_corner(d);
+    const size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
+    if (jox_density_has_wall(f, cell))
+        return f->node[f->first[cell]];
+    return jox_v2(low.x + ((float)column + 0.5f) * d->cell, low.y + ((float)row + 0.5f) * d->cell);
+}
+
 JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *column, int *row) {
     const JoxDensityFloor *f = d->floor;
     float nearest = INFINITY;
     const int c0 = *column, r0 = *row;
     const size_t own = (size_t)r0 * (size_t)d->wide + (size_t)c0;
     bool seen = false;
-    if (f->per[own] > 0.0f && !jox_density_hidden(d, jox_v2(x, y), f->node[own]))
+    if (f->per[own] > 0.0f && !jox_density_hidden(d, jox_v2(x, y), jox_density_node_at(d, c0, r0)))
         return JOX_DENSITY_SEEN;
     for (int r = r0 > 0 ? r0 - 1 : 0; r <= r0 + 1 && r < d->high; r++)
         for (int c = c0 > 0 ? c0 - 1 : 0; c <= c0 + 1 && c < d->wide; c++) {
             size_t n = (size_t)r * (size_t)d->wide + (size_t)c;
-            float away = jox_length2(jox_sub(f->node[n], jox_v2(x, y)));
+            const JoxV2 node = jox_density_node_at(d, c, r);
+            float away = jox_length2(jox_sub(node, jox_v2(x, y)));
             if (f->per[n] <= 0.0f || (seen && away >= nearest))
                 continue;
-            bool sees = !jox_density_hidden(d, jox_v2(x, y), f->node[n]);
+            bool sees = !jox_density_hidden(d, jox_v2(x, y), node);
             if (!sees && (seen || away >= nearest))
                 continue;
             nearest = away;

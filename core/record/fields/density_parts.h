@@ -13,7 +13,8 @@ enum { JOX_DENSITY_MOST_REACH = 511 }; /* cells that the kernel reaches over, an
    around, and what is shared goes from node to node in steps. */
 struct JoxDensityFloor {
     uint64_t hash; /* of the walls */
-    JoxV2 *node;   /* m: the middle, or a point of the cell that can be walked on */
+    JoxV2 *node;   /* m: by `first`, of cells that have walls in them: see jox_density_node_at */
+    uint32_t node_capacity;
     float *open_x; /* how wide the way is from a node to the next along x, in cells; 0: none */
     float *open_y;
     struct JoxDensitySlant { /* ways to others, over floor that lies in cells between */
@@ -24,7 +25,6 @@ struct JoxDensityFloor {
     uint8_t *near; /* walls may stand between the cell's people and the nodes around */
     float *area;   /* of the floor that belongs to a node, in cells */
     float *per;    /* 1 / area; 0: no node, nobody can stand there */
-    float *room;   /* of the ways from a node: how much of them can be used at once, 0..1 */
     /* By row, the cells that have nodes: from..to - 1, which are open on all sides if `plain`. */
     struct JoxDensityRun {
         int from, to;
@@ -40,6 +40,9 @@ struct JoxDensityFloor {
     uint32_t *first, *passing, passing_capacity;
 };
 
+static inline bool jox_density_has_wall(const JoxDensityFloor *floor, size_t cell) {
+    return floor->first[cell] < floor->first[cell + 1];
+}
 /* density_put.c: makes room for the given rows, in which there is nobody then; puts a crowd there.
    Within walls a strip is all there is. */
 void jox_density_strip(JoxDensity *density, int fields, int first, int end);
@@ -55,6 +58,8 @@ bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
    there, or else the nearest that is, or if none is, as within a wall, the nearest of any floor. */
 typedef enum { JOX_DENSITY_NO_NODE, JOX_DENSITY_HIDDEN, JOX_DENSITY_SEEN } JoxDensityNode;
 JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int *column, int *row);
+/* Where the node of a cell is: in the middle, or at a point of the cell that can be walked on. */
+JoxV2 jox_density_node_at(const JoxDensity *density, int column, int row);
 /* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
 int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
                       float shares[4]);
@@ -81,6 +86,8 @@ static inline uint64_t jox_density_bit(int column) {
    1/cell, by the kernel. */
 void jox_density_list_floor(JoxDensity *density);
 void jox_density_diffuse(JoxDensity *density, int field);
+/* A number of each cell, for work of the moment. */
+float *jox_density_spare(JoxDensity *density);
 /* density_spread.c: what the kernel has left to add, cells2, as sharing somebody among the nodes
    around has added 1/6 already, in the mean over where one can stand; a sample without walls. */
 float jox_density_variance(const JoxDensity *density);

@@ -69,12 +69,9 @@ static void list_bars(JoxDensity *d, const JoxWalls *walls) {
     for (size_t c = 0; c < cells; c++) /* the ends of the cells' lists, which filling moves down */
         f->first[c + 1] += f->first[c];
     JOX_RESERVE(f->passing, f->passing_capacity, f->first[cells] + 1);
+    JOX_RESERVE(f->node, f->node_capacity, f->first[cells] + 1);
     for (uint32_t b = f->bar_count; b-- > 0;)
         pass_through(d, b, true);
-}
-
-static bool has_wall(const JoxDensityFloor *f, size_t cell) {
-    return f->first[cell] < f->first[cell + 1];
 }
 
 /* ---- nodes ---- */
@@ -108,20 +105,23 @@ static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
             size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
             JoxV2 middle = {low.x + ((float)column + 0.5f) * d->cell,
                             low.y + ((float)row + 0.5f) * d->cell};
-            f->node[cell] = middle;
+            if (jox_density_has_wall(f, cell))
+                f->node[f->first[cell]] = middle;
             f->near[cell] = 0;
-            if (!has_wall(f, cell) && column > 0 && !has_wall(f, cell - 1)) {
+            if (!jox_density_has_wall(f, cell) && column > 0 &&
+                !jox_density_has_wall(f, cell - 1)) {
                 f->per[cell] = f->per[cell - 1];
                 continue;
             }
             f->per[cell] = stands(d, cell, middle, solids) ? 1.0f : 0.0f;
             float nearest = INFINITY;
-            for (int k = 0; k < FINE && has_wall(f, cell) && f->per[cell] == 0.0f; k++) {
+            for (int k = 0; k < FINE && jox_density_has_wall(f, cell) && f->per[cell] == 0.0f;
+                 k++) {
                 JoxV2 p = fine_point(d, column, row, k);
                 float away = jox_length2(jox_sub(p, middle));
                 if (away < nearest && stands(d, cell, p, solids)) {
                     nearest = away;
-                    f->node[cell] = p;
+                    f->node[f->first[cell]] = p;
                 }
             }
             if (nearest < INFINITY)
@@ -140,11 +140,16 @@ static bool owner_of(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int
     if (!f->near[cell])
         return true;
     /* Without a wall in it a cell lies within a solid, or outside, as its node does. */
-    if ((has_wall(f, (size_t)cell) ? jox_density_within(solids, p) : f->per[cell] <= 0.0f) ||
+    if ((jox_density_has_wall(f, (size_t)cell) ? jox_density_within(solids, p)
+                                               : f->per[cell] <= 0.0f) ||
         jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
         return false;
     *node = row * d->wide + column;
     return true;
+}
+
+static JoxV2 node_of(const JoxDensity *d, int cell) {
+    return jox_density_node_at(d, cell % d->wide, cell / d->wide);
 }
 
 /* People go from node a to node b over so much of a side. */
@@ -159,7 +164,7 @@ static void link(JoxDensity *d, int a, int b, float side) {
         JOX_RESERVE(f->slants, f->slant_capacity, f->slant_count + 1);
         f->slants[f->slant_count++] = (struct JoxDensitySlant){
             (uint32_t)a, (uint32_t)b,
-            side * d->cell / jox_maxf(jox_length(jox_sub(f->node[a], f->node[b])), d->cell)};
+            side * d->cell / jox_maxf(jox_length(jox_sub(node_of(d, a), node_of(d, b))), d->cell)};
     }
 }
 
@@ -208,7 +213,7 @@ static void mark_near(JoxDensity *d) {
     for (int row = 0; row < d->high; row++)
         for (int column = 0; column < d->wide; column++) {
             size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
-            if (!has_wall(f, cell) && f->per[cell] > 0.0f)
+            if (!jox_density_has_wall(f, cell) && f->per[cell] > 0.0f)
                 continue;
             for (int r = row - 1; r <= row + 1; r++)
                 for (int c = column - 1; c <= column + 1; c++)
@@ -230,13 +235,13 @@ static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *sol
                 f->area[(row + r) * d->wide + column + c] += MEAN[r + 1] * MEAN[c + 1];
         return;
     }
-    if (!has_wall(f, cell) && f->per[cell] <= 0.0f)
+    if (!jox_density_has_wall(f, cell) && f->per[cell] <= 0.0f)
         return;
     for (int k = 0; k < FINE; k++) {
         uint32_t nodes[4];
         float shares[4];
         JoxV2 p = fine_point(d, column, row, k);
-        if (has_wall(f, cell) && jox_density_within(solids, p))
+        if (jox_density_has_wall(f, cell) && jox_density_within(solids, p))
             continue;
         int n = jox_density_share(d, p.x, p.y, nodes, shares);
         for (int s = 0; s < n; s++)
@@ -256,7 +261,7 @@ static void measure(JoxDensity *d, JoxDensitySolids *solids) {
 static void narrow_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     const int wide = d->wide, last = wide * (d->high - 1);
-    float *room = f->room; /* at first the ways from a node, then how much of them can be used */
+    float *room = jox_density_spare(d); /* the ways from a node, then how much of them is used */
     for (int c = wide; c < last; c++)
         room[c] = f->open_x[c] + f->open_x[c - 1] + f->open_y[c] + f->open_y[c - wide];
     for (uint32_t s = 0; s < f->slant_count; s++) {
@@ -299,13 +304,11 @@ static void make_ways(JoxDensity *d, JoxDensitySolids *solids) {
 static void make_floor(JoxDensity *d) {
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     JoxDensityFloor *f = d->floor = jox_alloc(1, sizeof *f);
-    f->node = jox_alloc(cells, sizeof *f->node);
     f->open_x = jox_alloc(cells, sizeof *f->open_x);
     f->open_y = jox_alloc(cells, sizeof *f->open_y);
     f->near = jox_alloc(cells, sizeof *f->near);
     f->area = jox_alloc(cells, sizeof *f->area);
     f->per = jox_alloc(cells, sizeof *f->per);
-    f->room = jox_alloc(cells, sizeof *f->room);
     f->first = jox_alloc(cells + 1, sizeof *f->first);
     f->run_first = jox_alloc((size_t)d->high + 1, sizeof *f->run_first);
 }
@@ -345,9 +348,8 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
 void jox_density_free_floor(JoxDensityFloor *f) {
     if (!f)
         return;
-    void *arrays[] = {f->node,    f->open_x, f->open_y,    f->slants, f->near,
-                      f->area,    f->per,    f->room,      f->bars,   f->first,
-                      f->passing, f->runs,   f->run_first, f->right,  f->up};
+    void *arrays[] = {f->node, f->open_x, f->open_y,  f->slants, f->near,      f->area,  f->per,
+                      f->bars, f->first,  f->passing, f->runs,   f->run_first, f->right, f->up};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     jox_free(f);
