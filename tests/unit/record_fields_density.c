@@ -330,68 +330,6 @@ static void within_is_as_polygons_have_it(void **state) {
     jox_walls_free(&walls);
 }
 
-/* One step of all cells, each with all that it is multiplied by. */
-static void step_plainly(const JoxDensity *d, float share, const float *u, float *out) {
-    const JoxDensityFloor *f = d->floor;
-    const int wide = d->wide;
-    for (int c = wide + 1; c < wide * (d->high - 1) - 1; c++)
-        out[c] =
-            u[c] +
-            share * f->per[c] *
-                (f->open_x[c] * (u[c + 1] - u[c]) - f->open_x[c - 1] * (u[c] - u[c - 1]) +
-                 f->open_y[c] * (u[c + wide] - u[c]) - f->open_y[c - wide] * (u[c] - u[c - wide]));
-    for (uint32_t s = 0; s < f->slant_count; s++) {
-        const struct JoxDensitySlant *slant = &f->slants[s];
-        const float moved = share * slant->open * (u[slant->b] - u[slant->a]);
-        out[slant->a] += f->per[slant->a] * moved;
-        out[slant->b] -= f->per[slant->b] * moved;
-    }
-}
-
-/* Runs of open floor are spread as any cells are, to the bit. */
-static void runs_change_nothing(void **state) {
-    (void)state;
-    JoxWalls walls = {0};
-    box(&walls, 4, 5, 6, 9);
-    line(&walls, 0, 12, 17, 15);
-    line(&walls, 12, 1, 12.3f, 11);
-    JoxDensity *d = grid(0, 20, 0.2f);
-    jox_density_walls(d, &walls);
-    uint32_t plain = 0;
-    for (uint32_t r = 0; r < d->floor->run_count; r++)
-        plain += d->floor->runs[r].plain;
-    assert_in_range(plain, 50, d->floor->run_count - 50);
-    float x[200], y[200];
-    const JoxDensityCrowd crowd = {.count = 200, .x = x, .y = y};
-    uint32_t chance = 5;
-    for (int i = 0; i < 200; i++) {
-        x[i] = 20.0f * dice(&chance);
-        y[i] = 20.0f * dice(&chance);
-    }
-    jox_density_strip(d, 1, 0, d->high);
-    jox_density_put(d, &crowd);
-    const size_t cells = (size_t)d->wide * (size_t)d->high;
-    float *is = jox_alloc(cells, sizeof *is), *next = jox_alloc(cells, sizeof *next);
-    for (size_t c = 0; c < cells; c++)
-        is[c] = d->work.mass[0][c] * d->floor->per[c];
-    const float wide = d->kernel / d->cell, whole_way = 0.5f * (wide * wide - 1.0f / 6.0f);
-    const int steps = (int)ceilf(whole_way / JOX_DENSITY_SHARE);
-    for (int s = 0; s < steps; s++) {
-        step_plainly(d, whole_way / (float)steps, is, next);
-        float *swap = is;
-        is = next;
-        next = swap;
-    }
-    jox_density_diffuse(d, 0);
-    for (size_t c = 0; c < cells; c++)
-        if (d->work.mass[0][c] != is[c])
-            fail_msg("cell %zu: %.9g is not %.9g", c, (double)d->work.mass[0][c], (double)is[c]);
-    jox_free(is);
-    jox_free(next);
-    jox_density_free(d);
-    jox_walls_free(&walls);
-}
-
 /* The plain sum over people in double, of the shares of the four nodes around each. */
 static double summed(const JoxDensity *d, const float *x, const float *y, const float *weight,
                      uint32_t count, JoxV2 p) {
@@ -462,7 +400,6 @@ int main(void) {
         cmocka_unit_test(nobody_is_lost),
         cmocka_unit_test(edges_and_changes),
         cmocka_unit_test(within_is_as_polygons_have_it),
-        cmocka_unit_test(runs_change_nothing),
         cmocka_unit_test(where_nobody_stands_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

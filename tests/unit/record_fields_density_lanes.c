@@ -173,8 +173,7 @@ static void strips_spread_as_all_at_once(void **state) {
     for (size_t size = 0; size < sizeof SIZES / sizeof *SIZES; size++)
         for (uint32_t count = 3; count <= PEOPLE; count += 400) {
             JoxDensity *d = jox_density_create(jox_v2(0, 0), SIZES[size], 0.2f, JOX_DENSITY_KERNEL);
-            const JoxDensityCrowd crowd =
-                gather(&people, d, SIZES[size].x, SIZES[size].y, count);
+            const JoxDensityCrowd crowd = gather(&people, d, SIZES[size].x, SIZES[size].y, count);
             const size_t read = (size_t)d->columns * d->rows;
             float *mass[FIELDS], *plain[FIELDS], *got[FIELDS];
             make(mass, cells_of(d));
@@ -216,7 +215,7 @@ static void step_plainly(const JoxDensity *d, float share, const float *u, float
     }
 }
 
-/* Whether a floor has a way aslant between cells. */
+/* The steps of a sample, by each instruction set, are those of all cells. */
 static void assert_steps(JoxDensity *d, const JoxDensityCrowd *crowd) {
     const size_t cells = cells_of(d);
     const float whole = 0.5f * jox_density_variance(d);
@@ -248,11 +247,11 @@ static void assert_steps(JoxDensity *d, const JoxDensityCrowd *crowd) {
     drop(mass);
 }
 
-/* Among walls of all directions, posts, and ways aslant between them. */
+/* Among walls of all directions, posts, ways aslant between them, and runs of open floor. */
 static void steps_go_where_people_can_have_come(void **state) {
     (void)state;
     static Crowd people;
-    uint32_t slants = 0, chance = 3;
+    uint32_t slants = 0, plain = 0, runs = 0, chance = 3;
     for (int plan = 0; plan < 6; plan++) {
         JoxWalls walls = {0};
         for (int w = 0; w < 12; w++) {
@@ -266,6 +265,9 @@ static void steps_go_where_people_can_have_come(void **state) {
                 jox_density_create(jox_v2(0, 0), jox_v2(20, 14), cell, JOX_DENSITY_KERNEL);
             jox_density_walls(d, &walls);
             slants += d->floor->slant_count;
+            runs += d->floor->run_count;
+            for (uint32_t r = 0; r < d->floor->run_count; r++)
+                plain += d->floor->runs[r].plain;
             for (uint32_t count = 1; count <= PEOPLE; count = count * 20 + 3) {
                 const JoxDensityCrowd crowd = gather(&people, d, 20, 14, count);
                 assert_steps(d, &crowd);
@@ -275,6 +277,7 @@ static void steps_go_where_people_can_have_come(void **state) {
         jox_walls_free(&walls);
     }
     assert_in_range(slants, 30, UINT32_MAX);
+    assert_in_range(plain, runs / 4, runs - runs / 4);
 }
 
 /* Means are kept where they are asked for. What is saved has one format, and what is read back is

@@ -31,12 +31,12 @@ typedef struct JoxDensityWork {
     int first, end, fields;
     size_t room;                     /* cells of `mass` */
     float *mass[JOX_DENSITY_FIELDS]; /* of who was put there */
-    /* Without walls, for each row of all: which stretches of columns may hold something, as bits.
-     */
+    /* Without walls: for each row of all, as bits, which stretches of columns may hold something;
+       the last rows, spread along x. */
     uint64_t *marks;
-    float *lines[JOX_DENSITY_FIELDS]; /* without walls: the last rows, spread along x */
-    /* With walls, of all cells: for steps; as bits, which of them hold something before and after
-     * one. */
+    float *lines[JOX_DENSITY_FIELDS];
+    /* With walls: a number of each cell; as bits, which cells may hold something before a step and
+       after it; and the cells that are stepped. */
     float *spare;
     uint64_t *reached[2];
     struct JoxDensitySpan {     /* cells of a row that are stepped: from..to - 1 */
@@ -61,7 +61,7 @@ typedef struct JoxDensity {
     JoIsa isa;    /* of the kernels; results do not depend on it */
     float kernel; /* m: the standard deviation */
     int edge, wide, high;
-    int stretch; /* columns of a mark are 2 to this */
+    int stretch; /* the columns of a mark are two to the power of this */
     JoxDensityWork work;
     JoxDensityFloor *floor; /* NULL: no walls */
 } JoxDensity;
@@ -82,7 +82,7 @@ void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
 /* A sample. `out`: columns times rows values for each of the fields, the sums of weights per m2. */
 void jox_density_sample(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
                         float *const *out);
-/* From here on means over frames are kept. */
+/* From here on means over frames are kept, which takes eight bytes a cell. */
 void jox_density_want_mean(JoxDensity *density);
 /* Notes `now` as of time t, s, for the greatest value and, where it is wanted, the mean. */
 void jox_density_note(JoxDensity *density, double t, bool mean);

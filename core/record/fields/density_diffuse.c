@@ -114,8 +114,8 @@ static void reach(const JoxDensity *d, uint64_t *is, uint64_t *next) {
     }
 }
 
-/* The first column from `from` on, below `to`, that is set, or with `flip` all bits that is not;
-   eight at a time, of which one is set. `to`: there is none. */
+/* The first column from `from` on whose eight have a bit set, or, with all bits of `flip`, have
+   none; `to` where there is none below that. Eight begin at each multiple of eight. */
 static int seek(const uint64_t *row, int from, int to, uint64_t flip) {
     while (from < to) {
         uint64_t word = row[from / 64];
@@ -135,7 +135,8 @@ static int seek(const uint64_t *row, int from, int to, uint64_t flip) {
 
 /* ---- spans ---- */
 
-/* The cells of a run where `is` has something: all else is zero and stays so. */
+/* The cells of a run where `is` has something. All else is zero and stays so, in both arrays that
+   steps go to and fro between, as what is listed only grows. */
 static void add_spans(JoxDensityWork *w, const struct JoxDensityRun *run, int row,
                       const uint64_t *is) {
     const int low = run->plain ? run->from : 1; /* what holds for any cell holds for others, too */

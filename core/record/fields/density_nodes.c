@@ -44,7 +44,7 @@ bool jox_density_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
 
 bool jox_density_locate(const JoxDensity *d, float x, float y, int *column, int *row) {
     JoxV2 low = jox_density_corner(d);
-    float c = floorf((x - low.x) / d->cell), r = floorf((y - low.y) / d->cell);
+    const float c = (x - low.x) / d->cell, r = (y - low.y) / d->cell;
     if (!(c >= 1.0f && r >= 1.0f && c < (float)(d->wide - 1) && r < (float)(d->high - 1)))
         return false;
     *column = (int)c;
