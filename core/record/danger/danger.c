@@ -27,8 +27,14 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
         d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
     d->measured = jox_alloc(cells, sizeof *d->measured);
     d->stood = jox_alloc(cells, sizeof *d->stood);
-    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+        d->least[m] = INFINITY;
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        double *least = &d->least[jox_danger_limits[l].measure];
+        JOX_ASSERT(jox_danger_limits[l].value > 0.0); /* who bears nothing is over no limit */
+        *least = fmin(*least, jox_danger_limits[l].value);
         d->counts[l].first = NAN;
+    }
     d->last_frame = d->last_sample = NAN;
     return d;
 }
@@ -54,6 +60,8 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
     JoxDangerPerson *person = &d->people[frame->key[i]];
     if ((int)measure >= (int)JOX_DANGER_FIRST_BORNE)
         keep_greatest(d, measure, value, frame->time, at, frame->key[i]);
+    if (!(value >= d->least[measure]))
+        return;
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount *count = &d->counts[l];
         if (jox_danger_limits[l].measure != measure || !(value >= jox_danger_limits[l].value))
@@ -90,15 +98,38 @@ static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duratio
     judge(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
 }
 
-/* Every frame: what people and walls bear. */
+static bool bears_something(const JoxDangerPerson *p) {
+    return p->compression != 0.0f || p->load != 0.0f || p->dose != 0.0;
+}
+
+static void reserve_people(JoxDanger *d, const JoxFrame *frame) {
+    JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
+    JOX_RESERVE(d->bearing, d->bearing_capacity, frame->count);
+    const uint32_t had = d->bears_capacity;
+    JOX_RESERVE(d->bears, d->bears_capacity, d->people_capacity);
+    for (uint32_t k = had; k < d->people_capacity; k++)
+        d->bears[k] = bears_something(&d->people[k]);
+}
+
+/* Every frame: what people and walls bear. Most of a crowd that does not push bear nothing, and are
+   not looked at. */
 static void press(JoxDanger *d, const JoxFrame *frame) {
     double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
     float share = (float)(1.0 - jox_exp(-duration / HOLD));
     d->last_frame = frame->time;
     d->has_compression |= frame->compression != NULL;
     d->has_load |= frame->load != NULL;
-    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
+    d->bearing_count = 0;
+    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++) {
+        const uint32_t key = frame->key[i];
+        const bool pressed = (frame->compression && frame->compression[i] != 0.0f) ||
+                             (frame->load && frame->load[i] != 0.0f);
+        if (!pressed && !d->bears[key])
+            continue;
         bear(d, frame, i, duration, share);
+        d->bears[key] = bears_something(&d->people[key]);
+        d->bearing[d->bearing_count++] = i;
+    }
     jox_danger_walls_frame(&d->walls, frame, duration, share);
 }
 
@@ -173,7 +204,10 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
    greatest of the lines and of the cells are so the greatest of all. */
 static void keep_most(JoxDanger *d, const JoxFrame *frame) {
     JoxDangerRow *row = &d->rows[d->row_count - 1];
-    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++) {
+    for (int m = JOX_DANGER_FIRST_BORNE; m < JOX_DANGER_MEASURES && frame->count; m++)
+        row->most[m] = jox_maxf(row->most[m], 0.0f); /* of those who bear nothing */
+    for (uint32_t k = 0; k < d->bearing_count; k++) {
+        const uint32_t i = d->bearing[k];
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
         const float values[] = {p->compression, p->load, (float)p->dose};
@@ -233,7 +267,7 @@ void jox_danger_add_plan(JoxDanger *d, const JoxPlace *places, uint32_t place_co
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
-    JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
+    reserve_people(d, frame);
     jox_density_walls(d->local->grid,
                       frame->walls); /* of cells that people stand in between samples */
     press(d, frame);
@@ -284,6 +318,8 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     jox_section(s, "stood", d->stood, sizeof *d->stood, cells);
     JOX_SECTION(s, "samples", d->samples);
     JOX_SECTION_ROOM(s, "people", d->people, d->people_capacity);
+    if (s->mode == JOX_SECTIONS_RESTORE)
+        d->bears_capacity = 0;
     JOX_SECTION(s, "has_compression", d->has_compression);
     JOX_SECTION(s, "has_load", d->has_load);
     jox_danger_lines_sections(&d->lines, s);
@@ -305,7 +341,7 @@ void jox_danger_free(JoxDanger *d) {
         return;
     if (d->owns_local)
         jox_local_free(d->local);
-    void *arrays[] = {d->measured, d->stood, d->people, d->rows, d->here};
+    void *arrays[] = {d->measured, d->stood, d->people, d->rows, d->here, d->bears, d->bearing};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {

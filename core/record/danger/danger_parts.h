@@ -53,6 +53,11 @@ struct JoxDanger {
 
     JoxDangerPerson *people; /* by key */
     uint32_t people_capacity;
+    uint8_t *bears; /* by key: 0 for who bears nothing and has no dose; follows from `people` */
+    uint32_t bears_capacity;
+    uint32_t *bearing; /* indices of those in the frame who do bear something */
+    uint32_t bearing_count, bearing_capacity;
+    double least[JOX_DANGER_MEASURES]; /* limit of each measure; INFINITY: it has none */
     bool has_compression, has_load;
 
     JoxDangerLines lines;
