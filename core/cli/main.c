@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/confine.h"
+#include "base/guard.h"
 #include "base/mem.h"
-#include "base/number/numeric.h"
 #include "cli/cli.h"
 
 static void print_help(FILE *out) {

@@ -6,8 +6,8 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "base/guard.h"
 #include "base/mem.h"
-#include "base/number/numeric.h"
 #include "jostle_host.h"
 #include "simd/pause.h"
 #include "task/processors.h"

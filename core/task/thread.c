@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <stdlib.h>
 
-#include "base/number/numeric.h"
+#include "base/guard.h"
 
 typedef struct Start {
     void *(*run)(void *);

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "base/number/numeric.h"
+#include "base/guard.h"
 #include "jostle_read.h"
 #include "task/pool.h"
 

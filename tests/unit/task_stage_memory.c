@@ -1,4 +1,5 @@
-/* Memory that stages share: what one stage takes lies side by side, and the next one has it again. */
+/* Memory that stages share: what one stage takes lies side by side, and the next one has it again.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -5,8 +5,8 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "base/guard.h"
 #include "base/mem.h"
-#include "base/number/numeric.h"
 #include "lua/vm/vm.h"
 
 enum {

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
-#include "base/number/numeric.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
 #include "run/run.h"
