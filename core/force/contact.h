@@ -105,7 +105,7 @@ typedef struct JoxKeptImpulses {
 typedef struct JoxSupportAxis {
     JoxFour along;                /* unit */
     JoxFour lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
-    float lightness[2];           /* 1/kg */
+    float lightness[2], sway[2];  /* 1/kg; what 1 N s does to each, root of 1/kg */
     float mass, impulse;          /* kg; on the first, N s */
 } JoxSupportAxis;
 
@@ -116,11 +116,20 @@ typedef struct JoxSupport {
     JoxSupportAxis normal, across[2];
 } JoxSupport;
 
+/* Of a support, what says whether it is to be solved again (support_solve.c). */
+typedef struct JoxSupportWatch {
+    uint32_t rows[2];
+    float answer[2];   /* of the impulse, at most, to unrest of 1 of each body, root of kg */
+    float answered[2]; /* unrest of the bodies when it was looked at last */
+    float left;        /* what it would have changed by then, N s */
+} JoxSupportWatch;
+
 /* Velocity and spin of a body while contacts are solved. */
 typedef struct JoxBodyMotion {
     JoxFour velocity, spin;
     JoxV3 given, given_turn; /* by those who touch it, N s and N m s */
     float held;              /* share of that which its supports took */
+    float unrest; /* sum of all impulses, each by what it does to the body: N s / root of kg */
     bool solved, touched;    /* else it goes on as it moves */
     uint8_t link;            /* bodies between it and the nearest that is touched */
 } JoxBodyMotion;

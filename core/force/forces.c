@@ -83,6 +83,7 @@ void jox_forces_free(JoxForces *f) {
                      f->kept_walls.items,
                      f->kept_touches.items,
                      f->support,
+                     f->watch,
                      f->pending,
                      f->impulses,
                      f->chunk};

@@ -80,7 +80,8 @@ struct JoxForces {
     size_t motion_capacity;
     JoxSupport *support; /* in the order of the objects' contacts */
     uint32_t support_count;
-    size_t support_capacity;
+    JoxSupportWatch *watch; /* of each */
+    size_t support_capacity, watch_capacity;
     JoxV2 *work;      /* velocities while contacts are solved */
     float *lightness; /* 1 / mass */
     float *residuals; /* per chunk of a pass */
@@ -246,6 +247,7 @@ float jox_touch_speed_after(const JoxForces *forces, const JoxTouch *touch);
 /* support.c: what holds the bodies that are touched. begin: motions of all bodies, and first
    impulses; pass: as of touches; finish: how much of what the touches gave was held. */
 void jox_supports_begin(JoxForces *forces);
+void jox_supports_warm(JoxForces *forces); /* support_solve.c: gives the impulses begun with */
 float jox_supports_pass(JoxForces *forces);
 void jox_supports_finish(JoxForces *forces);
 /* Velocity of a point of a body, m/s, and an impulse there, N s, while contacts are solved. */

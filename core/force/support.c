@@ -11,9 +11,11 @@
 #include "force/internal.h"
 
 enum {
-    LINKS = 4, /* bodies behind each other, from the one that is touched; the next is as a wall */
-    SWEEPS = 2 /* over these contacts in a pass over all */
+    LINKS = 4 /* bodies behind each other, from the one that is touched; the next is as a wall */
 };
+
+/* What a contact that was never solved has answered of its bodies' unrest: all is due. */
+static const float NEVER = -1e30f;
 
 static JoxV3 plus(JoxV3 a, JoxV3 b, float times) {
     return (JoxV3){a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
@@ -45,8 +47,11 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     const JoxObject *body = &f->step.objects->rows[row];
     JoxBodyMotion *m = &f->motions[row];
     JoxV3 turn = jox_cross3(arm_of(body, point), impulse);
+    JoxV3 turned = jox_turn3(body->inverse_inertia, turn);
     m->velocity += four(impulse) * body->inverse_mass;
-    m->spin += four(jox_turn3(body->inverse_inertia, turn));
+    m->spin += four(turned);
+    m->unrest +=
+        sqrtf(jox_dot3(impulse, impulse) * body->inverse_mass + jox_dot3(turn, turned));
 }
 
 /* All bodies as they are, and behind them what is static, at rest; of those that can be pushed the
@@ -113,27 +118,23 @@ static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 
         JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
         axis.turning[side] = four(turning);
         axis.lightness[side] = body->inverse_mass;
-        gain += body->inverse_mass + jox_dot3(lever, turning);
+        float sway2 = body->inverse_mass + jox_dot3(lever, turning);
+        axis.sway[side] = sqrtf(sway2);
+        gain += sway2;
     }
     axis.mass = 1.0f / gain;
     return axis;
 }
 
-/* Velocity of the first against the second, along an axis. */
-static inline float speed_along(const JoxForces *f, const JoxSupport *s,
-                                const JoxSupportAxis *axis) {
-    const JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
-    return jox_dot_four(axis->along, first->velocity - second->velocity) +
-           jox_dot_four(axis->lever[0], first->spin) - jox_dot_four(axis->lever[1], second->spin);
-}
-
-static inline void give(JoxForces *f, const JoxSupport *s, const JoxSupportAxis *axis,
-                        float impulse) {
-    JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
-    first->velocity += axis->along * (axis->lightness[0] * impulse);
-    first->spin += axis->turning[0] * impulse;
-    second->velocity -= axis->along * (axis->lightness[1] * impulse);
-    second->spin -= axis->turning[1] * impulse;
+/* Watches a contact that has not been solved yet. */
+static JoxSupportWatch watch_of(const JoxSupport *s) {
+    const JoxSupportAxis *axes[] = {&s->normal, &s->across[0], &s->across[1]};
+    JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}, .answered = {NEVER, NEVER}};
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++)
+            watch.answer[side] =
+                jox_maxf(watch.answer[side], axes[k]->mass * axes[k]->sway[side]);
+    return watch;
 }
 
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
@@ -149,6 +150,7 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
     square_to(c->normal, across);
     for (int k = 0; k < 2; k++)
         s->across[k] = axis_of(f, s->rows, c->point, across[k]);
+    f->watch[f->support_count - 1] = watch_of(s);
     JOX_ASSERT(isfinite(s->normal.mass) && s->normal.mass > 0.0f && isfinite(s->target));
 }
 
@@ -161,49 +163,18 @@ void jox_supports_begin(JoxForces *f) {
             f->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
     f->support_count = 0;
     JOX_RESERVE(f->support, f->support_capacity, objects->contact_count);
+    JOX_RESERVE(f->watch, f->watch_capacity, objects->contact_count);
     for (uint32_t k = 0; k < objects->contact_count; k++) {
         const JoxObjectContact *c = &objects->contacts[k];
         bool first = f->motions[c->first].solved;
         if (first || (c->second != JOX_NO_OBJECT && f->motions[c->second].solved))
             add_support(f, c);
     }
-    for (uint32_t k = 0; k < f->support_count; k++)
-        give(f, &f->support[k], &f->support[k].normal, f->support[k].normal.impulse);
+    jox_supports_warm(f);
     uint32_t pushes; /* sorted by who pushes: the order in memory changes no bit */
     const JoxImpulse *push = jox_force_impulses(f, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
         jox_body_give(f, push[k].object, push[k].point, push[k].impulse);
-}
-
-/* Friction, at most `friction` times what presses there. */
-static void rub(JoxForces *f, JoxSupport *s) {
-    float wanted[2], most = s->friction * s->normal.impulse;
-    for (int k = 0; k < 2; k++)
-        wanted[k] = s->across[k].impulse - speed_along(f, s, &s->across[k]) * s->across[k].mass;
-    float size = jox_length((JoxV2){wanted[0], wanted[1]});
-    float share = size > most ? most / size : 1.0f;
-    for (int k = 0; k < 2; k++) {
-        JoxSupportAxis *axis = &s->across[k];
-        float before = axis->impulse;
-        axis->impulse = wanted[k] * share;
-        give(f, s, axis, axis->impulse - before);
-    }
-}
-
-float jox_supports_pass(JoxForces *f) {
-    float most = 0.0f;
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        most = 0.0f;
-        for (uint32_t k = 0; k < f->support_count; k++) {
-            JoxSupport *s = &f->support[k];
-            float before = s->normal.impulse, speed = speed_along(f, s, &s->normal);
-            s->normal.impulse = jox_maxf(0.0f, before + (s->target - speed) * s->normal.mass);
-            most = jox_maxf(most, fabsf(s->normal.impulse - before));
-            give(f, s, &s->normal, s->normal.impulse - before);
-            rub(f, s);
-        }
-    }
-    return most;
 }
 
 /* How much of what people give a body its supports take: all where it is held, nothing where it is
