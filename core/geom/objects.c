@@ -1,4 +1,4 @@
-/* The grid of bodies, those nearest to a point, and the nearest point of one. */
+/* The grid of bodies, and those nearest to a point. */
 #include "geom/objects.h"
 
 #include <string.h>
@@ -193,49 +193,4 @@ void jox_nearest_by_row(JoxNearest *n) {
             n->rows[j] = n->rows[j - 1];
         n->rows[j] = row;
     }
-}
-
-/* Nearest point of a disc about the body's centre; from the centre itself, +x leads out. */
-static JoxFootprintPoint disc_nearest(const JoxObject *body, JoxV2 point) {
-    JoxV2 centre = {body->position.x, body->position.y};
-    JoxV2 offset = jox_sub(point, centre);
-    float distance = jox_length(offset);
-    JoxV2 normal = distance > 0.0f ? jox_scale(offset, 1.0f / distance) : jox_v2(1.0f, 0.0f);
-    return (JoxFootprintPoint){normal, jox_add(centre, jox_scale(normal, body->round)),
-                               distance - body->round};
-}
-
-JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point) {
-    uint32_t count = body->footprint_count;
-    if (count < 2)
-        return disc_nearest(body, point);
-    float nearest2 = INFINITY, deepest = -INFINITY;
-    JoxFootprintPoint inside = {{1.0f, 0.0f}, point, 0.0f};
-    JoxV2 on_border = point;
-    for (uint32_t i = 0; i < count; i++) {
-        JoxV2 a = body->footprint[i], edge = jox_sub(body->footprint[(i + 1) % count], a);
-        JoxV2 to = jox_sub(point, a);
-        float length2 = jox_length2(edge);
-        if (!(length2 > 0.0f))
-            continue;
-        float along = jox_clampf(jox_dot(to, edge) / length2, 0.0f, 1.0f);
-        JoxV2 at = jox_add(a, jox_scale(edge, along));
-        float away2 = jox_length2(jox_sub(point, at));
-        if (away2 < nearest2) {
-            nearest2 = away2;
-            on_border = at;
-        }
-        JoxV2 outward = jox_scale(jox_v2(edge.y, -edge.x), 1.0f / sqrtf(length2));
-        float height = jox_dot(to, outward);
-        if (height > deepest) {
-            deepest = height;
-            inside =
-                (JoxFootprintPoint){outward, jox_sub(point, jox_scale(outward, height)), height};
-        }
-    }
-    JoxV2 away = jox_sub(point, on_border);
-    float gap = jox_length(away);
-    if (!(deepest > 0.0f) || !(gap > 0.0f)) /* within the ring, or on it */
-        return inside;
-    return (JoxFootprintPoint){jox_scale(away, 1.0f / gap), on_border, gap};
 }
