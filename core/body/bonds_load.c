@@ -191,25 +191,70 @@ static double relieve(const JoxBondGraph *g, const double spin[3], Three *f) {
     return sum;
 }
 
+/* Three numbers of a block, two of them side by side: the same sums, in fewer instructions. */
+typedef double Pair __attribute__((vector_size(16)));
+typedef struct Block {
+    Pair xy;
+    double z;
+} Block;
+
+static inline Block block_of(const Three v) {
+    Block block = {.z = v[2]};
+    memcpy(&block.xy, v, sizeof block.xy);
+    return block;
+}
+
+static inline void put(Three to, Block block) {
+    memcpy(to, &block.xy, sizeof block.xy);
+    to[2] = block.z;
+}
+
+static inline Block plus(Block a, Block b) {
+    return (Block){a.xy + b.xy, a.z + b.z};
+}
+
+static inline Block minus(Block a, Block b) {
+    return (Block){a.xy - b.xy, a.z - b.z};
+}
+
+static inline Block times(Block a, Block b) {
+    return (Block){a.xy * b.xy, a.z * b.z};
+}
+
 /* out = A u for the three weighted Laplacians at once. */
 static void apply(const JoxBondGraph *g, const Three *u, Three *out) {
+    const Block weights[] = {
+        {{1.0, ACROSS}, ACROSS}, {{ACROSS, 1.0}, ACROSS}, {{ACROSS, ACROSS}, 1.0}};
     memset(out, 0, g->count * sizeof *out);
     for (uint32_t k = 0; k < g->bond_count; k++) {
         const JoxBond *bond = &g->bonds[k];
-        for (uint32_t i = 0; i < 3; i++) {
-            double pull = (bond->axis == i ? 1.0 : ACROSS) * (u[bond->b][i] - u[bond->a][i]);
-            out[bond->a][i] -= pull;
-            out[bond->b][i] += pull;
-        }
+        const Block pull =
+            times(weights[bond->axis], minus(block_of(u[bond->b]), block_of(u[bond->a])));
+        put(out[bond->a], minus(block_of(out[bond->a]), pull));
+        put(out[bond->b], plus(block_of(out[bond->b]), pull));
     }
 }
 
 /* Sums over the blocks for each component. */
 static void sums(const JoxBondGraph *g, const Three *a, const Three *b, double out[3]) {
-    memset(out, 0, 3 * sizeof *out);
+    Block sum = {{0.0, 0.0}, 0.0};
     for (uint32_t n = 0; n < g->count; n++)
-        for (int i = 0; i < 3; i++)
-            out[i] += a[n][i] * b[n][i];
+        sum = plus(sum, times(block_of(a[n]), block_of(b[n])));
+    put(out, sum);
+}
+
+/* Goes a step along the direction p, of which q = A p: less is left, which is summed up. */
+static void go_on(const JoxBondGraph *g, const double step[3], const Three *p, const Three *q,
+                  Three *r, double left[3]) {
+    const Block by = block_of(step);
+    Block sum = {{0.0, 0.0}, 0.0};
+    for (uint32_t n = 0; n < g->count; n++) {
+        put(g->displacement[n], plus(block_of(g->displacement[n]), times(by, block_of(p[n]))));
+        const Block rest = minus(block_of(r[n]), times(by, block_of(q[n])));
+        put(r[n], rest);
+        sum = plus(sum, times(rest, rest));
+    }
+    put(left, sum);
 }
 
 /* Conjugate gradients for x, y and z side by side, begun at the last solution. The body must be in
@@ -233,18 +278,14 @@ static void equilibrium(JoxBondGraph *g, const Three *f) {
             return;
         apply(g, p, q);
         sums(g, p, q, along);
-        double step[3];
+        double step[3], share[3];
         for (int i = 0; i < 3; i++)
             step[i] = before[i] > enough[i] && along[i] > 0.0 ? before[i] / along[i] : 0.0;
+        go_on(g, step, p, q, r, after);
+        for (int i = 0; i < 3; i++)
+            share[i] = before[i] > 0.0 ? after[i] / before[i] : 0.0;
         for (uint32_t n = 0; n < g->count; n++)
-            for (int i = 0; i < 3; i++) {
-                u[n][i] += step[i] * p[n][i];
-                r[n][i] -= step[i] * q[n][i];
-            }
-        sums(g, r, r, after);
-        for (uint32_t n = 0; n < g->count; n++)
-            for (int i = 0; i < 3; i++)
-                p[n][i] = r[n][i] + (before[i] > 0.0 ? after[i] / before[i] : 0.0) * p[n][i];
+            put(p[n], plus(block_of(r[n]), times(block_of(share), block_of(p[n]))));
         memcpy(before, after, sizeof before);
     }
 }

@@ -124,9 +124,9 @@ void jox_bodies_free(JoxBodies *b) {
         unmake(b->dispatcher);
         unmake(b->configuration);
     }
-    void *owned[] = {b->walls,    b->rows,   b->order,   b->objects,
-                     b->hits,     b->gone,   b->corners, b->contact_loads,
-                     b->contacts, b->breaks, b->kept,    b->object_contacts};
+    void *owned[] = {b->walls,  b->rows,    b->order,          b->objects,      b->hits,
+                     b->gone,   b->corners, b->contact_loads,  b->contact_runs, b->contacts,
+                     b->breaks, b->kept,    b->object_contacts};
     for (void *memory : owned)
         jox_free(memory);
     jox_walls_free(&b->standing);

@@ -97,11 +97,16 @@ struct JoxRow {
     float shown_at[12];
 };
 
-/* A contact of a bonded body; `key` orders them by body, then by what it touches. */
+/* A contact of a bonded body. */
 struct JoxContactLoad {
-    uint64_t key;
     uint32_t block;
     btVector3 point, impulse, normal;
+};
+
+/* Those of one of Bullet's manifolds; `key` orders them by body, then by what it touches. */
+struct JoxContactRun {
+    uint64_t key;
+    uint32_t first, count; /* among the contacts, at least one */
 };
 
 /* Has Bullet allocate so that it meets no null pointer. */
@@ -161,6 +166,8 @@ struct JoxBodies {
     uint32_t gone_count, gone_capacity;
     JoxContactLoad *contact_loads; /* contacts of bonded bodies in a substep */
     uint32_t contact_load_count, contact_load_capacity;
+    JoxContactRun *contact_runs; /* of them, sorted */
+    uint32_t contact_run_count, contact_run_capacity;
     JoxBondContact *contacts; /* of one of them with one other body */
     uint32_t contact_capacity;
     JoxBodyBreak *breaks;

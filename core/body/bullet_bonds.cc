@@ -25,7 +25,8 @@ static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold
     int row = own->getUserIndex();
     if (row < 0 || !b->rows[row].bonds || b->rows[row].held || !own->isActive())
         return;
-    uint64_t key = uint64_t(row) << 32 | uint32_t(other->getUserIndex());
+    JoxContactRun run = {uint64_t(row) << 32 | uint32_t(other->getUserIndex()),
+                         b->contact_load_count, 0};
     for (int c = 0; c < manifold->getNumContacts(); c++) {
         const btManifoldPoint &p = manifold->getContactPoint(c);
         if (p.getDistance() > TOUCHING && !(p.m_appliedImpulse > 0))
@@ -39,53 +40,73 @@ static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold
         uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].bonds->count ? child : 0;
         jox_reserve(b->contact_loads, b->contact_load_capacity, b->contact_load_count + 1);
         b->contact_loads[b->contact_load_count] =
-            JoxContactLoad{key, block, sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
+            JoxContactLoad{block, sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
                            impulse * sign, p.m_normalWorldOnB * sign};
         b->contact_load_count++;
     }
+    run.count = b->contact_load_count - run.first;
+    if (run.count == 0)
+        return;
+    jox_reserve(b->contact_runs, b->contact_run_capacity, b->contact_run_count + 1);
+    b->contact_runs[b->contact_run_count++] = run;
 }
 
 static int by_key(const void *a, const void *b, const void *) {
-    const JoxContactLoad *x = static_cast<const JoxContactLoad *>(a);
-    const JoxContactLoad *y = static_cast<const JoxContactLoad *>(b);
+    const JoxContactRun *x = static_cast<const JoxContactRun *>(a);
+    const JoxContactRun *y = static_cast<const JoxContactRun *>(b);
     return (x->key > y->key) - (x->key < y->key);
 }
 
-void jox_bodies_gather_contacts(JoxBodies *b) {
-    b->contact_load_count = 0;
+/* Lists what loads bonded bodies: the contacts of each of them with one other body side by side. */
+static void list_contact_loads(JoxBodies *b) {
+    b->contact_load_count = b->contact_run_count = 0;
     for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
         const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
         const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
         add_contact_loads(b, manifold, one, two, 1);
         add_contact_loads(b, manifold, two, one, -1);
     }
-    const uint32_t count = b->contact_load_count;
-    jox_reserve(b->contact_loads, b->contact_load_capacity,
-                count + uint32_t(JOX_SORT_SPARE(count)));
-    jox_sort(b->contact_loads, count, sizeof *b->contact_loads, by_key, nullptr,
-             b->contact_loads + count);
+    const uint32_t count = b->contact_run_count;
+    jox_reserve(b->contact_runs, b->contact_run_capacity, count + uint32_t(JOX_SORT_SPARE(count)));
+    jox_sort(b->contact_runs, count, sizeof *b->contact_runs, by_key, nullptr,
+             b->contact_runs + count);
     JOX_CHECK(jox_contact_loads_check(b));
-    jox_reserve(b->contacts, b->contact_capacity, b->contact_load_count);
-    for (uint32_t first = 0, last; first < b->contact_load_count; first = last) {
-        JoxRow *r = &b->rows[b->contact_loads[first].key >> 32];
-        btTransform frame = jox_row_frame(r);
-        btVector3 normal(0, 0, 0);
-        for (last = first; last < b->contact_load_count &&
-                           b->contact_loads[last].key == b->contact_loads[first].key;
-             last++) {
-            Triple at = triple(frame.invXform(b->contact_loads[last].point));
-            Triple p = triple(b->contact_loads[last].impulse * frame.getBasis());
-            JoxBondContact *to = &b->contacts[last - first];
-            to->block = b->contact_loads[last].block;
-            for (int i = 0; i < 3; i++) {
-                to->point[i] = at.at[i];
-                to->impulse[i] = p.at[i];
-            }
-            normal += b->contact_loads[last].normal;
+}
+
+/* Adds the contacts of a run, in the body's own frame, behind `count`; and their normals. */
+static uint32_t take_run(JoxBodies *b, const JoxContactRun *run, const btTransform &frame,
+                         uint32_t count, btVector3 *normal) {
+    for (uint32_t k = run->first; k < run->first + run->count; k++) {
+        const JoxContactLoad *load = &b->contact_loads[k];
+        Triple at = triple(frame.invXform(load->point));
+        Triple p = triple(load->impulse * frame.getBasis());
+        JoxBondContact *to = &b->contacts[count++];
+        to->block = load->block;
+        for (int i = 0; i < 3; i++) {
+            to->point[i] = at.at[i];
+            to->impulse[i] = p.at[i];
         }
+        *normal += load->normal;
+    }
+    return count;
+}
+
+void jox_bodies_gather_contacts(JoxBodies *b) {
+    list_contact_loads(b);
+    jox_reserve(b->contacts, b->contact_capacity, b->contact_load_count);
+    btTransform frame;
+    for (uint32_t k = 0; k < b->contact_run_count;) {
+        const uint64_t key = b->contact_runs[k].key;
+        JoxRow *r = &b->rows[key >> 32];
+        if (k == 0 || key >> 32 != b->contact_runs[k - 1].key >> 32)
+            frame = jox_row_frame(r);
+        btVector3 normal(0, 0, 0);
+        uint32_t count = 0;
+        for (; k < b->contact_run_count && b->contact_runs[k].key == key; k++)
+            count = take_run(b, &b->contact_runs[k], frame, count, &normal);
         normal = normal.length2() > 1e-12f ? normal.normalized() : btVector3(0, 0, 0);
         Triple n = triple(normal * frame.getBasis());
-        jox_bonds_add_contacts(r->bonds, b->contacts, last - first, n.at);
+        jox_bonds_add_contacts(r->bonds, b->contacts, count, n.at);
     }
 }
 

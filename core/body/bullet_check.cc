@@ -93,11 +93,18 @@ void jox_bodies_report_check(const JoxBodies *b, uint32_t disc_count) {
 }
 
 void jox_contact_loads_check(const JoxBodies *b) {
-    for (uint32_t n = 0; n < b->contact_load_count; n++) {
-        const JoxContactLoad *load = &b->contact_loads[n];
-        JOX_ASSERT(n == 0 || b->contact_loads[n - 1].key <= load->key);
-        JOX_ASSERT((load->key >> 32) < b->count && b->rows[load->key >> 32].bonds);
-        JOX_ASSERT(load->block < b->rows[load->key >> 32].bonds->count);
-        JOX_ASSERT(jox_finite(load->point) && std::fabs(load->normal.length2() - 1) < 1e-2f);
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < b->contact_run_count; k++) {
+        const JoxContactRun *run = &b->contact_runs[k];
+        JOX_ASSERT(k == 0 || b->contact_runs[k - 1].key <= run->key);
+        JOX_ASSERT((run->key >> 32) < b->count && b->rows[run->key >> 32].bonds);
+        JOX_ASSERT(run->count > 0 && run->first + run->count <= b->contact_load_count);
+        for (uint32_t n = run->first; n < run->first + run->count; n++) {
+            const JoxContactLoad *load = &b->contact_loads[n];
+            JOX_ASSERT(load->block < b->rows[run->key >> 32].bonds->count);
+            JOX_ASSERT(jox_finite(load->point) && std::fabs(load->normal.length2() - 1) < 1e-2f);
+        }
+        count += run->count;
     }
+    JOX_ASSERT(count == b->contact_load_count);
 }

@@ -79,6 +79,22 @@ static int by_x(const void *a, const void *b, const void *context) {
     return p->y < q->y ? -1 : p->y > q->y;
 }
 
+/* Few points, as of a box, are inserted one by one. */
+static void sort_points(JoxV2 *points, uint32_t count, JoxV2 *spare) {
+    enum { FEW = 24 };
+    if (count > FEW) {
+        jox_sort(points, count, sizeof *points, by_x, NULL, spare);
+        return;
+    }
+    for (uint32_t k = 1; k < count; k++) {
+        const JoxV2 point = points[k];
+        uint32_t at = k;
+        for (; at > 0 && by_x(&points[at - 1], &point, NULL) > 0; at--)
+            points[at] = points[at - 1];
+        points[at] = point;
+    }
+}
+
 static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {
     return jox_det(jox_sub(b, a), jox_sub(c, a));
 }
@@ -137,7 +153,7 @@ void jox_footprint_end(JoxFootprint *footprint, JoxObject *object) {
         return;
     JOX_RESERVE(footprint->points, footprint->capacity, 2 * n + 2);
     JoxV2 *ring = footprint->points + n; /* spare room, then the hull */
-    jox_sort(footprint->points, n, sizeof *footprint->points, by_x, NULL, ring);
+    sort_points(footprint->points, n, ring);
     uint32_t corners = thin(ring, hull(footprint->points, n, ring));
     /* A sliver without area cannot be touched. */
     object->in_band = corners >= 3;

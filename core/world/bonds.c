@@ -9,6 +9,7 @@
 
 static const float SKIN = 0.02f;      /* m: people nearer than this touch */
 static const float FRONT = 0.30f;     /* m: from the wall to the skin of those who are in front */
+static const float ROUNDING = 0.01f;  /* m: more than that of a distance */
 static const double FRONT_TIME = 1.0; /* s: over which their speed is averaged */
 
 /* From an agent's skin to the footprint of a body, m. */
@@ -37,8 +38,12 @@ void jox_bonds_note_touch(const JoxBodyStage *stage) {
         JOX_ASSERT(stage->objects->rows[o].live);
         uint32_t front = 0;
         double sum = 0.0;
+        const JoxObject *body = &stage->objects->rows[o];
         for (uint32_t i = 0; i < a->count; i++) {
-            float gap = gap_to(a, &stage->objects->rows[o], i);
+            const float reach = jox_param(a, JOX_PARAM_radius, i) + FRONT + ROUNDING;
+            if (!jox_object_reaches(body, (JoxV2){a->x[i], a->y[i]}, reach))
+                continue;
+            float gap = gap_to(a, body, i);
             if (gap > FRONT)
                 continue;
             s->touched = s->touched || gap <= 0.0f;
