@@ -1,11 +1,10 @@
 #include "body/footprint.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
-#include "base/sort.h"
 
 void jox_footprint_begin(JoxFootprint *footprint) {
     footprint->count = 0;
@@ -71,28 +70,36 @@ void jox_footprint_add_sphere(JoxFootprint *footprint, JoxV3 centre, float radiu
             centre.y + round * footprint->circle[i].y);
 }
 
-static int by_x(const void *a, const void *b, const void *context) {
-    (void)context;
-    const JoxV2 *p = a, *q = b;
-    if (p->x != q->x)
-        return p->x < q->x ? -1 : 1;
-    return p->y < q->y ? -1 : p->y > q->y;
+/* By x, then y. */
+static inline bool comes_after(JoxV2 p, JoxV2 q) {
+    return p.x != q.x ? p.x > q.x : p.y > q.y;
 }
 
-/* Few points, as of a box, are inserted one by one. */
-static void sort_points(JoxV2 *points, uint32_t count, JoxV2 *spare) {
-    enum { FEW = 24 };
-    if (count > FEW) {
-        jox_sort(points, count, sizeof *points, by_x, NULL, spare);
-        return;
-    }
+static void insert_points(JoxV2 *points, uint32_t count) {
     for (uint32_t k = 1; k < count; k++) {
         const JoxV2 point = points[k];
         uint32_t at = k;
-        for (; at > 0 && by_x(&points[at - 1], &point, NULL) > 0; at--)
+        for (; at > 0 && comes_after(points[at - 1], point); at--)
             points[at] = points[at - 1];
         points[at] = point;
     }
+}
+
+/* Merges halves, as jox_sort does, whose calls for each comparison would cost more than all else
+   here. `spare` has room for half of the points. */
+static void sort_points(JoxV2 *points, uint32_t count, JoxV2 *spare) {
+    enum { FEW = 16 };
+    const uint32_t half = count / 2;
+    if (count <= FEW) {
+        insert_points(points, count);
+        return;
+    }
+    sort_points(points, half, spare);
+    sort_points(points + half, count - half, spare);
+    memcpy(spare, points, half * sizeof *spare);
+    for (uint32_t left = 0, right = half, to = 0; left < half; to++)
+        points[to] = right == count || !comes_after(spare[left], points[right]) ? spare[left++]
+                                                                                : points[right++];
 }
 
 static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {

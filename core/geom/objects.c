@@ -39,14 +39,23 @@ static Range range_of(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
                    cell_at(high.y, g->low.y, g->cell, g->rows)};
 }
 
-/* Entries of all bodies in cells of the present size. */
-static size_t count_entries(const JoxObjects *objects) {
+static bool is_met(const JoxCover *c) {
+    return c->left <= c->right;
+}
+
+/* Cells of the present size of all bodies; returns how many these are in all. */
+static size_t cover_cells(JoxObjects *objects) {
+    const JoxObjectGrid *g = &objects->grid;
     size_t count = 0;
-    JoxV2 low, high;
     for (uint32_t i = 0; i < objects->count; i++) {
-        if (!bounds_of(&objects->rows[i], &low, &high))
+        JoxCover *c = &g->covers[i];
+        if (!is_met(c))
             continue;
-        Range r = range_of(&objects->grid, low, high);
+        Range r = range_of(g, c->low, c->high);
+        c->left = r.left;
+        c->bottom = r.bottom;
+        c->right = r.right;
+        c->top = r.top;
         count += (size_t)(r.right - r.left + 1) * (r.top - r.bottom + 1);
     }
     return count;
@@ -64,7 +73,7 @@ static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
             continue;
         g->columns = (uint32_t)columns;
         g->rows = (uint32_t)rows;
-        size_t entries = count_entries(objects);
+        size_t entries = cover_cells(objects);
         if (entries <= 16 * (size_t)bodies)
             return entries;
     }
@@ -72,16 +81,13 @@ static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
 
 /* Counts, or enters backwards, each body in the cells that it covers. */
 static void enter(JoxObjects *objects, bool count) {
-    JoxObjectGrid *g = &objects->grid;
-    JoxV2 low, high;
+    const JoxObjectGrid *g = &objects->grid;
     for (uint32_t i = objects->count; i-- > 0;) { /* so that rows ascend within a cell */
-        if (!bounds_of(&objects->rows[i], &low, &high))
+        const JoxCover *c = &g->covers[i];
+        if (!is_met(c))
             continue;
-        Range r = range_of(g, low, high);
-        g->first[2 * i] = r.left;
-        g->first[2 * i + 1] = r.bottom;
-        for (uint32_t row = r.bottom; row <= r.top; row++)
-            for (uint32_t column = r.left; column <= r.right; column++) {
+        for (uint32_t row = c->bottom; row <= c->top; row++)
+            for (uint32_t column = c->left; column <= c->right; column++) {
                 uint32_t *at = &g->starts[(size_t)row * g->columns + column];
                 if (count)
                     ++*at;
@@ -106,17 +112,21 @@ static void check_grid(const JoxObjects *objects) {
 
 void jox_objects_lay(JoxObjects *objects) {
     JoxObjectGrid *g = &objects->grid;
-    JoxV2 low, high;
     uint32_t bodies = 0;
+    JOX_RESERVE(g->covers, g->cover_capacity, objects->count);
     g->laid = objects->count;
     g->columns = g->rows = 0;
     g->low = (JoxV2){INFINITY, INFINITY};
     g->high = (JoxV2){-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < objects->count; i++) {
-        if (!bounds_of(&objects->rows[i], &low, &high))
+        JoxCover *c = &g->covers[i];
+        c->left = c->right = 0;
+        if (!bounds_of(&objects->rows[i], &c->low, &c->high)) {
+            c->left = 1; /* none */
             continue;
-        g->low = jox_v2(jox_minf(g->low.x, low.x), jox_minf(g->low.y, low.y));
-        g->high = jox_v2(jox_maxf(g->high.x, high.x), jox_maxf(g->high.y, high.y));
+        }
+        g->low = jox_v2(jox_minf(g->low.x, c->low.x), jox_minf(g->low.y, c->low.y));
+        g->high = jox_v2(jox_maxf(g->high.x, c->high.x), jox_maxf(g->high.y, c->high.y));
         bodies++;
     }
     if (!bodies)
@@ -125,7 +135,6 @@ void jox_objects_lay(JoxObjects *objects) {
     uint32_t cells = g->columns * g->rows;
     /* Room for what there may be, so that bodies that only move need no more. */
     JOX_RESERVE(g->starts, g->start_capacity, 4 * (size_t)objects->count + 17);
-    JOX_RESERVE(g->first, g->first_capacity, 2 * (size_t)objects->count);
     JOX_RESERVE(g->members, g->member_capacity, 16 * (size_t)objects->count);
     JOX_ASSERT(cells < g->start_capacity && entries <= g->member_capacity);
     memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
@@ -143,7 +152,7 @@ void jox_objects_lay(JoxObjects *objects) {
 void jox_objects_free_grid(JoxObjects *objects) {
     jox_free(objects->grid.starts);
     jox_free(objects->grid.members);
-    jox_free(objects->grid.first);
+    jox_free(objects->grid.covers);
     objects->grid = (JoxObjectGrid){0};
 }
 

@@ -73,6 +73,13 @@ typedef struct JoxObjectContact {
     float force;            /* along the normal in the step before, N */
 } JoxObjectContact;
 
+/* What a body covers in the plane, m, and the cells that this reaches into, all inclusive; none
+   where agents cannot meet it: `left` is beyond `right`. */
+typedef struct JoxCover {
+    JoxV2 low, high;
+    uint32_t left, bottom, right, top;
+} JoxCover;
+
 /* Which bodies are where: cells that list the rows of those whose bounds reach into them. */
 typedef struct JoxObjectGrid {
     JoxV2 low, high;
@@ -81,8 +88,8 @@ typedef struct JoxObjectGrid {
     uint32_t columns, rows; /* 0: no body can be met */
     uint32_t *starts;       /* per cell, and one more */
     uint32_t *members;      /* rows of bodies, ascending within a cell */
-    uint32_t *first;        /* per row of bodies: the least column and row of its cells */
-    size_t start_capacity, member_capacity, first_capacity;
+    JoxCover *covers;       /* per row of bodies */
+    size_t start_capacity, member_capacity, cover_capacity;
 } JoxObjectGrid;
 
 typedef struct JoxObjects {
@@ -117,7 +124,7 @@ static inline bool jox_objects_next(JoxObjectWalk *walk, uint32_t *row) {
         while (walk->at < walk->end) {
             uint32_t found = g->members[walk->at++];
             /* A body that is in several of the cells counts in the first of them. */
-            uint32_t column = g->first[2 * found], line = g->first[2 * found + 1];
+            uint32_t column = g->covers[found].left, line = g->covers[found].bottom;
             if ((column > walk->left ? column : walk->left) == walk->column &&
                 (line > walk->bottom ? line : walk->bottom) == walk->row) {
                 *row = found;
