@@ -145,22 +145,32 @@ static uint32_t other_row(const JoxBodies *b, const btCollisionObject *object) {
     return object->isKinematicObject() ? uint32_t(object->getUserIndex()) : moving_row(b, object);
 }
 
-/* Bullet has measured the gaps before it moved the bodies for the last time. */
-static JoxObjectContact seen_contact(const JoxBodies *b, const btPersistentManifold *manifold,
-                                     const btManifoldPoint &p, float per_second) {
-    uint32_t one = moving_row(b, manifold->getBody0()), two = moving_row(b, manifold->getBody1());
-    const btVector3 on_one = manifold->getBody0()->getWorldTransform() * p.m_localPointA;
-    const btVector3 on_two = manifold->getBody1()->getWorldTransform() * p.m_localPointB;
-    const bool swap = one == JOX_NO_OBJECT;
-    JoxObjectContact contact;
-    contact.first = swap ? two : one;
-    contact.second = other_row(b, swap ? manifold->getBody0() : manifold->getBody1());
-    contact.point = jox_v3((on_one + on_two) * 0.5f);
-    contact.normal = jox_v3(swap ? -p.m_normalWorldOnB : p.m_normalWorldOnB);
-    contact.gap = (on_one - on_two).dot(p.m_normalWorldOnB);
-    contact.friction = p.m_combinedFriction;
-    contact.force = p.m_appliedImpulse * per_second;
-    return contact;
+/* Lists the contacts of two objects, one of which can be pushed, behind `count`; returns how many
+   there are then. Bullet has measured the gaps before it moved the bodies for the last time. */
+static uint32_t add_seen(JoxBodies *b, const btPersistentManifold *manifold, float per_second,
+                         uint32_t count) {
+    const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
+    const uint32_t row = moving_row(b, one);
+    const bool swap = row == JOX_NO_OBJECT;
+    const uint32_t first = swap ? moving_row(b, two) : row;
+    const uint32_t second = other_row(b, swap ? one : two);
+    const btTransform &at_one = one->getWorldTransform(), &at_two = two->getWorldTransform();
+    JOX_ASSERT(first != JOX_NO_OBJECT);
+    jox_reserve(b->object_contacts, b->object_contact_capacity,
+                count + uint32_t(manifold->getNumContacts()));
+    for (int c = 0; c < manifold->getNumContacts(); c++) {
+        const btManifoldPoint &p = manifold->getContactPoint(c);
+        const btVector3 on_one = at_one * p.m_localPointA, on_two = at_two * p.m_localPointB;
+        JoxObjectContact *contact = &b->object_contacts[count++];
+        contact->first = first;
+        contact->second = second;
+        contact->point = jox_v3((on_one + on_two) * 0.5f);
+        contact->normal = jox_v3(swap ? -p.m_normalWorldOnB : p.m_normalWorldOnB);
+        contact->gap = (on_one - on_two).dot(p.m_normalWorldOnB);
+        contact->friction = p.m_combinedFriction;
+        contact->force = p.m_appliedImpulse * per_second;
+    }
+    return count;
 }
 
 /* Of the rim upon which a cylinder stands, Bullet knows the side where it rocks at the moment; in
@@ -204,14 +214,11 @@ void jox_bodies_list_contacts(JoxBodies *b) {
     uint32_t count = 0;
     for (int m = 0; b->world && m < b->dispatcher->getNumManifolds(); m++) {
         const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
-        if (moving_row(b, manifold->getBody0()) == JOX_NO_OBJECT &&
-            moving_row(b, manifold->getBody1()) == JOX_NO_OBJECT)
+        if (manifold->getNumContacts() == 0 ||
+            (moving_row(b, manifold->getBody0()) == JOX_NO_OBJECT &&
+             moving_row(b, manifold->getBody1()) == JOX_NO_OBJECT))
             continue;
-        for (int c = 0; c < manifold->getNumContacts(); c++) {
-            jox_reserve(b->object_contacts, b->object_contact_capacity, count + 1);
-            b->object_contacts[count++] =
-                seen_contact(b, manifold, manifold->getContactPoint(c), per_second);
-        }
+        count = add_seen(b, manifold, per_second, count);
         count = add_rim(b, manifold, count);
     }
     b->object_contact_count = count;

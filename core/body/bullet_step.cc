@@ -98,14 +98,15 @@ static void mark_grounded(JoxBodies *b) {
         if (one->isStaticOrKinematicObject() == two->isStaticOrKinematicObject())
             continue;
         const btCollisionObject *mover = one->isStaticOrKinematicObject() ? two : one;
+        const int row = mover->getUserIndex();
+        if (row < 0 || b->rows[row].grounded)
+            continue;
+        JOX_ASSERT(b->rows[row].body == mover);
         float sign = mover == one ? 1.0f : -1.0f;
         for (int c = 0; c < manifold->getNumContacts(); c++) {
             const btManifoldPoint &p = manifold->getContactPoint(c);
-            if (p.getDistance() < 0.01f && sign * p.m_normalWorldOnB.z() > 0.5f &&
-                mover->getUserIndex() >= 0) {
-                JOX_ASSERT(b->rows[mover->getUserIndex()].body == mover);
-                b->rows[mover->getUserIndex()].grounded = true;
-            }
+            if (p.getDistance() < 0.01f && sign * p.m_normalWorldOnB.z() > 0.5f)
+                b->rows[row].grounded = true;
         }
     }
 }
