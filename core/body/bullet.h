@@ -82,14 +82,14 @@ struct JoxRow {
     int activation;      /* scratch: Bullet's state of sleep */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
     JoxV3 pushed;        /* scratch: the force of the last substep, N */
-    float before[16];    /* scratch: where the substep began, a transform as OpenGL has it */
-    bool kinematic;      /* no mass, and moved by its velocity, or along its path */
-    JoxBodyPath path;    /* of the centre of mass; its points are owned */
-    double path_time;    /* s, since it began: how far along it is */
-    double stands;       /* s: so long it still stands, having met somebody */
-    bool goes_back;      /* along the path, to where its leg began */
-    JoxV3 felt;          /* scratch: impulses of people in this step, N s */
-    bool held;           /* by an agent */
+    btTransformFloatData before; /* scratch: where the substep began */
+    bool kinematic;              /* no mass, and moved by its velocity, or along its path */
+    JoxBodyPath path;            /* of the centre of mass; its points are owned */
+    double path_time;            /* s, since it began: how far along it is */
+    double stands;               /* s: so long it still stands, having met somebody */
+    bool goes_back;              /* along the path, to where its leg began */
+    JoxV3 felt;                  /* scratch: impulses of people in this step, N s */
+    bool held;                   /* by an agent */
     uint32_t holder;
     /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
        m, and rows of its rotation), and whether people could reach it there. */

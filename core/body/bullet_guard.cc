@@ -10,12 +10,14 @@ static const float REACH = 2.5f; /* m in a substep: who goes farther is compared
 void jox_bodies_guard_begin(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
-        r->body->getWorldTransform().getOpenGLMatrix(r->before);
+        r->body->getWorldTransform().serializeFloat(r->before);
     }
 }
 
 static btVector3 before(const JoxRow *r) {
-    return btVector3(r->before[12], r->before[13], r->before[14]);
+    btVector3 at;
+    at.deSerializeFloat(r->before.m_origin);
+    return at;
 }
 
 static bool is_far(const btVector3 &at) {
@@ -77,7 +79,7 @@ static bool is_lost(JoxBodies *b, const JoxRow *r, JoxBodyEnd *why) {
 static void put_back(JoxBodies *b, JoxRow *r) {
     b->world->remove(r->body);
     btTransform at;
-    at.setFromOpenGLMatrix(r->before);
+    at.deSerializeFloat(r->before);
     r->body->setWorldTransform(at);
     r->body->setInterpolationWorldTransform(at);
     r->body->setLinearVelocity(btVector3(0, 0, 0));

@@ -130,8 +130,8 @@ typedef struct JoxBodyMotion {
     JoxV3 given, given_turn; /* by those who touch it, N s and N m s */
     float held;              /* share of that which its supports took */
     float unrest; /* sum of all impulses, each by what it does to the body: N s / root of kg */
-    bool solved, touched;    /* else it goes on as it moves */
-    uint8_t link;            /* bodies between it and the nearest that is touched */
+    bool solved, touched; /* else it goes on as it moves */
+    uint8_t link;         /* bodies between it and the nearest that is touched */
 } JoxBodyMotion;
 
 #endif

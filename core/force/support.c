@@ -50,8 +50,7 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     JoxV3 turned = jox_turn3(body->inverse_inertia, turn);
     m->velocity += four(impulse) * body->inverse_mass;
     m->spin += four(turned);
-    m->unrest +=
-        sqrtf(jox_dot3(impulse, impulse) * body->inverse_mass + jox_dot3(turn, turned));
+    m->unrest += sqrtf(jox_dot3(impulse, impulse) * body->inverse_mass + jox_dot3(turn, turned));
 }
 
 /* All bodies as they are, and behind them what is static, at rest; of those that can be pushed the
@@ -132,8 +131,7 @@ static JoxSupportWatch watch_of(const JoxSupport *s) {
     JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}, .answered = {NEVER, NEVER}};
     for (int k = 0; k < 3; k++)
         for (int side = 0; side < 2; side++)
-            watch.answer[side] =
-                jox_maxf(watch.answer[side], axes[k]->mass * axes[k]->sway[side]);
+            watch.answer[side] = jox_maxf(watch.answer[side], axes[k]->mass * axes[k]->sway[side]);
     return watch;
 }
 

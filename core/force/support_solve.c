@@ -88,9 +88,9 @@ static float solve_one(JoxBodyMotion *first, JoxBodyMotion *second, JoxSupport *
 static inline float change_due(const JoxBodyMotion *first, const JoxBodyMotion *second,
                                const JoxSupport *s) {
     const JoxV2 rub = rubbing(first, second, s);
-    return jox_maxf(fabsf(pressing(first, second, s) - s->normal.impulse),
-                    jox_maxf(fabsf(rub.x - s->across[0].impulse),
-                             fabsf(rub.y - s->across[1].impulse)));
+    return jox_maxf(
+        fabsf(pressing(first, second, s) - s->normal.impulse),
+        jox_maxf(fabsf(rub.x - s->across[0].impulse), fabsf(rub.y - s->across[1].impulse)));
 }
 
 /* Solves a contact, unless what is left to change of its impulses is little. Returns by how much

@@ -200,6 +200,32 @@ static void a_hair_of_tilt_costs_no_corner(void **state) {
     }
 }
 
+/* Corners anywhere, few and many: all lie within the ring, which turns left throughout. */
+static void a_ring_goes_round_all_corners(void **state) {
+    (void)state;
+    const uint32_t no_edges[2] = {0};
+    JoxFootprint footprint = {0};
+    for (uint32_t count = 3; count < 200; count++) {
+        JoxV3 corners[200];
+        JoxObject o = {0};
+        for (uint32_t k = 0; k < count; k++) /* of some, x is the same; on an ellipse, and within */
+            corners[k] = (JoxV3){floorf(8.0f * cosf((float)k)), sinf((float)(k * k)) * 3.0f, 1.0f};
+        corners[0].z = 0.5f;
+        jox_footprint_begin(&footprint);
+        jox_footprint_add(&footprint, corners, count, no_edges, 0);
+        jox_footprint_end(&footprint, &o);
+        assert_in_range(o.footprint_count, 3, JOX_FOOTPRINT_POINTS);
+        for (uint32_t i = 0; i < o.footprint_count; i++) {
+            const JoxV2 a = o.footprint[i], b = o.footprint[(i + 1) % o.footprint_count];
+            for (uint32_t k = 0; k < count; k++) {
+                const JoxV2 p = {corners[k].x, corners[k].y};
+                assert_true(jox_det(jox_sub(b, a), jox_sub(p, a)) > -0.5f); /* thinned: m2 */
+            }
+        }
+    }
+    jox_footprint_free(&footprint);
+}
+
 static void what_falls_for_ever_is_taken_out(void **state) {
     (void)state;
     need_bullet();
@@ -295,6 +321,7 @@ int main(void) {
         cmocka_unit_test(a_ball_bounces_off_walls_and_does_not_pass_them),
         cmocka_unit_test(footprints_follow_the_shape),
         cmocka_unit_test(a_hair_of_tilt_costs_no_corner),
+        cmocka_unit_test(a_ring_goes_round_all_corners),
         cmocka_unit_test(what_falls_for_ever_is_taken_out),
         cmocka_unit_test(equal_runs_have_equal_hashes),
         cmocka_unit_test(what_is_too_thin_cannot_move),
