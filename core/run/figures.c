@@ -155,9 +155,15 @@ static bool danger_begin(void *self, JoScene *scene, const void *options, JoErro
     return true;
 }
 
+/* Crowd pressure goes by velocities: of an area of its own, the figures measure it themselves. */
 static bool danger_frame(void *self, JoScene *scene, JoError *error) {
+    JoxDanger *danger = *(JoxDanger **)self;
+    const JoxLocal *local = jox_danger_local(danger);
+    const bool own = local != held(scene, &LOCAL);
+    const bool due = own && jox_local_is_due(local, jo_world_time(scene->world));
     (void)error;
-    jox_danger_frame(*(JoxDanger **)self, jox_run_frame(scene, 0), &scene->world->state.exits);
+    jox_danger_frame(danger, jox_run_frame(scene, due ? JOX_FRAME_VELOCITIES : 0),
+                     &scene->world->state.exits);
     return true;
 }
 
