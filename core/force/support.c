@@ -14,9 +14,6 @@ enum {
     LINKS = 4 /* bodies behind each other, from the one that is touched; the next is as a wall */
 };
 
-/* What a contact that was never solved has answered of its bodies' unrest: all is due. */
-static const float NEVER = -1e30f;
-
 static JoxV3 plus(JoxV3 a, JoxV3 b, float times) {
     return (JoxV3){a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
 }
@@ -125,10 +122,10 @@ static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 
     return axis;
 }
 
-/* Watches a contact that has not been solved yet. */
+/* Watches a contact, which is solved before anything is asked of it. */
 static JoxSupportWatch watch_of(const JoxSupport *s) {
     const JoxSupportAxis *axes[] = {&s->normal, &s->across[0], &s->across[1]};
-    JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}, .answered = {NEVER, NEVER}};
+    JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}};
     for (int k = 0; k < 3; k++)
         for (int side = 0; side < 2; side++)
             watch.answer[side] = jox_maxf(watch.answer[side], axes[k]->mass * axes[k]->sway[side]);

@@ -1,7 +1,7 @@
 /* Sweeps over what holds bodies (support.c). Of a pile, most contacts have found their forces after
-   a few sweeps, while the chain of those who push on it goes on for dozens. So a contact is looked
-   at again only once its bodies may have changed by enough, and solved only where its impulses
-   would change by enough.
+   a few sweeps, while the chain of those who push on it goes on for dozens. So after some passes a
+   contact is looked at again only once its bodies may have changed by enough, and solved only where
+   its impulses would change by enough.
 
    By how much 1 N s along one axis of a contact changes the speed along another of the same body is
    at most the product of the sways of both (the inequality of Cauchy and Schwarz, in the product of
@@ -13,7 +13,8 @@
 #include "force/internal.h"
 
 enum {
-    SWEEPS = 2 /* over these contacts in a pass over all */
+    SWEEPS = 2, /* over these contacts in a pass over all */
+    WHOLE = 6 /* passes in which all are solved: few bodies need no more, and stand as they would */
 };
 
 /* Of the tolerance: what a contact may be off by when it is looked at, and as much again before it
@@ -93,31 +94,45 @@ static inline float change_due(const JoxBodyMotion *first, const JoxBodyMotion *
         jox_maxf(fabsf(rub.x - s->across[0].impulse), fabsf(rub.y - s->across[1].impulse)));
 }
 
-/* Solves a contact, unless what is left to change of its impulses is little. Returns by how much
-   what presses there changes, or would at most, N s. */
-static inline float attend(JoxForces *f, uint32_t k, float little) {
-    JoxSupportWatch *w = &f->watch[k];
-    JoxBodyMotion *first = &f->motions[w->rows[0]], *second = &f->motions[w->rows[1]];
+/* Whether what is left to change of a contact's impulses is little, N s; then `most` is told by how
+   much what presses there would change at most. */
+static inline bool is_done(const JoxBodyMotion *first, const JoxBodyMotion *second,
+                           const JoxSupport *s, JoxSupportWatch *w, float little, float *most) {
     const float since = w->answer[0] * (first->unrest - w->answered[0]) +
                         w->answer[1] * (second->unrest - w->answered[1]);
-    if (since <= little)
-        return w->left + since;
-    const float due = change_due(first, second, &f->support[k]);
-    if (!(due <= little))
-        return solve_one(first, second, &f->support[k], w);
-    w->answered[0] = first->unrest;
-    w->answered[1] = second->unrest;
-    w->left = due;
-    return due;
+    if (since > little) {
+        const float due = change_due(first, second, s);
+        if (!(due <= little))
+            return false;
+        w->answered[0] = first->unrest;
+        w->answered[1] = second->unrest;
+        *most = w->left = due;
+        return true;
+    }
+    *most = w->left + since;
+    return true;
+}
+
+/* Over all contacts, in their order; returns the greatest change of what presses, N s. */
+static float sweep_over(JoxForces *f, bool whole) {
+    const float little = LITTLE * f->options.tolerance * (float)f->step.dt;
+    float most = 0.0f;
+    for (uint32_t k = 0; k < f->support_count; k++) {
+        JoxSupportWatch *w = &f->watch[k];
+        JoxBodyMotion *first = &f->motions[w->rows[0]], *second = &f->motions[w->rows[1]];
+        JoxSupport *s = &f->support[k];
+        float change;
+        if (whole || !is_done(first, second, s, w, little, &change))
+            change = solve_one(first, second, s, w);
+        most = jox_maxf(most, change);
+    }
+    return most;
 }
 
 float jox_supports_pass(JoxForces *f) {
-    const float little = LITTLE * f->options.tolerance * (float)f->step.dt;
+    const bool whole = f->totals.passes < WHOLE;
     float most = 0.0f;
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        most = 0.0f;
-        for (uint32_t k = 0; k < f->support_count; k++)
-            most = jox_maxf(most, attend(f, k, little));
-    }
+    for (int sweep = 0; sweep < SWEEPS; sweep++)
+        most = sweep_over(f, whole);
     return most;
 }
