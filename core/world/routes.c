@@ -13,7 +13,8 @@ enum { MOST_FIELDS = 64 };
    doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
 static const float MOST_CELLS = 400000.0f;
-/* Of a field that goes by where the crowd is: it is old news soon, and made again and again. */
+/* Of a field that goes by where the crowd is, which has moved on by the time it is used; it is made
+   anew every CROWD_PAUSE. */
 static const float MOST_CROWD_CELLS = 100000.0f;
 static const float CLEARANCE = 0.15f;  /* m: half of a person who turns sideways */
 static const float MOST_ROOM = 1.5f;   /* times the box that is needed */

@@ -106,7 +106,7 @@ static void reserve_people(JoxDanger *d, const JoxFrame *frame) {
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
     JOX_RESERVE(d->bearing, d->bearing_capacity, frame->count);
     const uint32_t had = d->bears_capacity;
-    JOX_RESERVE(d->bears, d->bears_capacity, d->people_capacity);
+    JOX_RESERVE_ZEROED(d->bears, d->bears_capacity, d->people_capacity);
     for (uint32_t k = had; k < d->people_capacity; k++)
         d->bears[k] = bears_something(&d->people[k]);
 }
