@@ -46,11 +46,19 @@ enum { IN_VAIN = 100, CLOSER = 80 };
    most of whose extent lies outside of it. */
 static const uint64_t MOST_THROWS = 20000000;
 
+/* One point of a cell, at INFINITY where there is none, and a list of the others, of which there
+   are few: cells are hardly wider than points are apart. */
+typedef struct Cell {
+    JoxV2 first;
+    uint32_t others; /* UINT32_MAX: none */
+} Cell;
+
 /* Points that are there, by cells as wide as they are apart. */
 typedef struct Thrown {
     JoxV2 *points;
     uint32_t count, capacity;
-    uint32_t *head, *next; /* by cell; by point */
+    Cell *cells;
+    uint32_t *next; /* of each point in its cell's list */
     uint32_t columns, rows, next_capacity;
     JoxV2 low, period; /* period 0: the area's ends are not joined */
     float cell, apart;
@@ -67,13 +75,18 @@ static uint32_t cell_of(const Thrown *t, float at, float low, uint32_t most) {
     return cell <= 0.0f ? 0 : cell >= (float)most ? most - 1 : (uint32_t)cell;
 }
 
+static bool is_close(const Thrown *t, JoxV2 a, JoxV2 b) {
+    const float dx = between(a.x, b.x, t->period.x), dy = between(a.y, b.y, t->period.y);
+    return dx * dx + dy * dy < t->apart * t->apart;
+}
+
 static bool is_near_in(const Thrown *t, uint32_t column, uint32_t row, JoxV2 p) {
-    for (uint32_t i = t->head[row * t->columns + column]; i != UINT32_MAX; i = t->next[i]) {
-        const float dx = between(t->points[i].x, p.x, t->period.x);
-        const float dy = between(t->points[i].y, p.y, t->period.y);
-        if (dx * dx + dy * dy < t->apart * t->apart)
+    const Cell *cell = &t->cells[row * t->columns + column];
+    if (is_close(t, cell->first, p))
+        return true;
+    for (uint32_t i = cell->others; i != UINT32_MAX; i = t->next[i])
+        if (is_close(t, t->points[i], p))
             return true;
-    }
     return false;
 }
 
@@ -100,11 +113,16 @@ static void put(Thrown *t, JoxV2 p) {
     JOX_RESERVE(t->points, t->capacity, t->count + 1);
     JOX_RESERVE(t->next, t->next_capacity, t->count + 1);
     JOX_ASSERT(t->count < t->capacity && t->count < t->next_capacity);
-    const uint32_t cell =
-        cell_of(t, p.y, t->low.y, t->rows) * t->columns + cell_of(t, p.x, t->low.x, t->columns);
+    Cell *cell = &t->cells[cell_of(t, p.y, t->low.y, t->rows) * t->columns +
+                           cell_of(t, p.x, t->low.x, t->columns)];
     t->points[t->count] = p;
-    t->next[t->count] = t->head[cell];
-    t->head[cell] = t->count++;
+    if (cell->first.x < INFINITY) {
+        t->next[t->count] = cell->others;
+        cell->others = t->count;
+    } else {
+        cell->first = p;
+    }
+    t->count++;
 }
 
 /* Sorts what is there, and others who stand there already, by cells for points `apart`. */
@@ -114,14 +132,38 @@ static void spread_cells(Thrown *t, JoxV2 low, JoxV2 high, double apart) {
     t->cell = (float)fmax(apart, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 4e6));
     t->columns = (uint32_t)(((double)high.x - low.x) / t->cell) + 1;
     t->rows = (uint32_t)(((double)high.y - low.y) / t->cell) + 1;
-    jox_free(t->head);
-    t->head = jox_alloc((size_t)t->columns * t->rows, sizeof *t->head);
+    jox_free(t->cells);
+    t->cells = jox_alloc((size_t)t->columns * t->rows, sizeof *t->cells);
     for (size_t c = 0; c < (size_t)t->columns * t->rows; c++)
-        t->head[c] = UINT32_MAX;
+        t->cells[c] = (Cell){{INFINITY, INFINITY}, UINT32_MAX};
     const uint32_t count = t->count;
     t->count = 0;
     for (uint32_t i = 0; i < count; i++)
         put(t, t->points[i]);
+}
+
+/* Points are drawn so many throws ahead, and the cells about them fetched into the caches
+   meanwhile: of a large area each is somewhere else in memory. */
+enum { DRAWN_AHEAD = 8 };
+typedef struct Draws {
+    uint64_t seed;
+    uint32_t stream, round;
+    JoxV2 high;
+    JoxV2 drawn[DRAWN_AHEAD];
+} Draws;
+
+static void draw(Draws *draws, const Thrown *t, uint32_t n) {
+    const uint32_t number = draws->round * 16;
+    const double u = jox_random_unit(draws->seed, n, draws->stream, JOX_DRAW_FILL, number);
+    const double v = jox_random_unit(draws->seed, n, draws->stream, JOX_DRAW_FILL, number + 1);
+    const JoxV2 low = t->low, high = draws->high;
+    const JoxV2 p = {(float)(low.x + ((double)high.x - low.x) * u),
+                     (float)(low.y + ((double)high.y - low.y) * v)};
+    const uint32_t column = cell_of(t, p.x, low.x, t->columns);
+    const uint32_t row = cell_of(t, p.y, low.y, t->rows);
+    for (uint32_t r = row > 0 ? row - 1 : 0; r <= row + 1 && r < t->rows; r++)
+        __builtin_prefetch(&t->cells[r * t->columns + column]);
+    draws->drawn[n % DRAWN_AHEAD] = p;
 }
 
 /* Throws until `whole` points are there, `patience` throws in a row, times those there, found no
@@ -130,13 +172,13 @@ static void throw_points(const JoxAreaIndex *index, Thrown *t, JoxV2 high, uint3
                          double patience, uint64_t seed, uint32_t stream, uint32_t round,
                          uint64_t *left) {
     double missed = 0;
+    Draws draws = {seed, stream, round, high, {{0.0f, 0.0f}}};
+    for (uint32_t n = 0; n < DRAWN_AHEAD; n++)
+        draw(&draws, t, n);
     for (uint32_t n = 0; t->count < whole && missed < patience * (t->count + 100.0) && *left > 0;
          n++, --*left) {
-        const uint32_t draw = round * 16;
-        const double u = jox_random_unit(seed, n, stream, JOX_DRAW_FILL, draw);
-        const double v = jox_random_unit(seed, n, stream, JOX_DRAW_FILL, draw + 1);
-        const JoxV2 p = {(float)(t->low.x + ((double)high.x - t->low.x) * u),
-                         (float)(t->low.y + ((double)high.y - t->low.y) * v)};
+        const JoxV2 p = draws.drawn[n % DRAWN_AHEAD];
+        draw(&draws, t, n + DRAWN_AHEAD);
         missed++;
         if (is_near(t, p) || !jox_area_contains(index, p))
             continue;
@@ -177,7 +219,7 @@ static uint32_t at_random(const JoxArea *area, const JoxAreaIndex *index, uint32
     for (uint32_t i = 0; i < have; i++)
         (*positions)[i] = t.points[taken + i];
     jox_free(t.points);
-    jox_free(t.head);
+    jox_free(t.cells);
     jox_free(t.next);
     return have;
 }
