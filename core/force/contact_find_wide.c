@@ -10,8 +10,10 @@
 
 typedef struct Packet {
     JoxForces *f;
-    uint32_t first;        /* agent of lane 0 */
-    uint32_t lanes, walls; /* bits of those that are there, and of those near walls */
+    uint32_t first;  /* agent of lane 0 */
+    uint32_t lanes;  /* bits of those that are there, */
+    uint32_t walls;  /* of those near walls, */
+    uint32_t walled; /* and of those, who may touch some */
     uint32_t count[JOX_WIDTH];
     JoxFoundPair found[JOX_WIDTH][JOX_MOST_NEIGHBOURS];
 } Packet;
@@ -184,9 +186,8 @@ static void write_each(Packet *p, uint32_t seen) {
     uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
-        const bool by_walls = p->walls >> lane & 1;
         if (!(seen >> lane & 1))
-            p->count[lane] = jox_contacts_of(f, i, by_walls, p->found[lane]);
+            p->count[lane] = jox_contacts_of(f, i, p->walls >> lane & 1, p->found[lane]);
         JOX_ASSERT(*n + p->count[lane] <= f->found.room);
         f->found_first[i] = chunk * f->found.room + *n;
         f->found_number[i] = (uint8_t)p->count[lane];
@@ -195,7 +196,8 @@ static void write_each(Packet *p, uint32_t seen) {
             found[(*n)++] = p->found[lane][k];
         }
         f->wall_first[i] = chunk * f->found_walls.room + *w;
-        f->wall_number[i] = by_walls ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
+        f->wall_number[i] =
+            p->walled >> lane & 1 ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
         *w += f->wall_number[i];
     }
 }
@@ -204,15 +206,19 @@ static void find_packet(Packet *p) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     const uint32_t seen = lanes_seen(p);
-    p->walls = 0;
-    if (f->step.walls)
+    p->walls = p->walled = 0;
+    if (f->step.walls) {
+        const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
+        const JoxFloats reach = jf_add(jf_load(a->breadth + p->first), touch);
         p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
                                                     jf_load(a->y + p->first)));
+        p->walled = p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->step.clear2, p->first, reach));
+    }
     ji_store(p->count, ji_set(0));
     if (seen)
         find_seen(p, seen);
     const JoxInts none = ji_set(0);
-    const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walls | ~seen;
+    const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walled | ~seen;
     if (touching & p->lanes)
         write_each(p, seen);
     else

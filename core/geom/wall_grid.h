@@ -41,7 +41,13 @@ bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
 /* m2: whoever is nearer to a point than the root of this is not separated from it, being on the
    same side of the lines of all edges within the grid's reach; INFINITY where there are none. */
 float jox_wall_grid_clear2(const JoxWallGrid *grid, JoxV2 from);
-/* The kernel: the same of many points, to the bit. Whole packets of lanes are read and written. */
+/* Whether all edges are farther from somebody than `reach` m, which the grid serves; clear2: of
+   where they are, or NULL, where it is not known. */
+static inline bool jox_wall_grid_is_clear(const float *clear2, uint32_t of, float reach) {
+    return clear2 && reach * reach < clear2[of];
+}
+/* The kernel: jox_wall_grid_clear2 of many points, to the bit. Whole packets of lanes are read and
+ * written. */
 typedef void JoxWallClearKernel(const JoxWallGrid *grid, const float *x, const float *y,
                                 uint32_t count, float *clear2);
 #define X(name, isa) JoxWallClearKernel jox_wall_clear_##name;

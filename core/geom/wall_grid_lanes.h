@@ -25,4 +25,10 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
     return jm_and(within, ji_less(begin, end));
 }
 
+/* jox_wall_grid_is_clear of agents from `first` on, within these reaches, m. */
+static inline JoxMask jox_wall_grid_clear_lanes(const float *clear2, uint32_t first,
+                                                JoxFloats reach) {
+    return clear2 ? jf_lt(jf_mul(reach, reach), jf_load(clear2 + first)) : jm_of_bits(0);
+}
+
 #endif

@@ -106,12 +106,12 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
 
 uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
-    float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
-    if (!s->nav->grid.first)
+    const float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
+    const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + radius;
+    if (!s->nav->grid.first || jox_wall_grid_is_clear(s->clear2, i, range))
         return 0;
     return jox_orca_walls(&s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]},
-                          radius, tau, tau * jox_param(a, JOX_PARAM_max_speed, i) + radius, out,
-                          JOX_MOST_WALLS);
+                          radius, tau, range, out, JOX_MOST_WALLS);
 }
 
 uint32_t jox_solve_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {

@@ -88,6 +88,7 @@ typedef struct JoxMove {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
+    const float *clear2;             /* m2: of where they come from, or NULL */
     float dt;                        /* s */
     float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
                                         step, and its mean over the step */

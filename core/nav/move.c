@@ -116,12 +116,12 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double response, double on_the_way, JoxPool *pool) {
     JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
     JOX_ASSERT(on_the_way > 0.0 && on_the_way <= response);
-    nav->clear_reach = -1.0f;
     JoxMove move = {.nav = nav,
                     .agents = agents,
                     .neighbours = neighbours,
                     .objects = objects,
                     .touched = touched && touched->agents ? touched : NULL,
+                    .clear2 = jox_nav_clear2(nav),
                     .dt = (float)dt,
                     .response = (float)response,
                     .on_the_way = (float)on_the_way};
@@ -137,6 +137,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         move.from = !move.from;
     }
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle, &move);
+    nav->clear_reach = -1.0f;
     drift_on(nav, agents->count);
     jox_nav_place_strays(nav, agents);
 }

@@ -50,12 +50,21 @@ static inline JoxMask beyond(JoxFloats x, float origin, float period) {
     return period > 0.0f ? jm_without(jm_of_bits(JOX_ALL_LANES), within) : jm_of_bits(0);
 }
 
-/* The lanes that walls may stop: those near some, and those who go farther than that is known. */
-static inline uint32_t near_walls(const JoxWallGrid *grid, JoxVector from, JoxVector way) {
+/* The lanes that walls may stop or be too near to: those near some, and those who go farther than
+   that is known. */
+static inline uint32_t near_walls(const JoxMove *m, uint32_t first, JoxVector from, JoxVector way) {
+    const JoxWallGrid *grid = &m->nav->grid;
     if (!grid->first)
         return 0;
-    const JoxMask far = jf_lt(jf_set(grid->reach * grid->reach), jv_dot(way, way));
-    return jm_bits(jm_or(far, jox_wall_grid_near_lanes(grid, from.x, from.y)));
+    const JoxFloats way2 = jv_dot(way, way), served = jf_set(grid->reach);
+    const JoxFloats reach = jf_add(jf_sqrt(way2), jf_load(m->agents->breadth + first));
+    const JoxMask far = jf_lt(jf_mul(served, served), way2);
+    const JoxMask clear =
+        jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->clear2, first, reach));
+    if (jm_bits(clear) == JOX_ALL_LANES)
+        return 0;
+    const JoxMask near = jm_without(jox_wall_grid_near_lanes(grid, from.x, from.y), clear);
+    return jm_bits(jm_or(far, near));
 }
 
 /* The ways of agents, each lane its own: the square of the longest, m2, and bounds, m. */
@@ -105,7 +114,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
             x[lane] = m->position[0][i + lane].x;
             y[lane] = m->position[0][i + lane].y;
         }
-        const uint32_t walled = there & near_walls(grid, from, jv_sub(jv_load(x, y, 0), from));
+        const uint32_t walled = there & near_walls(m, i, from, jv_sub(jv_load(x, y, 0), from));
         for (uint32_t lane = 0; walled >> lane; lane++) {
             if (!(walled >> lane & 1))
                 continue;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "agents/param_lanes.h"
+#include "geom/wall_grid_lanes.h"
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
@@ -23,7 +24,8 @@ typedef struct Row {
 typedef struct Packet {
     const JoxWalk *w;
     uint32_t first, lanes; /* agent of lane 0; bits of those who walk and want to get on */
-    uint32_t near_walls;   /* of those, who may be behind or before a wall */
+    uint32_t near_walls;   /* of those, who may be behind or before a wall, */
+    uint32_t at_walls;     /* and who may come to one soon */
     uint32_t rows;
     bool any_crosses; /* somebody in some row */
     JoxVector aim;
@@ -380,7 +382,7 @@ static Choice choose(const Packet *p) {
     if (!seek)
         return (Choice){p->aim, ahead.allowed};
     JoxWalkTable table;
-    const bool walls = mind_walls(p, seek & p->near_walls, &table);
+    const bool walls = mind_walls(p, seek & p->at_walls, &table);
     Choice best = best_of(p, &f, seek, ahead, walls ? &table : NULL);
     best.e = jv_select(straight, p->aim, best.e);
     best.allowed = jf_select(straight, ahead.allowed, best.allowed);
@@ -425,7 +427,7 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxMask walk = jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, first));
     const uint32_t walkers = jm_bits(walk) & lanes_before(first, end);
     p->first = first;
-    p->lanes = p->near_walls = 0;
+    p->lanes = p->near_walls = p->at_walls = 0;
     if (!walkers)
         return;
     const JoxVector preferred = jv_load(a->pref_x, a->pref_y, first);
@@ -446,6 +448,11 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     p->speed = jf_select(wants, speed, one);
     p->clear2 = jf_load(p->w->nav->clear2 + first);
     p->near_walls = p->lanes & jm_bits(jf_lt(p->clear2, jf_set(INFINITY)));
+    const JoxFloats keep =
+        jf_mul(jf_set((float)p->w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, first));
+    const JoxFloats reach = jf_add(keep, jf_mul(p->speed, jf_set((float)p->w->law->wall_time)));
+    p->at_walls =
+        p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->clear2, first, reach));
     p->per_cross = jf_set(1.0f / (float)p->w->law->cross_time);
     p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)p->w->law->contact_time));
 }
