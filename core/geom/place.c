@@ -273,6 +273,15 @@ bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {
     return kind_of(&places[index])->contains(places, &places[index], point);
 }
 
+void jox_place_contains_each(const JoxPlace *places, uint32_t index, const JoxV2 *points,
+                             uint32_t count, bool *in) {
+    const JoxPlace *place = &places[index];
+    const bool boxed = place->kind == JOX_PLACE_SET && place->boxes && place->member_count <= 4;
+    for (uint32_t k = 0; k < count; k++)
+        in[k] = (!boxed || boxes_about(place->boxes, points[k])) &&
+                kind_of(place)->contains(places, place, points[k]);
+}
+
 float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
     const JoxPlace *place = &places[index];
     if (place->kind == JOX_PLACE_SET) { /* the nearest member: it may be a polygon with the point */

@@ -77,6 +77,9 @@ void jox_place_free(JoxPlace *place);
 /* Inside a polygon, within a point's radius, within half a spacing of a queue's head, within 0.5 m
    of a line; a set: inside any member. `places` is the table that members index. */
 bool jox_place_contains(const JoxPlace *places, uint32_t place, JoxV2 point);
+/* The same of `count` points: in[k] of points[k]. */
+void jox_place_contains_each(const JoxPlace *places, uint32_t place, const JoxV2 *points,
+                             uint32_t count, bool *in);
 /* Distance in metres to the place: 0 inside; a set: to its nearest member; a queue: its head. */
 float jox_place_distance(const JoxPlace *places, uint32_t place, JoxV2 point);
 /* Nearest point of the place (the point itself when inside a polygon). */

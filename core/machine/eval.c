@@ -33,10 +33,29 @@ static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int3
     return spot.found && jox_place_contains(run->places, (uint32_t)place, jox_v2(spot.x, spot.y));
 }
 
+/* Agents of whom all ask about one place, whether they are there themselves. */
+static void all_inside(const JoxMachineRun *run, const uint32_t *agents, uint32_t count,
+                       uint32_t place, double *to) {
+    JoxV2 at[JOX_BATCH];
+    bool there[JOX_BATCH];
+    for (uint32_t n = 0; n < count; n++)
+        at[n] = (JoxV2){run->agents->x[agents[n]], run->agents->y[agents[n]]};
+    jox_place_contains_each(run->places, place, at, count, there);
+    for (uint32_t n = 0; n < count; n++)
+        to[n] = there[n];
+}
+
 static void inside(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
                    const uint32_t *agents, uint32_t count, double *to) {
     int32_t places[JOX_BATCH];
     jox_target_places(run, machine, in->place, agents, count, places);
+    uint32_t alike = 0;
+    while (alike < count && places[alike] == places[0])
+        alike++;
+    if (alike == count && in->target < 0 && places[0] >= 0) {
+        all_inside(run, agents, count, (uint32_t)places[0], to);
+        return;
+    }
     for (uint32_t n = 0; n < count; n++)
         to[n] = is_inside(run, agents[n], in->target, places[n]);
 }

@@ -44,7 +44,8 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
 
 /* steering/steer_field.c: the ways of a term of the kind field, of `count` of the agents in index,
    those of them whose weight counts: way. Sets what they are bound for. */
-void jox_steer_field(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *steer);
+void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     JoxSteer *steer);
 
 /* Runs one instruction over `count` agents of a batch, and says whether it is one that has a loop
    here: arithmetic, or the agents' own figures. */

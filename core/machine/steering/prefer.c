@@ -103,7 +103,7 @@ static void ask(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *
         return;
     }
     if (term->kind == JOX_STEER_FIELD) {
-        jox_steer_field(p->run, term, s);
+        jox_steer_field(p->run, machine, term, s);
         return;
     }
     for (uint32_t n = 0; n < s->count; n++) {

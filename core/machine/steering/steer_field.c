@@ -116,39 +116,48 @@ static void lead_to(Asking *q, int32_t *places, uint32_t first) {
     const JoxMachineRun *run = q->run;
     const JoxAgents *a = run->agents;
     const int32_t place = places[first];
-    q->place = (uint32_t)place;
-    q->now.count = 0;
+    JoxV2 at[JOX_BATCH];
+    uint8_t number[JOX_BATCH]; /* in the batch */
+    bool there[JOX_BATCH];
+    uint32_t count = 0;
     for (uint32_t n = first; n < q->s->count; n++) {
         if (places[n] != place)
             continue;
         places[n] = -1;
-        const JoxV2 p = {a->x[q->s->index[n]], a->y[q->s->index[n]]};
+        at[count] = (JoxV2){a->x[q->s->index[n]], a->y[q->s->index[n]]};
+        number[count++] = (uint8_t)n;
+    }
+    jox_place_contains_each(run->places, (uint32_t)place, at, count, there);
+    q->place = (uint32_t)place;
+    q->now.count = 0;
+    for (uint32_t n = 0; n < count; n++) {
         const uint32_t k = q->now.count;
-        q->number[k] = (uint8_t)n;
-        if (!run->fields || jox_place_contains(run->places, q->place, p)) {
+        q->number[k] = number[n];
+        if (!run->fields || there[n]) {
             set(q, k, (JoxV2){0.0f, 0.0f});
             continue;
         }
-        q->now.x[k] = p.x;
-        q->now.y[k] = p.y;
+        q->now.x[k] = at[n].x;
+        q->now.y[k] = at[n].y;
         q->now.count++;
     }
     if (q->now.count)
         lead(q);
 }
 
-void jox_steer_field(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *s) {
+void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     JoxSteer *s) {
     int32_t places[JOX_BATCH];
     Asking q; /* its arrays are filled as far as they are read */
     q.run = run;
     q.term = term;
     q.s = s;
     JOX_ASSERT(s->count <= JOX_BATCH);
+    jox_target_places(run, machine, term->target, s->index, s->count, places);
     for (uint32_t n = 0; n < s->count; n++) {
         s->way_x[n] = s->way_y[n] = 0.0f;
-        places[n] = -1;
-        if (jox_weight_counts(s->by[n]))
-            places[n] = jox_target_place(run, s->index[n], term->target);
+        if (!jox_weight_counts(s->by[n]))
+            places[n] = -1;
     }
     for (uint32_t n = 0; n < s->count; n++)
         if (places[n] >= 0)
@@ -161,11 +170,12 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
             continue;
-        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
+        const JoxMachine *machine = jox_machine_of(run, i);
+        const JoxState *state = &machine->states[a->state[i]];
         s.index[0] = i;
         for (uint32_t t = 0; t < state->steer_count; t++)
             if (state->steer[t].kind == JOX_STEER_FIELD)
-                jox_steer_field(run, &state->steer[t], &s);
+                jox_steer_field(run, machine, &state->steer[t], &s);
     }
 }
 
