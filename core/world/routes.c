@@ -17,7 +17,7 @@ static const float MOST_CELLS = 400000.0f;
    anew every CROWD_PAUSE. */
 static const float MOST_CROWD_CELLS = 100000.0f;
 static const float CLEARANCE = 0.15f;  /* m: half of a person who turns sideways */
-static const float MOST_ROOM = 1.5f;   /* times the box that is needed */
+static const float MOST_ROOM = 1.5f;   /* times the box that would be laid out */
 static const float SPARE = 3.0f;       /* m more, once people have gone beyond the box before */
 static const float MARGIN = 3.0f;      /* m about all walls and agents */
 static const double DELAY = 0.5;       /* s from asking to use */
@@ -170,15 +170,17 @@ static double crowd_pause(const JoxField *field) {
     return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
 }
 
-/* Whether the field before serves for the box low..high too, and does not make many more cells. */
+/* Whether the field before serves for the box low..high too, and has not many more cells than one
+   that is laid out for it now. */
 static bool is_room(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
     JoxV2 from, to;
     float size;
     if (!before)
         return false;
     jox_field_box(before, &from, &to, &size);
+    const float width = high.x - low.x + 2.0f * SPARE, height = high.y - low.y + 2.0f * SPARE;
     return size == cell && jox_is_within(low, from, to) && jox_is_within(high, from, to) &&
-           (to.x - from.x) * (to.y - from.y) < MOST_ROOM * (high.x - low.x) * (high.y - low.y);
+           (to.x - from.x) * (to.y - from.y) < MOST_ROOM * width * height;
 }
 
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells; where
