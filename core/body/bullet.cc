@@ -39,7 +39,6 @@ static void make_world(JoxBodies *b) {
     b->broadphase = make<btDbvtBroadphase>();
     b->solver = new btSequentialImpulseConstraintSolver();
     b->world = new JoxBulletWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
-    b->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
     /* What stands on the ground has all its contacts from the first step on, not one more in each,
        on which it would rock. */
     b->configuration->setPlaneConvexMultipointIterations(3, 3);

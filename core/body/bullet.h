@@ -124,6 +124,7 @@ bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 struct JoxBulletWorld : btDiscreteDynamicsWorld {
     using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
     void remove(btRigidBody *body);
+    void performDiscreteCollisionDetection() override;
 
   protected:
     void saveKinematicState(btScalar dt) override;

@@ -57,3 +57,13 @@ void JoxBulletWorld::integrateTransforms(btScalar dt) {
         body->proceedToTransform(to);
     }
 }
+
+/* Bullet sorts the pairs in each substep, so that their order is that of the bodies and not one
+   that follows from how they came about; a single one has no order. */
+void JoxBulletWorld::performDiscreteCollisionDetection() {
+    updateAabbs();
+    computeOverlappingPairs();
+    btOverlappingPairCache *pairs = getPairCache();
+    getDispatchInfo().m_deterministicOverlappingPairs = pairs->getNumOverlappingPairs() > 1;
+    getDispatcher()->dispatchAllCollisionPairs(pairs, getDispatchInfo(), getDispatcher());
+}
