@@ -192,9 +192,26 @@ void jox_free(void *memory) {
     give_back((char *)memory - block->offset);
 }
 
+/* The same of few bytes, word by word. */
+static bool are_few(const uint8_t *first, uint8_t byte, size_t bytes) {
+    const uint64_t like = byte * 0x0101010101010101u;
+    uint64_t other = 0, word;
+    size_t k = 0;
+    for (; k + sizeof word <= bytes; k += sizeof word) {
+        memcpy(&word, first + k, sizeof word);
+        other |= word ^ like;
+    }
+    for (; k < bytes; k++)
+        other |= first[k] ^ byte;
+    return other == 0;
+}
+
 bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes) {
+    enum { FEW = 64 }; /* bytes, for which a call of memcmp takes longer */
     const uint8_t *first = memory;
-    return bytes == 0 || (*first == byte && memcmp(first, first + 1, bytes - 1) == 0);
+    if (bytes <= FEW)
+        return are_few(first, byte, bytes);
+    return *first == byte && memcmp(first, first + 1, bytes - 1) == 0;
 }
 
 void jox_mem_fill(void *memory, uint8_t byte, size_t bytes) {
