@@ -256,6 +256,9 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     reserve(run, pool);
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
+    s->batch_count = 0;
+    if (run->set->count == 0)
+        return;
     StateSort sort = {.scratch = s, .agents = a, .states = first_state(run, run->set->count)};
     for (uint32_t m = 0; m < run->set->count; m++)
         sort.bases[m] = first_state(run, m);
@@ -266,7 +269,6 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
         list_all(&sort);
     else
         sort_by_state(&sort, pool);
-    s->batch_count = 0;
     const uint32_t *first = s->state_first;
     for (uint32_t m = 0; m < run->set->count; m++)
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
