@@ -20,6 +20,7 @@ enum {
     PLACES = 1 << PLACE_BITS, /* of a list, that keys can tell; of more it is full */
     LIST = 64,                /* places that there is room for */
     ROOM = LIST - JOX_LANES,  /* a whole packet may be written behind so many */
+    SPARSE = 4,               /* places of lists of which the rest needs no order */
     ORDERED = 16,             /* places that are ordered by a network; more sink in */
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
     NO_KEY = 0x7f800000, /* bits of INFINITY */
@@ -63,15 +64,21 @@ static inline void read_places(const Packet *packet, JoxInts count, JoxFloats sc
     }
 }
 
+/* Sets the scale of the keys by the radius. */
+static inline JoxFloats choose_scale(Packet *packet) {
+    const JoxFloats radius = jf_load(packet->radius);
+    const JoxFloats scale =
+        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
+    jf_store(packet->scale, scale);
+    return scale;
+}
+
 /* The least keys of the lists, as many as there are levels; of lists that the network orders, all.
  */
 static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
     const JoxInts count = ji_load(packet->count);
-    const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats scale =
-        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
-    jf_store(packet->scale, scale);
+    const JoxFloats scale = choose_scale(packet);
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
@@ -102,6 +109,24 @@ static void order_few(Packet *packet) {
 
 static void order_many(Packet *packet) {
     order_lists(packet, JOX_MOST_NEIGHBOURS + 1);
+}
+
+/* The same where no list has more than SPARSE places. */
+static void order_sparse(Packet *packet) {
+    JoxFloats *keys = packet->keys;
+    read_places(packet, ji_load(packet->count), choose_scale(packet), 0, keys);
+    jox_order_4(keys);
+    for (uint32_t k = SPARSE; k < ORDERED || k < packet->levels; k++)
+        keys[k] = jf_set(INFINITY);
+}
+
+static inline void order(Packet *packet) {
+    if (!lists_beyond(packet, SPARSE))
+        order_sparse(packet);
+    else if (packet->levels <= FEW + 1)
+        order_few(packet);
+    else
+        order_many(packet);
 }
 
 /* What the keys of a packet say, lane by lane. */

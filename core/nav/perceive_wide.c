@@ -341,7 +341,7 @@ static void perceive_packet(Packet *packet) {
         jf_store(packet->radius, radius);
         list_lanes(packet, left);
         const uint32_t full = lists_beyond(packet, PLACES);
-        (packet->levels <= FEW + 1 ? order_few : order_many)(packet);
+        order(packet);
         const Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
         const uint32_t done = full | (left & ~jm_bits(short_of));

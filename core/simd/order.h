@@ -1,18 +1,28 @@
-/* Sixteen numbers of each lane in ascending order. For kernels: part of those that include it. */
+/* Sixteen numbers of each lane in ascending order, or four. For kernels: part of those that include
+   it. */
 #ifndef JOX_SIMD_ORDER_H
 #define JOX_SIMD_ORDER_H
 
 #include "simd/lanes.h"
 
-/* The network of 60 comparisons found by Green (Knuth, The Art of Computer Programming, volume 3,
-   section 5.3.4): it does the same whatever the numbers are. */
-static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
 #define ORDER(i, j)                                                                                \
     do {                                                                                           \
         const JoxFloats less = jf_min(k[i], k[j]);                                                 \
         k[j] = jf_max(k[i], k[j]);                                                                 \
         k[i] = less;                                                                               \
     } while (0)
+
+static inline void jox_order_4(JoxFloats *k) {
+    ORDER(0, 1);
+    ORDER(2, 3);
+    ORDER(0, 2);
+    ORDER(1, 3);
+    ORDER(1, 2);
+}
+
+/* The network of 60 comparisons found by Green (Knuth, The Art of Computer Programming, volume 3,
+   section 5.3.4): it does the same whatever the numbers are. */
+static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
     // cppcheck-suppress ctuArrayIndex
     ORDER(0, 1);
     ORDER(2, 3);
@@ -74,7 +84,8 @@ static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
     ORDER(11, 12);
     ORDER(6, 7);
     ORDER(8, 9);
-#undef ORDER
 }
+
+#undef ORDER
 
 #endif
