@@ -28,17 +28,25 @@ static void cut(JoxFootprint *f, JoxV3 a, JoxV3 b, float height) {
 
 void jox_footprint_add(JoxFootprint *footprint, const JoxV3 *corners, uint32_t corner_count,
                        const uint32_t *edges, uint32_t edge_count) {
+    float low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < corner_count; i++) {
         JoxV3 p = corners[i];
-        footprint->low = jox_minf(footprint->low, p.z);
-        footprint->high = jox_maxf(footprint->high, p.z);
+        low = jox_minf(low, p.z);
+        high = jox_maxf(high, p.z);
         if (p.z >= JOX_BAND_LOW && p.z <= JOX_BAND_HIGH)
             put(footprint, p.x, p.y);
     }
-    for (uint32_t e = 0; e < edge_count; e++) {
+    footprint->low = jox_minf(footprint->low, low);
+    footprint->high = jox_maxf(footprint->high, high);
+    /* Most of what stands on the ground ends below the upper height. */
+    const bool passes_low = low < JOX_BAND_LOW && high >= JOX_BAND_LOW;
+    const bool passes_high = low < JOX_BAND_HIGH && high >= JOX_BAND_HIGH;
+    for (uint32_t e = 0; (passes_low || passes_high) && e < edge_count; e++) {
         JoxV3 a = corners[edges[2 * e]], b = corners[edges[2 * e + 1]];
-        cut(footprint, a, b, JOX_BAND_LOW);
-        cut(footprint, a, b, JOX_BAND_HIGH);
+        if (passes_low)
+            cut(footprint, a, b, JOX_BAND_LOW);
+        if (passes_high)
+            cut(footprint, a, b, JOX_BAND_HIGH);
     }
 }
 
@@ -129,18 +137,29 @@ static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     return n > 1 ? n - 1 : n;
 }
 
+/* The corner that spans least with those beside it, and what it spans, m2. */
+static uint32_t find_least(const JoxV2 *ring, uint32_t n, float *least_area) {
+    uint32_t least = 0;
+    JoxV2 before = ring[n - 1], at = ring[0];
+    *least_area = INFINITY;
+    for (uint32_t i = 0; i < n; i++) {
+        const JoxV2 after = ring[i + 1 < n ? i + 1 : 0];
+        const float area = turn(before, at, after);
+        if (area < *least_area) {
+            *least_area = area;
+            least = i;
+        }
+        before = at;
+        at = after;
+    }
+    return least;
+}
+
 /* Takes out the corners that span least: those over the limit, and those that rounding made. */
 static uint32_t thin(JoxV2 *ring, uint32_t n) {
     while (n > 3) {
-        uint32_t least = 0;
-        float least_area = INFINITY;
-        for (uint32_t i = 0; i < n; i++) {
-            float area = turn(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
-            if (area < least_area) {
-                least_area = area;
-                least = i;
-            }
-        }
+        float least_area;
+        const uint32_t least = find_least(ring, n, &least_area);
         if (n <= JOX_FOOTPRINT_POINTS && least_area > 1e-6f)
             break;
         for (uint32_t i = least; i + 1 < n; i++)
