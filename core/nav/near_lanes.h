@@ -1,10 +1,12 @@
 /* The lists of those who are near the agents of a packet, put in order: the keys that say who comes
    first. For kernels: part of perceive_wide.c.
 
-   A key is a float that is never computed with: its bits are the squared distance as a fixed-point
-   number of 26 bits (a share of the squared radius) above the place in the list, so that min and
-   max sort both at once. Two keys of the same distance by these bits are put in their exact order,
-   ties by id: so neighbours are exact, whatever the width. */
+   A key is a float that is never computed with, so that min and max sort distances and places in
+   the list at once. Its upper bits tell which float the squared distance is, counted from a floor
+   on (the bits of floats ascend with them); its lower bits are the place. Whoever is nearer than
+   the floor, a fifteenth of the radius, counts as at the floor. Two keys of the same distance are
+   put in the order of the ids, those at the floor in their exact order first: so neighbours are
+   exact, whatever the width. */
 #ifndef JOX_NAV_NEAR_LANES_H
 #define JOX_NAV_NEAR_LANES_H
 
@@ -26,7 +28,9 @@ enum {
     NO_KEY = 0x7f800000, /* bits of INFINITY */
     NORMAL = 0x00800000  /* bits of the least float that is not denormal */
 };
-static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
+/* Of a squared radius. From there up to it are at most 7.86 * 2^23 floats, more than which would
+   make keys of INFINITY and beyond. */
+static const float FLOOR_SHARE = 1.0f / 224.0f;
 
 typedef struct Packet {
     const JoxPerceive *p;
@@ -34,10 +38,10 @@ typedef struct Packet {
     uint32_t lanes;  /* bits of those that are there */
     uint32_t levels; /* keys that are kept: one more than the most neighbours of any lane */
     float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
-    float scale[JOX_LANES];            /* from squared distances to fixed point, 1/m2 */
-    uint32_t count[JOX_LANES];         /* within the radius */
-    uint32_t index[JOX_WIDTH * LIST];  /* lists, lane after lane */
-    float distance2[JOX_WIDTH * LIST]; /* m2 */
+    float floor2[JOX_LANES];                                   /* m2 */
+    uint32_t count[JOX_LANES];                                 /* within the radius */
+    uint32_t index[JOX_WIDTH * LIST];                          /* lists, lane after lane */
+    float distance2[JOX_WIDTH * LIST];                         /* m2 */
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
 } Packet;
 
@@ -46,31 +50,36 @@ static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
     return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
 }
 
-/* The keys of such shares, at places `place`. */
-static inline JoxFloats key_of(JoxInts share, uint32_t place) {
-    return ji_as_floats(ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
+/* How many floats squared distances are above the floor. */
+static inline JoxInts steps_of(JoxFloats distance2, JoxFloats floor2) {
+    return ji_sub(jf_bits(jf_max(distance2, floor2)), jf_bits(floor2));
+}
+
+/* The keys of so many, at places `place`. */
+static inline JoxFloats key_of(JoxInts steps, uint32_t place) {
+    return ji_as_floats(ji_add(ji_shift_left(steps, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
 }
 
 /* Keys of four places of all lists. */
-static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
+static inline void read_places(const Packet *packet, JoxInts count, JoxFloats floor2, uint32_t from,
                                JoxFloats keys[4]) {
     JoxFloats distance2[4];
     jf_fours(packet->distance2 + from, LIST, distance2);
     JOX_UNROLL
     for (uint32_t k = 0; k < 4; k++) {
-        const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
-        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key_of(share, from + k),
-                            jf_set(INFINITY));
+        const JoxMask there = ji_less(ji_set((int32_t)(from + k)), count);
+        keys[k] =
+            jf_select(there, key_of(steps_of(distance2[k], floor2), from + k), jf_set(INFINITY));
     }
 }
 
-/* Sets the scale of the keys by the radius. */
-static inline JoxFloats choose_scale(Packet *packet) {
+/* Sets the floor by the radius. */
+static inline JoxFloats choose_floor(Packet *packet) {
     const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats scale =
-        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
-    jf_store(packet->scale, scale);
-    return scale;
+    const JoxFloats radius2 = jf_max(jf_mul(radius, radius), jf_set(1e-12f));
+    const JoxFloats floor2 = jf_mul(radius2, jf_set(FLOOR_SHARE));
+    jf_store(packet->floor2, floor2);
+    return floor2;
 }
 
 /* The least keys of the lists, as many as there are levels; of lists that the network orders, all.
@@ -78,16 +87,16 @@ static inline JoxFloats choose_scale(Packet *packet) {
 static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
     const JoxInts count = ji_load(packet->count);
-    const JoxFloats scale = choose_scale(packet);
+    const JoxFloats floor2 = choose_floor(packet);
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
-        read_places(packet, count, scale, from, keys + from);
+        read_places(packet, count, floor2, from, keys + from);
     keys[ORDERED] = jf_set(INFINITY);
     jox_order_16(keys);
     for (uint32_t from = ORDERED; from < PLACES && lists_beyond(packet, from); from += 4) {
         JoxFloats more[4];
-        read_places(packet, count, scale, from, more);
+        read_places(packet, count, floor2, from, more);
         for (uint32_t m = 0; m < 4; m++) {
             JoxFloats key = more[m];
             JOX_UNROLL
@@ -114,7 +123,7 @@ static void order_many(Packet *packet) {
 /* The same where no list has more than SPARSE places. */
 static void order_sparse(Packet *packet) {
     JoxFloats *keys = packet->keys;
-    read_places(packet, ji_load(packet->count), choose_scale(packet), 0, keys);
+    read_places(packet, ji_load(packet->count), choose_floor(packet), 0, keys);
     jox_order_4(keys);
     for (uint32_t k = SPARSE; k < ORDERED || k < packet->levels; k++)
         keys[k] = jf_set(INFINITY);
@@ -142,8 +151,9 @@ static inline JoxInts listed_at(JoxFloats keys) {
     return ji_add(ji_and(jf_bits(keys), ji_set(PLACES - 1)), lists);
 }
 
-/* The bits of keys that are of distances. */
-static inline JoxInts share_of(JoxFloats keys) {
+/* The bits of keys that are of distances; FLOOR: of those at the floor. */
+enum { FLOOR = NORMAL >> PLACE_BITS };
+static inline JoxInts distance_bits(JoxFloats keys) {
     return ji_shift_right(jf_bits(keys), PLACE_BITS);
 }
 
@@ -156,17 +166,17 @@ static Found read_keys(const Packet *packet, JoxInts most) {
     f.whole = jm_bits(whole) == JOX_ALL_LANES;
     /* Of a tie, the first is wanted and the second is there. */
     const JoxInts ties = ji_select(ji_less(most, listed), most, ji_sub(listed, ji_set(1)));
-    JoxInts share = share_of(packet->keys[0]);
+    JoxInts here = distance_bits(packet->keys[0]);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
-        const JoxInts at = ji_set((int32_t)k), next = share_of(packet->keys[k + 1]);
-        JoxMask same = ji_equal(share, next);
+        const JoxInts at = ji_set((int32_t)k), next = distance_bits(packet->keys[k + 1]);
+        JoxMask same = ji_equal(here, next);
         if (!f.whole) {
             if (!jm_bits(ji_less(at, f.count)))
                 break; /* of a sparse crowd */
             same = jm_and(same, ji_less(at, ties));
         }
         f.tied = jm_or(f.tied, same);
-        share = next;
+        here = next;
     }
     return f;
 }
@@ -206,14 +216,16 @@ static void sink_in(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_
 /* The last keys that are kept, from `from` on, have one distance, as others that are not kept may:
    the first of all of these in their exact order. */
 static void settle_last(const Packet *packet, uint32_t lane, uint32_t *keys, uint32_t from) {
-    const float *distance2 = packet->distance2 + (size_t)lane * LIST;
-    const uint32_t share = (*key_at(keys, from) - NORMAL) >> PLACE_BITS;
+    const size_t list = (size_t)lane * LIST;
+    const uint32_t first = *key_at(keys, from);
+    const float least2 = packet->floor2[lane];
+    const float one2 = jox_maxf(packet->distance2[list + first % PLACES], least2);
     uint32_t n = from;
     for (uint32_t place = 0; place < packet->count[lane]; place++) {
-        if ((uint32_t)(int32_t)(distance2[place] * packet->scale[lane]) != share)
+        const float distance2 = jox_maxf(packet->distance2[list + place], least2);
+        if (distance2 < one2 || one2 < distance2)
             continue;
-        const uint32_t key = (share << PLACE_BITS) + NORMAL + place;
-        const size_t list = (size_t)lane * LIST;
+        const uint32_t key = first - first % PLACES + place;
         if (n < packet->levels)
             sink_in(packet, lane, keys, from, n++, key);
         else if (is_before(packet, list + place, list + *key_at(keys, n - 1) % PLACES))
@@ -250,48 +262,39 @@ static void settle_alone(Packet *packet, uint32_t lanes) {
         packet->keys[k] = ji_as_floats(ji_load(key_at(keys, k)));
 }
 
-/* Who stands at the places that keys name: by what they come one after the other. */
-typedef struct Rank {
-    JoxFloats distance2;
-    JoxInts rank;
-} Rank;
-
-static inline Rank rank_of(const Packet *packet, JoxMask lanes, JoxFloats key) {
+/* The ranks by id of those at the places that keys name. */
+static inline JoxInts rank_of(const Packet *packet, JoxMask lanes, JoxFloats key) {
+    const JoxInts none = ji_set(0);
     const JoxMask there = jm_and(lanes, jf_lt(key, jf_set(INFINITY)));
-    const JoxInts at = ji_select(there, listed_at(key), ji_set(0));
-    const JoxInts who = ji_select(there, ji_pick(packet->index, at), ji_set(0));
-    return (Rank){jf_pick(packet->distance2, at), ji_pick(packet->p->agents->rank, who)};
+    const JoxInts at = ji_select(there, listed_at(key), none);
+    return ji_pick(packet->p->agents->rank, ji_select(there, ji_pick(packet->index, at), none));
 }
 
-/* Lets two keys of each lane, of which the second follows the first, change places where they have
-   the same distance and stand in the wrong order. Returns where they did. */
-static inline JoxMask settle_pair(JoxFloats *keys, Rank *ranks, JoxMask tied) {
-    const Rank one = ranks[0], other = ranks[1];
-    const JoxMask nearer = jf_lt(other.distance2, one.distance2);
-    const JoxMask earlier = ji_less(other.rank, one.rank);
-    const JoxMask as_near = jf_le(other.distance2, one.distance2);
-    const JoxMask changes = jm_and(tied, jm_or(nearer, jm_and(as_near, earlier)));
+/* Lets two keys of each lane, of which the second follows the first, change places where they are
+   tied and stand in the wrong order. Returns where they did. */
+static inline JoxMask settle_pair(JoxFloats *keys, JoxInts *ranks, JoxMask tied) {
     const JoxFloats key = keys[0];
+    const JoxInts rank = ranks[0];
+    const JoxMask changes = jm_and(tied, ji_less(ranks[1], rank));
     keys[0] = jf_select(changes, keys[1], key);
     keys[1] = jf_select(changes, key, keys[1]);
-    ranks[0].distance2 = jf_select(changes, other.distance2, one.distance2);
-    ranks[1].distance2 = jf_select(changes, one.distance2, other.distance2);
-    ranks[0].rank = ji_select(changes, other.rank, one.rank);
-    ranks[1].rank = ji_select(changes, one.rank, other.rank);
+    ranks[0] = ji_select(changes, ranks[1], rank);
+    ranks[1] = ji_select(changes, rank, ranks[1]);
     return changes;
 }
 
-/* Settles the ties of some lanes in lock step: all keys are there that have these distances. Those
-   of `all` lanes have `count` keys to settle, the others as many as are kept. */
+/* Settles the ties of some lanes in lock step: all keys are there that have these distances, and
+   none is at the floor but one. Those of `all` lanes have `count` keys to settle, the others as
+   many as are kept. */
 static void settle_together(Packet *packet, JoxMask lanes, JoxMask all, uint32_t count) {
     JoxMask tied[JOX_MOST_NEIGHBOURS + 1]; /* each with the next */
-    Rank ranks[JOX_MOST_NEIGHBOURS + 1];
+    JoxInts ranks[JOX_MOST_NEIGHBOURS + 1];
     uint32_t last = 0; /* tied */
     for (uint32_t k = 0; k + 1 < count; k++) {
         const JoxFloats *keys = packet->keys + k;
         const JoxMask there =
             jm_and(k + 1 < packet->levels ? lanes : all, jf_lt(keys[1], jf_set(INFINITY)));
-        tied[k] = jm_and(there, ji_equal(share_of(keys[0]), share_of(keys[1])));
+        tied[k] = jm_and(there, ji_equal(distance_bits(keys[0]), distance_bits(keys[1])));
         if (!jm_bits(tied[k]))
             continue;
         if (k == 0 || last < k)
@@ -308,13 +311,16 @@ static void settle_together(Packet *packet, JoxMask lanes, JoxMask all, uint32_t
 }
 
 /* Settles the ties of some lanes: in lock step of those of which all keys are there that have these
-   distances, which behind the last level are those of short lists alone. */
+   distances, which behind the last level are those of short lists alone. Keys at the floor do not
+   tell which is nearer. */
 static void settle_lanes(Packet *packet, uint32_t lanes) {
     JOX_ASSERT(packet->levels > 1); /* else there are no ties */
     const uint32_t last = packet->levels - 1;
-    const JoxMask cut = ji_equal(share_of(packet->keys[last]), share_of(packet->keys[last - 1]));
+    const JoxMask cut =
+        ji_equal(distance_bits(packet->keys[last]), distance_bits(packet->keys[last - 1]));
+    const JoxMask floored = ji_equal(distance_bits(packet->keys[1]), ji_set(FLOOR));
     const uint32_t over = lanes & jm_bits(cut) & lists_beyond(packet, packet->levels);
-    const uint32_t alone = over & lists_beyond(packet, ORDERED);
+    const uint32_t alone = (over & lists_beyond(packet, ORDERED)) | (lanes & jm_bits(floored));
     if (alone)
         settle_alone(packet, alone);
     if (lanes & ~alone)

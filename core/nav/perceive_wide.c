@@ -253,9 +253,10 @@ static inline void write_whole(const Packet *packet, uint32_t *index) {
    keys. */
 static inline JoxInts close_of(const Packet *packet, JoxInts count) {
     const float touch = jox_touch_most(packet->p->out);
-    const JoxFloats farthest =
-        jf_min(jf_mul(jf_set(touch * touch), jf_load(packet->scale)), jf_set(FARTHEST_SHARE));
-    const JoxFloats beyond = key_of(ji_add(jf_to_ints(farthest), ji_set(1)), 0);
+    const JoxFloats radius = jf_load(packet->radius);
+    const JoxFloats farthest2 = jf_min(jf_set(touch * touch), jf_mul(radius, radius));
+    const JoxInts steps = steps_of(farthest2, jf_load(packet->floor2));
+    const JoxFloats beyond = key_of(ji_add(steps, ji_set(1)), 0);
     JoxInts close = ji_set(0);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask near = jm_and(jf_lt(packet->keys[k], beyond), ji_less(close, count));
