@@ -1,89 +1,48 @@
 /* The marching: times from the goal outwards, each node from the triangles of its finished
    neighbours (Sethian 1999, as for unstructured meshes). */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field/field_parts.h"
+#include "geom/field/field_front.h"
 
 static const float SEED_CELLS = 4.5f; /* so near the goal, ways are straight and lengths exact */
 static const float STRAIGHT = 0.97f;  /* cosine of how far two slopes may differ */
 static const float SEED_MOST = 5.0f;  /* m: a goal in a wall is reached from so far */
+/* Of a cell, with some to spare for rounding (exact were the roots of 0.5 and of 2): so much
+   farther than a neighbour beside it, and than one across a corner, is a cell at least. */
+static const float LEAST_BESIDE = 0.69f, LEAST_ACROSS = 1.40f;
+/* s, of a cell: from so great a time on, rounding is more than what is spared. */
+static const float MOST_TIME = 1e4f;
+/* s, of a cell: the front sorts so much time at once. Few that are within such a stretch are
+   reached by each other. */
+static const float STRETCH = 1.0f;
 
-/* ---- a heap of cells by time; of equal times the lesser cell first, so that there is one order
-   ---- */
-
-enum { CHILDREN = 4, NOT_YET = -1, FINISHED = -2 };
-
-typedef struct Heap {
-    uint64_t *items; /* time and cell: see key_of */
-    int *place;      /* of a cell in items, or what of the above */
-    int count;
-} Heap;
-
-/* Numbers of at least 0 are in the order of their bits. */
-static uint64_t key_of(float time, int cell) {
-    uint32_t bits;
-    memcpy(&bits, &time, sizeof bits);
-    return (uint64_t)bits << 32 | (uint32_t)cell;
-}
-
-static int cell_of(uint64_t key) {
-    return (int)(uint32_t)key;
-}
-
-static void put(Heap *h, int at, uint64_t key) {
-    h->items[at] = key;
-    h->place[cell_of(key)] = at;
-}
-
-static void rise(Heap *h, int cell, float time) {
-    const uint64_t key = key_of(time, cell);
-    int at = h->place[cell] == NOT_YET ? h->count++ : h->place[cell];
-    JOX_ASSERT(at >= 0);
-    for (; at > 0 && key < h->items[(at - 1) / CHILDREN]; at = (at - 1) / CHILDREN)
-        put(h, at, h->items[(at - 1) / CHILDREN]);
-    put(h, at, key);
-}
-
-static int pop(Heap *h) {
-    const uint64_t top = h->items[0], last = h->items[--h->count];
-    int at = 0;
-    for (;;) {
-        const int first = CHILDREN * at + 1, end = first + CHILDREN;
-        uint64_t least = last;
-        int child = at;
-        for (int k = first; k < end && k < h->count; k++) {
-            child = h->items[k] < least ? k : child;
-            least = h->items[k] < least ? h->items[k] : least;
-        }
-        if (child == at)
-            break;
-        put(h, at, least);
-        at = child;
-    }
-    if (h->count > 0)
-        put(h, at, last);
-    h->place[cell_of(top)] = FINISHED;
-    JOX_ASSERT(h->count == 0 || top < h->items[0]);
-    return cell_of(top);
-}
+typedef struct March {
+    JoxFieldWork *w;
+    JoxFrontNode *nodes; /* of each cell; the front's */
+    int steps[8];        /* from a cell to its neighbours on the ring */
+    float least[2];      /* m: see march */
+    JoxFront front;
+} March;
 
 /* ---- seeds ---- */
 
-/* A way to a cell's node, along `way`, which is `far` long. */
-static inline void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, JoxV2 way,
-                         float far) {
-    if (!(time < w->time[cell]))
+/* A way to a cell's node straight from the goal, along `way`. */
+static void offer(March *m, int cell, float distance, JoxV2 way) {
+    const JoxField *f = m->w->f;
+    JoxFrontNode *n = &m->nodes[cell];
+    const float time = distance * n->slowness;
+    if (!(time < n->time))
         return;
-    JOX_ASSERT(w->walled.node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f && length >= 0.0f);
-    const JoxV2 unit = jox_scale(way, 1.0f / far);
-    w->time[cell] = time;
-    w->f->cells[cell].length = length;
-    w->f->cells[cell].x = unit.x;
-    w->f->cells[cell].y = unit.y;
-    rise(h, cell, time);
+    JOX_ASSERT(m->w->walled.node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f);
+    const JoxV2 unit = jox_scale(way, 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size));
+    n->time = time;
+    n->length = distance;
+    n->ends[0] = JOX_FRONT_GOAL;
+    f->cells[cell].x = unit.x;
+    f->cells[cell].y = unit.y;
+    jox_front_reach(&m->front, cell);
 }
 
 /* Whether a goal's nearest point is seen from p. A polygon may lie along a wall: then the point is
@@ -98,7 +57,8 @@ static bool sees_goal(const JoxFieldWork *w, const JoxPlace *place, JoxV2 goal, 
 
 /* Seeds the nodes within `reach` of a place that is no set; returns how many see it. Those that do
    not are seeded too once `blindly`. */
-static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float reach, bool blindly) {
+static int seed_within(March *m, const JoxPlace *place, float reach, bool blindly) {
+    const JoxFieldWork *w = m->w;
     JoxField *f = w->f;
     JoxV2 low, high;
     jox_bounds(place->points, jox_place_goal_points(place), &low, &high);
@@ -115,72 +75,122 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
             if (distance > reach || (!blindly && !sees_goal(w, place, goal, p)))
                 continue;
             seeds++;
-            offer(w, h, cell, distance * w->slowness[cell], distance, jox_sub(goal, p),
-                  jox_maxf(distance, JOX_FIELD_CLOSE * f->size));
+            offer(m, cell, distance, jox_sub(goal, p));
         }
     return seeds;
 }
 
-static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t index) {
+static void seed(March *m, const JoxPlace *places, uint32_t index) {
     const JoxPlace *place = &places[index];
     for (uint32_t k = 0; k < place->member_count; k++)
-        seed(w, h, places, (uint32_t)place->members[k]);
+        seed(m, places, (uint32_t)place->members[k]);
     if (place->count == 0)
         return;
-    float least = SEED_CELLS * w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
+    float least = SEED_CELLS * m->w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
     for (int blindly = 0; blindly < 2; blindly++)
         for (float reach = least; reach <= most; reach *= 1.25f)
-            if (seed_within(w, h, place, reach, blindly) > 0)
+            if (seed_within(m, place, reach, blindly) > 0)
                 return;
 }
 
 /* ---- marching ---- */
 
-/* The soonest way from node p by a point between two finished nodes a and b. */
-static inline void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
-    JoxV2 from = jox_field_node(w, a), to = jox_field_node(w, b);
-    JoxV2 side = jox_sub(to, from), out = jox_sub(p, from);
-    float long2 = jox_length2(side), slowness = w->slowness[cell];
-    float rise_ab = w->time[b] - w->time[a];
-    /* The time rises linearly along the side; away from it, the way costs `slowness` a metre. The
-       point of least time splits the side where the two balance. */
-    float rest2 = slowness * slowness * long2 - rise_ab * rise_ab;
-    if (!(rest2 > 0.0f))
-        return;
-    float along = jox_dot(out, side) - fabsf(jox_det(out, side)) * rise_ab / sqrtf(rest2);
-    if (!(along > 0.0f && along < long2))
-        return; /* the ends are tried on their own */
-    float t = along / long2;
-    if (!(t > 0.0f && t < 1.0f))
-        return;
-    JoxV2 way = jox_sub(jox_add(from, jox_scale(side, t)), p);
-    float far = jox_length(way);
-    float la = w->f->cells[a].length, lb = w->f->cells[b].length;
-    offer(w, h, cell, w->time[a] + t * rise_ab + slowness * far, la + t * (lb - la) + far, way,
-          far);
+/* The soonest way from a node so far, the numbers as bits. */
+typedef struct Best {
+    uint32_t time, share, a, b; /* its two ends */
+} Best;
+
+/* Without a branch, as it cannot be foretold which. */
+static inline uint32_t either(bool second, uint32_t a, uint32_t b) {
+    return a ^ ((a ^ b) & -(uint32_t)second);
 }
 
-static void march(JoxFieldWork *w, Heap *h) {
-    const JoxField *f = w->f;
-    int steps[8];
-    for (int k = 0; k < 8; k++)
-        steps[k] = JOX_FIELD_RING[k][1] * f->columns + JOX_FIELD_RING[k][0];
-    while (h->count > 0) {
-        int i = pop(h);
-        JoxV2 from = jox_field_node(w, i);
-        for (int k = 0; k < 8; k++) {
-            int j = i + steps[k];
-            if (!(w->walled.links[i] >> k & 1) || h->place[j] == FINISHED)
-                continue;
-            JOX_ASSERT(j >= 0 && j < w->count && w->walled.links[j] >> ((k + 4) & 7) & 1);
-            JoxV2 p = jox_field_node(w, j), way = jox_sub(from, p);
-            float far = jox_length(way);
-            offer(w, h, j, w->time[i] + w->slowness[j] * far, f->cells[i].length + far, way, far);
-            int back = (k + 4) & 7, left = (back + 1) & 7, right = (back + 7) & 7;
-            if (w->walled.corners[j] >> back & 1 && h->place[j + steps[left]] == FINISHED)
-                by_side(w, h, j, p, i, j + steps[left]);
-            if (w->walled.corners[j] >> right & 1 && h->place[j + steps[right]] == FINISHED)
-                by_side(w, h, j, p, i, j + steps[right]);
+static inline void keep_sooner(Best *best, bool counts, float time, float share, int a, int b) {
+    const bool sooner = counts & (jox_front_bits(time) < best->time);
+    best->time = either(sooner, best->time, jox_front_bits(time));
+    best->share = either(sooner, best->share, jox_front_bits(share));
+    best->a = either(sooner, best->a, (uint32_t)a);
+    best->b = either(sooner, best->b, (uint32_t)b);
+}
+
+/* The soonest way from node n by a point between two finished ones, its neighbours a and b. */
+static inline void by_side(const March *m, const JoxFrontNode *n, int a, int b, Best *best) {
+    const JoxFrontNode *from = n + m->steps[a], *to = n + m->steps[b];
+    const JoxV2 side = {to->x - from->x, to->y - from->y}, out = {n->x - from->x, n->y - from->y};
+    const float long2 = jox_length2(side), slowness = n->slowness;
+    const float rise = to->time - from->time;
+    /* The time rises linearly along the side; away from it, the way costs `slowness` a metre. The
+       point of least time splits the side where the two balance. */
+    const float rest2 = slowness * slowness * long2 - rise * rise;
+    const float along = jox_dot(out, side) - fabsf(jox_det(out, side)) * rise / sqrtf(rest2);
+    const float t = along / long2;
+    const bool between = (rest2 > 0.0f) & (along > 0.0f) & (along < long2) & (t > 0.0f) &
+                         (t < 1.0f); /* the ends are tried on their own */
+    const JoxV2 way = {from->x + side.x * t - n->x, from->y + side.y * t - n->y};
+    keep_sooner(best, between, from->time + t * rise + slowness * jox_length(way), t, a, b);
+}
+
+/* Offers node j the ways by its neighbour `from`, which has just been finished: j is the k-th on
+   the ring about it. `plain`: see march. */
+static inline void reach(March *m, const JoxFrontNode *from, int j, int k, bool plain) {
+    JoxFrontNode *n = &m->nodes[j];
+    const int back = (k + 4) & 7, after = (back + 1) & 7, before = (back + 7) & 7;
+    const uint32_t was = jox_front_bits(n->time), finished = n->finished;
+    JOX_ASSERT(!n->is_done && n->links >> back & 1);
+    n->finished = (uint8_t)(finished | 1u << back);
+    const bool even = plain && n->even;
+    if (even && n->time <= from->time + n->slowness * m->least[k & 1])
+        return;
+    Best best = {was, jox_front_bits(n->share), n->ends[0], n->ends[1]};
+    const float far = jox_length((JoxV2){from->x - n->x, from->y - n->y});
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, back, back);
+    const uint32_t corners = even && k & 1 ? 0 : n->corners;
+    if (corners >> back & finished >> after & 1)
+        by_side(m, n, back, after, &best);
+    if (corners >> before & finished >> before & 1)
+        by_side(m, n, back, before, &best);
+    if (best.time == was)
+        return;
+    n->time = jox_front_number(best.time);
+    n->share = jox_front_number(best.share);
+    n->ends[0] = (uint8_t)best.a;
+    n->ends[1] = (uint8_t)best.b;
+    jox_front_reach(&m->front, j);
+}
+
+/* The soonest way from a node is known: its length and direction. */
+static inline void finish(March *m, int cell) {
+    JoxFrontNode *n = &m->nodes[cell];
+    JoxFieldCell *out = &m->w->f->cells[cell];
+    m->w->time[cell] = n->time;
+    if (n->ends[0] != JOX_FRONT_GOAL) {
+        const JoxFrontNode *a = n + m->steps[n->ends[0]], *b = n + m->steps[n->ends[1]];
+        const float t = n->share;
+        const JoxV2 way = {a->x + (b->x - a->x) * t - n->x, a->y + (b->y - a->y) * t - n->y};
+        const float far = jox_length(way);
+        const JoxV2 unit = jox_scale(way, 1.0f / far);
+        n->length = a->length + t * (b->length - a->length) + far;
+        out->x = unit.x;
+        out->y = unit.y;
+    }
+    out->length = n->length;
+}
+
+/* Ways that cannot be the soonest are left out. By an even neighbour that is finished a node has no
+   way of less than LEAST_BESIDE or LEAST_ACROSS; and of a side between one across a corner and one
+   beside the node that was finished before, the soonest point is the latter. Both hold where nodes
+   are finished in the order of their times: those that are, and not too late, are `plain`. */
+static void march(March *m) {
+    const float most = MOST_TIME * m->w->f->size;
+    float latest = 0.0f;
+    for (int i = jox_front_take(&m->front); i >= 0; i = jox_front_take(&m->front)) {
+        const JoxFrontNode *n = &m->nodes[i];
+        const bool plain = n->time >= latest && n->time < most;
+        latest = jox_maxf(latest, n->time);
+        finish(m, i);
+        for (unsigned open = n->links & ~(unsigned)n->finished; open; open &= open - 1) {
+            const int k = __builtin_ctz(open);
+            reach(m, n, i + m->steps[k], k, plain);
         }
     }
 }
@@ -210,17 +220,35 @@ static void straighten(JoxFieldWork *w) {
     }
 }
 
+static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
+    const JoxFieldWalled *of = &w->walled;
+    JoxFrontNode *nodes = jox_alloc_aligned((size_t)w->count, sizeof *nodes);
+    for (int i = 0; i < w->count; i++)
+        nodes[i] = (JoxFrontNode){.x = of->x[i],
+                                  .y = of->y[i],
+                                  .slowness = w->slowness[i],
+                                  .time = INFINITY,
+                                  .links = of->links[i],
+                                  .corners = of->corners[i],
+                                  .even = of->even[i]};
+    return nodes;
+}
+
 void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
-    Heap heap = {.items = jox_alloc((size_t)w->count + 1, sizeof(uint64_t)),
-                 .place = jox_alloc((size_t)w->count, sizeof(int))};
+    const JoxField *f = w->f;
+    March m = {.w = w, .nodes = lay_nodes(w)};
+    m.front = (JoxFront){.nodes = m.nodes, .stretch = STRETCH * f->size};
+    m.least[0] = LEAST_BESIDE * f->size;
+    m.least[1] = LEAST_ACROSS * f->size;
+    for (int k = 0; k < 8; k++)
+        m.steps[k] = JOX_FIELD_RING[k][1] * f->columns + JOX_FIELD_RING[k][0];
     for (int i = 0; i < w->count; i++) {
-        heap.place[i] = NOT_YET;
         w->time[i] = INFINITY;
-        w->f->cells[i].length = INFINITY;
+        f->cells[i].length = INFINITY;
     }
-    seed(w, &heap, places, place);
-    march(w, &heap);
+    seed(&m, places, place);
+    march(&m);
     straighten(w);
-    jox_free(heap.items);
-    jox_free(heap.place);
+    jox_front_free(&m.front);
+    jox_free(m.nodes);
 }

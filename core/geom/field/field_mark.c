@@ -12,6 +12,8 @@ static const float NEAR = 0.5f;    /* m: walls slow people down within this */
 static const float SLOWING = 0.5f; /* more s/m right at a wall */
 /* A way round a corner cuts a little into the clearance between two nodes. */
 static const float CORNER = 0.85f;
+/* So many cells from the origin, cells are as wide as each other within half a percent. */
+static const float EXACT_CELLS = 2e4f;
 
 /* ---- edges by cell ---- */
 
@@ -222,6 +224,25 @@ static void span_corners(JoxFieldWork *w, int cell) {
     }
 }
 
+/* Which nodes stand in rows and columns with all of their neighbours, as evenly as if the numbers
+   were exact; so far out that they are not, none does. */
+static void find_even(JoxFieldWork *w) {
+    const JoxField *f = w->f;
+    const float far_x = f->low.x + (float)f->columns * f->size;
+    const float far_y = f->low.y + (float)f->rows * f->size, most = EXACT_CELLS * f->size;
+    if (!(fabsf(f->low.x) < most && fabsf(f->low.y) < most && far_x < most && far_y < most))
+        return;
+    for (int r = 0; r < f->rows; r++)
+        for (int c = 0; c < f->columns; c++) {
+            bool even = w->walled.node[r * f->columns + c] == JOX_FIELD_MIDDLE;
+            for (int k = 0; even && k < 8; k++) {
+                const int other = jox_field_next_to(f, c, r, k);
+                even = other < 0 || w->walled.node[other] == JOX_FIELD_MIDDLE;
+            }
+            w->walled.even[r * f->columns + c] = even;
+        }
+}
+
 static void make_room(JoxFieldWork *w) {
     const size_t count = (size_t)w->count;
     w->walled = (JoxFieldWalled){.first = jox_alloc(count + 1, sizeof(uint32_t)),
@@ -230,7 +251,8 @@ static void make_room(JoxFieldWork *w) {
                                  .x = jox_alloc(count, sizeof(float)),
                                  .y = jox_alloc(count, sizeof(float)),
                                  .links = jox_alloc(count, 1),
-                                 .corners = jox_alloc(count, 1)};
+                                 .corners = jox_alloc(count, 1),
+                                 .even = jox_alloc(count, sizeof(bool))};
 }
 
 void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **marks) {
@@ -249,6 +271,7 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
         link_cell(w, i);
     for (int i = 0; i < w->count; i++)
         span_corners(w, i);
+    find_even(w);
     jox_field_look_about(w);
     jox_field_remember(w, marks);
 }

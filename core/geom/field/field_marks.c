@@ -24,9 +24,9 @@ void jox_field_marks_free(JoxFieldMarks *m) {
     if (!m)
         return;
     const JoxFieldWalled *of = &m->walled;
-    void *const owned[] = {m->edges,    m->refs,   m->slowness, m->patches, m->patch,  of->first,
-                           of->solid,   of->node,  of->x,       of->y,      of->links, of->corners,
-                           of->patched, of->sight, of->columns, of->rows};
+    void *const owned[] = {m->edges,  m->refs,     m->slowness, m->patches,  m->patch,  of->first,
+                           of->solid, of->node,    of->x,       of->y,       of->links, of->corners,
+                           of->even,  of->patched, of->sight,   of->columns, of->rows};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
     jox_free(m);

@@ -74,6 +74,7 @@ typedef struct JoxFieldWalled {
     float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
     uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
     uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
+    bool *even;       /* its node and all of its neighbours' are in the middles of their cells */
     /* The cells that have patches, in the order of f->patches, and what their samples see. */
     int32_t *patched;
     JoxFieldSight *sight;
