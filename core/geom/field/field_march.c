@@ -230,7 +230,7 @@ static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
                                   .time = INFINITY,
                                   .links = of->links[i],
                                   .corners = of->corners[i],
-                                  .even = of->even[i]};
+                                  .even = w->exact && of->even[i]};
     return nodes;
 }
 

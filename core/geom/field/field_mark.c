@@ -1,5 +1,6 @@
 /* What walls do to a field: edges by cell, samples inside solids, nodes and what they see. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -12,8 +13,7 @@ static const float NEAR = 0.5f;    /* m: walls slow people down within this */
 static const float SLOWING = 0.5f; /* more s/m right at a wall */
 /* A way round a corner cuts a little into the clearance between two nodes. */
 static const float CORNER = 0.85f;
-/* So many cells from the origin, cells are as wide as each other within half a percent. */
-static const float EXACT_CELLS = 2e4f;
+static const float EXACT_CELLS = 2e4f; /* from the origin: see is_exact */
 
 /* ---- edges by cell ---- */
 
@@ -138,7 +138,13 @@ static void fill_solids(JoxFieldWork *w, const JoxWalls *walls) {
 static void place_node(JoxFieldWork *w, int cell) {
     JoxField *f = w->f;
     uint32_t first = w->walled.first[cell], last = w->walled.first[cell + 1];
-    float best = -1.0f;
+    float best = -1.0f, most = f->clearance + 1.5f * f->size; /* edges of other cells are farther */
+    if (first == last && !w->walled.solid[cell]) {
+        w->walled.node[cell] = JOX_FIELD_MIDDLE;
+        w->slowness[cell] = 1.0f;
+        w->near[cell] = most;
+        return;
+    }
     w->walled.node[cell] = JOX_FIELD_BLOCKED;
     for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
         int s = k == 0 ? JOX_FIELD_MIDDLE : k <= JOX_FIELD_MIDDLE ? k - 1 : k;
@@ -154,6 +160,7 @@ static void place_node(JoxFieldWork *w, int cell) {
     }
     float lack = 1.0f - jox_clampf(best / NEAR, 0.0f, 1.0f);
     w->slowness[cell] = 1.0f + SLOWING * lack * lack;
+    w->near[cell] = jox_minf(best, most);
 }
 
 static void lay_axis(JoxFieldAxis *axis, float low, float size, int most) {
@@ -185,16 +192,20 @@ static void lay_nodes(JoxFieldWork *w) {
         }
 }
 
-static void link_cell(JoxFieldWork *w, int cell) {
+/* Links of a cell with its neighbours east and north of it. */
+static void link_cell(JoxFieldWork *w, int column, int row) {
+    const int cell = row * w->f->columns + column;
+    const float least = CORNER * w->f->clearance;
     if (w->walled.node[cell] == JOX_FIELD_BLOCKED)
         return;
     for (int k = 0; k < 4; k++) {
-        int other = jox_field_next(w->f, cell, k);
+        const int other = jox_field_next_to(w->f, column, row, k);
         if (other < 0 || w->walled.node[other] == JOX_FIELD_BLOCKED)
             continue;
+        const JoxV2 p = jox_field_node(w, cell), q = jox_field_node(w, other);
         if ((jox_field_has_edges(w, cell) || jox_field_has_edges(w, other)) &&
-            !jox_field_sees(w, jox_field_node(w, cell), jox_field_node(w, other),
-                            CORNER * w->f->clearance))
+            !jox_field_surely_sees(w, w->near[cell], w->near[other], p, q, least) &&
+            !jox_field_sees_near(w, cell, p, q, least))
             continue;
         w->walled.links[cell] |= (uint8_t)(1 << k);
         w->walled.links[other] |= (uint8_t)(1 << (k + 4));
@@ -207,40 +218,58 @@ static bool in_triangle(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 p) {
            jox_det(jox_sub(a, c), jox_sub(p, c)) >= 0.0f;
 }
 
+/* Bit t: the cell, its neighbour t and t + 1 are linked to each other. */
+static uint32_t linked_corners(const JoxFieldWork *w, int cell) {
+    const uint32_t links = w->walled.links[cell];
+    uint32_t across = 0;
+    for (int k = 0; k < 8; k += 2) { /* from those beside it, on and back along the ring */
+        if (!(links >> k & 1))
+            continue;
+        const int beside = cell + JOX_FIELD_RING[k][1] * w->f->columns + JOX_FIELD_RING[k][0];
+        const uint32_t its = w->walled.links[beside];
+        across |= (its >> ((k + 2) & 7) & 1) << k | (its >> ((k + 6) & 7) & 1) << ((k + 7) & 7);
+    }
+    return links & (links >> 1 | links << 7) & across;
+}
+
 static void span_corners(JoxFieldWork *w, int cell) {
-    for (int t = 0; t < 8; t++) {
-        int next = (t + 1) & 7, across = (t + (t & 1 ? 3 : 2)) & 7;
-        if (!(w->walled.links[cell] >> t & 1) || !(w->walled.links[cell] >> next & 1))
+    uint32_t corners = linked_corners(w, cell);
+    for (int t = 0; t < 8 && jox_field_has_edges(w, cell); t++) {
+        if (!(corners >> t & 1))
             continue;
-        int one = jox_field_next(w->f, cell, t), two = jox_field_next(w->f, cell, next);
-        if (!(w->walled.links[one] >> across & 1))
-            continue;
+        const int one = jox_field_next(w->f, cell, t),
+                  two = jox_field_next(w->f, cell, (t + 1) & 7);
         JoxV2 a = jox_field_node(w, cell), b = jox_field_node(w, one), c = jox_field_node(w, two);
         bool empty = true; /* nothing crosses the sides: look for walls wholly within */
         for (uint32_t k = w->walled.first[cell]; empty && k < w->walled.first[cell + 1]; k++)
             empty = !in_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
-        if (empty)
-            w->walled.corners[cell] |= (uint8_t)(1 << t);
+        if (!empty)
+            corners &= ~(1u << t);
+    }
+    w->walled.corners[cell] = (uint8_t)corners;
+}
+
+/* Which nodes stand in rows and columns with all of their neighbours. */
+static void find_even(JoxFieldWork *w) {
+    const JoxField *f = w->f;
+    memset(w->walled.even, true, (size_t)w->count * sizeof *w->walled.even);
+    for (int i = 0; i < w->count; i++) {
+        if (w->walled.node[i] == JOX_FIELD_MIDDLE)
+            continue;
+        w->walled.even[i] = false;
+        for (int k = 0; k < 8; k++) {
+            const int other = jox_field_next(f, i, k);
+            if (other >= 0)
+                w->walled.even[other] = false;
+        }
     }
 }
 
-/* Which nodes stand in rows and columns with all of their neighbours, as evenly as if the numbers
-   were exact; so far out that they are not, none does. */
-static void find_even(JoxFieldWork *w) {
-    const JoxField *f = w->f;
-    const float far_x = f->low.x + (float)f->columns * f->size;
-    const float far_y = f->low.y + (float)f->rows * f->size, most = EXACT_CELLS * f->size;
-    if (!(fabsf(f->low.x) < most && fabsf(f->low.y) < most && far_x < most && far_y < most))
-        return;
-    for (int r = 0; r < f->rows; r++)
-        for (int c = 0; c < f->columns; c++) {
-            bool even = w->walled.node[r * f->columns + c] == JOX_FIELD_MIDDLE;
-            for (int k = 0; even && k < 8; k++) {
-                const int other = jox_field_next_to(f, c, r, k);
-                even = other < 0 || w->walled.node[other] == JOX_FIELD_MIDDLE;
-            }
-            w->walled.even[r * f->columns + c] = even;
-        }
+/* Whether cells are as wide as each other within half a percent: so far out are numbers still. */
+static bool is_exact(const JoxField *f) {
+    const float most = EXACT_CELLS * f->size;
+    return fabsf(f->low.x) < most && f->low.x + (float)f->columns * f->size < most &&
+           fabsf(f->low.y) < most && f->low.y + (float)f->rows * f->size < most;
 }
 
 static void make_room(JoxFieldWork *w) {
@@ -258,20 +287,24 @@ static void make_room(JoxFieldWork *w) {
 void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **marks) {
     JoxField *f = w->f;
     float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
+    w->exact = is_exact(f);
     collect(f, walls);
     if (jox_field_recall(w, *marks))
         return;
     make_room(w);
+    w->near = jox_alloc((size_t)w->count, sizeof *w->near);
     sort_edges(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
         place_node(w, i);
     lay_nodes(w);
-    for (int i = 0; i < w->count; i++)
-        link_cell(w, i);
+    for (int r = 0; r < f->rows; r++)
+        for (int c = 0; c < f->columns; c++)
+            link_cell(w, c, r);
     for (int i = 0; i < w->count; i++)
         span_corners(w, i);
     find_even(w);
     jox_field_look_about(w);
+    jox_free(w->near);
     jox_field_remember(w, marks);
 }

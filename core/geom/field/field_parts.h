@@ -74,7 +74,7 @@ typedef struct JoxFieldWalled {
     float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
     uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
     uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
-    bool *even;       /* its node and all of its neighbours' are in the middles of their cells */
+    bool *even;       /* its node and those of its neighbours are in the middles of their cells */
     /* The cells that have patches, in the order of f->patches, and what their samples see. */
     int32_t *patched;
     JoxFieldSight *sight;
@@ -84,6 +84,8 @@ typedef struct JoxFieldWalled {
 typedef struct JoxFieldWork {
     JoxField *f;
     int count;       /* cells */
+    bool exact;      /* cells are as wide as each other, but for rounding that is far less */
+    float *near;     /* while marking: each node is so far from walls at least, m */
     float *time;     /* of the way from the node at 1 m/s in the open, s */
     float *slowness; /* s/m at the node */
     JoxFieldWalled walled;
@@ -131,6 +133,16 @@ float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 
 /* True if the way straight from p to q keeps `least` m from every edge, and from those that p
    itself is close to nine tenths of that. With least = 0 it must cross none. */
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
+/* The same of a sample or a node of a cell and a point no farther than nodes next to the cell are:
+   no edges but the cell's own are near enough to be in the way. `least` is at most the clearance.
+ */
+bool jox_field_sees_near(const JoxFieldWork *w, int cell, JoxV2 p, JoxV2 q, float least);
+/* Whether it does in any case, both being so far from the nearest walls. */
+static inline bool jox_field_surely_sees(const JoxFieldWork *w, float p_near, float q_near, JoxV2 p,
+                                         JoxV2 q, float least) {
+    const float spare = 0.02f * w->f->size; /* for rounding */
+    return w->exact && p_near + q_near > jox_length(jox_sub(q, p)) + 2.0f * least + spare;
+}
 
 /* Edges by cell, solids, nodes, links, the slowness near walls, and what patches see. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls, JoxFieldMarks **marks);

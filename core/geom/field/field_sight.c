@@ -71,21 +71,23 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
     return true;
 }
 
+bool jox_field_sees_near(const JoxFieldWork *w, int cell, JoxV2 p, JoxV2 q, float least) {
+    JOX_ASSERT(least <= w->f->clearance);
+    if (!w->exact)
+        return jox_field_sees(w, p, q, least);
+    for (uint32_t i = w->walled.first[cell]; i < w->walled.first[cell + 1]; i++)
+        if (edge_hides(&w->f->edges[w->f->refs[i]], p, q, least))
+            return false;
+    return true;
+}
+
 /* ---- patches ---- */
 
-static bool is_clear(const JoxFieldWork *w, int cell) {
-    if (w->walled.node[cell] != JOX_FIELD_MIDDLE)
-        return false;
-    for (int k = 0; k < 8; k++) {
-        int other = jox_field_next(w->f, cell, k);
-        int after = jox_field_next(w->f, cell, (k + 1) & 7);
-        if (other >= 0 &&
-            (!(w->walled.links[cell] >> k & 1) || w->walled.node[other] != JOX_FIELD_MIDDLE))
-            return false;
-        if (other >= 0 && after >= 0 && !(w->walled.corners[cell] >> k & 1))
-            return false;
-    }
-    return true;
+/* Whether a cell is blended with all of its neighbours; `within`: bits of those that there are. */
+static bool is_clear(const JoxFieldWork *w, int cell, uint32_t within) {
+    const uint32_t both = within & (within >> 1 | within << 7);
+    return w->walled.even[cell] && (w->walled.links[cell] & within) == within &&
+           (w->walled.corners[cell] & both) == (both & 0xff);
 }
 
 /* Straight out of matter: towards the nearest edge, or off the edge it lies upon. */
@@ -96,14 +98,18 @@ static JoxV2 out_of_solid(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
     return jox_unit(jox_scale(jox_left(jox_sub(f->edges[edge].b, f->edges[edge].a)), -1.0f));
 }
 
-/* Of the four nodes about a point, those that it sees (bits). */
-static JoxFieldSight nodes_seen(const JoxFieldWork *w, const JoxFieldSpot *spot) {
+/* Of the four nodes about a point, `near` m from the nearest edge, those that it sees (bits). */
+static JoxFieldSight nodes_seen(const JoxFieldWork *w, const JoxFieldSpot *spot, float near) {
     const JoxV2 p = jox_field_spot_at(spot);
+    const float least = JOX_FIELD_KEEP * w->f->clearance;
     JoxFieldSight seen = 0;
     for (int k = 0; k < 4; k++) {
         const int cell = jox_field_about(w, spot, k).cell;
-        if (cell >= 0 &&
-            jox_field_sees(w, p, jox_field_node(w, cell), JOX_FIELD_KEEP * w->f->clearance))
+        if (cell < 0)
+            continue;
+        const JoxV2 node = jox_field_node(w, cell);
+        if (jox_field_surely_sees(w, near, w->near[cell], p, node, least) ||
+            jox_field_sees_near(w, spot->cell, p, node, least))
             seen |= (JoxFieldSight)1 << k;
     }
     return seen;
@@ -131,7 +137,7 @@ static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell,
         patch->on_edge |= (uint16_t)(1 << s);
         return 0;
     }
-    JoxFieldSight sight = nodes_seen(w, &spot);
+    JoxFieldSight sight = nodes_seen(w, &spot, near);
     if (near < f->clearance) {
         const JoxV2 off = jox_scale(jox_sub(p, at), (1.0f - near / f->clearance) / near);
         patch->x[s] = off.x;
@@ -146,7 +152,10 @@ static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell,
 void jox_field_look_about(JoxFieldWork *w) {
     JoxField *f = w->f;
     for (int i = 0; i < w->count; i++) {
-        bool clear = is_clear(w, i), edges = jox_field_has_edges(w, i);
+        const int c = i % f->columns, r = i / f->columns;
+        const uint32_t within = (r > 0 ? 0xff : 0x1f) & (r + 1 < f->rows ? 0xff : 0xf1) &
+                                (c > 0 ? 0xff : 0xc7) & (c + 1 < f->columns ? 0xff : 0x7c);
+        bool clear = is_clear(w, i, within), edges = jox_field_has_edges(w, i);
         f->cells[i].patch = clear ? JOX_FIELD_CLEAR : JOX_FIELD_PLAIN;
         if (clear || !edges)
             continue;
