@@ -1,6 +1,7 @@
 /* Patches: nine samples in each cell at a wall, judged by what each of them sees. Samples that see
    nothing (in crevices) follow a neighbour that does; those in solids lead out. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -17,31 +18,58 @@ typedef struct Patching {
 
 /* ---- one sample ---- */
 
+/* What the samples of a patch know of a node: of their own cell, in the middle, or of its ring. */
+typedef struct Near {
+    int cell; /* -1: beyond the border, or blocked */
+    bool reached;
+    JoxV2 at, way, unit; /* m; the way's direction with length 1 */
+    float length;        /* m */
+} Near;
+enum { NEAR = 3, NEAR_MIDDLE = 4 }; /* in a row; the own one */
+
 typedef struct Blend {
     JoxV2 way;
     float length, weight;
     bool unreachable; /* it sees a node from which no way leads */
 } Blend;
 
-/* The way from a point, blended from the nodes of the four cells about it that it sees. */
-static Blend blend(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSight sight) {
+static void look_near(const JoxFieldWork *w, int column, int row, Near near[NEAR * NEAR]) {
     const JoxField *f = w->f;
+    for (int k = -1; k < 8; k++) {
+        const int right = k < 0 ? 0 : JOX_FIELD_RING[k][0], up = k < 0 ? 0 : JOX_FIELD_RING[k][1];
+        const int cell = k < 0 ? row * f->columns + column : jox_field_next_to(f, column, row, k);
+        Near *n = &near[NEAR_MIDDLE + NEAR * up + right];
+        n->cell = cell < 0 || w->walled.node[cell] == JOX_FIELD_BLOCKED ? -1 : cell;
+        n->reached = n->cell >= 0 && w->time[cell] < INFINITY;
+        if (!n->reached)
+            continue;
+        n->at = jox_field_node(w, cell);
+        n->way = (JoxV2){f->cells[cell].x, f->cells[cell].y};
+        n->unit = jox_unit(n->way);
+        n->length = f->cells[cell].length;
+    }
+}
+
+/* The way from a point, blended from the nodes of the four cells about it that it sees. */
+static Blend blend(const Near *near, const JoxFieldSpot *spot, JoxFieldSight sight) {
     const JoxV2 p = jox_field_spot_at(spot);
     Blend m = {.unreachable = false};
     for (int k = 0; k < 4; k++) {
         if (!(sight >> k & 1))
             continue;
-        const JoxFieldAbout about = jox_field_about(w, spot, k);
-        const int cell = about.cell;
-        JOX_ASSERT(cell >= 0);
-        if (!(w->time[cell] < INFINITY)) {
+        const int right = spot->x->first + (k & 1) - spot->column;
+        const int up = spot->y->first + (k >> 1) - spot->row;
+        const Near *n = &near[NEAR_MIDDLE + NEAR * up + right];
+        JOX_ASSERT(n->cell >= 0);
+        if (!n->reached) {
             m.unreachable = true;
             continue;
         }
-        const float weight = about.weight;
-        const JoxV2 off = jox_sub(p, jox_field_node(w, cell));
-        m.way = jox_add(m.way, jox_scale((JoxV2){f->cells[cell].x, f->cells[cell].y}, weight));
-        m.length += weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], off));
+        /* jox_field_about, jox_field_slope */
+        const float weight = spot->x->share[k & 1] * spot->y->share[k >> 1];
+        const float slope = jox_dot(n->unit, jox_sub(p, n->at));
+        m.way = jox_add(m.way, jox_scale(n->way, weight));
+        m.length += weight * (n->length - slope);
         m.weight += weight;
     }
     if (m.weight > 0.0f) {
@@ -51,11 +79,14 @@ static Blend blend(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSigh
     return m;
 }
 
-/* Whether a sample sees the node of a cell, its own or `place - 1` on its ring. */
-static bool sees_node(const JoxFieldWork *w, JoxV2 p, int cell, int place, JoxFieldSight *sight) {
+/* Whether a sample sees the node of its own cell, or the one `place - 1` on its ring. */
+static bool sees_node(const JoxFieldWork *w, const JoxFieldSpot *spot, int node, int place,
+                      JoxFieldSight *sight) {
+    const JoxV2 p = jox_field_spot_at(spot);
     if (!(*sight & (JoxFieldSight)JOX_SIGHT_KNOWN << place)) {
         *sight |= (JoxFieldSight)JOX_SIGHT_KNOWN << place;
-        if (jox_field_sees(w, p, jox_field_node(w, cell), JOX_FIELD_KEEP * w->f->clearance))
+        if (jox_field_sees_near(w, spot->cell, p, jox_field_node(w, node),
+                                JOX_FIELD_KEEP * w->f->clearance))
             *sight |= (JoxFieldSight)JOX_SIGHT_SEEN << place;
     }
     return *sight & (JoxFieldSight)JOX_SIGHT_SEEN << place;
@@ -75,7 +106,7 @@ static bool by_a_node(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldS
         float far = jox_length(way), time = w->time[other] + far * w->slowness[other];
         bool reached = time < INFINITY;
         if ((reached && time >= best) || (!reached && m->unreachable) ||
-            !sees_node(w, p, other, k + 1, sight))
+            !sees_node(w, spot, other, k + 1, sight))
             continue;
         m->unreachable = m->unreachable || !reached;
         if (!reached)
@@ -95,8 +126,10 @@ static void set(JoxFieldPatch *patch, int s, JoxV2 way, float length) {
 }
 
 /* Whether a blend leads on, and not into a wall or a corner. */
-static bool leads_on(const JoxFieldWork *w, JoxV2 p, const Blend *m, JoxFieldSight sight) {
+static bool leads_on(const JoxFieldWork *w, const JoxFieldSpot *spot, const Blend *m,
+                     JoxFieldSight sight) {
     const JoxField *f = w->f;
+    const JoxV2 p = jox_field_spot_at(spot);
     const float along = jox_length(m->way), goal = f->clearance + f->size;
     if (!(m->weight > 0.0f && along > (m->length < goal ? JOX_FIELD_ARRIVED : 0.2f)))
         return false;
@@ -104,14 +137,14 @@ static bool leads_on(const JoxFieldWork *w, JoxV2 p, const Blend *m, JoxFieldSig
         return true;
     const float look = jox_minf(JOX_FIELD_AHEAD * f->size, m->length);
     const JoxV2 ahead = jox_add(p, jox_scale(m->way, look / along));
-    return jox_field_sees(w, p, ahead, m->length < goal ? 0.0f : JOX_FIELD_KEEP * f->clearance);
+    return jox_field_sees_near(w, spot->cell, p, ahead,
+                               m->length < goal ? 0.0f : JOX_FIELD_KEEP * f->clearance);
 }
 
-static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const JoxFieldSpot *spot,
-                   JoxFieldSight *seen) {
+static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const Near *near,
+                   const JoxFieldSpot *spot, JoxFieldSight *seen) {
     const JoxField *f = w->f;
     const JoxFieldSight sight = *seen;
-    const JoxV2 p = jox_field_spot_at(spot);
     const int s = spot->sample;
     patch->length[s] = INFINITY;
     if (sight & JOX_SIGHT_DEEP)
@@ -122,12 +155,12 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const JoxFieldSp
     set(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
     if (patch->on_edge >> s & 1)
         return ON_EDGE;
-    Blend m = blend(w, spot, sight);
+    Blend m = blend(near, spot, sight);
     if (m.weight > 0.0f && jox_length(m.way) < JOX_FIELD_ARRIVED && m.length < f->size) {
         set(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
         return FOUND;
     }
-    if (!leads_on(w, p, &m, sight) && !by_a_node(w, spot, seen, &m))
+    if (!leads_on(w, spot, &m, sight) && !by_a_node(w, spot, seen, &m))
         return m.unreachable ? UNREACHABLE : UNKNOWN;
     m.way = jox_unit(m.way);
     if (sight & JOX_SIGHT_BY_WALL && m.length > f->clearance + f->size)
@@ -140,13 +173,15 @@ static void judge_patch(Patching *g, uint32_t patch) {
     const JoxFieldWork *w = g->w;
     const size_t first = (size_t)patch * JOX_FIELD_SAMPLES;
     const JoxFieldSpot corner = jox_field_spot(w, w->walled.patched[patch], 0);
+    Near near[NEAR * NEAR];
+    look_near(w, corner.column, corner.row, near);
     for (int s = 0; s < JOX_FIELD_SAMPLES; s++) {
         JoxFieldSpot spot = corner;
         spot.sample = s;
         spot.x += s % JOX_FIELD_SIDE;
         spot.y += s / JOX_FIELD_SIDE;
-        g->states[first + (size_t)s] =
-            (uint8_t)judge(w, &w->f->patches[patch], &spot, &w->walled.sight[first + (size_t)s]);
+        g->states[first + (size_t)s] = (uint8_t)judge(w, &w->f->patches[patch], near, &spot,
+                                                      &w->walled.sight[first + (size_t)s]);
     }
 }
 
@@ -181,6 +216,11 @@ static bool is_matter(const Patching *g, int32_t sample) {
            1;
 }
 
+static bool sees_beside(const Patching *g, int32_t j, int32_t i) {
+    const int cell = g->w->walled.patched[j / JOX_FIELD_SAMPLES];
+    return jox_field_sees_near(g->w, cell, place_of(g, j), place_of(g, i), 0.0f);
+}
+
 /* Sample j follows i, or straight what i follows if nothing is between; and keeps off walls. */
 static void follow(Patching *g, int32_t j, int32_t i) {
     JoxField *f = g->w->f;
@@ -205,14 +245,31 @@ static void follow(Patching *g, int32_t j, int32_t i) {
     set(patch, j % JOX_FIELD_SAMPLES, way, led->length[to % JOX_FIELD_SAMPLES] + far);
 }
 
+static bool leads(State state) {
+    return state == FOUND || state == UNREACHABLE || state == SOLID;
+}
+
+/* Lists samples of which one beside them may follow, in their order; returns how many. */
+static int32_t list_leaders(Patching *g, int32_t *queue) {
+    const int32_t count = (int32_t)g->w->f->patch_count * JOX_FIELD_SAMPLES;
+    int32_t listed = 0;
+    for (int32_t i = 0; i < count; i++)
+        for (int side = 0; g->states[i] == UNKNOWN && side < 4; side++) {
+            const int32_t j = beside(g, i, side);
+            if (j >= 0)
+                g->towards[j] = j;
+        }
+    for (int32_t i = 0; i < count; i++)
+        if (g->towards[i] == i && leads(g->states[i]))
+            queue[listed++] = i;
+    return listed;
+}
+
 static void follow_all(Patching *g) {
-    int32_t count = (int32_t)g->w->f->patch_count * JOX_FIELD_SAMPLES, filled = 0;
+    int32_t count = (int32_t)g->w->f->patch_count * JOX_FIELD_SAMPLES;
     int32_t *queue = jox_alloc((size_t)count + 1, sizeof *queue);
-    for (int32_t i = 0; i < count; i++) {
-        g->towards[i] = i;
-        if (g->states[i] == FOUND || g->states[i] == UNREACHABLE || g->states[i] == SOLID)
-            queue[filled++] = i;
-    }
+    memset(g->towards, -1, (size_t)count * sizeof *g->towards);
+    int32_t filled = list_leaders(g, queue);
     for (int32_t k = 0; k < filled; k++)
         for (int side = 0; side < 4; side++) {
             int32_t i = queue[k], j = beside(g, i, side);
@@ -220,8 +277,7 @@ static void follow_all(Patching *g) {
                 continue;
             /* Samples outside solids follow such samples that they see; samples inside follow those
              * inside. */
-            if (is_matter(g, j) != is_matter(g, i) ||
-                (!is_matter(g, j) && !jox_field_sees(g->w, place_of(g, j), place_of(g, i), 0.0f)))
+            if (is_matter(g, j) != is_matter(g, i) || (!is_matter(g, j) && !sees_beside(g, j, i)))
                 continue;
             JOX_ASSERT(filled < count);
             follow(g, j, i);
