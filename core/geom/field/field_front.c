@@ -9,10 +9,6 @@
 
 enum { MANY = 8 }; /* moves of a key that is inserted, on average */
 
-static float time_of(uint64_t key) {
-    return jox_front_number((uint32_t)(key >> 32));
-}
-
 static int cell_of(uint64_t key) {
     return (int)(uint32_t)key;
 }
@@ -47,39 +43,38 @@ static uint64_t pop(JoxFront *f) {
 
 /* ---- stretches ---- */
 
-void jox_front_wait(JoxFront *f, int cell) {
-    JOX_RESERVE(f->waiting, f->waiting_room, f->waiting_count + 1);
-    f->nodes[cell].reached = true;
-    f->waiting[f->waiting_count++] = cell;
-}
-
 /* Keys of all that wait and are not finished; returns the least time. */
 static float list_keys(JoxFront *f, size_t *count) {
     float least = INFINITY;
-    *count = 0;
+    size_t listed = 0;
     JOX_RESERVE(f->keys, f->keys_room, f->waiting_count);
+    uint64_t *keys = f->keys;
     for (size_t k = 0; k < f->waiting_count; k++) {
         const int cell = f->waiting[k];
         if (f->nodes[cell].is_done)
             continue;
-        f->keys[(*count)++] = jox_front_key(f, cell);
+        keys[listed++] = jox_front_key(f, cell);
         least = jox_minf(least, f->nodes[cell].time);
     }
+    *count = listed;
     return least;
 }
 
-/* Leaves the keys of the stretch from `least` on; the others' cells go on waiting. */
+/* Leaves the keys of the stretch; the others' cells go on waiting. */
 static size_t part(JoxFront *f, size_t count) {
-    size_t chosen = 0;
-    f->waiting_count = 0;
+    const uint32_t end = jox_front_bits(f->end);
+    uint64_t *keys = f->keys;
+    int *waiting = f->waiting;
+    size_t chosen = 0, left = 0;
     for (size_t k = 0; k < count; k++) {
-        const uint64_t key = f->keys[k];
-        const bool now = time_of(key) < f->end;
-        f->waiting[f->waiting_count] = cell_of(key);
-        f->keys[chosen] = key;
-        f->waiting_count += !now;
+        const uint64_t key = keys[k];
+        const bool now = key >> 32 < end;
+        waiting[left] = cell_of(key);
+        keys[chosen] = key;
+        left += !now;
         chosen += now;
     }
+    f->waiting_count = left;
     return chosen;
 }
 
@@ -87,11 +82,6 @@ static int by_key(const void *a, const void *b, const void *context) {
     (void)context;
     const uint64_t *one = a, *two = b;
     return (*one > *two) - (*one < *two);
-}
-
-static inline size_t bin_of(uint64_t key, float least, float scale, size_t bins) {
-    const size_t bin = (size_t)((time_of(key) - least) * scale);
-    return bin < bins ? bin : bins - 1;
 }
 
 /* Keys that are nearly in order. */
@@ -111,23 +101,27 @@ static void insert_each(uint64_t *keys, size_t count) {
     }
 }
 
-/* Sorts `count` keys into `next`: by bins of time, of which each holds about one, then one by one.
- */
+/* Sorts `count` keys into `next`: by bins of time, of which most hold a few, then one by one. */
 static void sort(JoxFront *f, size_t count, float least) {
-    const float scale = (float)count / (f->end - least);
+    const uint64_t low = (uint64_t)jox_front_bits(least) << 32;
+    const uint64_t high = (uint64_t)jox_front_bits(f->end) << 32;
+    unsigned shift = 32;
+    while ((high - low) >> shift > count)
+        shift++;
+    const size_t bin_count = (size_t)((high - low) >> shift) + 1;
     JOX_RESERVE(f->next, f->next_room, count);
-    JOX_RESERVE(f->bins, f->bins_room, count + 1);
+    JOX_RESERVE(f->bins, f->bins_room, bin_count);
     uint32_t *bins = f->bins, first = 0;
-    memset(bins, 0, (count + 1) * sizeof *bins);
+    memset(bins, 0, bin_count * sizeof *bins);
     for (size_t k = 0; k < count; k++)
-        bins[bin_of(f->keys[k], least, scale, count)]++;
-    for (size_t b = 0; b < count; b++) {
+        bins[(f->keys[k] - low) >> shift]++;
+    for (size_t b = 0; b < bin_count; b++) {
         const uint32_t has = bins[b];
         bins[b] = first;
         first += has;
     }
     for (size_t k = 0; k < count; k++)
-        f->next[bins[bin_of(f->keys[k], least, scale, count)]++] = f->keys[k];
+        f->next[bins[(f->keys[k] - low) >> shift]++] = f->keys[k];
     insert_each(f->next, count);
 }
 
@@ -145,7 +139,7 @@ static bool advance(JoxFront *f) {
     return true;
 }
 
-int jox_front_take(JoxFront *f) {
+int jox_front_seek(JoxFront *f) {
     for (;;) {
         if (f->at == f->next_count && f->heap_count == 0 && !advance(f))
             return -1;
@@ -161,7 +155,13 @@ int jox_front_take(JoxFront *f) {
     }
 }
 
-void jox_front_free(JoxFront *f) {
+void jox_front_begin(JoxFront *f, JoxFrontNode *nodes, int count, float stretch) {
+    *f = (JoxFront){.nodes = nodes, .stretch = stretch};
+    f->waiting = jox_realloc(NULL, (size_t)count, sizeof *f->waiting);
+}
+
+void jox_front_end(JoxFront *f) {
+    jox_free(f->nodes);
     jox_free(f->waiting);
     jox_free(f->next);
     jox_free(f->heap);

@@ -18,11 +18,13 @@ static const float MOST_TIME = 1e4f;
    reached by each other. */
 static const float STRETCH = 1.0f;
 
+/* For what is worked out for each neighbour on the ring with its number as a constant. */
+#define INLINE inline __attribute__((always_inline))
+
 typedef struct March {
     JoxFieldWork *w;
-    JoxFrontNode *nodes; /* of each cell; the front's */
-    int steps[8];        /* from a cell to its neighbours on the ring */
-    float least[2];      /* m: see march */
+    int steps[8];   /* from a cell to its neighbours on the ring */
+    float least[2]; /* m: see march */
     JoxFront front;
 } March;
 
@@ -31,7 +33,7 @@ typedef struct March {
 /* A way to a cell's node straight from the goal, along `way`. */
 static void offer(March *m, int cell, float distance, JoxV2 way) {
     const JoxField *f = m->w->f;
-    JoxFrontNode *n = &m->nodes[cell];
+    JoxFrontNode *n = &m->front.nodes[cell];
     const float time = distance * n->slowness;
     if (!(time < n->time))
         return;
@@ -39,7 +41,7 @@ static void offer(March *m, int cell, float distance, JoxV2 way) {
     const JoxV2 unit = jox_scale(way, 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size));
     n->time = time;
     n->length = distance;
-    n->ends[0] = JOX_FRONT_GOAL;
+    n->ends = JOX_FRONT_GOAL;
     f->cells[cell].x = unit.x;
     f->cells[cell].y = unit.y;
     jox_front_reach(&m->front, cell);
@@ -97,7 +99,7 @@ static void seed(March *m, const JoxPlace *places, uint32_t index) {
 
 /* The soonest way from a node so far, the numbers as bits. */
 typedef struct Best {
-    uint32_t time, share, a, b; /* its two ends */
+    uint32_t time, share, ends;
 } Best;
 
 /* Without a branch, as it cannot be foretold which. */
@@ -105,18 +107,26 @@ static inline uint32_t either(bool second, uint32_t a, uint32_t b) {
     return a ^ ((a ^ b) & -(uint32_t)second);
 }
 
-static inline void keep_sooner(Best *best, bool counts, float time, float share, int a, int b) {
+static inline uint32_t ends_of(int a, int b) {
+    return (uint32_t)(a | b << 8);
+}
+
+static inline Best best_of(const JoxFrontNode *n) {
+    return (Best){jox_front_bits(n->time), jox_front_bits(n->share), n->ends};
+}
+
+static inline void keep_sooner(Best *best, bool counts, float time, float share, uint32_t ends) {
     const bool sooner = counts & (jox_front_bits(time) < best->time);
     best->time = either(sooner, best->time, jox_front_bits(time));
     best->share = either(sooner, best->share, jox_front_bits(share));
-    best->a = either(sooner, best->a, (uint32_t)a);
-    best->b = either(sooner, best->b, (uint32_t)b);
+    best->ends = either(sooner, best->ends, ends);
 }
 
 /* The soonest way from node n by a point between two finished ones, its neighbours a and b. */
 static inline void by_side(const March *m, const JoxFrontNode *n, int a, int b, Best *best) {
     const JoxFrontNode *from = n + m->steps[a], *to = n + m->steps[b];
-    const JoxV2 side = {to->x - from->x, to->y - from->y}, out = {n->x - from->x, n->y - from->y};
+    const JoxV2 side = {to->at[0] - from->at[0], to->at[1] - from->at[1]},
+                out = {n->at[0] - from->at[0], n->at[1] - from->at[1]};
     const float long2 = jox_length2(side), slowness = n->slowness;
     const float rise = to->time - from->time;
     /* The time rises linearly along the side; away from it, the way costs `slowness` a metre. The
@@ -126,47 +136,84 @@ static inline void by_side(const March *m, const JoxFrontNode *n, int a, int b, 
     const float t = along / long2;
     const bool between = (rest2 > 0.0f) & (along > 0.0f) & (along < long2) & (t > 0.0f) &
                          (t < 1.0f); /* the ends are tried on their own */
-    const JoxV2 way = {from->x + side.x * t - n->x, from->y + side.y * t - n->y};
-    keep_sooner(best, between, from->time + t * rise + slowness * jox_length(way), t, a, b);
+    const JoxV2 way = {from->at[0] + side.x * t - n->at[0], from->at[1] + side.y * t - n->at[1]};
+    keep_sooner(best, between, from->time + t * rise + slowness * jox_length(way), t,
+                ends_of(a, b));
 }
 
-/* Offers node j the ways by its neighbour `from`, which has just been finished: j is the k-th on
-   the ring about it. `plain`: see march. */
-static inline void reach(March *m, const JoxFrontNode *from, int j, int k, bool plain) {
-    JoxFrontNode *n = &m->nodes[j];
-    const int back = (k + 4) & 7, after = (back + 1) & 7, before = (back + 7) & 7;
-    const uint32_t was = jox_front_bits(n->time), finished = n->finished;
-    JOX_ASSERT(!n->is_done && n->links >> back & 1);
-    n->finished = (uint8_t)(finished | 1u << back);
-    const bool even = plain && n->even;
-    if (even && n->time <= from->time + n->slowness * m->least[k & 1])
+/* The same of even nodes, to the bit: `from` is beside n along an axis, and `to` beside that across
+   it. */
+static INLINE void by_even_side(const JoxFrontNode *n, const JoxFrontNode *from,
+                                const JoxFrontNode *to, int axis, uint32_t ends, Best *best) {
+    const float off = from->at[axis] - n->at[axis], base = n->at[!axis];
+    const float side = to->at[!axis] - base, long2 = side * side, slowness = n->slowness;
+    const float rise = to->time - from->time;
+    const float rest2 = slowness * slowness * long2 - rise * rise;
+    const float along = -(fabsf(off * side) * rise / sqrtf(rest2)), t = along / long2;
+    const bool between =
+        (rest2 > 0.0f) & (along > 0.0f) & (along < long2) & (t > 0.0f) & (t < 1.0f);
+    const float across = base + side * t - base;
+    const float far = sqrtf(off * off + across * across);
+    keep_sooner(best, between, from->time + t * rise + slowness * far, t, ends);
+}
+
+static INLINE void keep(March *m, JoxFrontNode *n, const Best *best) {
+    if (best->time == jox_front_bits(n->time))
         return;
-    Best best = {was, jox_front_bits(n->share), n->ends[0], n->ends[1]};
-    const float far = jox_length((JoxV2){from->x - n->x, from->y - n->y});
-    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, back, back);
-    const uint32_t corners = even && k & 1 ? 0 : n->corners;
-    if (corners >> back & finished >> after & 1)
+    n->time = jox_front_number(best->time);
+    n->share = jox_front_number(best->share);
+    n->ends = (uint16_t)best->ends;
+    jox_front_reach(&m->front, (int)(n - m->front.nodes));
+}
+
+/* Offers node n the ways by its neighbour `back` on the ring, which has just been finished;
+   `finished`: those that were before. */
+static void reach(March *m, JoxFrontNode *n, int back, uint32_t finished) {
+    const JoxFrontNode *from = n + m->steps[back];
+    const int after = (back + 1) & 7, before = (back + 7) & 7;
+    const float far = jox_length((JoxV2){from->at[0] - n->at[0], from->at[1] - n->at[1]});
+    Best best = best_of(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
+    if (n->corners >> back & finished >> after & 1)
         by_side(m, n, back, after, &best);
-    if (corners >> before & finished >> before & 1)
+    if (n->corners >> before & finished >> before & 1)
         by_side(m, n, back, before, &best);
-    if (best.time == was)
-        return;
-    n->time = jox_front_number(best.time);
-    n->share = jox_front_number(best.share);
-    n->ends[0] = (uint8_t)best.a;
-    n->ends[1] = (uint8_t)best.b;
-    jox_front_reach(&m->front, j);
+    keep(m, n, &best);
+}
+
+/* The same of an even node, by one beside it. */
+static INLINE void reach_beside(March *m, JoxFrontNode *n, int back, uint32_t finished) {
+    const JoxFrontNode *from = n + m->steps[back];
+    const int after = (back + 1) & 7, before = (back + 7) & 7, axis = back >> 1 & 1;
+    const float far = fabsf(from->at[axis] - n->at[axis]);
+    Best best = best_of(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
+    if (n->corners >> back & finished >> after & 1)
+        by_even_side(n, from, n + m->steps[after], axis, ends_of(back, after), &best);
+    if (n->corners >> before & finished >> before & 1)
+        by_even_side(n, from, n + m->steps[before], axis, ends_of(back, before), &best);
+    keep(m, n, &best);
+}
+
+/* The same of an even node, by one across a corner. */
+static INLINE void reach_across(March *m, JoxFrontNode *n, int back) {
+    const JoxFrontNode *from = n + m->steps[back];
+    const float far = jox_length((JoxV2){from->at[0] - n->at[0], from->at[1] - n->at[1]});
+    Best best = best_of(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
+    keep(m, n, &best);
 }
 
 /* The soonest way from a node is known: its length and direction. */
 static inline void finish(March *m, int cell) {
-    JoxFrontNode *n = &m->nodes[cell];
+    JoxFrontNode *n = &m->front.nodes[cell];
     JoxFieldCell *out = &m->w->f->cells[cell];
     m->w->time[cell] = n->time;
-    if (n->ends[0] != JOX_FRONT_GOAL) {
-        const JoxFrontNode *a = n + m->steps[n->ends[0]], *b = n + m->steps[n->ends[1]];
+    if (n->ends != JOX_FRONT_GOAL) {
+        const JoxFrontNode *a = n + m->steps[n->ends & 0xff], *b = n + m->steps[n->ends >> 8];
         const float t = n->share;
-        const JoxV2 way = {a->x + (b->x - a->x) * t - n->x, a->y + (b->y - a->y) * t - n->y};
+        const JoxV2 way = {a->at[0] + (b->at[0] - a->at[0]) * t - n->at[0],
+                           a->at[1] + (b->at[1] - a->at[1]) * t - n->at[1]};
         const float far = jox_length(way);
         const JoxV2 unit = jox_scale(way, 1.0f / far);
         n->length = a->length + t * (b->length - a->length) + far;
@@ -176,22 +223,46 @@ static inline void finish(March *m, int cell) {
     out->length = n->length;
 }
 
-/* Ways that cannot be the soonest are left out. By an even neighbour that is finished a node has no
-   way of less than LEAST_BESIDE or LEAST_ACROSS; and of a side between one across a corner and one
-   beside the node that was finished before, the soonest point is the latter. Both hold where nodes
-   are finished in the order of their times: those that are, and not too late, are `plain`. */
+/* Neighbour k of a node that has just been finished, if it is one of the `open` ones. Ways that
+   cannot be the soonest are left out: an even node has none by a neighbour of less than
+   LEAST_BESIDE or LEAST_ACROSS; and of a side between one across a corner and one beside the node
+   that was finished before, the soonest point is the latter. Both hold where nodes are finished in
+   the order of their times: those that are, and not too late, are `plain`. */
+static INLINE void look(March *m, const JoxFrontNode *from, int k, uint32_t open, bool plain) {
+    const int back = (k + 4) & 7;
+    if (!(open >> k & 1))
+        return;
+    JoxFrontNode *n = &m->front.nodes[from - m->front.nodes + m->steps[k]];
+    const uint32_t finished = n->finished;
+    JOX_ASSERT(!n->is_done && n->links >> back & 1);
+    n->finished = (uint8_t)(finished | 1u << back);
+    if (!(plain && n->even))
+        reach(m, n, back, finished);
+    else if (n->time <= from->time + n->slowness * m->least[k & 1])
+        return;
+    else if (k & 1)
+        reach_across(m, n, back);
+    else
+        reach_beside(m, n, back, finished);
+}
+
 static void march(March *m) {
     const float most = MOST_TIME * m->w->f->size;
     float latest = 0.0f;
     for (int i = jox_front_take(&m->front); i >= 0; i = jox_front_take(&m->front)) {
-        const JoxFrontNode *n = &m->nodes[i];
+        const JoxFrontNode *n = &m->front.nodes[i];
         const bool plain = n->time >= latest && n->time < most;
         latest = jox_maxf(latest, n->time);
         finish(m, i);
-        for (unsigned open = n->links & ~(unsigned)n->finished; open; open &= open - 1) {
-            const int k = __builtin_ctz(open);
-            reach(m, n, i + m->steps[k], k, plain);
-        }
+        const uint32_t open = n->links & ~(uint32_t)n->finished;
+        look(m, n, 0, open, plain);
+        look(m, n, 1, open, plain);
+        look(m, n, 2, open, plain);
+        look(m, n, 3, open, plain);
+        look(m, n, 4, open, plain);
+        look(m, n, 5, open, plain);
+        look(m, n, 6, open, plain);
+        look(m, n, 7, open, plain);
     }
 }
 
@@ -224,8 +295,7 @@ static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
     const JoxFieldWalled *of = &w->walled;
     JoxFrontNode *nodes = jox_alloc_aligned((size_t)w->count, sizeof *nodes);
     for (int i = 0; i < w->count; i++)
-        nodes[i] = (JoxFrontNode){.x = of->x[i],
-                                  .y = of->y[i],
+        nodes[i] = (JoxFrontNode){.at = {of->x[i], of->y[i]},
                                   .slowness = w->slowness[i],
                                   .time = INFINITY,
                                   .links = of->links[i],
@@ -236,8 +306,8 @@ static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
 
 void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
     const JoxField *f = w->f;
-    March m = {.w = w, .nodes = lay_nodes(w)};
-    m.front = (JoxFront){.nodes = m.nodes, .stretch = STRETCH * f->size};
+    March m = {.w = w};
+    jox_front_begin(&m.front, lay_nodes(w), w->count, STRETCH * f->size);
     m.least[0] = LEAST_BESIDE * f->size;
     m.least[1] = LEAST_ACROSS * f->size;
     for (int k = 0; k < 8; k++)
@@ -249,6 +319,5 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
     seed(&m, places, place);
     march(&m);
     straighten(w);
-    jox_front_free(&m.front);
-    jox_free(m.nodes);
+    jox_front_end(&m.front);
 }
