@@ -10,13 +10,17 @@
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 enum { COLUMN_STATE, COLUMN_INDEX, COLUMN_HINT, COLUMN_SCRATCH }; /* the marks of columns */
 
-/* Those with marks up to `last`. */
-static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
+/* Those that all agents have, with marks up to `last`. */
+static inline void visit_common(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
 #define X(keep, type, name)                                                                        \
     if (COLUMN_##keep <= last)                                                                     \
         visit(context, (void **)&a->name, sizeof(type));
     JOX_AGENT_COLUMNS(X)
 #undef X
+}
+
+/* Parameters and own values that differ, and memory. */
+static inline void visit_special(JoxAgents *a, ColumnVisitor *visit, void *context) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         if (a->param[p].mask)
             visit(context, (void **)&a->param[p].cells, sizeof(float));
@@ -27,40 +31,89 @@ static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, v
         visit(context, (void **)&a->memory, a->memory_stride * sizeof(double));
 }
 
+/* Columns with marks up to `last`. */
+static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
+    visit_common(a, last, visit, context);
+    visit_special(a, visit, context);
+}
+
+/* The columns of a few agents, whole packets of them, stand side by side in one piece of memory,
+   each on lines of the cache of its own: of a small world a step reads most of them, and the
+   processor fetches lines ahead that follow one another. */
+enum { FEW = 64, LINE = 64, PACKET = JOX_AGENTS_PADDING };
+
+static size_t bytes_of_few(size_t capacity, size_t size) {
+    return (capacity * size + LINE - 1) / LINE * LINE;
+}
+
 typedef struct Growth {
     size_t old, new;
+    char *place; /* of the next column among those of a few; NULL: each has memory of its own */
+    bool shared; /* those before were of a few */
 } Growth;
 
 /* New memory is zero, and takes no room until it is written: cells that are zero are never written
    as they are made, since many columns stay so. */
 static void grow_column(void *context, void **column, size_t size) {
-    const Growth *growth = context;
-    void *wider = jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
+    Growth *growth = context;
+    void *wider =
+        growth->place ? growth->place : jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
+    if (growth->place)
+        growth->place += bytes_of_few(growth->new, size);
     if (!jox_mem_is(*column, 0, growth->old * size))
         memcpy(wider, *column, growth->old * size);
-    jox_free(*column);
+    if (!growth->shared)
+        jox_free(*column);
     *column = wider;
 }
 
-/* Columns of 4 and of 8 bytes change places with the first two; rows, which are wider, stay where
-   they are. */
-static void grow_scratch(JoxAgents *a) {
-    jox_free(a->scratch);
-    jox_free(a->spare);
+typedef struct Room {
+    size_t capacity, bytes;
+} Room;
+
+static void add_bytes(void *context, void **column, size_t size) {
+    Room *room = context;
+    (void)column;
+    room->bytes += bytes_of_few(room->capacity, size);
+}
+
+/* Also `scratch` and `spare`, with which columns of 8 and of 4 bytes change places. */
+static void grow_common(JoxAgents *a, uint32_t capacity) {
+    void *few = NULL;
+    Room room = {.capacity = capacity};
+    if (capacity <= FEW) {
+        visit_common(a, COLUMN_SCRATCH, add_bytes, &room);
+        add_bytes(&room, &a->scratch, sizeof(uint64_t));
+        add_bytes(&room, &a->spare, sizeof(uint32_t));
+        few = jox_alloc_aligned(room.bytes + PACKET * sizeof(uint64_t), 1);
+    }
+    Growth growth = {a->count, capacity, few, a->few != NULL};
+    visit_common(a, COLUMN_SCRATCH, grow_column, &growth);
+    growth.old = 0;
+    grow_column(&growth, &a->scratch, sizeof(uint64_t));
+    grow_column(&growth, &a->spare, sizeof(uint32_t));
+    JOX_ASSERT(!few || growth.place == (char *)few + room.bytes);
+    jox_free(a->few);
+    a->few = few;
+}
+
+/* One of the rows of memory, which are permuted in place. */
+static void grow_row(JoxAgents *a) {
     jox_free(a->row);
-    a->scratch = jox_alloc_aligned((size_t)a->capacity + JOX_AGENTS_PADDING, sizeof(uint64_t));
-    a->spare = jox_alloc_aligned((size_t)a->capacity + JOX_AGENTS_PADDING, sizeof(uint32_t));
     a->row = jox_alloc((size_t)a->memory_stride + 1, sizeof(double));
 }
 
 void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     if (capacity <= a->capacity)
         return;
-    Growth growth = {a->count, capacity};
-    visit_columns(a, COLUMN_SCRATCH, grow_column, &growth);
+    if (capacity <= FEW)
+        capacity = (capacity + PACKET - 1) / PACKET * PACKET;
+    grow_common(a, capacity);
+    Growth growth = {.old = a->count, .new = capacity};
+    visit_special(a, grow_column, &growth);
     a->capacity = capacity;
     jox_shared_create(a);
-    grow_scratch(a);
+    grow_row(a);
     jox_free(a->order);
     a->order = jox_alloc(capacity, sizeof *a->order);
     a->by_rank = jox_realloc(a->by_rank, capacity, sizeof *a->by_rank);
@@ -89,7 +142,7 @@ void jox_agents_widen(JoxAgents *a, uint32_t own_count, uint32_t memory_stride) 
         return;
     a->memory = widen_rows(a->memory, a, a->memory_stride, memory_stride);
     a->memory_stride = memory_stride;
-    grow_scratch(a);
+    grow_row(a);
 }
 
 static void clear_row(void *context, void **column, size_t size) {
@@ -122,7 +175,7 @@ static uint32_t take_slot(JoxAgents *a, uint32_t index) {
 
 uint32_t jox_agents_add_alike(JoxAgents *a) {
     if (a->count == a->capacity)
-        jox_agents_reserve(a, a->capacity ? 2 * a->capacity : 64);
+        jox_agents_reserve(a, a->capacity ? 2 * a->capacity : PACKET);
     uint32_t i = a->count++;
     visit_columns(a, COLUMN_SCRATCH, clear_row, &i);
     a->id[i] = a->rank_id[i] = a->next_id++; /* greater than any: the last by rank */
@@ -155,14 +208,25 @@ typedef struct Gather {
     uint32_t count;
 } Gather;
 
+/* What was gathered becomes the column: its memory, or, of a few, whose columns stay where they
+   are, what stands in it. */
+static void take_over(const Gather *gather, void **column, void **gathered, size_t size) {
+    if (gather->agents->few) {
+        memcpy(*column, *gathered, gather->count * size);
+        return;
+    }
+    void *before = *column;
+    *column = *gathered;
+    *gathered = before;
+}
+
 /* A column of 4 bytes an agent, and one of 8: into other memory, which becomes the column. */
 static void gather_words(const Gather *gather, void **column) {
     uint32_t *to = gather->agents->spare;
     const uint32_t *from = *column;
     for (uint32_t i = 0; i < gather->count; i++)
         to[i] = from[gather->order[i]];
-    gather->agents->spare = *column;
-    *column = to;
+    take_over(gather, column, &gather->agents->spare, sizeof *to);
 }
 
 static void gather_long_words(const Gather *gather, void **column) {
@@ -170,8 +234,7 @@ static void gather_long_words(const Gather *gather, void **column) {
     const uint64_t *from = *column;
     for (uint32_t i = 0; i < gather->count; i++)
         to[i] = from[gather->order[i]];
-    gather->agents->scratch = *column;
-    *column = to;
+    take_over(gather, column, &gather->agents->scratch, sizeof *to);
 }
 
 /* A narrow column, by way of the scratch. */
@@ -355,9 +418,17 @@ static void free_column(void *context, void **column, size_t size) {
 }
 
 void jox_agents_free(JoxAgents *a) {
-    visit_columns(a, COLUMN_SCRATCH, free_column, NULL);
+    if (!a->few) {
+        visit_common(a, COLUMN_SCRATCH, free_column, NULL);
+        jox_free(a->scratch);
+        jox_free(a->spare);
+    }
+    jox_free(a->few);
+    jox_free(a->memory);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        jox_free(a->param[p].cells);
+        if (a->param[p].mask)
+            jox_free(a->param[p].cells);
+    jox_free(a->alike);
     for (uint32_t s = 0; s < a->own_count; s++)
         jox_free(a->own[s].cells);
     jox_free(a->own);
@@ -366,8 +437,6 @@ void jox_agents_free(JoxAgents *a) {
     jox_free(a->free_slots);
     jox_free(a->by_rank);
     jox_free(a->rank_id);
-    jox_free(a->scratch);
-    jox_free(a->spare);
     jox_free(a->row);
     jox_free(a->order);
     *a = (JoxAgents){0};

@@ -138,6 +138,7 @@ typedef struct JoxAgents {
 #undef X
     /* Read through jox_param, written through jox_param_set; angles hold the cosine. */
     JoxParameterColumn param[JOX_PARAM_COUNT];
+    float *alike; /* JOX_AGENTS_PADDING cells of each parameter, for those that are held once */
     JoxOwnColumn *own; /* own_count of them; read through jox_own, written through jox_own_set */
     uint32_t own_count;
     double *memory; /* rows of memory_stride doubles */
@@ -152,6 +153,8 @@ typedef struct JoxAgents {
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
+    void *few; /* the memory of all columns above `param` and of the next two, while there is room
+                  for a few agents alone; NULL: each has its own */
     void *scratch, *spare; /* for permuting: columns of 8 and of 4 bytes an agent */
     void *row;             /* and one wider entry */
     uint32_t *order;

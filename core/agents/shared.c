@@ -5,21 +5,24 @@
 #include "base/mem.h"
 #include "simd/four.h"
 
-/* Such a column of any type, with the size of its cells. */
+/* Such a column of any type, with the size of its cells, and where it holds what is the same of
+   all; NULL: in memory of its own. */
 typedef struct Shared {
     void **cells;
     uint32_t *mask;
     size_t size;
+    void *home;
 } Shared;
 
 static Shared parameter(JoxAgents *a, JoxParameter p) {
     JOX_ASSERT(p < JOX_PARAM_COUNT);
-    return (Shared){(void **)&a->param[p].cells, &a->param[p].mask, sizeof(float)};
+    return (Shared){(void **)&a->param[p].cells, &a->param[p].mask, sizeof(float),
+                    a->alike + (size_t)p * JOX_AGENTS_PADDING};
 }
 
 static Shared own(JoxAgents *a, uint32_t slot) {
     JOX_ASSERT(slot < a->own_count);
-    return (Shared){(void **)&a->own[slot].cells, &a->own[slot].mask, sizeof(double)};
+    return (Shared){(void **)&a->own[slot].cells, &a->own[slot].mask, sizeof(double), NULL};
 }
 
 static void fill(char *cells, const void *value, size_t size, size_t count) {
@@ -27,13 +30,18 @@ static void fill(char *cells, const void *value, size_t size, size_t count) {
         memcpy(cells + i * size, value, size);
 }
 
+static void replace_cells(Shared s, void *cells, uint32_t mask) {
+    if (*s.cells != s.home)
+        jox_free(*s.cells);
+    *s.cells = cells;
+    *s.mask = mask;
+}
+
 /* The value of all, in as many cells as are read at once. */
 static void hold_once(Shared s, const void *value) {
-    char *cells = jox_alloc_aligned(JOX_AGENTS_PADDING, s.size);
+    char *cells = s.home ? s.home : jox_alloc_aligned(JOX_AGENTS_PADDING, s.size);
     fill(cells, value, s.size, JOX_AGENTS_PADDING);
-    jox_free(*s.cells);
-    *s.cells = cells;
-    *s.mask = 0;
+    replace_cells(s, cells, 0);
 }
 
 static void differ(const JoxAgents *a, Shared s) {
@@ -41,9 +49,7 @@ static void differ(const JoxAgents *a, Shared s) {
         return;
     char *cells = jox_alloc_aligned((size_t)a->capacity + JOX_AGENTS_PADDING, s.size);
     fill(cells, *s.cells, s.size, (size_t)a->count + JOX_AGENTS_PADDING);
-    jox_free(*s.cells);
-    *s.cells = cells;
-    *s.mask = UINT32_MAX;
+    replace_cells(s, cells, UINT32_MAX);
 }
 
 static void set(const JoxAgents *a, Shared s, uint32_t i, const void *value) {
@@ -60,6 +66,8 @@ static void set(const JoxAgents *a, Shared s, uint32_t i, const void *value) {
 
 void jox_shared_create(JoxAgents *a) {
     const double zero = 0.0;
+    if (!a->alike)
+        a->alike = jox_alloc_aligned((size_t)JOX_PARAM_COUNT * JOX_AGENTS_PADDING, sizeof(float));
     for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++) {
         const float value = jox_parameter_store(p, jox_parameters[p].value);
         if (!a->param[p].cells)

@@ -127,6 +127,43 @@ static void rows_may_be_wide(void **state) {
     jox_agents_free(&a);
 }
 
+/* The cells of an agent say what its id is, in columns of all widths and kinds. */
+static void check_cells(const JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t id = a->id[i];
+        assert_true(a->x[i] == (float)id && a->tags[i] == 1000 + id && a->team[i] == id % 7);
+        assert_true(a->contacts[i] == id % 5 &&
+                    jox_param(a, JOX_PARAM_mass, i) == 50.0f + (float)id);
+        assert_true(jox_own(a, i, 0) == 2.0 * id && a->memory[i] == 3.0 * id);
+    }
+}
+
+/* Each who comes turns the order round, from the first few, whose columns stand side by side, to
+   many. */
+static void a_few_become_many(void **state) {
+    (void)state;
+    enum { MANY = 200 };
+    uint32_t order[MANY];
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 1, 1);
+    for (uint32_t n = 1; n <= MANY; n++) {
+        const uint32_t i = jox_agents_add(&a), id = a.id[i];
+        a.x[i] = (float)id;
+        a.tags[i] = 1000 + id;
+        a.team[i] = (uint16_t)(id % 7);
+        a.contacts[i] = (uint8_t)(id % 5);
+        jox_param_set(&a, JOX_PARAM_mass, i, 50.0f + (float)id);
+        jox_own_set(&a, i, 0, 2.0 * id);
+        a.memory[i] = 3.0 * id;
+        check_cells(&a);
+        for (uint32_t k = 0; k < n; k++)
+            order[k] = n - 1 - k;
+        jox_agents_permute(&a, order);
+        check_cells(&a);
+    }
+    jox_agents_free(&a);
+}
+
 static void removing_keeps_order_and_retires_handles(void **state) {
     (void)state;
     JoxAgents a = {0};
@@ -359,6 +396,7 @@ int main(void) {
         cmocka_unit_test(own_values_of_all_are_held_once),
         cmocka_unit_test(parameters_of_all_are_held_once),
         cmocka_unit_test(rows_may_be_wide),
+        cmocka_unit_test(a_few_become_many),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
         cmocka_unit_test(whatever_leaves_the_rest_keeps_its_cells),
         cmocka_unit_test(turnover_takes_no_memory),
