@@ -192,7 +192,7 @@ void jox_free(void *memory) {
     give_back((char *)memory - block->offset);
 }
 
-/* The same of few bytes, word by word. */
+/* Whether a few bytes are all the same as one, word by word. */
 static bool are_few(const uint8_t *first, uint8_t byte, size_t bytes) {
     const uint64_t like = byte * 0x0101010101010101u;
     uint64_t other = 0, word;

@@ -41,8 +41,8 @@ static int run(const CliCommand *command, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-    jox_numeric_use(
-        jox_numeric_plain()); /* what commands compute themselves, as the library does */
+    /* What commands compute themselves, they compute as the library does. */
+    jox_numeric_use(jox_numeric_plain());
     /* A pipe that was closed, or a file that became too large, is an error of one write, and no end
        of a run whose other files are good. */
     signal(SIGPIPE, SIG_IGN);

@@ -124,9 +124,9 @@ uint32_t jox_contacts_walls_of(const JoxForces *f, uint32_t i,
                                JoxFoundWall out[JOX_CONTACT_MOST_WALLS]) {
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
-    float radius = a->breadth[i];
     uint32_t count, found = 0;
     const uint32_t *edges = jox_wall_grid_at(f->step.walls, at, &count);
+    float radius = a->breadth[i];
     float closing = jox_length(jox_v2(a->vx[i], a->vy[i])) * (float)f->step.dt;
     float most = JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing);
     for (uint32_t k = 0; k < count; k++) {

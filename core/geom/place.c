@@ -276,6 +276,7 @@ bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {
 void jox_place_contains_each(const JoxPlace *places, uint32_t index, const JoxV2 *points,
                              uint32_t count, bool *in) {
     const JoxPlace *place = &places[index];
+    /* Of few members one look at their boxes tells nearly everybody off. */
     const bool boxed = place->kind == JOX_PLACE_SET && place->boxes && place->member_count <= 4;
     for (uint32_t k = 0; k < count; k++)
         in[k] = (!boxed || boxes_about(place->boxes, points[k])) &&

@@ -46,8 +46,8 @@ float jox_wall_grid_clear2(const JoxWallGrid *grid, JoxV2 from);
 static inline bool jox_wall_grid_is_clear(const float *clear2, uint32_t of, float reach) {
     return clear2 && reach * reach < clear2[of];
 }
-/* The kernel: jox_wall_grid_clear2 of many points, to the bit. Whole packets of lanes are read and
- * written. */
+/* The kernel: jox_wall_grid_clear2 of many points, to the bit. It reads and writes whole packets of
+   lanes. */
 typedef void JoxWallClearKernel(const JoxWallGrid *grid, const float *x, const float *y,
                                 uint32_t count, float *clear2);
 #define X(name, isa) JoxWallClearKernel jox_wall_clear_##name;

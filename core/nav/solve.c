@@ -104,7 +104,8 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
-    nav->clear_reach = nav->grid.reach;
+    if (solve.clear2)
+        nav->clear_reach = nav->grid.reach;
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         relaxed += nav->chunk_relaxed[chunk];

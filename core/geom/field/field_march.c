@@ -18,7 +18,8 @@ static const float MOST_TIME = 1e4f;
    reached by each other. */
 static const float STRETCH = 1.0f;
 
-/* For what is worked out for each neighbour on the ring with its number as a constant. */
+/* Of functions that are given a neighbour's number on the ring: each call is compiled for its
+   number. */
 #define INLINE inline __attribute__((always_inline))
 
 typedef struct March {
