@@ -2,11 +2,11 @@
 #include "base/assert.h"
 #include "nav/internal.h"
 
-/* The half-plane whose border passes through own + share * u with outward normal n. */
-static JoxHalfPlane half_plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
+/* The half-plane of outward normal n whose border passes through own + share * u, where the least
+   change u of the relative velocity, which is along n, is `change` long. */
+static JoxHalfPlane half_plane_through(JoxV2 normal, JoxV2 own, float change, float share) {
     JOX_ASSERT(jox_is_unit(normal));
-    JoxV2 point = jox_add(own, jox_scale(u, share));
-    return (JoxHalfPlane){normal, jox_dot(normal, point)};
+    return (JoxHalfPlane){normal, jox_dot(normal, own) + change * share};
 }
 
 /* Outward from a disc of the velocity obstacle: its centre is at `centre` in velocity space. */
@@ -15,7 +15,7 @@ static JoxHalfPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, fl
     JoxV2 w = jox_sub(v, centre);
     float length = jox_length(w);
     JoxV2 normal = length > 1e-6f ? jox_scale(w, 1.0f / length) : away;
-    return half_plane_through(normal, own, jox_scale(normal, radius - length), share);
+    return half_plane_through(normal, own, radius - length, share);
 }
 
 JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
@@ -34,7 +34,6 @@ JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, floa
     bool left = jox_det(p, w) > 0.0f;
     JoxV2 direction = left ? (JoxV2){p.x * leg - p.y * radius, p.x * radius + p.y * leg}
                            : (JoxV2){-p.x * leg - p.y * radius, p.x * radius - p.y * leg};
-    direction = jox_scale(direction, by);
-    JoxV2 u = jox_sub(jox_scale(direction, jox_dot(v, direction)), v);
-    return half_plane_through(jox_left(direction), own, u, share);
+    JoxV2 normal = jox_left(jox_scale(direction, by));
+    return half_plane_through(normal, own, -jox_dot(normal, v), share);
 }

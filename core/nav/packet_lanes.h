@@ -126,14 +126,10 @@ jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
     const JoxFloats y = jf_select(h->disc, h->w.y, leg_x);
     const JoxFloats nx = jf_select(rests, one, jf_mul(x, h->by));
     const JoxFloats ny = jf_select(rests, zero, jf_mul(y, h->by));
-    const JoxFloats depth = jf_sub(h->round, h->length);
-    const JoxFloats speed = jf_add(jf_mul(q->vx, ny), jf_mul(q->vy, jf_neg(nx)));
-    const JoxFloats ux = jf_select(h->disc, jf_mul(nx, depth), jf_sub(jf_mul(ny, speed), q->vx));
-    const JoxFloats uy =
-        jf_select(h->disc, jf_mul(ny, depth), jf_sub(jf_mul(jf_neg(nx), speed), q->vy));
-    const JoxFloats at_x = jf_add(self->velocity.x, jf_mul(ux, self->share));
-    const JoxFloats at_y = jf_add(self->velocity.y, jf_mul(uy, self->share));
-    return (JoxPlaneLanes){nx, ny, jf_add(jf_mul(nx, at_x), jf_mul(ny, at_y))};
+    const JoxFloats into = jf_add(jf_mul(nx, q->vx), jf_mul(ny, q->vy));
+    const JoxFloats change = jf_select(h->disc, jf_sub(h->round, h->length), jf_neg(into));
+    const JoxFloats own = jf_add(jf_mul(nx, self->velocity.x), jf_mul(ny, self->velocity.y));
+    return (JoxPlaneLanes){nx, ny, jf_add(own, jf_mul(change, self->share))};
 }
 
 /* ---- half-planes of neighbours ---- */
