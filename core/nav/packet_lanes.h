@@ -89,9 +89,11 @@ typedef struct JoxOrcaHalf {
     JoxFloats length, by, round; /* of w or of a leg; 1 / that, or 1 / distance^2; of the disc */
 } JoxOrcaHalf;
 
-/* Of the lanes, only those of `wanted` (bits) are of any meaning. */
+/* Of the lanes, only those of `wanted` (bits) are of any meaning. Adds those of which the two
+   coincide to `coincide`. */
 static inline __attribute__((always_inline)) JoxOrcaHalf
-jox_orca_begin(const JoxPair *q, const JoxOrcaSelf *self, float dt, uint32_t wanted) {
+jox_orca_begin(const JoxPair *q, const JoxOrcaSelf *self, float dt, uint32_t wanted,
+               uint32_t *coincide) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
     const JoxFloats r2 = jf_mul(q->radii, q->radii);
@@ -100,6 +102,7 @@ jox_orca_begin(const JoxPair *q, const JoxOrcaSelf *self, float dt, uint32_t wan
     if (jm_bits(overlap) & wanted) { /* they are to part within dt */
         inverse = jf_select(overlap, jf_set(1.0f / dt), inverse);
         round = jf_select(overlap, jf_div(q->radii, jf_set(dt)), round);
+        *coincide |= jm_bits(jf_le(d2, zero)) & wanted;
     }
     const JoxVector w = {jf_sub(q->vx, jf_mul(q->x, inverse)),
                          jf_sub(q->vy, jf_mul(q->y, inverse))};
@@ -298,8 +301,8 @@ typedef struct JoxNeighbour {
 
 /* The pairs with the `most` first neighbours of the lanes. A lane that has fewer gets somebody. */
 static inline __attribute__((always_inline)) void
-jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bool periodic,
-                JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
+jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const uint32_t walkers,
+                const bool periodic, JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->neighbours;
     const JoxAgents *a = p->s->agents;
     const float *motions = &near->motions[0].x;
@@ -317,21 +320,20 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const bo
             q.y = jf_wrap(q.y, a->period.y);
         }
         out[k].pair = q;
-        out[k].velocity = (JoxVector){motion[2], motion[3]};
+        if (walkers)
+            out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
 }
 
 /* The half-planes of `lanes` for a neighbour of each: zeros for those who have none. `walkers`: of
-   them; `all`: those of the packet. Returns the lanes that coincide with it. */
-static inline __attribute__((always_inline)) uint32_t
+   them; `all`: those of the packet. */
+static inline __attribute__((always_inline)) void
 jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_t all,
                 const uint32_t walkers, const JoxNeighbour *near, const JoxWalkerGap *gap,
                 const uint32_t *others, JoxPlaneLanes *plane) {
     const JoxPlaneLanes none = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)};
     const JoxPair *q = &near->pair;
     JoxMask minds = jm_of_bits(lanes);
-    const JoxFloats apart = jf_max(jf_abs(q->x), jf_abs(q->y));
-    const uint32_t coincide = jm_bits(jf_le(apart, none.x)) & lanes;
     *plane = none;
     if (all & ~walkers)
         *plane = jox_orca_end(q, &self->orca, &near->half);
@@ -344,11 +346,10 @@ jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_
     }
     if (walkers || lanes != JOX_ALL_LANES)
         *plane = jox_select_plane(minds, *plane, none);
-    return coincide;
 }
 
 /* The rows of the neighbours, less those in which no lane has one that it minds. `walkers`: the
-   lanes that walk by the law. Returns the lanes that coincide with a neighbour, of which the
+   lanes that walk by the law. Returns the lanes that may coincide with a neighbour, of which the
    half-plane depends on who they are. */
 static inline __attribute__((always_inline)) uint32_t
 jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
@@ -363,10 +364,10 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     jox_note_touched(p, &touched);
     const uint32_t choosy = picky | walled | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
-    jox_fetch_pairs(p, &self, counts.most, periodic, nearest);
+    jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
         nearest[k].half = jox_orca_begin(&nearest[k].pair, &self.orca, s->planning_time,
-                                         jox_have_more(&counts, k));
+                                         jox_have_more(&counts, k), &coincide);
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
     JoxRow *row = &p->rows[p->count];
     for (uint32_t k = 0; k < counts.most; k++, others += JOX_LANES) {
@@ -374,6 +375,7 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
         JoxWalkerGap gap;
         if (walkers) {
             gap = jox_walker_gap(s->nav->walk, &self, &nearest[k].pair);
+            coincide |= walkers & lanes & jm_bits(jf_le(gap.distance, jf_set(0.0f)));
             lanes &= ~(walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
         }
         if (lanes & choosy)
@@ -383,8 +385,7 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
         if (!lanes)
             continue;
         JoxPlaneLanes plane;
-        coincide |=
-            jox_plane_lanes(p, &self, lanes, all, walkers, &nearest[k], &gap, others, &plane);
+        jox_plane_lanes(p, &self, lanes, all, walkers, &nearest[k], &gap, others, &plane);
         jf_store(row->x, plane.x);
         jf_store(row->y, plane.y);
         jf_store(row->offset, plane.offset);
