@@ -348,6 +348,22 @@ jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_
         *plane = jox_select_plane(minds, *plane, none);
 }
 
+static inline void jox_store_plane(JoxRow *row, const JoxPlaneLanes *plane) {
+    jf_store(row->x, plane->x);
+    jf_store(row->y, plane->y);
+    jf_store(row->offset, plane->offset);
+}
+
+/* The rows of neighbours that all lanes have and mind, none of which walks by the law. */
+static inline void jox_put_whole_rows(JoxPacket *p, const JoxSelf *self,
+                                      const JoxNeighbour *nearest, uint32_t count) {
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxPlaneLanes plane = jox_orca_end(&nearest[k].pair, &self->orca, &nearest[k].half);
+        jox_store_plane(&p->rows[p->count + k], &plane);
+    }
+    p->count += count;
+}
+
 /* The rows of the neighbours, less those in which no lane has one that it minds. `walkers`: the
    lanes that walk by the law. Returns the lanes that may coincide with a neighbour, of which the
    half-plane depends on who they are. */
@@ -368,6 +384,10 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
         nearest[k].half = jox_orca_begin(&nearest[k].pair, &self.orca, s->planning_time,
                                          jox_have_more(&counts, k), &coincide);
+    if (!walkers && !choosy && counts.least == counts.most) {
+        jox_put_whole_rows(p, &self, nearest, counts.most);
+        return coincide;
+    }
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
     JoxRow *row = &p->rows[p->count];
     for (uint32_t k = 0; k < counts.most; k++, others += JOX_LANES) {
@@ -386,10 +406,7 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
             continue;
         JoxPlaneLanes plane;
         jox_plane_lanes(p, &self, lanes, all, walkers, &nearest[k], &gap, others, &plane);
-        jf_store(row->x, plane.x);
-        jf_store(row->y, plane.y);
-        jf_store(row->offset, plane.offset);
-        row++;
+        jox_store_plane(row++, &plane);
     }
     p->count = (uint32_t)(row - p->rows);
     return coincide;
