@@ -60,16 +60,32 @@ static inline JoxFloats key_of(JoxInts steps, uint32_t place) {
     return ji_as_floats(ji_add(ji_shift_left(steps, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
 }
 
-/* Keys of four places of all lists. */
-static inline void read_places(const Packet *packet, JoxInts count, JoxFloats floor2, uint32_t from,
-                               JoxFloats keys[4]) {
+/* How all lists are read, place by place: of each, the places that are left, from the next on, the
+   floor, and what the bits of a distance are added to to give the key of that place. These are
+   counted on: a constant for each place would take three instructions to make. */
+typedef struct Reading {
+    JoxInts left;
+    JoxFloats floor2;
+    JoxInts key, one;
+} Reading;
+
+static inline Reading reading_of(JoxInts count, JoxFloats floor2) {
+    const JoxInts floor = ji_shift_left(jf_bits(floor2), PLACE_BITS);
+    return (Reading){count, floor2, ji_sub(ji_set(NORMAL), floor), ji_opaque(ji_set(1))};
+}
+
+/* The keys of the next four places. */
+static inline void read_places(const Packet *packet, Reading *r, uint32_t from, JoxFloats keys[4]) {
+    const JoxInts none = ji_set(0);
     JoxFloats distance2[4];
     jf_fours(packet->distance2 + from, LIST, distance2);
     JOX_UNROLL
     for (uint32_t k = 0; k < 4; k++) {
-        const JoxMask there = ji_less(ji_set((int32_t)(from + k)), count);
-        keys[k] =
-            jf_select(there, key_of(steps_of(distance2[k], floor2), from + k), jf_set(INFINITY));
+        const JoxInts bits = jf_bits(jf_max(distance2[k], r->floor2));
+        const JoxInts key = ji_add(ji_shift_left(bits, PLACE_BITS), r->key);
+        keys[k] = jf_select(ji_less(none, r->left), ji_as_floats(key), jf_set(INFINITY));
+        r->left = ji_sub(r->left, r->one);
+        r->key = ji_add(r->key, r->one);
     }
 }
 
@@ -86,17 +102,16 @@ static inline JoxFloats choose_floor(Packet *packet) {
  */
 static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
-    const JoxInts count = ji_load(packet->count);
-    const JoxFloats floor2 = choose_floor(packet);
+    Reading reading = reading_of(ji_load(packet->count), choose_floor(packet));
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
-        read_places(packet, count, floor2, from, keys + from);
+        read_places(packet, &reading, from, keys + from);
     keys[ORDERED] = jf_set(INFINITY);
     jox_order_16(keys);
     for (uint32_t from = ORDERED; from < PLACES && lists_beyond(packet, from); from += 4) {
         JoxFloats more[4];
-        read_places(packet, count, floor2, from, more);
+        read_places(packet, &reading, from, more);
         for (uint32_t m = 0; m < 4; m++) {
             JoxFloats key = more[m];
             JOX_UNROLL
@@ -123,7 +138,8 @@ static void order_many(Packet *packet) {
 /* The same where no list has more than SPARSE places. */
 static void order_sparse(Packet *packet) {
     JoxFloats *keys = packet->keys;
-    read_places(packet, ji_load(packet->count), choose_floor(packet), 0, keys);
+    Reading reading = reading_of(ji_load(packet->count), choose_floor(packet));
+    read_places(packet, &reading, 0, keys);
     jox_order_4(keys);
     for (uint32_t k = SPARSE; k < ORDERED || k < packet->levels; k++)
         keys[k] = jf_set(INFINITY);

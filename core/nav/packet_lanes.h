@@ -91,9 +91,10 @@ typedef struct JoxOrcaHalf {
 
 /* Of the lanes, only those of `wanted` (bits) are of any meaning. Adds those of which the two
    coincide to `coincide`. */
-static inline __attribute__((always_inline)) JoxOrcaHalf
-jox_orca_begin(const JoxPair *q, const JoxOrcaSelf *self, float dt, uint32_t wanted,
-               uint32_t *coincide) {
+static inline __attribute__((always_inline)) JoxOrcaHalf jox_orca_begin(const JoxPair *q,
+                                                                        const JoxOrcaSelf *self,
+                                                                        float dt, uint32_t wanted,
+                                                                        uint32_t *coincide) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
     const JoxFloats r2 = jf_mul(q->radii, q->radii);

@@ -171,51 +171,36 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
         list_strays(packet, &reach, (uint32_t)__builtin_ctz(left));
 }
 
-/* The lanes, of some, that see over the edges that one of the nine images lies beyond. */
-static uint32_t lanes_of_image(const Packet *packet, uint32_t lanes, int column, int row,
-                               JoxV2 *shift) {
-    const JoxAgents *a = packet->p->agents;
-    const float drift = packet->p->nav->drift.farthest;
-    uint32_t bits = 0;
-    *shift = (JoxV2){(float)column * a->period.x, (float)row * a->period.y};
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        float wide = packet->radius[lane] + drift;
-        if ((lanes >> lane & 1) &&
-            jox_sees_image(packet->at_x[lane], a->origin.x, a->period.x, wide, column) &&
-            jox_sees_image(packet->at_y[lane], a->origin.y, a->period.y, wide, row))
-            bits |= 1u << lane;
-    }
-    return bits;
-}
+/* The lanes that look at images that are shifted along one axis by -1, 0 and 1 periods: all that
+   have to, see jox_sees_image. Who sees an edge may also see those who went over it. */
+typedef struct Seeing {
+    uint32_t lanes[3];
+} Seeing;
 
-/* Whether no lane, of some, sees over an edge. */
-static bool all_within(const Packet *packet, uint32_t lanes) {
-    const JoxAgents *a = packet->p->agents;
-    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift.farthest));
-    const JoxFloats x = jf_load(packet->at_x), y = jf_load(packet->at_y);
-    JoxMask over = jf_lt(wide, jf_set(-INFINITY)); /* nobody */
-    if (a->period.x > 0.0f)
-        over = jm_or(jf_le(jf_sub(x, wide), jf_set(a->origin.x)),
-                     jf_le(jf_set(a->origin.x + a->period.x), jf_add(x, wide)));
-    if (a->period.y > 0.0f)
-        over = jm_or(over, jm_or(jf_le(jf_sub(y, wide), jf_set(a->origin.y)),
-                                 jf_le(jf_set(a->origin.y + a->period.y), jf_add(y, wide))));
-    return !(jm_bits(over) & lanes);
+static inline Seeing sees_over(const float *along, JoxFloats wide, float origin, float period) {
+    Seeing s = {{0, JOX_ALL_LANES, 0}};
+    if (period > 0.0f) {
+        const JoxFloats at = jf_load(along);
+        s.lanes[0] = jm_bits(jf_le(jf_set(origin + period), jf_add(at, wide)));
+        s.lanes[2] = jm_bits(jf_le(jf_sub(at, wide), jf_set(origin)));
+    }
+    return s;
 }
 
 /* The lists of some lanes, anew; those of all others are empty. */
 static void list_lanes(Packet *packet, uint32_t lanes) {
+    const JoxAgents *a = packet->p->agents;
+    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift.farthest));
+    const Seeing x = sees_over(packet->at_x, wide, a->origin.x, a->period.x);
+    const Seeing y = sees_over(packet->at_y, wide, a->origin.y, a->period.y);
     memset(packet->count, 0, sizeof packet->count);
-    if (all_within(packet, lanes)) {
-        list_image(packet, lanes, (JoxV2){0.0f, 0.0f}, false);
-        return;
-    }
-    for (int row = -1; row <= 1; row++)
-        for (int column = -1; column <= 1; column++) {
-            JoxV2 shift;
-            uint32_t seeing = lanes_of_image(packet, lanes, column, row, &shift);
+    const bool strays = (lanes & (x.lanes[0] | x.lanes[2] | y.lanes[0] | y.lanes[2])) != 0;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            const uint32_t seeing = lanes & x.lanes[column] & y.lanes[row];
+            const JoxV2 shift = {(float)(column - 1) * a->period.x, (float)(row - 1) * a->period.y};
             if (seeing)
-                list_image(packet, seeing, shift, true);
+                list_image(packet, seeing, shift, strays);
         }
 }
 

@@ -98,6 +98,10 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
 }
 #define ji_shift_left(a, bits) _mm256_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm256_srli_epi32(a, bits)
+static inline JoxInts ji_opaque(JoxInts a) {
+    __asm__("" : "+x"(a));
+    return a;
+}
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
     return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b));
 }

@@ -95,6 +95,10 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
 }
 #define ji_shift_left(a, bits) _mm512_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm512_srli_epi32(a, bits)
+static inline JoxInts ji_opaque(JoxInts a) {
+    __asm__("" : "+v"(a));
+    return a;
+}
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
     return _mm512_cmpeq_epi32_mask(a, b);
 }

@@ -100,6 +100,10 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
 }
 #define ji_shift_left(a, bits) vshlq_n_s32(a, bits)
 #define ji_shift_right(a, bits) vreinterpretq_s32_u32(vshrq_n_u32(vreinterpretq_u32_s32(a), bits))
+static inline JoxInts ji_opaque(JoxInts a) {
+    __asm__("" : "+w"(a));
+    return a;
+}
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
     return vceqq_s32(a, b);
 }

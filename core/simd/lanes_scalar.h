@@ -103,6 +103,12 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
 #define ji_shift_left(a, bits) ((int32_t)((uint32_t)(a) << (bits)))
 /* Zeros come in. */
 #define ji_shift_right(a, bits) ((int32_t)((uint32_t)(a) >> (bits)))
+/* The same, but the compiler does not know it: what is counted on from there is not turned into a
+   constant for each turn of a loop. */
+static inline JoxInts ji_opaque(JoxInts a) {
+    __asm__("" : "+r"(a));
+    return a;
+}
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
     return a == b;
 }

@@ -102,6 +102,10 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
 }
 #define ji_shift_left(a, bits) _mm_slli_epi32(a, bits)
 #define ji_shift_right(a, bits) _mm_srli_epi32(a, bits)
+static inline JoxInts ji_opaque(JoxInts a) {
+    __asm__("" : "+x"(a));
+    return a;
+}
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
     return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b));
 }
