@@ -9,46 +9,68 @@
 #include "agents/param_lanes.h"
 #include "nav/near_lanes.h"
 
-/* Of the grid, the cells within reach of each lane. */
-typedef struct Reach {
-    float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
-    uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
-} Reach;
-
-/* Columns and rows of cells, the last ones included. */
+/* Columns and rows of cells of each lane, the last ones included. */
 typedef struct Cells {
-    size_t left, right, low, high;
+    uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
 } Cells;
 
-static inline size_t least_of(size_t a, size_t b) {
-    return a < b ? a : b;
+/* Of the grid, the cells within reach of each lane, and those of it and the next lane together. */
+typedef struct Reach {
+    float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
+    Cells own, both;
+    uint32_t pairs; /* lanes of which the cells with the next lane's are not many more */
+} Reach;
+
+static inline JoxFloats cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
+    const JoxFloats from = jf_mul(jf_sub(at, jf_set(low)), jf_set(per_metre));
+    return jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1)));
 }
-static inline size_t most_of(size_t a, size_t b) {
-    return a > b ? a : b;
+/* Stores the first cells that lanes reach, or the last ones, of each and of it with the next lane.
+ */
+static inline void store_first(JoxFloats cells, uint32_t *own, uint32_t *both) {
+    ji_store(own, jf_to_ints(cells));
+    ji_store(both, jf_to_ints(jf_min(cells, jf_next(cells))));
 }
 
-static inline JoxInts cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
-    const JoxFloats from = jf_mul(jf_sub(at, jf_set(low)), jf_set(per_metre));
-    return jf_to_ints(jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1))));
+static inline void store_last(JoxFloats cells, uint32_t *own, uint32_t *both) {
+    ji_store(own, jf_to_ints(cells));
+    ji_store(both, jf_to_ints(jf_max(cells, jf_next(cells))));
+}
+
+/* Whether two lanes together reach many more cells along one axis than the first alone, as those do
+   that do not stand side by side. */
+static inline JoxMask are_apart(const uint32_t *first, const uint32_t *last,
+                                const uint32_t *first_both, const uint32_t *last_both) {
+    const JoxInts alone = ji_sub(ji_load(last), ji_load(first));
+    const JoxInts both = ji_sub(ji_load(last_both), ji_load(first_both));
+    return ji_less(ji_add(alone, ji_set(1)), both);
 }
 
 static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     const JoxNav *nav = packet->p->nav;
-    const JoxV2 least = nav->drift.least, most = nav->drift.most;
+    const JoxV2 least = nav->drift.least, most = nav->drift.most, low = nav->low;
     const JoxFloats radius = jf_load(packet->radius);
     const JoxFloats x = jf_add(jf_load(packet->at_x), jf_set(shift.x));
     const JoxFloats y = jf_add(jf_load(packet->at_y), jf_set(shift.y));
+    Cells *own = &reach->own, *both = &reach->both;
     jf_store(reach->x, x);
     jf_store(reach->y, y);
     jf_store(reach->radius2, jf_mul(radius, radius));
-    ji_store(reach->left, cells_along(jf_sub(jf_sub(x, radius), jf_set(most.x)), nav->low.x,
-                                      nav->per_metre.x, nav->columns));
-    ji_store(reach->right, cells_along(jf_sub(jf_add(x, radius), jf_set(least.x)), nav->low.x,
-                                       nav->per_metre.x, nav->columns));
-    ji_store(reach->low, cells_along(jf_sub(jf_sub(y, radius), jf_set(most.y)), nav->low.y,
-                                     nav->per_metre.y, nav->rows));
-    ji_store(reach->high, cells_along(jf_sub(jf_add(y, radius), jf_set(least.y)), nav->low.y,
-                                      nav->per_metre.y, nav->rows));
+    store_first(cells_along(jf_sub(jf_sub(x, radius), jf_set(most.x)), low.x, nav->per_metre.x,
+                            nav->columns),
+                own->left, both->left);
+    store_last(cells_along(jf_sub(jf_add(x, radius), jf_set(least.x)), low.x, nav->per_metre.x,
+                           nav->columns),
+               own->right, both->right);
+    store_first(
+        cells_along(jf_sub(jf_sub(y, radius), jf_set(most.y)), low.y, nav->per_metre.y, nav->rows),
+        own->low, both->low);
+    store_last(
+        cells_along(jf_sub(jf_add(y, radius), jf_set(least.y)), low.y, nav->per_metre.y, nav->rows),
+        own->high, both->high);
+    const JoxMask apart = jm_or(are_apart(own->left, own->right, both->left, both->right),
+                                are_apart(own->low, own->high, both->low, both->high));
+    reach->pairs = ~jm_bits(apart) & JOX_ALL_LANES >> 1; /* the last has no next */
 }
 
 /* A lane that looks for others, all lanes of it alike, and its list. */
@@ -81,32 +103,27 @@ static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at,
     return jm_count(bits);
 }
 
-/* The cells that either of two lanes reaches. False where these are many more than those of one, as
-   of lanes that do not stand side by side. */
-static inline bool reach_both(const Reach *reach, uint32_t lane, uint32_t other, Cells *cells) {
-    cells->left = least_of(reach->left[lane], reach->left[other]);
-    cells->right = most_of(reach->right[lane], reach->right[other]);
-    cells->low = least_of(reach->low[lane], reach->low[other]);
-    cells->high = most_of(reach->high[lane], reach->high[other]);
-    return cells->right - cells->left <= reach->right[lane] - reach->left[lane] + 1 &&
-           cells->high - cells->low <= reach->high[lane] - reach->low[lane] + 1;
+static inline size_t most_of(size_t a, size_t b) {
+    return a > b ? a : b;
 }
 
-/* Lists those within the radius of `seekers` lanes, until a list is full; `cells`: all that they
-   reach. Returns whether one is, so that another may lack some; then those of all are as before. */
+/* Lists those within the radius of `seekers` lanes, from `lane` on, until a list is full; `cells`:
+   all that they reach. Returns whether one is, so that another may lack some; then those of all are
+   as before. */
 static inline __attribute__((always_inline)) bool list_near(Packet *packet, const Reach *reach,
-                                                            const uint32_t *lanes,
-                                                            const int seekers, const Cells *cells) {
+                                                            const uint32_t lane,
+                                                            const uint32_t seekers,
+                                                            const Cells *cells) {
     const JoxNav *nav = packet->p->nav;
     const float *x = packet->p->agents->x, *y = packet->p->agents->y;
-    const size_t columns = nav->columns, left = cells->left, right = cells->right + 1;
-    const uint32_t *row = nav->cell_first + cells->low * columns;
-    const uint32_t *last = nav->cell_first + cells->high * columns;
+    const size_t columns = nav->columns, left = cells->left[lane], right = cells->right[lane] + 1;
+    const uint32_t *row = nav->cell_first + cells->low[lane] * columns;
+    const uint32_t *last = nav->cell_first + cells->high[lane] * columns;
     Seeker seeker[2];
     size_t n[2] = {0, 0};
-    for (int s = 0; s < seekers; s++) {
-        seeker[s] = seeker_of(packet, reach, lanes[s]);
-        n[s] = packet->count[lanes[s]];
+    for (uint32_t s = 0; s < seekers; s++) {
+        seeker[s] = seeker_of(packet, reach, lane + s);
+        n[s] = packet->count[lane + s];
     }
     for (; row <= last; row += columns) {
         const size_t begin = row[left], end = row[right];
@@ -119,15 +136,15 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
         for (size_t j = begin; j < end; j += JOX_WIDTH) {
             const JoxVector at = {jf_load(x + j), jf_load(y + j)};
             const JoxMask there = ji_less(others, ends);
-            for (int s = 0; s < seekers; s++)
+            for (uint32_t s = 0; s < seekers; s++)
                 n[s] += list_packet(&seeker[s], n[s], at, others, there);
             others = ji_add(others, ji_set(JOX_WIDTH));
         }
     }
     if (seekers > 1 && (n[0] > PLACES || n[1] > PLACES))
         return true;
-    for (int s = 0; s < seekers; s++)
-        packet->count[lanes[s]] = (uint32_t)n[s];
+    for (uint32_t s = 0; s < seekers; s++)
+        packet->count[lane + s] = (uint32_t)n[s];
     return false;
 }
 
@@ -151,21 +168,15 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
                                                  bool strays) {
     Reach reach;
     find_reach(packet, shift, &reach);
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        uint32_t pair[2] = {(uint32_t)__builtin_ctz(left), 0};
-        Cells cells;
-        const uint32_t others = left & (left - 1);
-        if (others) {
-            pair[1] = (uint32_t)__builtin_ctz(others);
-            if (reach_both(&reach, pair[0], pair[1], &cells) &&
-                !list_near(packet, &reach, pair, 2, &cells)) {
-                left = others;
-                continue;
-            }
-        }
-        cells = (Cells){reach.left[pair[0]], reach.right[pair[0]], reach.low[pair[0]],
-                        reach.high[pair[0]]};
-        list_near(packet, &reach, pair, 1, &cells);
+    const uint32_t pairs = reach.pairs & lanes & lanes >> 1;
+    for (uint32_t left = lanes; left;) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        left &= left - 1;
+        if (JOX_WIDTH > 1 && (pairs >> lane & 1) &&
+            !list_near(packet, &reach, lane, 2, &reach.both))
+            left &= left - 1;
+        else
+            list_near(packet, &reach, lane, 1, &reach.own);
     }
     for (uint32_t left = strays ? lanes : 0; left; left &= left - 1)
         list_strays(packet, &reach, (uint32_t)__builtin_ctz(left));

@@ -77,6 +77,10 @@ static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return _mm256_blendv_ps(b, a, m);
 }
 
+static inline JoxFloats jf_next(JoxFloats a) {
+    return _mm256_permutevar8x32_ps(a, _mm256_setr_epi32(1, 2, 3, 4, 5, 6, 7, 7));
+}
+
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return _mm256_cmp_ps(a, b, _CMP_LT_OQ);
 }

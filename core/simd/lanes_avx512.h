@@ -74,6 +74,11 @@ static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return _mm512_mask_blend_ps(m, b, a);
 }
 
+static inline JoxFloats jf_next(JoxFloats a) {
+    const __m512i next = _mm512_setr_epi32(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 15);
+    return _mm512_permutexvar_ps(next, a);
+}
+
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
 }

@@ -79,6 +79,10 @@ static inline JoxFloats jf_max(JoxFloats a, JoxFloats b) {
     return vbslq_f32(vcgtq_f32(a, b), a, b);
 }
 
+static inline JoxFloats jf_next(JoxFloats a) {
+    return vextq_f32(a, vdupq_laneq_f32(a, 3), 1);
+}
+
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return vcltq_f32(a, b);
 }

@@ -79,6 +79,11 @@ static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return m ? a : b;
 }
 
+/* Each lane gets the next one's, and the last keeps its own. */
+static inline JoxFloats jf_next(JoxFloats a) {
+    return a;
+}
+
 /* False where one is not a number. */
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return a < b;

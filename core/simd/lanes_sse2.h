@@ -81,6 +81,10 @@ static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return _mm_or_ps(_mm_and_ps(m, a), _mm_andnot_ps(m, b));
 }
 
+static inline JoxFloats jf_next(JoxFloats a) {
+    return _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 3, 2, 1));
+}
+
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return _mm_cmplt_ps(a, b);
 }
