@@ -111,6 +111,7 @@ static void of_floats(const float *fa, const float *fb) {
     FLOATS_GIVE(jf_max(a_, b_), a > b ? a : b);
     FLOATS_GIVE(jf_select(jf_lt(a_, b_), a_, b_), a < b ? a : b);
     FLOATS_GIVE(ji_as_floats(jf_bits(a_)), a);
+    FLOATS_GIVE(jf_next(a_), ((void)a, fa[l + 1 < JOX_WIDTH ? l + 1 : l]));
     MASK_IS(jf_lt(a_, b_), a < b);
     MASK_IS(jf_le(a_, b_), a <= b);
     MASK_IS(jm_and(jf_le(a_, b_), jf_le(b_, a_)), a == b);
@@ -129,6 +130,7 @@ static void of_ints(const int32_t *ia, const int32_t *ib) {
     INTS_GIVE(ji_or(i_, j_), i | j);
     INTS_GIVE(ji_shift_left(i_, 3), (uint32_t)i << 3);
     INTS_GIVE(ji_shift_right(i_, 5), (uint32_t)i >> 5);
+    INTS_GIVE(ji_opaque(i_), i);
     INTS_GIVE(ji_select(ji_less(i_, j_), i_, j_), i < j ? i : j);
     MASK_IS(ji_less(i_, j_), i < j);
     MASK_IS(ji_equal(i_, j_), i == j);
