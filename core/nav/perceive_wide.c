@@ -148,16 +148,56 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
     return false;
 }
 
-/* The same among those who went over a periodic edge since the agents were sorted: their cells are
-   not where they are, so that whoever looks there finds them far away. */
-static void list_strays(Packet *packet, const Reach *reach, uint32_t lane) {
+/* Those who went over a periodic edge since the agents were sorted: their cells are not where they
+   are, so that whoever looks there finds them far away. Of these, they who may be near a packet. */
+typedef struct Strays {
+    float x[JOX_MOST_STRAYS + JOX_LANES], y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
+    uint32_t index[JOX_MOST_STRAYS + JOX_LANES], count;
+} Strays;
+
+/* Corners of the box about all that some lanes see, and somewhat more than that is rounded by. */
+static inline void box_lanes(const Packet *packet, const Reach *reach, uint32_t lanes, JoxV2 *low,
+                             JoxV2 *high) {
+    *low = (JoxV2){INFINITY, INFINITY};
+    *high = (JoxV2){-INFINITY, -INFINITY};
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        const float wide = packet->radius[lane] + packet->p->nav->drift.farthest;
+        low->x = jox_minf(low->x, reach->x[lane] - wide);
+        low->y = jox_minf(low->y, reach->y[lane] - wide);
+        high->x = jox_maxf(high->x, reach->x[lane] + wide);
+        high->y = jox_maxf(high->y, reach->y[lane] + wide);
+    }
+}
+
+static inline void find_strays(const Packet *packet, const Reach *reach, uint32_t lanes,
+                               Strays *out) {
     const JoxNav *nav = packet->p->nav;
+    JoxV2 low, high;
+    box_lanes(packet, reach, lanes, &low, &high);
+    out->count = 0;
+    for (uint32_t k = 0; k < nav->stray_count; k += JOX_WIDTH) {
+        const JoxVector at = jv_load(nav->stray_x, nav->stray_y, k);
+        const JoxMask along = jm_and(jf_le(jf_set(low.x), at.x), jf_le(at.x, jf_set(high.x)));
+        const JoxMask across = jm_and(jf_le(jf_set(low.y), at.y), jf_le(at.y, jf_set(high.y)));
+        const JoxMask there =
+            ji_less(ji_add(ji_set((int32_t)k), ji_lane()), ji_set((int32_t)nav->stray_count));
+        const uint32_t bits = jm_bits(jm_and(there, jm_and(along, across)));
+        jf_store_packed(out->x + out->count, at.x, bits);
+        jf_store_packed(out->y + out->count, at.y, bits);
+        ji_store_packed(out->index + out->count, ji_load(nav->strays + k), bits);
+        out->count += jm_count(bits);
+    }
+}
+
+static inline void list_strays(Packet *packet, const Reach *reach, uint32_t lane,
+                               const Strays *strays) {
     const Seeker seeker = seeker_of(packet, reach, lane);
     uint32_t n = packet->count[lane];
-    for (uint32_t k = 0; k < nav->stray_count && n <= PLACES; k += JOX_WIDTH) {
+    for (uint32_t k = 0; k < strays->count && n <= PLACES; k += JOX_WIDTH) {
         const JoxInts at = ji_add(ji_set((int32_t)k), ji_lane());
-        n += list_packet(&seeker, n, jv_load(nav->stray_x, nav->stray_y, k),
-                         ji_load(nav->strays + k), ji_less(at, ji_set((int32_t)nav->stray_count)));
+        n += list_packet(&seeker, n, jv_load(strays->x, strays->y, k), ji_load(strays->index + k),
+                         ji_less(at, ji_set((int32_t)strays->count)));
     }
     packet->count[lane] = n;
 }
@@ -178,8 +218,12 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
         else
             list_near(packet, &reach, lane, 1, &reach.own);
     }
-    for (uint32_t left = strays ? lanes : 0; left; left &= left - 1)
-        list_strays(packet, &reach, (uint32_t)__builtin_ctz(left));
+    if (!strays)
+        return;
+    Strays near;
+    find_strays(packet, &reach, lanes, &near);
+    for (uint32_t left = near.count ? lanes : 0; left; left &= left - 1)
+        list_strays(packet, &reach, (uint32_t)__builtin_ctz(left), &near);
 }
 
 /* The lanes that look at images that are shifted along one axis by -1, 0 and 1 periods: all that
