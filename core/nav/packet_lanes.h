@@ -25,7 +25,8 @@ typedef struct JoxPacket {
     uint32_t near_walls, touching, pressed,
         walkers;                      /* of them; pressed: who touches or is forced */
     uint32_t contacts, hard, objects; /* rows from which on these stand; hard: neighbours */
-    JoxHalfPlaneCounts made[JOX_LANES];
+    JoxHalfPlaneCounts made[JOX_WIDTH];
+    uint32_t counted; /* lanes of which they are not all 0 */
     uint32_t count; /* rows */
     JoxRow rows[JOX_MOST_CONSTRAINTS];
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS]; /* of one lane */
@@ -48,6 +49,7 @@ typedef uint32_t JoxMaker(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *o
    in JoxHalfPlaneCounts. */
 static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxMaker *make,
                                 size_t at) {
+    p->counted |= lanes;
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         if (!(lanes >> lane & 1))
             continue;
@@ -463,13 +465,17 @@ static inline void jox_put_force(JoxPacket *p) {
     jf_store(p->rows[row].x, jf_select(there, x, zero));
     jf_store(p->rows[row].y, jf_select(there, y, zero));
     jf_store(p->rows[row].offset, jf_select(there, jf_load(a->half_plane_offset + p->first), zero));
+    p->counted |= forced;
     for (uint32_t lane = 0; forced >> lane; lane++)
         p->made[lane].force = forced >> lane & 1;
 }
 
 static inline void jox_put_half_planes(JoxPacket *p) {
     p->count = 0;
-    memset(p->made, 0, sizeof p->made);
+    for (uint32_t lane = 0; p->counted >> lane; lane++)
+        if (p->counted >> lane & 1)
+            p->made[lane] = (JoxHalfPlaneCounts){0};
+    p->counted = 0;
     if (p->near_walls)
         JOX_PUT_EACH(p, p->near_walls, 0, jox_solve_walls, walls);
     p->contacts = p->count;

@@ -176,7 +176,6 @@ static uint32_t solve_packet(JoxPacket *p) {
     const JoxMask far = jm_without(jox_out_of_reach_lanes(&pressed, velocity), failed);
     const JoxVector planned = jox_as_forced_lanes(&pressed, velocity);
     const uint32_t rest = p->lanes & jm_bits(jm_or(failed, far));
-    Plan plan = {.failed = jm_bits(failed)};
     const JoxMask planned_now = jm_of_bits(p->lanes & ~rest);
     if (!rest && p->lanes == JOX_ALL_LANES) {
         jv_store(a->next_x, a->next_y, i, planned);
@@ -186,6 +185,8 @@ static uint32_t solve_packet(JoxPacket *p) {
              jv_select(planned_now, planned, jv_load(a->next_x, a->next_y, i)));
     if (!rest)
         return 0;
+    Plan plan;
+    plan.failed = jm_bits(failed);
     jf_store(plan.wanted_x, pressed.wanted.x);
     jf_store(plan.wanted_y, pressed.wanted.y);
     jf_store(plan.velocity_x, velocity.x);
@@ -222,6 +223,7 @@ uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t
     JoxRest unmet, far;
     JoxPacket packet; /* large: each packet of agents begins its rows anew */
     packet.s = s;
+    packet.counted = JOX_ALL_LANES;
     packet.unmet = &unmet;
     packet.far = &far;
     uint32_t relaxed = 0;
