@@ -27,7 +27,7 @@ typedef struct JoxPacket {
     uint32_t contacts, hard, objects; /* rows from which on these stand; hard: neighbours */
     JoxHalfPlaneCounts made[JOX_WIDTH];
     uint32_t counted; /* lanes of which they are not all 0 */
-    uint32_t count; /* rows */
+    uint32_t count;   /* rows */
     JoxRow rows[JOX_MOST_CONSTRAINTS];
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS]; /* of one lane */
     JoxRest *unmet, *far; /* who waits: for the least violation, and to be kept within reach */

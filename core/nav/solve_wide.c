@@ -107,25 +107,19 @@ static void note_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t l
 
 /* Puts lanes (bits) of a packet behind those that wait. Returns those for whom there is no room. */
 static uint32_t wait_in(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Plan *plan) {
-    const uint32_t waited = r->count;
-    uint32_t from[JOX_WIDTH] = {0};
+    jox_rest_open(r, p->hard, p->count - p->hard);
     for (uint32_t lane = 0; lanes >> lane && r->count < JOX_WIDTH; lane++) {
         if (!(lanes >> lane & 1))
             continue;
-        note_waiting(r, r->count, p, lane, plan);
-        from[r->count++] = lane;
+        const uint32_t at = r->count++;
+        note_waiting(r, at, p, lane, plan);
+        JoxRow *to = &r->rows[JOX_REST_HARD - p->hard];
+        for (uint32_t row = 0; row < p->count; row++, to++) {
+            to->x[at] = p->rows[row].x[lane];
+            to->y[at] = p->rows[row].y[lane];
+            to->offset[at] = p->rows[row].offset[lane];
+        }
         lanes &= ~(1u << lane);
-    }
-    jox_rest_open(r, p->hard, p->count - p->hard);
-    const JoxMask come = jm_of_bits((1u << r->count) - (1u << waited));
-    const JoxInts order = ji_load(from);
-    JoxRow *to = &r->rows[JOX_REST_HARD - p->hard];
-    for (uint32_t row = 0; row < p->count; row++, to++) {
-        const JoxRow *own = &p->rows[row];
-        jf_store(to->x, jf_select(come, jf_reorder(jf_load(own->x), order), jf_load(to->x)));
-        jf_store(to->y, jf_select(come, jf_reorder(jf_load(own->y), order), jf_load(to->y)));
-        jf_store(to->offset,
-                 jf_select(come, jf_reorder(jf_load(own->offset), order), jf_load(to->offset)));
     }
     return lanes;
 }

@@ -145,9 +145,6 @@ static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     ji_store(k, at);
     return jf_pick_at(table, k);
 }
-static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
-    return _mm256_permutevar8x32_ps(a, at);
-}
 
 static inline __m256i ji_packed_order_(uint32_t bits) {
     return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&jox_packed_order[bits]));

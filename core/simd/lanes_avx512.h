@@ -135,9 +135,6 @@ static inline JoxFloats jf_pick(const float *table, JoxInts at) {
 static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
     return jf_pick(table, ji_load(at));
 }
-static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
-    return _mm512_permutexvar_ps(at, a);
-}
 
 static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
     _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)bits, a));

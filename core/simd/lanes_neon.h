@@ -146,11 +146,6 @@ static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     ji_store(k, at);
     return jf_pick_at(table, k);
 }
-static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
-    float lanes[4];
-    jf_store(lanes, a);
-    return jf_pick(lanes, at);
-}
 
 static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
     const uint32_t order = (uint32_t)jox_packed_order[bits];

@@ -150,11 +150,6 @@ static inline JoxFloats jf_pick(const float *table, JoxInts at) {
 static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
     return table[*at];
 }
-/* The lanes of `a` in the order `at`. */
-static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
-    (void)at;
-    return a;
-}
 static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     return (int32_t)table[at];
 }
