@@ -3,24 +3,13 @@
 #include <string.h>
 
 #include "agents/param_lanes.h"
+#include "base/number/bits.h"
 #include "base/number/random.h"
 #include "force/kernels.h"
 #include "simd/lanes.h"
 
 static const double TURNING = 1.0;   /* s */
 static const double WHOLE = 0x1p+52; /* a number of doubles: those above it are whole */
-
-static inline uint64_t bits_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static inline double double_of(uint64_t bits) {
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
 
 /* The greatest whole number up to x, which is 0 at least and much less than WHOLE. */
 static inline double floor_of(double x) {
@@ -30,7 +19,7 @@ static inline double floor_of(double x) {
 
 /* The first 24 bits of a draw, as a share. */
 static inline float share_of(uint64_t draw) {
-    return (float)(double_of(draw >> 40 | bits_of(WHOLE)) - WHOLE) * 0x1p-24f;
+    return (float)(jox_double_of(draw >> 40 | jox_double_bits(WHOLE)) - WHOLE) * 0x1p-24f;
 }
 
 /* The moments of the random values about a time: of the last at a whole second before it, and of
@@ -44,8 +33,8 @@ typedef struct Moments {
 static Moments moments_about(double time) {
     Moments m = {.base = floor_of(time)};
     for (int k = 0; k < 4; k++)
-        m.knots[k] =
-            jox_random_moment(bits_of(m.base + (double)k + WHOLE) - bits_of(WHOLE), JOX_DRAW_TURN);
+        m.knots[k] = jox_random_moment(
+            jox_double_bits(m.base + (double)k + WHOLE) - jox_double_bits(WHOLE), JOX_DRAW_TURN);
     return m;
 }
 

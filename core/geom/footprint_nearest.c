@@ -1,8 +1,8 @@
 /* The nearest point of a body's footprint. Most who ask stand outside of it: for them four edges
    are looked at at once, each with the arithmetic of one, so that both ways agree to the bit. */
 #include <math.h>
-#include <string.h>
 
+#include "base/number/bits.h"
 #include "geom/objects.h"
 #include "simd/four.h"
 
@@ -100,10 +100,7 @@ static inline uint32_t bits_of(JoxFourMask a) {
 
 /* The element that is marked. */
 static inline float marked(JoxFourMask one, JoxFour of) {
-    const uint32_t bits = bits_of(one & (JoxFourMask)of);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return jox_float_of(bits_of(one & (JoxFourMask)of));
 }
 
 static inline JoxFour lesser(JoxFour a, JoxFour b) {

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/bits.h"
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
@@ -45,14 +46,11 @@ static inline uint8_t *put32(uint8_t *at, uint32_t value) {
 }
 
 static uint8_t *put_float(uint8_t *at, float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return put32(at, bits);
+    return put32(at, jox_float_bits(value));
 }
 
 static uint8_t *put_double(uint8_t *at, double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    const uint64_t bits = jox_double_bits(value);
     return put32(put32(at, (uint32_t)bits), (uint32_t)(bits >> 32));
 }
 

@@ -1,23 +1,18 @@
 /* The nearest of one agent at a time, in plain C: for those whom packets of lanes leave over, and
    for those within touching range where the neighbours may lack some. */
 #include <math.h>
-#include <string.h>
 
+#include "base/number/bits.h"
 #include "nav/kernels.h"
 
 /* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
    not negative) above the rank, in which agents have the order of their ids. */
 static inline uint64_t key_of(float d2, uint32_t rank) {
-    uint32_t bits;
-    memcpy(&bits, &d2, sizeof bits);
-    return (uint64_t)bits << 32 | rank;
+    return (uint64_t)jox_float_bits(d2) << 32 | rank;
 }
 
 static inline float distance2_of(uint64_t key) {
-    uint32_t bits = (uint32_t)(key >> 32);
-    float d2;
-    memcpy(&d2, &bits, sizeof d2);
-    return d2;
+    return jox_float_of((uint32_t)(key >> 32));
 }
 
 enum { BUFFER = 64 };

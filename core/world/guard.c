@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/assert.h"
+#include "base/number/bits.h"
 #include "world/world.h"
 
 enum { MOST_TOLD = 5 };
@@ -60,12 +60,6 @@ static bool any_wrong(const Column *column, uint32_t count) {
     return wrong;
 }
 
-static uint32_t bits_of(float number) {
-    uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-
 /* Whether somebody may have a wrong number: never false where there is one. A sum is finite if all
    its parts are, unless they are huge; an exponent of all ones carries into the sign; and, without
    its sign, what is farther is a greater whole number. In blocks, of which compilers make vector
@@ -73,12 +67,13 @@ static uint32_t bits_of(float number) {
 static bool may_be_wrong(const JoxAgents *a, uint32_t begin, uint32_t end) {
     enum { BLOCK = 64 };
     const uint32_t exponent = 0x7f800000u, one = 0x00800000u, magnitude = 0x7fffffffu;
-    const uint32_t most = bits_of(JOX_WORLD_FARTHEST);
+    const uint32_t most = jox_float_bits(JOX_WORLD_FARTHEST);
     uint32_t signs = 0;
 #define PLUS(what, column, rest) +a->column[i]
 #define LOOK(i)                                                                                    \
-    signs |= (bits_of(COLUMNS(PLUS)) & exponent) + one;                                            \
-    signs |= (most - (bits_of(a->x[i]) & magnitude)) | (most - (bits_of(a->y[i]) & magnitude));
+    signs |= (jox_float_bits(COLUMNS(PLUS)) & exponent) + one;                                     \
+    signs |= (most - (jox_float_bits(a->x[i]) & magnitude)) |                                      \
+             (most - (jox_float_bits(a->y[i]) & magnitude));
     for (; begin + BLOCK <= end; begin += BLOCK)
         for (uint32_t i = begin; i < begin + BLOCK; i++) {
             LOOK(i)

@@ -4,6 +4,7 @@
 
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/bits.h"
 #include "world/world.h"
 
 /* Lays the walls that were added; what a damaged state says of them makes none. */
@@ -70,11 +71,8 @@ static void list_def(const JoWorldDef *def, JoxSections *s) {
     jox_section_model(s, "seed", def->seed);
     jox_section_model(s, "forces", def->forces);
     jox_section_model(s, "literal", def->literal);
-    uint64_t bits;
-    memcpy(&bits, &def->dt, sizeof bits);
-    jox_section_model(s, "dt", bits);
-    memcpy(&bits, &def->gravity, sizeof bits);
-    jox_section_model(s, "gravity", bits);
+    jox_section_model(s, "dt", jox_double_bits(def->dt));
+    jox_section_model(s, "gravity", jox_double_bits(def->gravity));
 }
 
 void jox_world_sections(JoWorld *w, JoxSections *s) {

@@ -3,8 +3,8 @@
 #define JOX_BASE_EXPONENTIAL_H
 
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
+
+#include "base/number/bits.h"
 
 /* jox_exp of -708 to 709, to the bit, without a branch. */
 static inline double jox_exp_within(double x) {
@@ -26,10 +26,7 @@ static inline double jox_exp_within(double x) {
     sum = sum * r + 0.5;
     sum = sum * r + 1.0;
     sum = sum * r + 1.0;
-    const uint64_t bits = (uint64_t)((int64_t)(int32_t)n + 1023) << 52;
-    double scale;
-    memcpy(&scale, &bits, sizeof scale);
-    return sum * scale;
+    return sum * jox_double_of((uint64_t)((int64_t)(int32_t)n + 1023) << 52);
 }
 
 #endif

@@ -62,7 +62,7 @@ static float list_keys(JoxFront *f, size_t *count) {
 
 /* Leaves the keys of the stretch; the others' cells go on waiting. */
 static size_t part(JoxFront *f, size_t count) {
-    const uint32_t end = jox_front_bits(f->end);
+    const uint32_t end = jox_float_bits(f->end);
     uint64_t *keys = f->keys;
     int *waiting = f->waiting;
     size_t chosen = 0, left = 0;
@@ -103,8 +103,8 @@ static void insert_each(uint64_t *keys, size_t count) {
 
 /* Sorts `count` keys into `next`: by bins of time, of which most hold a few, then one by one. */
 static void sort(JoxFront *f, size_t count, float least) {
-    const uint64_t low = (uint64_t)jox_front_bits(least) << 32;
-    const uint64_t high = (uint64_t)jox_front_bits(f->end) << 32;
+    const uint64_t low = (uint64_t)jox_float_bits(least) << 32;
+    const uint64_t high = (uint64_t)jox_float_bits(f->end) << 32;
     unsigned shift = 32;
     while ((high - low) >> shift > count)
         shift++;

@@ -7,8 +7,7 @@
 #ifndef JOX_GEOM_FIELD_FRONT_H
 #define JOX_GEOM_FIELD_FRONT_H
 
-#include <string.h>
-
+#include "base/number/bits.h"
 #include "geom/field/field_parts.h"
 
 enum { JOX_FRONT_GOAL = 8 }; /* instead of a neighbour on the ring */
@@ -45,20 +44,9 @@ typedef struct JoxFront {
     size_t keys_room, bins_room;
 } JoxFront;
 
-/* Numbers of at least 0 are in the order of their bits. */
-static inline uint32_t jox_front_bits(float number) {
-    uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    return bits;
-}
-static inline float jox_front_number(uint32_t bits) {
-    float number;
-    memcpy(&number, &bits, sizeof number);
-    return number;
-}
-/* Time and cell, in order. */
+/* Time, which is not negative, and cell, in order. */
 static inline uint64_t jox_front_key(const JoxFront *front, int cell) {
-    return (uint64_t)jox_front_bits(front->nodes[cell].time) << 32 | (uint32_t)cell;
+    return (uint64_t)jox_float_bits(front->nodes[cell].time) << 32 | (uint32_t)cell;
 }
 
 /* For as many cells as there are nodes, which are the front's from then on. */

@@ -113,13 +113,13 @@ static inline uint32_t ends_of(int a, int b) {
 }
 
 static inline Best best_of(const JoxFrontNode *n) {
-    return (Best){jox_front_bits(n->time), jox_front_bits(n->share), n->ends};
+    return (Best){jox_float_bits(n->time), jox_float_bits(n->share), n->ends};
 }
 
 static inline void keep_sooner(Best *best, bool counts, float time, float share, uint32_t ends) {
-    const bool sooner = counts & (jox_front_bits(time) < best->time);
-    best->time = either(sooner, best->time, jox_front_bits(time));
-    best->share = either(sooner, best->share, jox_front_bits(share));
+    const bool sooner = counts & (jox_float_bits(time) < best->time);
+    best->time = either(sooner, best->time, jox_float_bits(time));
+    best->share = either(sooner, best->share, jox_float_bits(share));
     best->ends = either(sooner, best->ends, ends);
 }
 
@@ -159,10 +159,10 @@ static INLINE void by_even_side(const JoxFrontNode *n, const JoxFrontNode *from,
 }
 
 static INLINE void keep(March *m, JoxFrontNode *n, const Best *best) {
-    if (best->time == jox_front_bits(n->time))
+    if (best->time == jox_float_bits(n->time))
         return;
-    n->time = jox_front_number(best->time);
-    n->share = jox_front_number(best->share);
+    n->time = jox_float_of(best->time);
+    n->share = jox_float_of(best->share);
     n->ends = (uint16_t)best->ends;
     jox_front_reach(&m->front, (int)(n - m->front.nodes));
 }

@@ -2,9 +2,9 @@
    their outlines cross it; lines are kept, as many points of a row of cells share them. A point is
    within where jox_polygon_contains says so of one of the solids. */
 #include <math.h>
-#include <string.h>
 
 #include "base/mem.h"
+#include "base/number/bits.h"
 #include "base/sort.h"
 #include "geom/polygon.h"
 #include "record/fields/density_parts.h"
@@ -179,9 +179,7 @@ static void make(JoxDensitySolids *s, Line *line, float y) {
 }
 
 static Line *line_of(JoxDensitySolids *s, float y) {
-    uint32_t bits;
-    memcpy(&bits, &y, sizeof bits);
-    Line *line = &s->lines[(bits * 2654435761u) >> 16 & (LINES - 1)];
+    Line *line = &s->lines[(jox_float_bits(y) * 2654435761u) >> 16 & (LINES - 1)];
     if (!line->made || line->y != y)
         make(s, line, y);
     return line;
