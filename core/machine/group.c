@@ -185,8 +185,8 @@ static bool are_alike(const JoxAgents *a) {
            jox_is_same_of_all(a->state, sizeof *a->state, a->count);
 }
 
-/* Agents sorted by state, in their order: each of some parts of them is counted, then listed where
-   those of the parts before it end. */
+/* Agents sorted by state, in their order: those of each of some parts are counted, then listed
+   where those of the parts before it end. */
 typedef struct StateSort {
     JoxMachineScratch *scratch;
     const JoxAgents *agents;
@@ -195,40 +195,72 @@ typedef struct StateSort {
     uint32_t grain;                    /* agents of a part */
 } StateSort;
 
-static uint32_t *part_of(const StateSort *sort, uint32_t begin) {
-    return sort->scratch->part_first + (size_t)(begin / sort->grain) * (sort->states + 1);
-}
+/* Parts that are gone through at once, one agent of each in turn: neighbours are often in one
+   state, and a number that has just been counted up takes some time until it can be again. */
+enum { AT_ONCE = 4 };
 
-static void count_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    const StateSort *sort = context;
-    const JoxAgents *a = sort->agents;
-    uint32_t *sizes = part_of(sort, begin), *in_state = sort->scratch->in_state;
-    memset(sizes, 0, ((size_t)sort->states + 1) * sizeof *sizes);
-    for (uint32_t i = begin; i < end; i++) {
-        const bool none = a->machine[i] == JOX_NO_MACHINE;
-        in_state[i] = none ? sort->states : sort->bases[a->machine[i]] + a->state[i];
-        sizes[in_state[i]]++;
+/* A part, from the agent that is next on. */
+typedef struct Part {
+    uint32_t next, end;
+    uint32_t *numbers; /* of each state: how many agents, or where the next of them is listed */
+} Part;
+
+typedef void PartVisit(const StateSort *sort, Part *part);
+
+/* Visits each agent from `begin` to `end` of AT_ONCE parts; `clear`: with numbers of 0. */
+static inline __attribute__((always_inline)) void
+visit_parts(const StateSort *sort, uint32_t begin, uint32_t end, bool clear, PartVisit *visit) {
+    const size_t width = (size_t)sort->states + 1;
+    Part parts[AT_ONCE];
+    uint32_t together = UINT32_MAX;
+    for (uint32_t p = 0; p < AT_ONCE; p++) {
+        const uint32_t first = begin + p * sort->grain, next = first < end ? first : end;
+        const uint32_t last = end - next < sort->grain ? end : next + sort->grain;
+        parts[p] = (Part){next, last, sort->scratch->part_first + first / sort->grain * width};
+        together = last - next < together ? last - next : together;
+        if (clear && next < last)
+            memset(parts[p].numbers, 0, width * sizeof *parts[p].numbers);
     }
+    for (uint32_t k = 0; k < together; k++)
+        for (uint32_t p = 0; p < AT_ONCE; p++)
+            visit(sort, &parts[p]);
+    for (uint32_t p = 0; p < AT_ONCE; p++)
+        while (parts[p].next < parts[p].end)
+            visit(sort, &parts[p]);
 }
 
-static void list_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static inline __attribute__((always_inline)) void count_agent(const StateSort *sort, Part *part) {
+    const JoxAgents *a = sort->agents;
+    const uint32_t i = part->next++;
+    const bool none = a->machine[i] == JOX_NO_MACHINE;
+    const uint32_t state = none ? sort->states : sort->bases[a->machine[i]] + a->state[i];
+    sort->scratch->in_state[i] = state;
+    part->numbers[state]++;
+}
+
+static inline __attribute__((always_inline)) void list_agent(const StateSort *sort, Part *part) {
+    const uint32_t i = part->next++;
+    sort->scratch->grouped[part->numbers[sort->scratch->in_state[i]]++] = i;
+}
+
+static void count_parts(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    const StateSort *sort = context;
-    uint32_t *next = part_of(sort, begin), *grouped = sort->scratch->grouped;
-    const uint32_t *in_state = sort->scratch->in_state;
-    for (uint32_t i = begin; i < end; i++)
-        grouped[next[in_state[i]]++] = i;
+    visit_parts(context, begin, end, true, count_agent);
+}
+
+static void list_parts(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    visit_parts(context, begin, end, false, list_agent);
 }
 
 static void sort_by_state(StateSort *sort, JoxPool *pool) {
-    enum { PARTS = 16, LEAST = 1024 };
+    enum { PARTS = 64, LEAST = 256 };
     JoxMachineScratch *s = sort->scratch;
     const uint32_t count = sort->agents->count, width = sort->states + 1;
     sort->grain = (count + PARTS - 1) / PARTS > LEAST ? (count + PARTS - 1) / PARTS : LEAST;
     const uint32_t parts = (count + sort->grain - 1) / sort->grain;
     JOX_RESERVE(s->part_first, s->part_capacity, (size_t)parts * width);
-    jox_parallel_for(pool, count, sort->grain, count_part, sort);
+    jox_parallel_for(pool, count, AT_ONCE * sort->grain, count_parts, sort);
     uint32_t sum = 0;
     for (uint32_t k = 0; k < width; k++) {
         s->state_first[k] = sum;
@@ -239,7 +271,7 @@ static void sort_by_state(StateSort *sort, JoxPool *pool) {
         }
     }
     JOX_ASSERT(sum == count);
-    jox_parallel_for(pool, count, sort->grain, list_part, sort);
+    jox_parallel_for(pool, count, AT_ONCE * sort->grain, list_parts, sort);
 }
 
 /* All are in one state. */

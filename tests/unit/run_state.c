@@ -174,7 +174,7 @@ static void another_world_takes_the_state_over(void **state) {
     "  - {line: [[11, 0], [11, 8]], name: gate}\n"                                                 \
     "bodies:\n"                                                                                    \
     "  - {name: blocks, at: [7, 4, 0.5], shape: {blocks: {size: [0.3, 0.5, 0.25],"                 \
-    " count: [1, 16, 4], bond: 1300 N, block_mass: 3 kg}}}\n"                                       \
+    " count: [1, 16, 4], bond: 1300 N, block_mass: 3 kg}}}\n"                                      \
     "  - {name: ball, at: [2, 4, 0.2], shape: {sphere: {radius: 0.12}}, mass: 0.5, tags: "         \
     "[ball]}\n"                                                                                    \
     "  - {name: crate, at: [9, 2, 0.4], shape: {box: {size: [0.8, 0.8, 0.8]}}, mass: 20}\n"        \
