@@ -166,23 +166,6 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* Of some lanes, those that ignore somebody or mean to touch somebody: who of their neighbours has
-   no half-plane is asked one by one. */
-static inline uint32_t jox_picky_lanes(const JoxPacket *p) {
-    const JoxAgents *a = p->s->agents;
-    const uint32_t i = p->first;
-    uint32_t picky = 0;
-    uint64_t ignoring = 0;
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        ignoring |= a->ignore[i + lane];
-    for (uint32_t lane = 0; ignoring && lane < JOX_WIDTH; lane++)
-        picky |= (uint32_t)(a->ignore[i + lane] != 0) << lane;
-    const JoxInts close = ji_or(ji_load(a->approached + i),
-                                ji_or(ji_load(a->grasped + i), ji_load_bytes(a->held + i)));
-    picky |= ~jm_bits(ji_equal(close, ji_set(0)));
-    return picky & p->lanes;
-}
-
 /* The lanes from which a wall may hide their neighbour: is_hidden of half_planes.c asks. */
 static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
     const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
@@ -377,7 +360,8 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSelf self = jox_self_of(p);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
-    const uint32_t picky = jox_picky_lanes(p), walled = s->touched ? p->near_walls : 0;
+    const uint32_t picky = jox_picky_lanes(p->s->agents, p->first) & p->lanes,
+                   walled = s->touched ? p->near_walls : 0;
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);

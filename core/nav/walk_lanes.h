@@ -51,6 +51,25 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *
                            jm_or(stands, jm_without(other_bound, along))};
 }
 
+/* The lanes that ignore somebody or mean to touch somebody: who of their neighbours is passed over
+   is asked one by one. */
+static inline uint32_t jox_picky_lanes(const JoxAgents *a, uint32_t first) {
+    uint32_t picky = 0;
+    uint64_t ignoring = 0;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        ignoring |= a->ignore[first + lane];
+    for (uint32_t lane = 0; ignoring && lane < JOX_WIDTH; lane++)
+        picky |= (uint32_t)(a->ignore[first + lane] != 0) << lane;
+    const JoxInts close = ji_or(ji_load(a->approached + first),
+                                ji_or(ji_load(a->grasped + first), ji_load_bytes(a->held + first)));
+    return picky | ~jm_bits(ji_equal(close, ji_set(0)));
+}
+
+/* Agents of a packet, the lanes before `end`. */
+static inline uint32_t jox_lanes_before(uint32_t first, uint32_t end) {
+    return end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : ~0u >> (32 - JOX_WIDTH);
+}
+
 /* ---- tempers ---- */
 
 static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */

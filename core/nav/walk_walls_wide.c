@@ -1,5 +1,5 @@
-/* The walking law: what walls allow one agent, by loops over the directions, of which compilers
-   make lanes of each instruction set, of the same bits. */
+/* The walking law: how far off walls count, and what they allow one agent, by loops over the
+   directions, of which compilers make lanes of each instruction set, of the same bits. */
 #include <math.h>
 
 #include "geom/polygon.h"
@@ -97,4 +97,36 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
     }
     for (int k = 1; k < JOX_WALK_DIRECTIONS; k++)
         table->allowed[k][lane] = p.allowed[k];
+}
+
+/* Where everybody heads, and from how far off walls count for those who walk. */
+
+float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
+    JoxAgents *a = w->agents;
+    const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
+    JoxFloats reach = none;
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const uint32_t lanes = jox_lanes_before(i, end);
+        const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
+        const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
+        const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));
+        const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
+        const JoxMask walks =
+            jm_and(jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, i)), jm_of_bits(lanes));
+        const JoxFloats keep =
+            jf_mul(jf_set((float)w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, i));
+        const JoxFloats far = jf_add(keep, jf_mul(speed, jf_set((float)w->law->wall_time)));
+        reach = jf_max(reach, jf_select(walks, far, none));
+        float x[JOX_WIDTH], y[JOX_WIDTH];
+        jv_store(x, y, 0, aim);
+        for (uint32_t lane = 0; lanes >> lane & 1 && lane < JOX_WIDTH; lane++) {
+            a->aim_x[i + lane] = x[lane];
+            a->aim_y[i + lane] = y[lane];
+        }
+    }
+    float reaches[JOX_WIDTH], most = -1.0f;
+    jf_store(reaches, reach);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        most = reaches[lane] > most ? reaches[lane] : most;
+    return most;
 }

@@ -1,7 +1,9 @@
 /* The kernel of the walking law (core/walking.md). A lane is an agent, a packet is JOX_WIDTH of
-   them: whom each minds stands in rows, one of each lane in a row, and the directions are judged
-   straight on first, then two by two, each for all lanes. One lane at a time are done people's
-   tempers, whoever may stand behind a wall, and walls (walk_walls_wide.c). */
+   them: whom each minds stands in rows, one of each lane in a row, as seen along its aim, and the
+   directions are judged straight on first, then to the left and right at once, each for all lanes.
+   One lane at a time are done people's tempers, whoever may stand behind a wall, and walls
+   (walk_walls_wide.c). */
+#include <assert.h>
 #include <math.h>
 
 #include "agents/param_lanes.h"
@@ -13,26 +15,38 @@ static const float AS_FREE = 0.98f;  /* of the wanted speed: who gets that far g
 static const float WORST = -0.2f;    /* m/s: no direction is judged worse */
 static const float NO_LIMIT = 64.0f; /* wanted speeds: what nobody ahead allows */
 
-/* Whom each lane minds: one that goes first, or one that crosses, or nobody. */
-typedef struct Row {
-    JoxVector offset, velocity;  /* m; m/s */
-    JoxFloats per_width, length; /* of one ahead: 1/m, of the way; m, that they take up along it */
-    JoxFloats width2, apart2;    /* m2, of one who crosses: of the distance kept; left of it */
-    JoxMask ahead, crossing;
-} Row;
+/* Directions, offsets and velocities of those minded are seen from each lane's agent: x along its
+   aim, y to the left of it. */
+
+/* One of those ahead, for each lane. Lanes without one have somebody behind, who allows all. */
+typedef struct Ahead {
+    JoxVector offset, foreseen; /* m: how far they are, and get in the time that is foreseen */
+    JoxFloats distance2;        /* m2 */
+    JoxFloats per_width2;       /* 1/m2, of the way */
+    JoxFloats length;           /* m, that they take up along it */
+} Ahead;
+
+/* One of those who cross, for each lane. */
+typedef struct Crossing {
+    JoxMask there;
+    JoxVector offset, velocity; /* m; m/s */
+    JoxFloats width2, apart2;   /* m2, of the distance kept; left of it */
+} Crossing;
 
 typedef struct Packet {
     const JoxWalk *w;
     uint32_t first, lanes; /* agent of lane 0; bits of those who walk and want to get on */
     uint32_t near_walls;   /* of those, who may be behind or before a wall, */
     uint32_t at_walls;     /* and who may come to one soon */
-    uint32_t rows;
-    bool any_crosses; /* somebody in some row */
+    uint32_t ahead_count, crossing_count;
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* m/s wanted; time gap, s */
     JoxFloats clear2;                    /* m2: no wall hides who is nearer */
+    JoxFloats beside2; /* more than 1: weight of the square of the distance aside, beside the way */
+    JoxFloats per_time;           /* 1/s: of the room behind those ahead */
     JoxFloats per_cross, meeting; /* 1/s; m/s2: worth of a way for each s until they would meet */
-    Row row[JOX_MOST_NEIGHBOURS];
+    Ahead ahead[JOX_MOST_NEIGHBOURS];
+    Crossing crossing[JOX_MOST_NEIGHBOURS];
 } Packet;
 
 /* What a direction allows, and what it is worth, m/s. */
@@ -50,10 +64,10 @@ static inline JoxFloats squared(JoxFloats a) {
 
 /* ---- whom one minds ---- */
 
-/* Those whom lanes mind, each lane's one after the other: indices with what is told by two bits. */
-typedef uint32_t Minded[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH]; /* a row more: behind full lists */
-#define AHEAD (1u << 31)
-#define CROSSING (1u << 30) /* there are less agents */
+/* Whom lanes mind: a bit for each of their neighbours, the nearest first. */
+typedef struct Minded {
+    JoxInts ahead, crossing;
+} Minded;
 
 /* From each lane's agent to another. */
 static inline __attribute__((always_inline)) JoxVector
@@ -85,83 +99,98 @@ static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, Jox
     return passed;
 }
 
-/* Lists whom lanes mind; returns how many rows that makes. Neighbours come row by row, and who is
-   minded goes to the end of its lane's list: of others, what follows takes the place. */
-static inline __attribute__((always_inline)) uint32_t list_minded(const Packet *p, Minded minded,
-                                                                  const bool periodic) {
+static inline __attribute__((always_inline)) Minded minded_of(const Packet *p,
+                                                              const bool periodic) {
     const JoxAgents *a = p->w->agents;
     const JoxNeighbours *n = p->w->neighbours;
+    const JoxInts none = ji_set(0);
     const uint32_t i = p->first;
-    uint32_t counts[JOX_WIDTH], lanes[JOX_WIDTH], ends[JOX_WIDTH], entries[JOX_WIDTH];
-    uint32_t most = 0, picky = 0, rows = 0;
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        lanes[lane] = lane;
-        counts[lane] = p->lanes >> lane & 1 ? n->count[i + lane] : 0;
-        most = counts[lane] > most ? counts[lane] : most;
-        if ((p->lanes >> lane & 1) && (a->ignore[i + lane] || jox_is_close_to_some(a, i + lane)))
-            picky |= 1u << lane;
-    }
-    JoxInts end = ji_load(lanes);
-    for (uint32_t k = 0; k < most; k++) {
-        const JoxMask there = ji_less(ji_set((int32_t)k), ji_load(counts));
-        const JoxInts none = ji_set(0);
+    const JoxMask wants = jm_of_bits(p->lanes);
+    const JoxInts counts = ji_select(wants, ji_load_bytes(n->count + i), none);
+    const uint32_t picky = jox_picky_lanes(a, i);
+    Minded minded = {none, none};
+    JoxMask there;
+    for (uint32_t k = 0; jm_bits(there = ji_less(ji_set((int32_t)k), counts)); k++) {
         const JoxInts others =
             ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), none);
         JoxFloats record[4];
-        jf_records(&p->w->neighbours->motions[0].x, others, record);
+        jf_records(&n->motions[0].x, others, record);
         const JoxVector offset = offset_of(p, record, periodic);
         const JoxMindsLanes how = jox_minds_lanes(p->w->nav, a, i, others, offset);
-        uint32_t minds = jm_bits(there) & jm_bits(jm_or(how.ahead, how.crossing));
         const JoxMask hidden = jf_le(p->clear2, jv_dot(offset, offset));
-        const uint32_t doubtful = minds & (picky | jm_bits(hidden));
+        JoxMask minds = jm_and(there, jm_or(how.ahead, how.crossing));
+        const uint32_t doubtful = jm_bits(minds) & (picky | jm_bits(hidden));
         if (doubtful)
-            minds &= ~passed_over(p, doubtful, others, offset);
-        const JoxMask listed = jm_of_bits(minds);
-        const JoxInts ahead = ji_select(how.ahead, ji_set((int32_t)AHEAD), none);
-        const JoxInts crossing = ji_select(how.crossing, ji_set((int32_t)CROSSING), none);
-        const JoxInts told = ji_select(listed, ji_or(ahead, crossing), none);
-        ji_store(entries, ji_or(others, told));
-        ji_store(ends, end);
-        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            minded[ends[lane]] = entries[lane];
-        end = ji_select(listed, ji_add(end, ji_set(JOX_WIDTH)), end);
+            minds = jm_without(minds, jm_of_bits(passed_over(p, doubtful, others, offset)));
+        const JoxInts bit = ji_set((int32_t)(1u << k));
+        minded.ahead = ji_or(minded.ahead, ji_select(jm_and(minds, how.ahead), bit, none));
+        minded.crossing = ji_or(minded.crossing, ji_select(jm_and(minds, how.crossing), bit, none));
     }
-    ji_store(ends, end);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        rows = ends[lane] / JOX_WIDTH > rows ? ends[lane] / JOX_WIDTH : rows;
-    return rows;
+    return minded;
+}
+
+/* One neighbour of each lane. */
+typedef struct Next {
+    JoxMask there; /* else agent 0 stands for it */
+    JoxVector offset, velocity;
+    JoxFloats radii; /* sum of both, m */
+} Next;
+
+/* A vector, as seen along the aims. */
+static JoxVector as_seen(const Packet *p, JoxVector v) {
+    const JoxVector aim = p->aim;
+    return (JoxVector){jv_dot(v, aim), jf_sub(jf_mul(aim.x, v.y), jf_mul(aim.y, v.x))};
+}
+
+/* Takes the nearest out of those left; false where nobody is left of any lane. */
+static inline __attribute__((always_inline)) bool take(const Packet *p, JoxInts *left, Next *next,
+                                                       const bool periodic) {
+    const JoxAgents *a = p->w->agents;
+    const JoxNeighbours *n = p->w->neighbours;
+    const JoxInts none = ji_set(0), one = ji_set(1);
+    next->there = ji_less(none, *left);
+    if (!jm_bits(next->there))
+        return false;
+    const JoxInts lowest = ji_select(next->there, ji_and(*left, ji_sub(none, *left)), one);
+    const JoxInts rank = /* a power of 2, as the exponent of a float */
+        ji_sub(ji_shift_right(jf_bits(ji_to_floats(lowest)), 23), ji_set(127));
+    const JoxInts at = ji_add(ji_shift_left(rank, 4), ji_lane());
+    static_assert(JOX_LANES == 1 << 4, "a row of neighbours has as many entries");
+    *left = ji_and(*left, ji_sub(*left, one));
+    const JoxInts others =
+        ji_select(next->there, ji_pick(n->index + jox_neighbour_at(n, p->first, 0), at), none);
+    JoxFloats record[4];
+    jf_records(&n->motions[0].x, others, record);
+    next->offset = as_seen(p, offset_of(p, record, periodic));
+    next->velocity = as_seen(p, (JoxVector){record[2], record[3]});
+    next->radii = jf_add(p->radius, jox_param_pick(a->param[JOX_PARAM_radius], others));
+    return true;
 }
 
 static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
-    const JoxAgents *a = p->w->agents;
     const JoxWalkLaw *law = p->w->law;
-    const JoxFloats one = jf_set(1.0f);
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
     const JoxFloats width = jf_mul(jf_set((float)law->width), room);
     const JoxFloats length = jf_mul(jf_set((float)law->length), room);
-    Minded minded = {0};
-    JoxMask crossing = jm_of_bits(0);
-    p->rows = list_minded(p, minded, periodic);
-    for (uint32_t k = 0; k < p->rows; k++) {
-        const JoxInts entry = ji_load(minded + k * JOX_WIDTH);
-        const JoxInts others = ji_and(entry, ji_set((int32_t)(CROSSING - 1)));
-        Row *row = &p->row[k];
-        JoxFloats record[4];
-        jf_records(&p->w->neighbours->motions[0].x, others, record);
-        row->offset = offset_of(p, record, periodic);
-        row->velocity = (JoxVector){record[2], record[3]};
-        const JoxFloats radii =
-            jf_add(p->radius, jox_param_pick(a->param[JOX_PARAM_radius], others));
-        const JoxFloats d2 = jv_dot(row->offset, row->offset);
-        row->per_width = jf_div(one, jf_mul(width, radii));
-        row->length = jf_mul(length, radii);
-        row->width2 = squared(jf_mul(jf_set((float)law->width_cross), radii));
-        row->apart2 = jf_max(jf_sub(d2, row->width2), jf_set(0.0f));
-        row->ahead = ji_less(entry, ji_set(0));
-        row->crossing = ji_less(ji_shift_left(entry, 1), ji_set(0));
-        crossing = jm_or(crossing, row->crossing);
+    const JoxFloats foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
+    const JoxVector behind = {jf_set(-1.0f), zero};
+    Minded left = minded_of(p, periodic);
+    Next next;
+    for (p->ahead_count = 0; take(p, &left.ahead, &next, periodic); p->ahead_count++) {
+        p->ahead[p->ahead_count] =
+            (Ahead){.offset = jv_select(next.there, next.offset, behind),
+                    .foreseen = jv_scale(next.velocity, foreseen),
+                    .distance2 = jv_dot(next.offset, next.offset),
+                    .per_width2 = squared(jf_div(one, jf_mul(width, next.radii))),
+                    .length = jf_mul(length, next.radii)};
     }
-    p->any_crosses = jm_bits(crossing) != 0;
+    for (p->crossing_count = 0; take(p, &left.crossing, &next, periodic); p->crossing_count++) {
+        const JoxFloats width2 = squared(jf_mul(jf_set((float)law->width_cross), next.radii));
+        const JoxFloats apart2 = jf_sub(jv_dot(next.offset, next.offset), width2);
+        p->crossing[p->crossing_count] =
+            (Crossing){next.there, next.offset, next.velocity, width2, jf_max(apart2, zero)};
+    }
 }
 
 static void put_rows_bounded(Packet *p) {
@@ -174,41 +203,24 @@ static void put_rows_periodic(Packet *p) {
 
 /* ---- what a direction allows ---- */
 
-/* What of an agent counts for all of those ahead of it. */
-typedef struct Follow {
-    JoxFloats flank;    /* weight of the distance aside of those beside the way */
-    JoxFloats foreseen; /* s for which their motion is foreseen */
-    JoxFloats per_time; /* 1/s */
-} Follow;
-
-static Follow follow_of(const Packet *p) {
-    const JoxWalkLaw *law = p->w->law;
-    const JoxFloats one = jf_set(1.0f), foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
-    const JoxFloats minded = jf_sub(one, jf_mul(jf_set((float)law->flank_eager), p->eager));
-    return (Follow){jf_div(jf_set((float)law->flank), minded), foreseen,
-                    jf_div(one, jf_add(p->gap, foreseen))};
-}
-
-/* Speed along `e` that keeps the time gap to those ahead. In the way they take up their length,
-   less towards their sides. Beside it, within 60 degrees ahead, the distance counts in which aside
-   weighs more. Their own speed along the direction is foreseen for a share of the time gap. */
-static inline JoxFloats follow(const Follow *f, const Row *row, JoxVector e) {
+/* What somebody ahead leaves free, m, who is so far along a direction and aside of it, and gets so
+   far along it in the time that is foreseen. In the way they take up their length, less towards
+   their sides. Beside it, within 60 degrees ahead, the distance counts in which aside weighs more.
+ */
+static inline JoxFloats room_behind(const Packet *p, const Ahead *o, JoxFloats along,
+                                    JoxFloats aside, JoxFloats foreseen) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats slope = jf_set(1.7320508f); /* tangent of 60 degrees */
-    const JoxFloats along = jv_dot(row->offset, e);
-    const JoxFloats aside = jf_abs(jf_sub(jf_mul(e.x, row->offset.y), jf_mul(e.y, row->offset.x)));
-    const JoxFloats q = jf_mul(aside, row->per_width), q2 = squared(q);
-    const JoxMask in_way = jf_lt(q, one);
-    const JoxFloats beside = jf_add(squared(along), squared(jf_mul(f->flank, aside)));
+    const JoxFloats aside2 = squared(aside), q2 = jf_mul(aside2, o->per_width2);
+    const JoxMask in_way = jf_lt(q2, one);
+    const JoxFloats beside = jf_add(o->distance2, jf_mul(p->beside2, aside2));
     const JoxFloats round = jf_sub(one, jf_mul(squared(q2), q2)); /* in the way at least 0 */
     const JoxFloats length = jf_sqrt(jf_select(in_way, round, beside));
     const JoxFloats gap =
-        jf_select(in_way, jf_sub(along, jf_mul(row->length, length)), jf_sub(length, row->length));
-    const JoxFloats speed = jf_max(jv_dot(row->velocity, e), zero);
-    const JoxFloats allowed = jf_mul(jf_add(gap, jf_mul(f->foreseen, speed)), f->per_time);
-    JoxMask minded = jm_or(in_way, jf_lt(aside, jf_mul(slope, along)));
-    minded = jm_and(jm_and(minded, jf_lt(zero, along)), row->ahead);
-    return jf_select(minded, allowed, jf_set(INFINITY));
+        jf_select(in_way, jf_sub(along, jf_mul(o->length, length)), jf_sub(length, o->length));
+    const JoxMask minded =
+        jm_or(jm_and(in_way, jf_lt(zero, along)), jf_lt(jf_abs(aside), jf_mul(slope, along)));
+    return jf_select(minded, jf_add(gap, jf_max(foreseen, zero)), jf_set(INFINITY));
 }
 
 /* People come down gradually from the wanted speed to what those ahead allow. */
@@ -222,57 +234,59 @@ static inline JoxFloats ease(const Packet *p, JoxFloats allowed) {
 
 /* Who crosses leaves a free path, and a direction in which the two would meet soon is worth less.
  */
-static inline void cross(const Packet *p, const Row *row, JoxVector e, Judgement *j) {
+static inline void cross(const Packet *p, const Crossing *o, JoxVector e, Judgement *j) {
     const JoxFloats zero = jf_set(0.0f), none = jf_set(INFINITY);
-    const JoxFloats along = jv_dot(row->offset, e);
-    const JoxFloats aside = jf_sub(jf_mul(e.x, row->offset.y), jf_mul(e.y, row->offset.x));
-    const JoxFloats rest = jf_sub(row->width2, squared(aside));
-    const JoxMask in_way = jm_and(jm_and(jf_lt(zero, rest), jf_lt(zero, along)), row->crossing);
+    const JoxFloats along = jv_dot(o->offset, e);
+    const JoxFloats aside = jf_sub(jf_mul(e.x, o->offset.y), jf_mul(e.y, o->offset.x));
+    const JoxFloats rest = jf_sub(o->width2, squared(aside));
+    const JoxMask in_way = jm_and(jm_and(jf_lt(zero, rest), jf_lt(zero, along)), o->there);
     const JoxFloats path = jf_mul(jf_sub(along, root(rest)), p->per_cross);
     j->allowed = jf_min(j->allowed, jf_select(in_way, path, none));
     /* When their discs meet, at the wanted speed and the other's present velocity. */
-    const JoxVector u = {jf_sub(jf_mul(p->speed, e.x), row->velocity.x),
-                         jf_sub(jf_mul(p->speed, e.y), row->velocity.y)};
-    const JoxFloats closing = jv_dot(row->offset, u), u2 = jv_dot(u, u);
-    const JoxFloats meets = jf_sub(squared(closing), jf_mul(u2, row->apart2));
+    const JoxVector u = {jf_sub(jf_mul(p->speed, e.x), o->velocity.x),
+                         jf_sub(jf_mul(p->speed, e.y), o->velocity.y)};
+    const JoxFloats closing = jv_dot(o->offset, u), u2 = jv_dot(u, u);
+    const JoxFloats meets = jf_sub(squared(closing), jf_mul(u2, o->apart2));
     const JoxFloats time = jf_div(jf_sub(closing, root(meets)), jf_max(u2, jf_set(1e-6f)));
-    const JoxMask soon = jm_and(jm_and(jf_lt(zero, meets), jf_lt(zero, closing)), row->crossing);
+    const JoxMask soon = jm_and(jm_and(jf_lt(zero, meets), jf_lt(zero, closing)), o->there);
     j->worth = jf_min(j->worth, jf_select(soon, jf_mul(p->meeting, time), none));
 }
 
-/* Of a direction in which those ahead allow the speed `followed`. */
-static Judgement judgement(const Packet *p, JoxFloats followed, JoxVector e) {
+/* Of a direction in which those ahead leave so much room, m: the speed that keeps the time gap. */
+static Judgement judgement(const Packet *p, JoxFloats room, JoxVector e) {
     Judgement j = {p->speed, p->speed};
-    for (uint32_t k = 0; k < p->rows && p->any_crosses; k++)
-        if (jm_bits(p->row[k].crossing))
-            cross(p, &p->row[k], e, &j);
-    j.allowed = jf_min(j.allowed, ease(p, followed));
+    for (uint32_t k = 0; k < p->crossing_count; k++)
+        cross(p, &p->crossing[k], e, &j);
+    j.allowed = jf_min(j.allowed, ease(p, jf_mul(room, p->per_time)));
     j.worth = jf_min(j.worth, j.allowed);
     return j;
 }
 
-static Judgement judge(const Packet *p, const Follow *f, JoxVector e) {
-    JoxFloats followed = jf_set(INFINITY);
-    for (uint32_t k = 0; k < p->rows; k++) {
-        const Row *row = &p->row[k];
-        if (jm_bits(row->ahead))
-            followed = jf_min(followed, follow(f, row, e));
+static Judgement judge(const Packet *p, JoxVector e) {
+    JoxFloats room = jf_set(INFINITY);
+    for (uint32_t k = 0; k < p->ahead_count; k++) {
+        const Ahead *o = &p->ahead[k];
+        const JoxFloats aside = jf_sub(jf_mul(e.x, o->offset.y), jf_mul(e.y, o->offset.x));
+        room = jf_min(room, room_behind(p, o, jv_dot(e, o->offset), aside, jv_dot(e, o->foreseen)));
     }
-    return judgement(p, followed, e);
+    return judgement(p, room, e);
 }
 
-/* Two directions at once: neither waits for the other. */
-static void judge_both(const Packet *p, const Follow *f, const JoxVector e[2], Judgement out[2]) {
-    JoxFloats one = jf_set(INFINITY), other = one;
-    for (uint32_t k = 0; k < p->rows; k++) {
-        const Row *row = &p->row[k];
-        if (!jm_bits(row->ahead))
-            continue;
-        one = jf_min(one, follow(f, row, e[0]));
-        other = jf_min(other, follow(f, row, e[1]));
+/* Directions as far to the left and to the right: they share what they are judged by. */
+static void judge_both(const Packet *p, const JoxVector e[2], Judgement out[2]) {
+    const JoxFloats cosine = e[0].x, sine = e[0].y;
+    JoxFloats left = jf_set(INFINITY), right = left;
+    for (uint32_t k = 0; k < p->ahead_count; k++) {
+        const Ahead *o = &p->ahead[k];
+        const JoxVector ahead = jv_scale(o->offset, cosine), turned = jv_scale(o->offset, sine);
+        const JoxFloats moves = jf_mul(cosine, o->foreseen.x), turns = jf_mul(sine, o->foreseen.y);
+        left = jf_min(left, room_behind(p, o, jf_add(ahead.x, turned.y), jf_sub(ahead.y, turned.x),
+                                        jf_add(moves, turns)));
+        right = jf_min(right, room_behind(p, o, jf_sub(ahead.x, turned.y),
+                                          jf_add(ahead.y, turned.x), jf_sub(moves, turns)));
     }
-    out[0] = judgement(p, one, e[0]);
-    out[1] = judgement(p, other, e[1]);
+    out[0] = judgement(p, left, e[0]);
+    out[1] = judgement(p, right, e[1]);
 }
 
 /* ---- the choice ---- */
@@ -283,10 +297,8 @@ typedef struct Choice {
     JoxFloats allowed;
 } Choice;
 
-static JoxVector turned(JoxVector aim, uint32_t k) {
-    const JoxFloats cosine = jf_set(jox_walk_cosine[k]), sine = jf_set(jox_walk_sine[k]);
-    return (JoxVector){jf_sub(jf_mul(cosine, aim.x), jf_mul(sine, aim.y)),
-                       jf_add(jf_mul(cosine, aim.y), jf_mul(sine, aim.x))};
+static JoxVector direction(uint32_t k) {
+    return (JoxVector){jf_set(jox_walk_cosine[k]), jf_set(jox_walk_sine[k])};
 }
 
 /* What directions are compared by: how one gets on along the way, less what turning from the course
@@ -299,7 +311,7 @@ typedef struct Taste {
 static Taste taste_of(const Packet *p) {
     const JoxWalkLaw *law = p->w->law;
     const JoxAgents *a = p->w->agents;
-    return (Taste){{jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)},
+    return (Taste){as_seen(p, jv_load(a->course_x, a->course_y, p->first)),
                    jf_mul(jf_set((float)law->turn_cost), p->speed),
                    jf_mul(jf_set((float)law->right), p->speed)};
 }
@@ -328,9 +340,9 @@ static inline void offer(Best *best, const Taste *t, uint32_t k, JoxVector e, Ju
 
 /* Directions k and k + 1, to either side. One that is no better for any of `lanes`, whatever people
    leave of it, is not judged. */
-static void try_sides(const Packet *p, const Follow *f, uint32_t lanes, const JoxWalkTable *walls,
-                      const Taste *t, uint32_t k, Best *best) {
-    const JoxVector e[2] = {turned(p->aim, k), turned(p->aim, k + 1)};
+static void try_sides(const Packet *p, uint32_t lanes, const JoxWalkTable *walls, const Taste *t,
+                      uint32_t k, Best *best) {
+    const JoxVector e[2] = {direction(k), direction(k + 1)};
     JoxFloats wall[2];
     uint32_t asked = 0;
     for (uint32_t d = 0; d < 2; d++) {
@@ -340,9 +352,9 @@ static void try_sides(const Packet *p, const Follow *f, uint32_t lanes, const Jo
     }
     Judgement j[2];
     if (asked == 3)
-        judge_both(p, f, e, j);
+        judge_both(p, e, j);
     else if (asked)
-        j[asked - 1] = judge(p, f, e[asked - 1]);
+        j[asked - 1] = judge(p, e[asked - 1]);
     for (uint32_t d = 0; d < 2; d++)
         if (asked >> d & 1)
             offer(best, t, k + d, e[d],
@@ -350,13 +362,12 @@ static void try_sides(const Packet *p, const Follow *f, uint32_t lanes, const Jo
 }
 
 /* The best of all directions, for `lanes`; what the first is worth is known. */
-static Choice best_of(const Packet *p, const Follow *f, uint32_t lanes, Judgement ahead,
-                      const JoxWalkTable *walls) {
+static Choice best_of(const Packet *p, uint32_t lanes, Judgement ahead, const JoxWalkTable *walls) {
     const Taste t = taste_of(p);
-    const JoxVector e = turned(p->aim, 0);
+    const JoxVector e = direction(0);
     Best best = {{e, ahead.allowed}, taste(&t, 0, e, ahead.worth)};
     for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k += 2)
-        try_sides(p, f, lanes, walls, &t, k, &best);
+        try_sides(p, lanes, walls, &t, k, &best);
     return best.choice;
 }
 
@@ -375,16 +386,16 @@ static bool mind_walls(const Packet *p, uint32_t lanes, JoxWalkTable *table) {
 
 /* Straight on where that is as good as free, else the best of all directions. */
 static Choice choose(const Packet *p) {
-    const Follow f = follow_of(p);
-    const Judgement ahead = judge(p, &f, p->aim);
+    const JoxVector aim = direction(0);
+    const Judgement ahead = judge(p, aim);
     const JoxMask straight = jf_le(jf_mul(jf_set(AS_FREE), p->speed), ahead.worth);
     const uint32_t seek = p->lanes & ~jm_bits(straight);
     if (!seek)
-        return (Choice){p->aim, ahead.allowed};
+        return (Choice){aim, ahead.allowed};
     JoxWalkTable table;
     const bool walls = mind_walls(p, seek & p->at_walls, &table);
-    Choice best = best_of(p, &f, seek, ahead, walls ? &table : NULL);
-    best.e = jv_select(straight, p->aim, best.e);
+    Choice best = best_of(p, seek, ahead, walls ? &table : NULL);
+    best.e = jv_select(straight, aim, best.e);
     best.allowed = jf_select(straight, ahead.allowed, best.allowed);
     return best;
 }
@@ -398,8 +409,11 @@ static void walk_packet(Packet *p) {
     p->radius = jox_param_lanes(a, JOX_PARAM_radius, i);
     (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose(p);
-    const JoxVector velocity = jox_approach(p->w, i, to.e, to.allowed);
-    const JoxVector course = jox_turn_course(p->w, i, to.e);
+    const JoxVector aim = p->aim;
+    const JoxVector e = {jf_sub(jf_mul(to.e.x, aim.x), jf_mul(to.e.y, aim.y)),
+                         jf_add(jf_mul(to.e.x, aim.y), jf_mul(to.e.y, aim.x))};
+    const JoxVector velocity = jox_approach(p->w, i, e, to.allowed);
+    const JoxVector course = jox_turn_course(p->w, i, e);
     float out[4][JOX_WIDTH];
     jf_store(out[0], velocity.x);
     jf_store(out[1], velocity.y);
@@ -415,17 +429,13 @@ static void walk_packet(Packet *p) {
     }
 }
 
-/* Agents of a packet, the lanes before `end`. */
-static inline uint32_t lanes_before(uint32_t first, uint32_t end) {
-    return end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : ~0u >> (32 - JOX_WIDTH);
-}
-
 /* Who of the packet walks and wants to get on, with what temper; who only stands wants nothing. */
 static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     JoxAgents *a = p->w->agents;
+    const JoxWalkLaw *law = p->w->law;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxMask walk = jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, first));
-    const uint32_t walkers = jm_bits(walk) & lanes_before(first, end);
+    const uint32_t walkers = jm_bits(walk) & jox_lanes_before(first, end);
     p->first = first;
     p->lanes = p->near_walls = p->at_walls = 0;
     if (!walkers)
@@ -453,8 +463,13 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxFloats reach = jf_add(keep, jf_mul(p->speed, jf_set((float)p->w->law->wall_time)));
     p->at_walls =
         p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->clear2, first, reach));
-    p->per_cross = jf_set(1.0f / (float)p->w->law->cross_time);
-    p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)p->w->law->contact_time));
+    const JoxFloats foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
+    const JoxFloats flank = jf_div(jf_set((float)law->flank),
+                                   jf_sub(one, jf_mul(jf_set((float)law->flank_eager), p->eager)));
+    p->beside2 = jf_sub(squared(flank), one);
+    p->per_time = jf_div(one, jf_add(p->gap, foreseen));
+    p->per_cross = jf_set(1.0f / (float)law->cross_time);
+    p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)law->contact_time));
 }
 
 void JOX_WIDE(jox_walk_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) {
@@ -464,36 +479,4 @@ void JOX_WIDE(jox_walk_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) 
         if (packet.lanes)
             walk_packet(&packet);
     }
-}
-
-/* ---- where everybody heads ---- */
-
-float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
-    JoxAgents *a = w->agents;
-    const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
-    JoxFloats reach = none;
-    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        const uint32_t lanes = lanes_before(i, end);
-        const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
-        const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
-        const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));
-        const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
-        const JoxMask walks =
-            jm_and(jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, i)), jm_of_bits(lanes));
-        const JoxFloats keep =
-            jf_mul(jf_set((float)w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, i));
-        const JoxFloats far = jf_add(keep, jf_mul(speed, jf_set((float)w->law->wall_time)));
-        reach = jf_max(reach, jf_select(walks, far, none));
-        float x[JOX_WIDTH], y[JOX_WIDTH];
-        jv_store(x, y, 0, aim);
-        for (uint32_t lane = 0; lanes >> lane & 1 && lane < JOX_WIDTH; lane++) {
-            a->aim_x[i + lane] = x[lane];
-            a->aim_y[i + lane] = y[lane];
-        }
-    }
-    float reaches[JOX_WIDTH], most = -1.0f;
-    jf_store(reaches, reach);
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        most = reaches[lane] > most ? reaches[lane] : most;
-    return most;
 }
