@@ -22,6 +22,14 @@ typedef struct JoxHeading {
     int32_t bound;
 } JoxHeading;
 
+/* What the time gaps of agents are drawn by who stand side by side, each from -1 to 1: their own,
+   and that of the knots before and after now. It is kept for as long as they are the same agents.
+ */
+typedef struct JoxGapDraws {
+    uint32_t of[JOX_LANES]; /* ids; JOX_NO_INDEX: not drawn */
+    double own[JOX_LANES], from[JOX_LANES], to[JOX_LANES];
+} JoxGapDraws;
+
 /* How agents have moved, m: the farthest that any of them has, and within which bounds along each
    axis: few where all go the same way. */
 typedef struct JoxDrift {
@@ -56,10 +64,13 @@ struct JoxNav {
     uint32_t capacity;
     JoxDrift *chunk_drift; /* in a step, per chunk of move */
     uint32_t *chunk_relaxed;
-    JoxHeading *headings; /* of walk, and of solve where somebody walks */
-    float *chunk_reach;   /* m: of walk; below 0 where nobody walks */
-    float *clear2;        /* m2: jox_wall_grid_clear2 of each, by walk, or by solve */
-    float clear_reach;    /* m: of the grid by which clear2 is known; -1: it is not */
+    JoxHeading *headings;   /* of walk, and of solve where somebody walks */
+    float *chunk_reach;     /* m: of walk; below 0 where nobody walks */
+    float *clear2;          /* m2: jox_wall_grid_clear2 of each, by walk, or by solve */
+    float clear_reach;      /* m: of the grid by which clear2 is known; -1: it is not */
+    JoxGapDraws *gap_draws; /* of walk; of so many agents, by this stream and for these knots */
+    uint32_t gap_room;
+    uint64_t gap_stream, gap_knots[2];
     JoxWallGrid grid;
     JoxStageMemory *memory, own_memory; /* own: where it was given none */
     bool literal;

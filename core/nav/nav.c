@@ -79,6 +79,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->headings);
     jox_free(nav->chunk_reach);
     jox_free(nav->clear2);
+    jox_free(nav->gap_draws);
     jox_stage_memory_free(&nav->own_memory);
     jox_free(nav);
 }

@@ -6,6 +6,7 @@
    directions the one that gets on best is taken. */
 #include <math.h>
 
+#include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
@@ -57,6 +58,28 @@ static bool aim_all(JoxWalk *w, float *reach, JoxPool *pool) {
     return any;
 }
 
+/* Time gaps are drawn anew where they are drawn by something else now. */
+static void keep_gap_draws(const JoxWalk *w) {
+    JoxNav *nav = w->nav;
+    const bool there = nav->gap_room >= w->agents->count;
+    if (there && nav->gap_stream == w->stream && nav->gap_knots[0] == w->knots[0] &&
+        nav->gap_knots[1] == w->knots[1])
+        return;
+    if (!there) {
+        nav->gap_room = 0;
+        jox_free(nav->gap_draws);
+        nav->gap_draws = NULL;
+        const uint32_t packets = nav->capacity / JOX_LANES + 1;
+        nav->gap_draws = jox_alloc(packets, sizeof *nav->gap_draws);
+        nav->gap_room = packets * JOX_LANES;
+    }
+    for (uint32_t i = 0; i < nav->gap_room; i++)
+        nav->gap_draws[i / JOX_LANES].of[i % JOX_LANES] = JOX_NO_INDEX;
+    nav->gap_stream = w->stream;
+    nav->gap_knots[0] = w->knots[0];
+    nav->gap_knots[1] = w->knots[1];
+}
+
 static float share_of(double interval, double time) {
     return (float)(1.0 - jox_exp(-interval / time));
 }
@@ -77,6 +100,7 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.knots[0] = jox_random_moment((uint64_t)knot, JOX_DRAW_GAP);
     walk.knots[1] = jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP);
     walk.own = jox_random_moment(0, JOX_DRAW_GAP);
+    keep_gap_draws(&walk);
     walk.between = time / KNOTS - knot;
     walk.rise = share_of(interval, law->eager_rise);
     walk.fall = share_of(interval, law->eager_fall);

@@ -110,26 +110,40 @@ static inline double jox_drawn(uint64_t bits) {
     return 2.0 * jox_random_share(bits) - 1.0;
 }
 
-/* Differs between people, wanders in time, and falls with eagerness, s. */
-static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, JoxFloats eagerness) {
-    const JoxAgents *a = w->agents;
+/* Draws what is not known of some agents. */
+static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes) {
+    JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), at = first % JOX_LANES + lane;
+        const uint64_t id = (uint64_t)w->agents->id[first + lane]
+                            << 32; /* as jox_random_of draws */
+        const uint64_t bits = jox_random_mix(w->stream ^ id);
+        draws->from[at] = jox_drawn(jox_random_mix(bits ^ w->knots[0]));
+        draws->to[at] = jox_drawn(jox_random_mix(bits ^ w->knots[1]));
+        draws->own[at] = jox_drawn(jox_random_mix(jox_random_mix(w->stream ^ (id | 1)) ^ w->own));
+        draws->of[at] = w->agents->id[first + lane];
+    }
+}
+
+/* Of `lanes`: differs between people, wanders in time, and falls with eagerness, s. */
+static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes,
+                                      JoxFloats eagerness) {
     const JoxWalkLaw *law = w->law;
-    const float *base = jox_params(a, JOX_PARAM_time_gap, first);
-    double wander[JOX_WIDTH], own[JOX_WIDTH];
+    const float *base = jox_params(w->agents, JOX_PARAM_time_gap, first);
+    const JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
+    const uint32_t at = first % JOX_LANES;
+    const JoxMask known = ji_equal(ji_load(w->agents->id + first), ji_load(draws->of + at));
+    if (lanes & ~jm_bits(known))
+        jox_draw_gaps(w, first, lanes & ~jm_bits(known));
     float eager[JOX_WIDTH], gap[JOX_WIDTH];
     jf_store(eager, eagerness);
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
-        const uint64_t id = (uint64_t)a->id[first + lane] << 32; /* as jox_random_of draws */
-        const uint64_t bits = jox_random_mix(w->stream ^ id);
-        const double from = jox_drawn(jox_random_mix(bits ^ w->knots[0]));
-        const double to = jox_drawn(jox_random_mix(bits ^ w->knots[1]));
-        wander[lane] = from * (1.0 - w->between) + to * w->between;
-        own[lane] = jox_drawn(jox_random_mix(jox_random_mix(w->stream ^ (id | 1)) ^ w->own));
-    }
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const double own = draws->own[at + lane];
+        const double wander =
+            draws->from[at + lane] * (1.0 - w->between) + draws->to[at + lane] * w->between;
         const double calm = (double)base[lane] * (1.0 - law->gap_eager * (double)eager[lane]);
-        gap[lane] = (float)(calm * (1.0 + law->gap_spread * own[lane]) *
-                            jox_exp_within(law->gap_noise * wander[lane]));
+        gap[lane] =
+            (float)(calm * (1.0 + law->gap_spread * own) * jox_exp_within(law->gap_noise * wander));
     }
     return jf_load(gap);
 }

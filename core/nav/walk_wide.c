@@ -454,7 +454,7 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     if (!p->lanes)
         return;
     const JoxMask wants = jm_of_bits(p->lanes);
-    p->gap = jf_select(wants, jox_time_gaps(p->w, first, p->eager), one);
+    p->gap = jf_select(wants, jox_time_gaps(p->w, first, p->lanes, p->eager), one);
     p->speed = jf_select(wants, speed, one);
     p->clear2 = jf_load(p->w->nav->clear2 + first);
     p->near_walls = p->lanes & jm_bits(jf_lt(p->clear2, jf_set(INFINITY)));

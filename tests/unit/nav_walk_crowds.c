@@ -232,12 +232,54 @@ static void threads_change_nothing(void **state) {
     assert_true(hash(1, 0.0) != one);
 }
 
+/* People go elsewhere, so that they stand in another order, and walk by what is drawn of a seed for
+   a moment; `anew`: by a nav that has drawn nothing yet. */
+static void walk_from(Crowd *c, uint32_t step, uint64_t seed, double time, bool anew) {
+    for (uint32_t i = 0; i < c->agents.count; i++) {
+        c->agents.x[i] = 8.0f * draw(c->agents.id[i], 30 + step);
+        c->agents.prev_x[i] = c->agents.x[i];
+    }
+    if (anew) {
+        const JoxWalkLaw *law = c->nav->walk;
+        jox_nav_free(c->nav);
+        c->nav = jox_nav_create(law);
+        jox_nav_set_walls(c->nav, &c->walls);
+    }
+    jox_nav_sort(c->nav, &c->agents, 0);
+    want(c);
+    jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
+    jox_nav_walk(c->nav, &c->agents, &c->neighbours, seed, time, 0.05, true, NULL);
+}
+
+static void time_gaps_depend_on_no_earlier_draw(void **state) {
+    (void)state;
+    const JoxWalkLaw law = jox_walk_law();
+    const struct {
+        uint64_t seed;
+        double time;
+    } steps[] = {{3, 1.7}, {3, 1.75}, {3, 1.8}, {3, 2.1}, {4, 2.1}, {3, 2.1}, {3, 1.7}};
+    Crowd kept, anew;
+    begin(&kept, (Frame){0}, &law, 8.0f);
+    begin(&anew, (Frame){0}, &law, 8.0f);
+    for (uint32_t k = 0; k < sizeof steps / sizeof *steps; k++) {
+        walk_from(&kept, k, steps[k].seed, steps[k].time, false);
+        walk_from(&anew, k, steps[k].seed, steps[k].time, true);
+        const size_t size = PEOPLE * sizeof(float);
+        assert_memory_equal(kept.agents.id, anew.agents.id, size);
+        assert_memory_equal(kept.agents.walk_x, anew.agents.walk_x, size);
+        assert_memory_equal(kept.agents.walk_y, anew.agents.walk_y, size);
+    }
+    end(&kept);
+    end(&anew);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_turned_crowd_does_the_same),
         cmocka_unit_test(a_mirrored_crowd_does_the_same_but_for_passing_on_the_right),
         cmocka_unit_test(people_in_one_place_stay_finite),
         cmocka_unit_test(without_a_time_gap_orca_is_unchanged),
+        cmocka_unit_test(time_gaps_depend_on_no_earlier_draw),
         cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
