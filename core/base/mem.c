@@ -192,30 +192,46 @@ void jox_free(void *memory) {
     give_back((char *)memory - block->offset);
 }
 
-/* Whether a few bytes are all the same as one, word by word. */
-static bool are_few(const uint8_t *first, uint8_t byte, size_t bytes) {
+static inline uint64_t word_at(const uint8_t *memory) {
+    uint64_t word;
+    memcpy(&word, memory, sizeof word);
+    return word;
+}
+
+/* Whether a few bytes are all the same as one: by words, of which the last may reach into the one
+   before it. */
+static inline bool are_few(const uint8_t *first, uint8_t byte, size_t bytes) {
     const uint64_t like = byte * 0x0101010101010101u;
-    uint64_t other = 0, word;
-    size_t k = 0;
-    for (; k + sizeof word <= bytes; k += sizeof word) {
-        memcpy(&word, first + k, sizeof word);
-        other |= word ^ like;
-    }
-    for (; k < bytes; k++)
+    uint64_t other = 0;
+    if (bytes >= sizeof like)
+        other = word_at(first + bytes - sizeof like) ^ like;
+    for (size_t k = 0; k + sizeof like < bytes; k += sizeof like)
+        other |= word_at(first + k) ^ like;
+    for (size_t k = 0; bytes < sizeof like && k < bytes; k++)
         other |= first[k] ^ byte;
     return other == 0;
 }
 
-bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes) {
-    enum { FEW = 64 }; /* bytes, for which a call of memcmp takes longer */
-    const uint8_t *first = memory;
-    if (bytes <= FEW)
-        return are_few(first, byte, bytes);
+enum { FEW = 64 }; /* bytes, for which a call of memcmp takes longer */
+
+static bool are_many(const uint8_t *first, uint8_t byte, size_t bytes) {
     return *first == byte && memcmp(first, first + 1, bytes - 1) == 0;
 }
 
+bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes) {
+    return bytes <= FEW ? are_few(memory, byte, bytes) : are_many(memory, byte, bytes);
+}
+
+/* Apart, so that a call for a few bytes keeps no registers for this one. */
+static __attribute__((noinline)) void fill_many(void *memory, uint8_t byte, size_t bytes) {
+    if (!are_many(memory, byte, bytes))
+        memset(memory, byte, bytes);
+}
+
 void jox_mem_fill(void *memory, uint8_t byte, size_t bytes) {
-    if (!jox_mem_is(memory, byte, bytes))
+    if (bytes > FEW)
+        fill_many(memory, byte, bytes);
+    else if (!are_few(memory, byte, bytes))
         memset(memory, byte, bytes);
 }
 

@@ -1,0 +1,116 @@
+/* What the kernels sum_wide.c and infer_wide.c do for a packet, of one agent in plain C. */
+#ifndef TESTS_FORCE_ONE_H
+#define TESTS_FORCE_ONE_H
+
+#include <math.h>
+
+#include "base/assert.h"
+#include "force/kernels.h"
+
+/* (10) The net force. */
+static JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
+#define PLUS_X(X, keep, name, label) +a->name##_x[i]
+#define PLUS_Y(X, keep, name, label) +a->name##_y[i]
+    return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
+#undef PLUS_X
+#undef PLUS_Y
+}
+
+/* Whether a net force of `size` newtons bounds agent i's plan. The faintest contact does: what the
+   feet took of it would be missing from the momentum of all. */
+static bool is_felt(const JoxForces *f, uint32_t i, float size) {
+    const JoxAgents *a = f->step.agents;
+    bool touched = a->contact_x[i] != 0.0f || a->contact_y[i] != 0.0f;
+    float least = touched ? 1e-6f : f->options.least;
+    return size >= least * jox_param(a, JOX_PARAM_mass, i) && isfinite(size);
+}
+
+/* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
+   the velocity is to have the part along the force that (11) says; it goes the share `response` of
+   the way from what the force gives to what is planned. */
+static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
+                           JoxPlanning plan, float step) {
+    float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, i);
+    float most = jox_param(a, JOX_PARAM_max_speed, i);
+    JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
+    JoxV2 normal = jox_scale(force, 1.0f / size);
+    JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
+    JOX_ASSERT(jox_is_unit(normal));
+    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, plan.interval);
+    float pressed = jox_dot(contact, normal) / mass, driven = jox_dot(moving, normal) / mass;
+    /* Contacts act within this step, however long the plan is kept. */
+    wanted -= pressed * (plan.interval - step);
+    float moved = jox_dot(velocity, normal) + pressed * step + driven * plan.forced;
+    a->half_plane_x[i] = normal.x;
+    a->half_plane_y[i] = normal.y;
+    a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
+    if (contact.x == 0.0f && contact.y == 0.0f)
+        return;
+    /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
+    a->speed_limit[i] = jox_maxf(most, jox_length((JoxV2){a->forced_x[i], a->forced_y[i]}));
+}
+
+/* (10) to (12) of agent i. `decay`: that of who came before. */
+static void sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
+    JoxAgents *a = f->step.agents;
+    const float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
+    a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
+    JoxV2 force = sum_of_terms(a, i);
+    a->force_x[i] = force.x;
+    a->force_y[i] = force.y;
+    JoxV2 moving = jox_moving_force(a, i);
+    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass;
+    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
+    if ((force.x == 0.0f && force.y == 0.0f) || !is_felt(f, i, jox_length(force)))
+        return;
+    const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
+    const float worn = jox_decay(decay, jox_param(a, JOX_PARAM_damping, i), plan.interval);
+    bound_by_force(a, i, force, moving, worn, plan, dt);
+}
+
+/* (9) By how much the feet keep agent i, in this step, below where the force along a unit vector
+   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
+   forces give, less what they wear down in any case. Counted step by step, it is the same at any
+   step and however long a plan is kept. */
+static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
+    const JoxAgents *a = f->step.agents;
+    const float dt = (float)f->step.dt, response = (float)f->step.response;
+    float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
+    float damping = jox_param(a, JOX_PARAM_damping, i);
+    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
+    JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
+    float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
+    float worn = along * (1.0f - jox_decay(decay, damping, dt));
+    return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
+}
+
+static bool is_under_force(const JoxAgents *a, uint32_t i) {
+    return a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
+}
+
+/* (8) Whether someone under no force slowed down so that others feel it. */
+static bool slows_down(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.dt;
+    /* What the feet took: contacts and other forces have their share already. */
+    JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
+    const JoxV2 old = jox_velocity_before(f, i);
+    return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
+           jox_slows(before, after, jox_param(a, JOX_PARAM_brace_angle, i)) &&
+           jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
+}
+
+static JoxPassKind passes_on(const JoxForces *f, uint32_t i, JoxDecay *decay, float *shortfall) {
+    const JoxAgents *a = f->step.agents;
+    *shortfall = 0.0f;
+    if (!is_under_force(a, i))
+        return slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
+    *shortfall = shortfall_of(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
+    return *shortfall > JOX_SHORTFALL_LEAST && jox_param(a, JOX_PARAM_absorb, i) > 0.0f
+               ? JOX_PASSES_RESISTANCE
+               : JOX_PASSES_NOTHING;
+}
+
+#endif
