@@ -19,15 +19,16 @@ bool jox_bodies_any_fast(const JoxBodies *b, float dt) {
 }
 
 static uint32_t substeps(const JoxBodies *b, float dt) {
-    float need = ceilf(dt * 60.0f - 1e-4f), most = ceilf(dt * 480.0f - 1e-4f);
+    float need = ceilf(dt * 60.0f - 1e-4f);
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];
         if (!jox_row_fast(r, dt))
             continue;
         float n = ceilf(r->body->getLinearVelocity().length() * dt / r->shape.inner);
+        const float most = ceilf(dt * 480.0f - 1e-4f);
+        n = n < most ? n : most;
         need = n > need ? n : need;
     }
-    need = need < most ? need : most;
     return need < 1 ? 1 : uint32_t(need);
 }
 
@@ -92,7 +93,8 @@ static void sweep_all(JoxBodies *b, JoxDisc *discs, float begin, float span, flo
 }
 
 static void mark_grounded(JoxBodies *b) {
-    for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
+    const int count = b->dispatcher->getNumManifolds();
+    for (int m = 0; m < count; m++) {
         const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
         const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
         if (one->isStaticOrKinematicObject() == two->isStaticOrKinematicObject())

@@ -23,7 +23,9 @@ static bool bounds_of(const JoxObject *body, JoxV2 *low, JoxV2 *high) {
 }
 
 /* The column or row of a place, kept within the grid. */
-static uint32_t cell_at(float place, float low, float cell, uint32_t count) {
+static inline uint32_t cell_at(float place, float low, float cell, uint32_t count) {
+    if (count == 1)
+        return 0;
     float at = (place - low) / cell;
     return !(at > 0.0f) ? 0 : at >= (float)count ? count - 1 : (uint32_t)at;
 }
@@ -32,7 +34,7 @@ typedef struct Range {
     uint32_t left, bottom, right, top;
 } Range;
 
-static Range range_of(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
+static inline Range range_of(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
     return (Range){cell_at(low.x, g->low.x, g->cell, g->columns),
                    cell_at(low.y, g->low.y, g->cell, g->rows),
                    cell_at(high.x, g->low.x, g->cell, g->columns),
@@ -68,7 +70,8 @@ static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
     JoxObjectGrid *g = &objects->grid;
     float width = g->high.x - g->low.x, height = g->high.y - g->low.y;
     for (g->cell = 1.0f;; g->cell *= 2.0f) {
-        float columns = floorf(width / g->cell) + 1.0f, rows = floorf(height / g->cell) + 1.0f;
+        const float columns = (float)(1 + (uint32_t)(width / g->cell));
+        const float rows = (float)(1 + (uint32_t)(height / g->cell));
         if (columns * rows > 4.0f * (float)bodies + 16.0f)
             continue;
         g->columns = (uint32_t)columns;
@@ -95,6 +98,30 @@ static void enter(JoxObjects *objects, bool count) {
                     g->members[--*at] = i;
             }
     }
+}
+
+/* Lists the bodies of each of so many cells. */
+static void list_by_cells(JoxObjects *objects, uint32_t cells) {
+    JoxObjectGrid *g = &objects->grid;
+    uint32_t sum = 0;
+    memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
+    enter(objects, true);
+    for (uint32_t c = 0; c <= cells; c++) {
+        sum += g->starts[c];
+        g->starts[c] = sum; /* the end; entering backwards makes it the start */
+    }
+    enter(objects, false);
+}
+
+/* The same where there is one cell alone, which all are in. */
+static void list_all(JoxObjects *objects) {
+    JoxObjectGrid *g = &objects->grid;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < objects->count; i++)
+        if (is_met(&g->covers[i]))
+            g->members[count++] = i;
+    g->starts[0] = 0;
+    g->starts[1] = count;
 }
 
 /* Assertion: cells list live bodies, ascending. */
@@ -137,15 +164,11 @@ void jox_objects_lay(JoxObjects *objects) {
     JOX_RESERVE(g->starts, g->start_capacity, 4 * (size_t)objects->count + 17);
     JOX_RESERVE(g->members, g->member_capacity, 16 * (size_t)objects->count);
     JOX_ASSERT(cells < g->start_capacity && entries <= g->member_capacity);
-    memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
-    enter(objects, true);
-    uint32_t sum = 0;
-    for (uint32_t c = 0; c <= cells; c++) {
-        sum += g->starts[c];
-        g->starts[c] = sum; /* the end; entering backwards makes it the start */
-    }
-    JOX_ASSERT(sum == entries);
-    enter(objects, false);
+    if (cells == 1)
+        list_all(objects);
+    else
+        list_by_cells(objects, cells);
+    JOX_ASSERT(g->starts[cells] == entries);
     JOX_CHECK(check_grid(objects));
 }
 

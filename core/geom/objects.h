@@ -152,14 +152,18 @@ static inline bool jox_object_reaches(const JoxObject *body, JoxV2 point, float 
            most * most;
 }
 
-/* The nearest of the bodies that are offered, at most `most` (JOX_MOST_NEAREST). Zero-initialised
-   but for `most` it is empty. */
+/* The nearest of the bodies that are offered, at most `most` (JOX_MOST_NEAREST). */
 typedef struct JoxNearest {
     uint32_t most, count;
     uint32_t rows[JOX_MOST_NEAREST];
     float gaps[JOX_MOST_NEAREST]; /* ascending; of equals the lesser row is first */
 } JoxNearest;
 
+/* Makes it empty; what lists no body is not written. */
+static inline void jox_nearest_begin(JoxNearest *nearest, uint32_t most) {
+    nearest->most = most;
+    nearest->count = 0;
+}
 void jox_nearest_offer(JoxNearest *nearest, float gap, uint32_t row);
 /* Whether something that is at least `gap` away might still be among them. */
 static inline bool jox_nearest_takes(const JoxNearest *nearest, float gap) {

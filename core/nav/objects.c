@@ -116,7 +116,8 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
                           const JoxObjects *objects, const JoxContactPlanes *touched,
                           float planning_time, JoxHalfPlane *out, uint32_t most) {
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
-    JoxNearest nearest = {.most = most};
+    JoxNearest nearest;
+    jox_nearest_begin(&nearest, most);
     uint32_t count = rows_of(a, i, objects, &nearest), made = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t row = nearest.rows[k];

@@ -244,7 +244,9 @@ bool jox_world_step(JoWorld *w) {
                 break;
             }
             STAGES[stage](w, &substep);
-            double now = timed ? jox_clock_wall() : 0.0;
+            if (!timed)
+                continue;
+            const double now = jox_clock_wall();
             w->state.statistics.stage_s[stage] += now - last;
             last = now;
         }
