@@ -11,50 +11,6 @@
 static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* (9) By how much the feet keep agent i, in this step, below where the force along a unit vector
-   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
-   forces give, less what they wear down in any case. Counted step by step, it is the same at any
-   step and however long a plan is kept. */
-static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
-    const JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, response = (float)f->step.response;
-    float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
-    float damping = jox_param(a, JOX_PARAM_damping, i);
-    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
-    JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
-    JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
-    float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
-    float worn = along * (1.0f - jox_decay(decay, damping, dt));
-    return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
-}
-
-static bool is_under_force(const JoxAgents *a, uint32_t i) {
-    return a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
-}
-
-/* (8) Whether someone under no force slowed down so that others feel it. */
-static bool slows_down(const JoxForces *f, uint32_t i) {
-    const JoxAgents *a = f->step.agents;
-    const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.dt;
-    /* What the feet took: contacts and other forces have their share already. */
-    JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
-    const JoxV2 old = jox_velocity_before(f, i);
-    return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
-           jox_slows(before, after, jox_param(a, JOX_PARAM_brace_angle, i)) &&
-           jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
-}
-
-JoxPassKind jox_passes_on(const JoxForces *f, uint32_t i, JoxDecay *decay, float *shortfall) {
-    const JoxAgents *a = f->step.agents;
-    *shortfall = 0.0f;
-    if (!is_under_force(a, i))
-        return slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
-    *shortfall = shortfall_of(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
-    return *shortfall > JOX_SHORTFALL_LEAST && jox_param(a, JOX_PARAM_absorb, i) > 0.0f
-               ? JOX_PASSES_RESISTANCE
-               : JOX_PASSES_NOTHING;
-}
-
 /* (9) Someone under force who falls short of where it would take them. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shortfall) {
     const JoxAgents *a = f->step.agents;
@@ -114,21 +70,15 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
-    const uint32_t whole = f->options.literal ? begin : end - (end - begin) % JOX_LANES;
-    JoxDecay decay = f->decay;
     JoxPassing passing;
-    if (whole > begin)
-        KERNELS[f->isa](f, begin, whole, &passing);
     for (uint32_t i = begin; f->options.literal && i < end; i++)
         jox_literal_pass_on(f, chunk, i);
     if (f->options.literal)
         return;
-    for (uint32_t i = whole; i < end; i++)
-        passing.kind[i - begin] =
-            (uint8_t)jox_passes_on(f, i, &decay, &passing.shortfall[i - begin]);
+    KERNELS[f->isa](f, begin, end, &passing);
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t at = i - begin;
-        if (i + 8 <= whole && all_pass_nothing(&passing.kind[at]))
+        if (i + 8 <= end && all_pass_nothing(&passing.kind[at]))
             i += 7;
         else if (passing.kind[at] == JOX_PASSES_RESISTANCE)
             pass_resistance(f, chunk, i, passing.shortfall[at]);

@@ -1,5 +1,8 @@
-/* The kernel of infer: who passes on what, equations 8 and 9; a lane is an agent. As infer.c says
-   it of one, to the bit. */
+/* The kernel of infer: who passes on what, equations 8 and 9; a lane is an agent. Lanes behind the
+   last agent have numbers of no meaning. tests/unit/force_one.h says the same of one agent, to the
+   bit. */
+#include <string.h>
+
 #include "force/kernels.h"
 #include "force/pushes_lanes.h"
 
@@ -9,7 +12,10 @@ static inline JoxMask is_set(JoxVector a) {
     return jm_without(jm_of_bits(JOX_ALL_LANES), none);
 }
 
-/* (9) shortfall_of; `old`: velocities before the step. */
+/* (9) By how much the feet keep agents, in this step, below where the force along a unit vector
+   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
+   forces give, less what they wear down in any case. Counted step by step, it is the same at any
+   step and however long a plan is kept. `old`: velocities before the step. */
 static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
                            JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
@@ -27,7 +33,8 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVec
     return jf_sub(jf_add(holds, takes), worn);
 }
 
-/* (8) slows_down */
+/* (8) Who, under no force, slowed down so that others feel it. What the feet took counts: contacts
+   and other forces have their share already. */
 static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
@@ -68,6 +75,10 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
                 jm_and(jf_lt(least, lacks), jf_lt(zero, jox_param_lanes(a, JOX_PARAM_absorb, i))));
         }
         const uint32_t slows = jm_bits(slows_down(f, i, old)) & ~forced;
+        if (!(resists | slows)) {
+            memset(passing->kind + (i - begin), JOX_PASSES_NOTHING, JOX_WIDTH);
+            continue;
+        }
         jf_store(passing->shortfall + (i - begin), lacks);
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
             passing->kind[i - begin + lane] =

@@ -259,8 +259,8 @@ void jox_body_give(JoxForces *forces, uint32_t row, JoxV3 point, JoxV3 impulse);
 JoxV2 jox_literal_push_offset(const JoxForces *forces, uint32_t pusher, JoxV2 to_centre);
 /* (6): impulses of all pairs and touches. */
 void jox_literal_contacts(JoxForces *forces);
-/* (11), (12): the half-plane of agent i's net force, and its speed limit. */
-void jox_literal_bound(JoxForces *forces, uint32_t i);
+/* (10) to (12): agent i's net force, its half-plane, and the speed limit. */
+void jox_literal_sum(JoxForces *forces, uint32_t i);
 /* (8), (9): what agent i, of that chunk, passes on. */
 void jox_literal_pass_on(JoxForces *forces, uint32_t chunk, uint32_t i);
 

@@ -24,13 +24,12 @@ typedef void JoxStartKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxStartKernel jox_start_packets_##name;
 JOX_ISAS(X)
 #undef X
-/* Equations 10 to 12 of agents [begin, end), whole blocks of JOX_LANES, in physical mode. */
+/* Equations 10 to 12 of agents [begin, end), in physical mode. `begin` is a multiple of JOX_LANES.
+ */
 typedef void JoxSumKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxSumKernel jox_sum_packets_##name;
 JOX_ISAS(X)
 #undef X
-/* The same of one agent, in either mode. `decay`: that of who came before. */
-void jox_sum_one(JoxForces *forces, uint32_t agent, JoxDecay *decay);
 
 #define JOX_SHORTFALL_LEAST 1e-6f /* m/s: less is not passed on */
 
@@ -46,14 +45,11 @@ typedef struct JoxPassing {
     uint8_t kind[JOX_FORCE_GRAIN];
     float shortfall[JOX_FORCE_GRAIN];
 } JoxPassing;
-/* Of agents [begin, end) of one chunk, whole blocks of JOX_LANES, in physical mode. */
+/* Of agents [begin, end) of one chunk, in physical mode. */
 typedef void JoxInferKernel(const JoxForces *forces, uint32_t begin, uint32_t end,
                             JoxPassing *passing);
 #define X(name, isa) JoxInferKernel jox_infer_packets_##name;
 JOX_ISAS(X)
 #undef X
-/* The same of one agent. */
-JoxPassKind jox_passes_on(const JoxForces *forces, uint32_t agent, JoxDecay *decay,
-                          float *shortfall);
 
 #endif

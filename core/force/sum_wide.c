@@ -1,5 +1,7 @@
-/* The kernel of sum, the equations 10 to 12 of many: a lane is an agent. As sum.c says them of one,
-   to the bit. */
+/* The kernel of sum, the equations 10 to 12: a lane is an agent. By the end of the step the
+   velocity is to have the part along the force that (11) says; it goes the share `response` of the
+   way from what the force gives to what is planned. Lanes behind the last agent have numbers of no
+   meaning. tests/unit/force_one.h says the same of one agent, to the bit. */
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/kernels.h"
@@ -78,6 +80,8 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     }
     jv_store(a->force_x, a->force_y, i, force);
     const JoxFloats size = jf_sqrt(jv_dot(force, force));
+    /* The faintest contact bounds a plan: what the feet took of it would be missing from the
+       momentum of all. */
     const JoxFloats least = jf_select(touched, jf_set(1e-6f), jf_set(f->options.least));
     const JoxMask felt = jm_and(jf_le(jf_mul(least, mass), size), jf_lt(size, jf_set(INFINITY)));
     const Planning plan = planning(&f->step, i, stands, decays);
@@ -87,12 +91,14 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     const JoxFloats driven = jf_div(jv_dot(moving, normal), mass);
     JoxFloats wanted = jf_select(jf_lt(zero, along), jf_mul(along, plan.decay), along);
     wanted = jf_add(wanted, jf_div(jf_mul(size, plan.interval), mass));
+    /* Contacts act within this step, however long the plan is kept. */
     wanted = jf_sub(wanted, jf_mul(pressed, jf_sub(plan.interval, dt)));
     const JoxFloats moved = jf_add(jf_add(along, jf_mul(pressed, dt)), jf_mul(driven, plan.forced));
     const JoxFloats offset = jf_add(moved, jf_div(jf_sub(wanted, moved), plan.response));
     jv_store(a->half_plane_x, a->half_plane_y, i,
              (JoxVector){jf_select(felt, normal.x, zero), jf_select(felt, normal.y, zero)});
     jf_store(a->half_plane_offset + i, jf_select(felt, offset, zero));
+    /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
     jf_store(a->speed_limit + i,
              jf_select(jm_and(felt, touched), jf_max(most, jf_sqrt(jv_dot(forced, forced))), most));
 }

@@ -1,5 +1,5 @@
 /* The kernels of the equations 10 to 12, and of who passes on what by 8 and 9, against the plain
-   paths of one agent (jox_sum_one, jox_passes_on), by every instruction set that the machine runs:
+   paths of one agent (force_one.h), by every instruction set that the machine runs:
    over random columns and hard ones, without any force, with faint, huge and infinite ones, of
    people who stand and who walk, touched or not. */
 #include <math.h>
@@ -13,8 +13,9 @@
 
 #include "base/number/random.h"
 #include "force/kernels.h"
+#include "unit/force_one.h"
 
-enum { PEOPLE = 4 * JOX_LANES, CROWDS = 30 };
+enum { PEOPLE = 4 * JOX_LANES - 5, CROWDS = 30 }; /* the last packet is not full */
 
 typedef struct Draws {
     uint32_t number, drawn;
@@ -92,7 +93,7 @@ static void compare_passing(JoxInferKernel *kernel, JoxForces *f, uint32_t count
     kernel(f, 0, PEOPLE, &passing);
     for (uint32_t i = 0; i < PEOPLE; i++) {
         float shortfall;
-        const JoxPassKind kind = jox_passes_on(f, i, &decay, &shortfall);
+        const JoxPassKind kind = passes_on(f, i, &decay, &shortfall);
         assert_int_equal(passing.kind[i], kind);
         counts[kind]++;
         if (kind == JOX_PASSES_RESISTANCE)
@@ -142,7 +143,7 @@ static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *i
     }
     JoxDecay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < PEOPLE; i++) {
-        jox_sum_one(f, i, &decay);
+        sum_one(f, i, &decay);
         felt += a.half_plane_x[i] != 0.0f || a.half_plane_y[i] != 0.0f;
     }
     for (uint32_t k = 0; k < COLUMNS; k++)
