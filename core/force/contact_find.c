@@ -11,6 +11,9 @@ static JoxFindKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN;
+    jox_chunk_empty(&f->found, chunk);
+    jox_chunk_empty(&f->found_walls, chunk);
     KERNELS[f->isa](f, begin, end);
     if (f->bodies)
         jox_touches_find(f, begin, end);

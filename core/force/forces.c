@@ -113,17 +113,18 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const JoxForces *f = context;
     JoxAgents *a = f->step.agents;
+    f->chunk[begin / JOX_FORCE_GRAIN] = (struct JoxForceChunk){0};
     zero_chunk(f, begin, end);
     KERNELS[f->isa](f, begin, end);
     for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
         jox_interleave(&f->builds[i], a->breadth + i, jox_params(a, JOX_PARAM_radius, i),
                        jox_params(a, JOX_PARAM_mass, i), a->id + i,
-                       end - i < JOX_AGENTS_PADDING ? end - i : JOX_AGENTS_PADDING);
+                       end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
 }
 
-/* Of so many agents: builds, and what contact_layout.c takes, bytes. */
+/* Of so many agents: builds, by fours, and what contact_layout.c takes, bytes. */
 static size_t memory_of_push(size_t agents) {
-    return jox_stage_memory_bytes(agents, sizeof(JoxBuild)) +
+    return jox_stage_memory_bytes(agents + 3, sizeof(JoxBuild)) +
            jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxV2)) +
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(float));
@@ -149,15 +150,13 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
     JOX_RESERVE(f->chunk, f->chunk_capacity, f->chunks);
     JOX_RESERVE(f->starts, f->start_capacity, (size_t)n + 1);
-    if (f->chunks)
-        memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     if (n > f->braced_capacity) { /* what stays zero takes no memory */
         jox_free(f->braced);
         f->braced_capacity = n + n / 4;
         f->braced = jox_alloc(f->braced_capacity, sizeof *f->braced);
     }
     jox_stage_memory_begin(f->memory, memory_of_push(n));
-    f->builds = jox_stage_memory_take(f->memory, n, sizeof *f->builds);
+    f->builds = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->builds);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
     if (n)

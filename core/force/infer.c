@@ -71,6 +71,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxPassing passing;
+    jox_chunk_empty(&f->transfers, chunk);
     for (uint32_t i = begin; f->options.literal && i < end; i++)
         jox_literal_pass_on(f, chunk, i);
     if (f->options.literal)

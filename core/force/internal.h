@@ -114,15 +114,27 @@ struct JoxForces {
     size_t chunk_capacity;
 };
 
-/* Makes room for `room` items of `size` bytes in every chunk and empties the list. */
-void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size);
+/* Makes room for `need` bytes of items in all. */
+void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need);
+/* Makes room for `room` items of `size` bytes in every chunk. Who then goes through the chunks
+   empties the list of each before anything is put into it. */
+static inline void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room,
+                                    size_t size) {
+    const size_t need = (size_t)chunks * room * size;
+    if (need > list->capacity || chunks > list->chunk_capacity)
+        jox_chunks_grow(list, chunks, need);
+    list->room = room;
+}
+static inline void jox_chunk_empty(JoxChunkList *list, uint32_t chunk) {
+    list->counts[chunk] = 0;
+}
 /* Agents in reach of agent i within its cone about `axis`: their indices, in the order of nearness.
  */
 uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
 /* Whether a wall stands between two points of an agent's surroundings that are no farther apart
    than the walls' grid serves: no force goes through it. */
 bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
-/* Empties the list of forces between agents. */
+/* Makes room for forces between agents. */
 void jox_transfers_begin(JoxForces *forces);
 /* Lists a force that agent i, of that chunk, gives agent `to`. */
 void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);

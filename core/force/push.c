@@ -87,7 +87,8 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     float cosine = jox_param(a, JOX_PARAM_push_angle, i);
     uint64_t only = a->push_only[i];
     JoxV2 centre = {a->x[i], a->y[i]};
-    JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
+    JoxNearest nearest;
+    jox_nearest_begin(&nearest, JOX_MOST_BODIES_TOUCHED);
     JoxObjectWalk walk = jox_objects_near(f->step.objects, centre, radius + reach);
     uint32_t row, n = 0;
     while (jox_objects_next(&walk, &row)) {
@@ -185,11 +186,14 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
 static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
     const uint8_t *on = f->step.push_on;
+    jox_chunk_empty(&f->transfers, chunk);
+    jox_chunk_empty(&f->touches, chunk);
     for (uint32_t i = begin; i < end; i++)
         if (jox_at(push, i) > 0.0f && (!on || on[i]))
-            push_by(f, begin / JOX_FORCE_GRAIN, i);
+            push_by(f, chunk, i);
 }
 
 void jox_force_push(JoxForces *f) {

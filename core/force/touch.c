@@ -39,10 +39,12 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
+    jox_chunk_empty(&f->touches, chunk);
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 at = {a->x[i], a->y[i]};
         float reach = jox_param(a, JOX_PARAM_radius, i) + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-        JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
+        JoxNearest nearest;
+        jox_nearest_begin(&nearest, JOX_MOST_BODIES_TOUCHED);
         JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);
         JoxTouch touch;
         uint32_t row;

@@ -5,8 +5,7 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
-    size_t need = (size_t)chunks * room * size;
+void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
     if (need > list->capacity) {
         /* Not a reallocation: nothing is kept, and untouched pages stay unused. */
         jox_free(list->items);
@@ -14,10 +13,7 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
         list->items = jox_alloc(list->capacity, 1);
     }
     JOX_RESERVE(list->counts, list->chunk_capacity, chunks);
-    list->room = room;
     JOX_ASSERT(!need || (list->items && list->capacity >= need));
-    if (chunks)
-        memset(list->counts, 0, chunks * sizeof *list->counts);
 }
 
 bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
