@@ -88,29 +88,35 @@ static void put_back(JoxBodies *b, JoxRow *r) {
     b->world->addRigidBody(r->body);
 }
 
+static void list_gone(JoxBodies *b, uint32_t row, JoxBodyEnd why) {
+    const JoxRow *r = &b->rows[row];
+    JoxBodyGone gone = {};
+    gone.row = row;
+    gone.id = r->id;
+    gone.why = why;
+    gone.at = jox_v3(r->body->getWorldTransform().getOrigin());
+    gone.before = jox_v3(before(r));
+    gone.velocity = jox_v3(r->body->getLinearVelocity());
+    gone.force = r->pushed;
+    strncpy(gone.name, r->name ? r->name : "", sizeof gone.name - 1);
+    jox_reserve(b->gone, b->gone_capacity, b->gone_count + 1);
+    b->gone[b->gone_count++] = gone;
+}
+
+/* A body that is lost; false where it is gone for good. */
+static __attribute__((noinline)) bool lose(JoxBodies *b, uint32_t row, JoxBodyEnd why) {
+    list_gone(b, row, why);
+    if (b->def.lost == JO_LOST_STOP)
+        put_back(b, &b->rows[row]);
+    else
+        jox_bodies_drop(b, row);
+    return b->def.lost == JO_LOST_STOP;
+}
+
 void jox_bodies_guard(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live;) {
-        const uint32_t row = b->order[k];
-        JoxRow *r = &b->rows[row];
-        JoxBodyGone gone = {};
-        if (!is_lost(b, r, &gone.why)) {
+        JoxBodyEnd why;
+        if (!is_lost(b, &b->rows[b->order[k]], &why) || lose(b, b->order[k], why))
             k++;
-            continue;
-        }
-        gone.row = row;
-        gone.id = r->id;
-        gone.at = jox_v3(r->body->getWorldTransform().getOrigin());
-        gone.before = jox_v3(before(r));
-        gone.velocity = jox_v3(r->body->getLinearVelocity());
-        gone.force = r->pushed;
-        strncpy(gone.name, r->name ? r->name : "", sizeof gone.name - 1);
-        jox_reserve(b->gone, b->gone_capacity, b->gone_count + 1);
-        b->gone[b->gone_count++] = gone;
-        if (b->def.lost == JO_LOST_STOP) {
-            put_back(b, r);
-            k++;
-        } else {
-            jox_bodies_drop(b, row);
-        }
     }
 }

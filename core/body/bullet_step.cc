@@ -148,15 +148,22 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     bool people = discs && disc_count && jox_bodies_any_fast(b, dt);
     if (people)
         jox_disc_grid_build(&b->grid, discs, disc_count);
-    for (uint32_t k = 0; k < b->live; k++)
-        if (b->rows[b->order[k]].body->isActive())
-            b->rows[b->order[k]].grounded = false;
-    jox_bodies_feel(b, dt);
+    bool driven = false;
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (r->body->isActive())
+            r->grounded = false;
+        JOX_ASSERT(r->kinematic || !r->path.count);
+        driven |= r->kinematic;
+    }
+    if (driven)
+        jox_bodies_feel(b, dt);
     uint32_t n = substeps(b, dt);
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
         jox_bodies_guard_begin(b);
-        jox_bodies_drive(b, h);
+        if (driven)
+            jox_bodies_drive(b, h);
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, n, s + 1 == n);
@@ -168,7 +175,8 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
         jox_bodies_guard(b);
         mark_grounded(b);
     }
-    jox_bodies_driven(b);
+    if (driven)
+        jox_bodies_driven(b);
     if (b->bonded)
         jox_bodies_break(b, dt);
     JOX_CHECK(jox_bodies_check(b));

@@ -242,7 +242,6 @@ void jox_contacts_lay(JoxForces *f) {
         jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_chunk, f);
         return;
     }
-    memset(f->pairs.starts, 0, sizeof f->pairs.starts); /* nobody touches anybody */
     memset(f->end_starts, 0, ((size_t)agents + 1) * sizeof *f->end_starts);
 }
 

@@ -86,18 +86,20 @@ static inline void note_ways(Ways *w, JoxMask there, JoxVector way) {
     w->most = jv_select(there, most, w->most);
 }
 
-static inline JoxDrift drift_of(const Ways *w) {
+/* Of the first lanes, as many as ever had an agent. */
+static inline JoxDrift drift_of(const Ways *w, uint32_t lanes) {
     float longest2[JOX_WIDTH], low_x[JOX_WIDTH], low_y[JOX_WIDTH], high_x[JOX_WIDTH],
         high_y[JOX_WIDTH];
     jf_store(longest2, w->longest2);
     jv_store(low_x, low_y, 0, w->least);
     jv_store(high_x, high_y, 0, w->most);
     JoxDrift all = {0.0f, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+    for (uint32_t lane = 0; lane < lanes; lane++) {
         const JoxDrift own = {
-            sqrtf(longest2[lane]), {low_x[lane], low_y[lane]}, {high_x[lane], high_y[lane]}};
+            longest2[lane], {low_x[lane], low_y[lane]}, {high_x[lane], high_y[lane]}};
         all = jox_drift_of_both(all, own);
     }
+    all.farthest = sqrtf(all.farthest);
     return all;
 }
 
@@ -138,7 +140,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
             }
         keep_still(m, i, jv_load(a->x, a->y, i));
     }
-    JoxDrift drift = drift_of(&ways);
+    JoxDrift drift = drift_of(&ways, end - begin < JOX_WIDTH ? end - begin : JOX_WIDTH);
     drift.farthest = jox_maxf(drift.farthest, farthest);
     return drift;
 }
