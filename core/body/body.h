@@ -227,7 +227,8 @@ enum { JOX_BODIES_REINSERT_STEPS = 128 };
 void jox_bodies_reinsert(JoxBodies *bodies);
 
 /* Writes what agents see. Rows keep their index; `objects->rows` is owned by `bodies`. A compound
-   shows the hull of all its parts as its footprint. */
+   shows the hull of all its parts as its footprint. Contacts are listed when somebody asks for
+   them, which holds until bodies step or are changed. */
 void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
 /* What holds a body of blocks together; false, and all zero, for other bodies. */
 typedef struct JoxBodyBonds {

@@ -159,7 +159,7 @@ struct JoxBodies {
     JoxObject *objects;
     uint32_t object_capacity;
     JoxObjectContact *object_contacts;
-    uint32_t object_contact_count, object_contact_capacity;
+    uint32_t object_contact_capacity;
     JoxDiscHit *hits;
     uint32_t hit_count, hit_capacity;
     double hit_impulse, hit_residual; /* N s, of the step */
@@ -260,8 +260,8 @@ void jox_static_drop(JoxBodies *bodies, btRigidBody *body);
 uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&contacts,
                                   uint32_t &capacity);
 void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
-/* Lists the contacts of moving bodies as others see them. */
-void jox_bodies_list_contacts(JoxBodies *bodies);
+/* Lists the contacts of moving bodies as others see them; `bodies`: JoxBodies. */
+JoxObjectContacts jox_bodies_list_contacts(void *bodies);
 /* Whether a body at this speed is to be swept in a step of dt. */
 bool jox_row_fast(const JoxRow *row, float dt);
 

@@ -208,7 +208,8 @@ static uint32_t add_rim(JoxBodies *b, const btPersistentManifold *manifold, uint
     return count;
 }
 
-void jox_bodies_list_contacts(JoxBodies *b) {
+JoxObjectContacts jox_bodies_list_contacts(void *bodies) {
+    JoxBodies *b = static_cast<JoxBodies *>(bodies);
     const float substeps = ceilf(b->last_dt * 60.0f - 1e-4f);
     const float per_second = b->last_dt > 0 ? substeps / b->last_dt : 0;
     uint32_t count = 0;
@@ -221,5 +222,5 @@ void jox_bodies_list_contacts(JoxBodies *b) {
         count = add_seen(b, manifold, per_second, count);
         count = add_rim(b, manifold, count);
     }
-    b->object_contact_count = count;
+    return {b->object_contacts, count};
 }

@@ -314,8 +314,7 @@ void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {
     objects->rows = b->objects;
     objects->count = b->count;
     objects->capacity = b->object_capacity;
-    jox_bodies_list_contacts(b);
-    objects->contacts = b->object_contacts;
-    objects->contact_count = b->object_contact_count;
+    objects->list_contacts = jox_bodies_list_contacts;
+    objects->bodies = b;
     objects->gravity = float(b->def.gravity);
 }

@@ -78,11 +78,10 @@ static void reach_next(JoxForces *f, uint32_t row, uint32_t link) {
     f->motions[row].link = (uint8_t)(link + 1);
 }
 
-static void reach_bodies(JoxForces *f) {
-    const JoxObjects *objects = f->step.objects;
+static void reach_bodies(JoxForces *f, JoxObjectContacts contacts) {
     for (uint32_t link = 0; link < LINKS; link++)
-        for (uint32_t k = 0; k < objects->contact_count; k++) {
-            const JoxObjectContact *c = &objects->contacts[k];
+        for (uint32_t k = 0; k < contacts.count; k++) {
+            const JoxObjectContact *c = &contacts.items[k];
             if (is_reached(f, c->first, link))
                 reach_next(f, c->second, link);
             if (is_reached(f, c->second, link))
@@ -151,16 +150,17 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
 
 void jox_supports_begin(JoxForces *f) {
     const JoxObjects *objects = f->step.objects;
+    const JoxObjectContacts contacts = jox_objects_contacts(objects);
     reset_motions(f);
-    reach_bodies(f);
+    reach_bodies(f, contacts);
     for (uint32_t row = 0; row < objects->count; row++)
         if (f->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
             f->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
     f->support_count = 0;
-    JOX_RESERVE(f->support, f->support_capacity, objects->contact_count);
-    JOX_RESERVE(f->watch, f->watch_capacity, objects->contact_count);
-    for (uint32_t k = 0; k < objects->contact_count; k++) {
-        const JoxObjectContact *c = &objects->contacts[k];
+    JOX_RESERVE(f->support, f->support_capacity, contacts.count);
+    JOX_RESERVE(f->watch, f->watch_capacity, contacts.count);
+    for (uint32_t k = 0; k < contacts.count; k++) {
+        const JoxObjectContact *c = &contacts.items[k];
         bool first = f->motions[c->first].solved;
         if (first || (c->second != JOX_NO_OBJECT && f->motions[c->second].solved))
             add_support(f, c);

@@ -73,6 +73,12 @@ typedef struct JoxObjectContact {
     float force;            /* along the normal in the step before, N */
 } JoxObjectContact;
 
+/* All of them, in an order of Bullet's. */
+typedef struct JoxObjectContacts {
+    const JoxObjectContact *items;
+    uint32_t count;
+} JoxObjectContacts;
+
 /* What a body covers in the plane, m, and the cells that this reaches into, all inclusive; none
    where agents cannot meet it: `left` is beyond `right`. */
 typedef struct JoxCover {
@@ -95,11 +101,18 @@ typedef struct JoxObjectGrid {
 typedef struct JoxObjects {
     JoxObject *rows;
     uint32_t count, capacity;
-    const JoxObjectContact *contacts; /* what holds bodies, in an order of Bullet's */
-    uint32_t contact_count;
+    /* What holds bodies: listed for who asks, as few steps need it, as the bodies stand then. NULL:
+       they are in `contacts`. */
+    JoxObjectContacts (*list_contacts)(void *bodies);
+    void *bodies;
+    JoxObjectContacts contacts;
     float gravity; /* m/s2, downwards */
     JoxObjectGrid grid;
 } JoxObjects;
+
+static inline JoxObjectContacts jox_objects_contacts(const JoxObjects *objects) {
+    return objects->list_contacts ? objects->list_contacts(objects->bodies) : objects->contacts;
+}
 
 /* Lays the grid over the bodies that are live and in the agents' band; call it again when they have
    moved. */

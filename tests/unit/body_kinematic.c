@@ -124,8 +124,9 @@ static void it_pushes_and_is_not_pushed(void **state) {
     assert_true(!o.rows[pushed].kinematic && o.rows[pushed].moves);
     /* What is pushed is held by what pushes it, which has a row of its own. */
     uint32_t between = 0;
-    for (uint32_t k = 0; k < o.contact_count; k++)
-        between += o.contacts[k].first == pushed && o.contacts[k].second == mover;
+    const JoxObjectContacts contacts = jox_objects_contacts(&o);
+    for (uint32_t k = 0; k < contacts.count; k++)
+        between += contacts.items[k].first == pushed && contacts.items[k].second == mover;
     assert_true(between > 0);
     jox_bodies_free(b);
 }

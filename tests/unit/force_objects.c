@@ -264,8 +264,7 @@ static JoxImpulse walk_into(const JoxObjectContact *contacts, uint32_t count, fl
     JoxObject box = make_box(40, 1);
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
-    objects.contacts = contacts;
-    objects.contact_count = count;
+    objects.contacts = (JoxObjectContacts){contacts, count};
     objects.gravity = gravity;
     add_agent(&c, 0, 0.69f, 0, -2);
     begin_with(&c, &objects);

@@ -78,8 +78,7 @@ static void stack(Pile *p, uint32_t trial) {
                 if (y > 0)
                     lay_contacts(p, trial, row, row_of(x, y - 1, z), (JoxV3){0.0f, 1.0f, 0.0f});
             }
-    p->objects.contacts = p->contacts;
-    p->objects.contact_count = p->contacts_laid;
+    p->objects.contacts = (JoxObjectContacts){p->contacts, p->contacts_laid};
     jox_objects_lay(&p->objects);
 }
 
