@@ -3,7 +3,6 @@
    directions are judged straight on first, then to the left and right at once, each for all lanes.
    One lane at a time are done people's tempers, whoever may stand behind a wall, and walls
    (walk_walls_wide.c). */
-#include <assert.h>
 #include <math.h>
 
 #include "agents/param_lanes.h"
@@ -42,8 +41,8 @@ typedef struct Packet {
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* m/s wanted; time gap, s */
     JoxFloats clear2;                    /* m2: no wall hides who is nearer */
-    JoxFloats beside2; /* more than 1: weight of the square of the distance aside, beside the way */
-    JoxFloats per_time;           /* 1/s: of the room behind those ahead */
+    JoxFloats beside2;  /* weight of the square of the distance aside, beside the way, less 1 */
+    JoxFloats per_time; /* 1/s: of the room behind those ahead */
     JoxFloats per_cross, meeting; /* 1/s; m/s2: worth of a way for each s until they would meet */
     Ahead ahead[JOX_MOST_NEIGHBOURS];
     Crossing crossing[JOX_MOST_NEIGHBOURS];
@@ -155,7 +154,7 @@ static inline __attribute__((always_inline)) bool take(const Packet *p, JoxInts 
     const JoxInts rank = /* a power of 2, as the exponent of a float */
         ji_sub(ji_shift_right(jf_bits(ji_to_floats(lowest)), 23), ji_set(127));
     const JoxInts at = ji_add(ji_shift_left(rank, 4), ji_lane());
-    static_assert(JOX_LANES == 1 << 4, "a row of neighbours has as many entries");
+    _Static_assert(JOX_LANES == 1 << 4, "a row of neighbours has as many entries");
     *left = ji_and(*left, ji_sub(*left, one));
     const JoxInts others =
         ji_select(next->there, ji_pick(n->index + jox_neighbour_at(n, p->first, 0), at), none);
