@@ -30,7 +30,8 @@ says "  and where it was set" 0 "(defaults)" "$JOSTLE" mod why speed scenes/evac
 says "  memory, by the scene" 0 "tawaf-few.yaml:6:43: 0   (groups.pilgrims)" "$JOSTLE" mod why laps scenes/tawaf-few.yaml --agent 8 --at 1
 says "  no such value" 3 "did you mean speed" "$JOSTLE" mod why spede scenes/evacuation.yaml --agent 9
 says "  no such agent" 3 "there is no agent 9999 at 0.00 s; those who are there have ids from 0 to" "$JOSTLE" mod why speed scenes/evacuation.yaml --agent 9999
-says "  one that has left" 3 "there is no agent 3 at 100.00 s: it left at 48.00 s; nobody is there" "$JOSTLE" mod why speed scenes/bottleneck.yaml --agent 3 --at 100
+says "  one that has left" 3 "there is no agent 3 at 100.00 s: it left at " "$JOSTLE" mod why speed scenes/bottleneck.yaml --agent 3 --at 100
+says "  and who is there instead" 3 " s; nobody is there" "$JOSTLE" mod why speed scenes/bottleneck.yaml --agent 3 --at 100
 says "  --at alone" 2 "--at goes with --agent" "$JOSTLE" mod why speed scenes/evacuation.yaml --at 3
 says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
