@@ -229,9 +229,8 @@ void JOX_WIDE(jox_find_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     Packet packet;
     packet.f = f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        const uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
         packet.first = i;
-        packet.lanes = (uint32_t)(((uint64_t)1 << count) - 1);
+        packet.lanes = jox_first_lanes(end - i);
         find_packet(&packet);
     }
 }

@@ -216,7 +216,7 @@ visit_parts(const StateSort *sort, uint32_t begin, uint32_t end, bool clear, Par
     for (uint32_t p = 0; p < AT_ONCE; p++) {
         const uint32_t first = begin + p * sort->grain, next = first < end ? first : end;
         const uint32_t last = end - next < sort->grain ? end : next + sort->grain;
-        parts[p] = (Part){next, last, sort->scratch->part_first + first / sort->grain * width};
+        parts[p] = (Part){next, last, sort->scratch->part_first + next / sort->grain * width};
         together = last - next < together ? last - next : together;
         if (clear && next < last)
             memset(parts[p].numbers, 0, width * sizeof *parts[p].numbers);

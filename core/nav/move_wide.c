@@ -8,11 +8,6 @@
 #include "nav/kernels.h"
 #include "simd/vectors.h"
 
-static inline uint32_t lanes_of(uint32_t first, uint32_t end) {
-    const uint32_t count = end - first < JOX_WIDTH ? end - first : JOX_WIDTH;
-    return (uint32_t)(((uint64_t)1 << count) - 1);
-}
-
 void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
     JoxAgents *a = m->agents;
     const JoxFloats on_the_way = jf_set(m->on_the_way), response = jf_set(m->response);
@@ -110,7 +105,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
     float farthest = 0.0f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector from = jv_load(a->prev_x, a->prev_y, i);
-        const uint32_t there = lanes_of(i, end);
+        const uint32_t there = jox_first_lanes(end - i);
         float x[JOX_WIDTH] = {0.0f}, y[JOX_WIDTH] = {0.0f};
         for (uint32_t lane = 0; there >> lane; lane++) {
             x[lane] = m->position[0][i + lane].x;

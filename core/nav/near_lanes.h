@@ -50,28 +50,26 @@ static inline uint32_t lists_beyond(const Packet *packet, uint32_t places) {
     return jm_bits(ji_less(ji_set((int32_t)places), ji_load(packet->count)));
 }
 
-/* How many floats squared distances are above the floor. */
-static inline JoxInts steps_of(JoxFloats distance2, JoxFloats floor2) {
-    return ji_sub(jf_bits(jf_max(distance2, floor2)), jf_bits(floor2));
+/* What the bits of distances are added to, to give keys of place 0; of the next place, 1 more. */
+static inline JoxInts first_key(JoxFloats floor2) {
+    return ji_sub(ji_set(NORMAL), ji_shift_left(jf_bits(floor2), PLACE_BITS));
 }
 
-/* The keys of so many, at places `place`. */
-static inline JoxFloats key_of(JoxInts steps, uint32_t place) {
-    return ji_as_floats(ji_add(ji_shift_left(steps, PLACE_BITS), ji_set(NORMAL + (int32_t)place)));
+/* The bits of keys, at a place. */
+static inline JoxInts key_of(JoxFloats distance2, JoxFloats floor2, JoxInts place) {
+    return ji_add(ji_shift_left(jf_bits(jf_max(distance2, floor2)), PLACE_BITS), place);
 }
 
-/* How all lists are read, place by place: of each, the places that are left, from the next on, the
-   floor, and what the bits of a distance are added to to give the key of that place. These are
-   counted on: a constant for each place would take three instructions to make. */
+/* How all lists are read, place by place: of each, the places that are left, and the next of them.
+   These are counted on: a constant for each place would take three instructions to make. */
 typedef struct Reading {
     JoxInts left;
     JoxFloats floor2;
-    JoxInts key, one;
+    JoxInts place, one;
 } Reading;
 
 static inline Reading reading_of(JoxInts count, JoxFloats floor2) {
-    const JoxInts floor = ji_shift_left(jf_bits(floor2), PLACE_BITS);
-    return (Reading){count, floor2, ji_sub(ji_set(NORMAL), floor), ji_opaque(ji_set(1))};
+    return (Reading){count, floor2, first_key(floor2), ji_opaque(ji_set(1))};
 }
 
 /* The keys of the next four places. */
@@ -81,11 +79,10 @@ static inline void read_places(const Packet *packet, Reading *r, uint32_t from, 
     jf_fours(packet->distance2 + from, LIST, distance2);
     JOX_UNROLL
     for (uint32_t k = 0; k < 4; k++) {
-        const JoxInts bits = jf_bits(jf_max(distance2[k], r->floor2));
-        const JoxInts key = ji_add(ji_shift_left(bits, PLACE_BITS), r->key);
-        keys[k] = jf_select(ji_less(none, r->left), ji_as_floats(key), jf_set(INFINITY));
+        const JoxFloats key = ji_as_floats(key_of(distance2[k], r->floor2, r->place));
+        keys[k] = jf_select(ji_less(none, r->left), key, jf_set(INFINITY));
         r->left = ji_sub(r->left, r->one);
-        r->key = ji_add(r->key, r->one);
+        r->place = ji_add(r->place, r->one);
     }
 }
 

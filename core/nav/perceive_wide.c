@@ -295,8 +295,9 @@ static inline JoxInts close_of(const Packet *packet, JoxInts count) {
     const float touch = jox_touch_most(packet->p->out);
     const JoxFloats radius = jf_load(packet->radius);
     const JoxFloats farthest2 = jf_min(jf_set(touch * touch), jf_mul(radius, radius));
-    const JoxInts steps = steps_of(farthest2, jf_load(packet->floor2));
-    const JoxFloats beyond = key_of(ji_add(steps, ji_set(1)), 0);
+    const JoxFloats floor2 = jf_load(packet->floor2);
+    const JoxInts key = key_of(farthest2, floor2, first_key(floor2));
+    const JoxFloats beyond = ji_as_floats(ji_add(key, ji_set(PLACES))); /* the next distance's */
     JoxInts close = ji_set(0);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask near = jm_and(jf_lt(packet->keys[k], beyond), ji_less(close, count));
@@ -413,7 +414,7 @@ void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
         packet.first = i;
-        packet.lanes = (1u << count) - 1;
+        packet.lanes = jox_first_lanes(count);
         packet.levels = levels_of(jox_params(p->agents, JOX_PARAM_neighbours, i), count);
         perceive_packet(&packet);
     }

@@ -195,7 +195,7 @@ static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
     const JoxSolve *s = p->s;
     const JoxAgents *a = s->agents;
     const JoxContactPlanes *t = s->touched;
-    const uint32_t there = end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : JOX_ALL_LANES;
+    const uint32_t there = jox_first_lanes(end - first);
     const JoxMask walks = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_time_gap, first));
     p->first = first;
     p->lanes = there;

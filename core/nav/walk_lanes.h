@@ -65,11 +65,6 @@ static inline uint32_t jox_picky_lanes(const JoxAgents *a, uint32_t first) {
     return picky | ~jm_bits(ji_equal(close, ji_set(0)));
 }
 
-/* Agents of a packet, the lanes before `end`. */
-static inline uint32_t jox_lanes_before(uint32_t first, uint32_t end) {
-    return end - first < JOX_WIDTH ? (1u << (end - first)) - 1 : ~0u >> (32 - JOX_WIDTH);
-}
-
 /* ---- tempers ---- */
 
 static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */

@@ -106,7 +106,7 @@ float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
     const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
     JoxFloats reach = none;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        const uint32_t lanes = jox_lanes_before(i, end);
+        const uint32_t lanes = jox_first_lanes(end - i);
         const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
         const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
         const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));

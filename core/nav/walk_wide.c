@@ -434,7 +434,7 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxWalkLaw *law = p->w->law;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxMask walk = jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, first));
-    const uint32_t walkers = jm_bits(walk) & jox_lanes_before(first, end);
+    const uint32_t walkers = jm_bits(walk) & jox_first_lanes(end - first);
     p->first = first;
     p->lanes = p->near_walls = p->at_walls = 0;
     if (!walkers)

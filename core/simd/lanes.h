@@ -25,6 +25,11 @@
 /* The bits of all lanes. */
 #define JOX_ALL_LANES ((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1))
 
+/* Those of the first lanes, as many as there are agents left; of a whole packet and more, all. */
+static inline uint32_t jox_first_lanes(uint32_t count) {
+    return count < JOX_WIDTH ? (1u << count) - 1 : JOX_ALL_LANES;
+}
+
 /* Lane by lane the four numbers of record `at`. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[JOX_WIDTH];

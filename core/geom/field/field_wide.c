@@ -194,9 +194,7 @@ static inline JoxMask look(const JoxField *f, JoxVector p, Way *way) {
 void JOX_WIDE(jox_field_look)(const JoxField *f, JoxFieldPoints *points) {
     for (uint32_t n = 0; n < points->count; n += JOX_WIDTH) {
         Way way;
-        const uint32_t left = points->count - n;
-        const uint32_t asked =
-            left < JOX_WIDTH ? (1u << left) - 1 : (1u << (JOX_WIDTH - 1) << 1) - 1;
+        const uint32_t asked = jox_first_lanes(points->count - n);
         const uint32_t done = jm_bits(look(f, jv_load(points->x, points->y, n), &way));
         jv_store(points->way_x, points->way_y, n, way.direction);
         jf_store(points->length + n, way.length);
