@@ -189,8 +189,8 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
     FILE *out = jox_plot_open(folder, "danger-lines.csv", error);
     if (!out)
         return false;
-    fputs("line,time [s],width [m],forward,back,waiting,flow [1/(m s)],density_before [1/m2],gain "
-          "[1/s],level,stop_and_go,congestion\n",
+    fputs("line,time [s],width [m],forward,back,waiting,flow [1/(m s)],density_before "
+          "[1/m2],queue_growth [1/s],level,stop_and_go\n",
           out);
     for (uint32_t l = 0; l < d->lines.count; l++)
         for (uint32_t r = 0; r < d->lines.items[l].row_count; r++) {
@@ -200,9 +200,9 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
                     row->waiting[row->side]);
             put(out, row->flow);
             put(out, row->density);
-            put(out, row->gain);
-            fprintf(out, ",%s,%d,%d\n", row->level < 0 ? "" : jox_levels[row->level].name,
-                    row->stop_and_go != 0, row->congested != 0);
+            put(out, row->growth);
+            fprintf(out, ",%s,%d\n", row->level < 0 ? "" : jox_levels[row->level].name,
+                    row->stop_and_go != 0);
         }
     return jox_plot_close(out, "danger-lines.csv", error);
 }
@@ -227,6 +227,14 @@ static bool write_walls(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger-walls.csv", error);
 }
 
+static bool write_congestion(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-congestion.csv", error);
+    if (!out)
+        return false;
+    jox_congestion_csv(&d->congestion, d->local->grid, out);
+    return jox_plot_close(out, "danger-congestion.csv", error);
+}
+
 static bool write_areas(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-areas.csv", error);
     if (!out)
@@ -246,6 +254,7 @@ static bool write_leaving(const JoxDanger *d, const char *folder, JoxText *error
 bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *error) {
     return write_times(d, folder, error) && write_map(d, folder, error) &&
            write_limits(d, folder, error) && write_levels(d, folder, error) &&
+           write_congestion(d, folder, error) &&
            (d->areas.count == 0 || write_areas(d, folder, error)) &&
            (d->leaving.count == 0 || write_leaving(d, folder, error)) &&
            (d->lines.count == 0 || write_lines(d, folder, error)) &&

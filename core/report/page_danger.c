@@ -14,9 +14,21 @@ static void add_lines(JoxPageFigures *f, const JoxDanger *danger) {
         jox_page_add(f, "1/(m s)", line->flow_most, "greatest flow over %.60s", line->name);
         jox_page_add(f, "s", known ? line->stop_and_go.seconds : NAN,
                      "time of stop-and-go at %.60s", line->name);
-        jox_page_add(f, "s", known ? line->congestion.seconds : NAN, "time of congestion at %.60s",
+        jox_page_add(f, "1/s", line->growth_most, "greatest growth of the queue at %.60s",
                      line->name);
     }
+}
+
+static void add_congestion(JoxPageFigures *f, const JoxDanger *danger) {
+    JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
+    double area = 0.0;
+    for (uint32_t r = 0; r < found.count; r++)
+        area += found.regions[r].area;
+    jox_page_add(f, "s", found.longest, "longest time that a place was above %g per m\xc2\xb2",
+                 (double)JOX_CONGESTION_DENSITY);
+    jox_page_add(f, "", found.known ? found.count : NAN, "regions of significant congestion");
+    jox_page_add(f, "m2", found.known ? area : NAN, "area of significant congestion");
+    jox_congestion_found_free(&found);
 }
 
 static double walls_most(const JoxDanger *danger) {
@@ -37,6 +49,7 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
         jox_page_add(f, "s", read ? count.longest : NAN, "longest time of one person over a %s",
                      title);
     }
+    add_congestion(f, danger);
     add_lines(f, danger);
     jox_page_add(f, "N", danger->walls.known ? walls_most(danger) : NAN,
                  "greatest load on a piece of a wall");

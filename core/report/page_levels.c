@@ -72,6 +72,46 @@ static void put_spell(FILE *out, const JoxDanger *danger, const JoxDangerSpell *
         jox_html_cell(out, "never");
 }
 
+static void put_congestion(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
+    char text[400];
+    jox_html_heading(out, "Congestion");
+    snprintf(text, sizeof text,
+             "Regions in which the density was above %g per m\xc2\xb2, in all for longer than %.0f "
+             "%% of %s, %.1f s. The time is that at the place of a region where it lasted longest; "
+             "first and last are of all the region.",
+             (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE,
+             found.cleared ? "the time until nobody was inside"
+                           : "the time measured so far, since people are still inside",
+             found.time);
+    jox_html_paragraph(out, text);
+    jox_html_paragraph(out, jox_congestion_source);
+    if (!found.known)
+        jox_html_paragraph(out, "Not judged: too little time was measured.");
+    else if (found.count == 0)
+        jox_html_paragraph(out, "There were none.");
+    if (found.count) {
+        jox_html_table(out, "where it lasted longest|>time above|>first|>last|>area|>greatest "
+                            "density");
+        for (uint32_t r = 0; r < found.count && r < JOX_PAGE_SHOWN; r++) {
+            const JoxCongestionRegion *region = &found.regions[r];
+            JoxText where = {0};
+            jox_where(s, region->at, &where);
+            jox_html_row(out);
+            jox_html_cell(out, where.data);
+            jox_html_cell_number(out, region->seconds, "s");
+            jox_html_cell_number(out, region->first, "s");
+            jox_html_cell_number(out, region->last, "s");
+            jox_html_cell_number(out, region->area, "m2");
+            jox_html_cell_number(out, region->most, "1/m2");
+            jox_text_free(&where);
+        }
+        jox_html_table_end(out);
+    }
+    jox_congestion_found_free(&found);
+}
+
 static void put_lines(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     const JoxDangerLines *lines = &danger->lines;
@@ -87,12 +127,13 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         "seconds "
         "before each moment; nothing is known of the first ten. Density is "
         "that of the people within 2 m of the line on the side that most come from; those "
-        "who wait are the people in sight of an opening's middle within 10 m there. Levels are "
+        "who wait are the people in sight of an opening's middle within 10 m there; the growth of "
+        "the queue is by how many they became more in a second, inflow less outflow. Levels are "
         "Fruin's for walkways, by flow, but E or F where the area before the line is that of E "
         "or F, since a small flow may mean that nobody can move; the seconds are those at A / "
         "B / C / D / E / F.");
     jox_html_table(out, "line|>clear width|>passed, back|>greatest flow|worst level|>seconds at "
-                        "levels|>stop-and-go|first|>congestion|first");
+                        "levels|>stop-and-go|first|>greatest growth of the queue|>when");
     for (uint32_t l = 0; l < lines->count; l++) {
         const JoxDangerLine *line = &lines->items[l];
         const bool known = line->worst >= 0;
@@ -106,11 +147,11 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         for (int k = 0; k < JOX_LEVELS && known; k++)
             fprintf(out, "%s%.4g", k ? " / " : "", line->level_s[k]);
         put_spell(out, danger, &line->stop_and_go, known);
-        put_spell(out, danger, &line->congestion, known);
+        jox_html_cell_number(out, line->growth_most, "1/s");
+        jox_html_cell_number(out, line->growth_most_time, "s");
     }
     jox_html_table_end(out);
     jox_html_paragraph(out, jox_stop_and_go_source);
-    jox_html_paragraph(out, jox_congestion_source);
 }
 
 static double most_of_piece(const JoxDanger *danger, uint32_t k) {
@@ -183,6 +224,7 @@ void jox_page_leaving(FILE *out, const JoxSubject *s) {
 
 void jox_page_levels(FILE *out, const JoxSubject *s) {
     put_levels(out, s);
+    put_congestion(out, s);
     put_lines(out, s);
     put_walls(out, s);
 }

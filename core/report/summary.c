@@ -144,7 +144,53 @@ static void put_pressure(FILE *out, const JoxSubject *s) {
     put(out, "Crowd turbulence.", &text);
 }
 
-/* Lines at which people stopped and went, or that were congested. */
+/* Regions above 4 per m2 for longer than a tenth of the time that everybody took to leave. */
+static void put_congestion(FILE *out, const JoxSubject *s) {
+    enum { MOST = 3 };
+    const JoxDanger *d = s->danger;
+    JoxCongestionFound found = jox_congestion_find(&d->congestion, d->local->grid);
+    JoxText text = {0};
+    const char *time = found.cleared ? "that passed until nobody was inside"
+                                     : "measured so far, since people were still inside";
+    if (!found.known)
+        jox_text_printf(&text, "Not judged: only %.1f s were measured.", found.time);
+    else if (found.count == 0 && found.longest > 0.0)
+        jox_text_printf(&text,
+                        "None that is significant: no place was above %g per m\xc2\xb2 for longer "
+                        "than %.0f %% of the %.1f s %s; at most for %.1f s, at ",
+                        (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
+                        time, found.longest);
+    else if (found.count == 0)
+        jox_text_printf(&text, "None: no place was above %g per m\xc2\xb2.",
+                        (double)JOX_CONGESTION_DENSITY);
+    else
+        jox_text_printf(&text,
+                        "Significant: %s above %g per m\xc2\xb2 for longer than %.0f %% of the "
+                        "%.1f s %s.",
+                        found.count == 1 ? "a region was" : "regions were",
+                        (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
+                        time);
+    if (found.known && found.count == 0 && found.longest > 0.0) {
+        jox_where(s, found.longest_at, &text);
+        jox_text_add(&text, ".");
+    }
+    for (uint32_t r = 0; r < found.count && r < MOST; r++) {
+        const JoxCongestionRegion *region = &found.regions[r];
+        jox_text_printf(&text, " %.1f m\xc2\xb2 about ", region->area);
+        jox_where(s, region->at, &text);
+        jox_text_printf(&text,
+                        ": for %.1f s in all, between %.1f and %.1f s, with at most %.2g per "
+                        "m\xc2\xb2.",
+                        region->seconds, region->first, region->last, region->most);
+    }
+    if (found.count > MOST)
+        jox_text_printf(&text, " So %s %u more, for less long; they are in danger-congestion.csv.",
+                        found.count - MOST == 1 ? "was" : "were", found.count - MOST);
+    put(out, "Congestion.", &text);
+    jox_congestion_found_free(&found);
+}
+
+/* What passed lines, and where it stopped and went. */
 static void put_lines(FILE *out, const JoxSubject *s) {
     const JoxDangerLines *lines = &s->danger->lines;
     JoxText text = {0};
@@ -165,12 +211,12 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         if (line->stop_and_go.seconds > 0.0)
             jox_text_printf(&text, ", stop-and-go for %.1f s from %.1f s on",
                             line->stop_and_go.seconds, line->stop_and_go.first);
-        if (line->congestion.seconds > 0.0)
-            jox_text_printf(&text, ", congestion for %.1f s from %.1f s on",
-                            line->congestion.seconds, line->congestion.first);
-        jox_text_add(&text, line->stop_and_go.seconds > 0.0 || line->congestion.seconds > 0.0
-                                ? "."
-                                : ", neither stop-and-go nor congestion.");
+        else
+            jox_text_add(&text, ", no stop-and-go");
+        if (line->growth_most > 0.0)
+            jox_text_printf(&text, "; its queue grew by at most %.2g people per s",
+                            line->growth_most);
+        jox_text_add(&text, ".");
     }
     if (text.length)
         put(out, "Doors and other lines.", &text);
@@ -235,6 +281,7 @@ void jox_summary_crowd(FILE *out, const JoxSubject *s) {
     if (jox_danger_reads(s->danger, JOX_DANGER_LOAD))
         put_measure(out, s, JOX_DANGER_LOAD, "What people bore.");
     put_pressure(out, s);
+    put_congestion(out, s);
     put_lines(out, s);
     put_levels(out, s);
 }

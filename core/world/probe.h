@@ -15,7 +15,7 @@
 #define JOX_PROBES(X)                                                                               \
     X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \
       "a line of two points: passages from its right to its left, N(t), lapses between them; in "    \
-      "reports also its level of service, stop-and-go and congestion")                               \
+      "reports also its level of service, stop-and-go and queue growth")                               \
     X(MEASURE, measure, RING, "every|cutoff|during",                                                \
       "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5, during: [[2, 0], [2, 2]]}", \
       "a polygon: people, classical and Voronoi density, mean speed and specific flow in it")       \

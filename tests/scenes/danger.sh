@@ -84,6 +84,24 @@ shaken() { "$JOSTLE" run "scenes/$1.yaml" --for "$2" --quiet --data "$work/shake
 between "1,000 people who leave by four doors, 1/s2" "$(shaken imo-09 60)" 0.001 0.02
 between "1,000 people who press through a bottleneck, 1/s2" "$(shaken two-bottlenecks 80)" 0.02 1
 
+# Congestion: 50 people before a door of 1 m, and people who walk freely.
+door='  room: {polygon: [[0.3, 0.3], [7.7, 0.3], [7.7, 4.7], [0.3, 4.7]]}'
+{
+    printf 'jostle: 1\nduration: 60\nplaces:\n%s\n  outside: {polygon: [[11, 0], [12, 0], [12, 5], [11, 5]]}\n' "$door"
+    printf 'walls: [{line: [[8, 2], [8, 0], [0, 0], [0, 5], [8, 5], [8, 3]]}]\n'
+    printf 'groups: {people: {behaviour: walker.lua, count: 50, in: room, set: {goal: outside}}}\nprobes: {exit: {flow: [[8, 3], [8, 2]]}}\n'
+} >"$work/jam.yaml"
+"$JOSTLE" run "$work/jam.yaml" --quiet --no-half-step --report "$work/jam" --summary "$work/jam.json" >/dev/null 2>&1
+jam=$(grep -o '"congestion": {.*' "$work/jam.json")
+grep -q '"cleared": true, "regions": 1,' <<<"$jam"; verdict "50 people before a door of 1 m: one region of congestion" $?
+between "it lasts, s" "$(sed 's/.*"where": \[{"seconds": \([^,]*\).*/\1/' <<<"$jam")" 8 14
+between "it lies before the door, m" "$(sed 's/.*"where": .*"x": \([^,]*\), "y".*/\1/' <<<"$jam")" 6 8
+grep -q '<b>Congestion\.</b> Significant: a region was above 4 per m.* m from the line exit' "$work/jam/index.html"; verdict "the page says where" $?
+[ "$(wc -l <"$work/jam/danger-congestion.csv")" = 2 ]; verdict "and so does the table" $?
+grep -q '"queue_growth_max": 0,' "$work/jam.json"; verdict "though its queue never grew after ten seconds" $?
+"$JOSTLE" run scenes/corridor.yaml --for 15 --quiet --data "$work/free" --summary "$work/free.json" >/dev/null 2>&1
+grep -q '"cleared": false, "regions": 0, "area": 0, "longest_s": 0,' "$work/free.json"; verdict "people who walk freely: no congestion" $?
+
 # Each figure is one quantity: the same in the summary, in the tables and on the page.
 "$JOSTLE" run scenes/door-050.yaml --for 40 --quiet --no-half-step --report "$work/door" --summary "$work/door.json" >/dev/null 2>&1
 verdict "a run through a door" $?

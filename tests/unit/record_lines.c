@@ -117,13 +117,13 @@ static void stepping_back_is_no_passage(void **state) {
     /* Nobody passes a full place: from 10 s on, to 30 s. */
     assert_float_equal(line->stop_and_go.first, 10.0, 1e-6);
     assert_float_equal(line->stop_and_go.seconds, 20.5, 0.01);
-    assert_int_equal(line->worst, JOX_LEVELS - 1);          /* though hardly anybody passes */
-    assert_float_equal(line->congestion.seconds, 0.0, 0.0); /* nobody comes */
+    assert_int_equal(line->worst, JOX_LEVELS - 1);   /* though hardly anybody passes */
+    assert_float_equal(line->growth_most, 0.0, 0.0); /* nobody comes */
     jox_danger_free(danger);
 }
 
 /* `rate` people per second come to stand behind a jam; `hidden`: behind a wall. */
-static double congestion(double rate, bool hidden, double *first) {
+static double growth(double rate, bool hidden, double *when) {
     JoxDanger *danger = begin(42);
     block(0, 42);
     if (hidden) {
@@ -138,22 +138,73 @@ static double congestion(double rate, bool hidden, double *first) {
         }
         show(danger, t);
     }
-    const JoxDangerSpell spell = danger->lines.items[0].congestion;
-    *first = spell.first;
+    const double most = danger->lines.items[0].growth_most;
+    *when = danger->lines.items[0].growth_most_time;
     jox_walls_free(&crowd.walls);
     jox_danger_free(danger);
-    return spell.seconds;
+    return most;
 }
 
-static void congestion_is_more_coming_than_going(void **state) {
+static void queues_grow_by_more_coming_than_going(void **state) {
     (void)state;
-    double first;
-    /* 3 per s from 15 s to 25 s: the mean of ten seconds is over 1.5 from 20 s to 30 s. */
-    assert_float_equal(congestion(3.0, false, &first), 10.0, 1.01);
-    assert_float_equal(first, 20.5, 0.51);
-    assert_float_equal(congestion(1.4, false, &first), 0.0, 0.0);
-    assert_true(isnan(first));
-    assert_float_equal(congestion(3.0, true, &first), 0.0, 0.0); /* out of sight */
+    double when;
+    /* 3 per s from 15 s to 25 s: the mean of ten seconds is greatest at 25 s. */
+    assert_float_equal(growth(3.0, false, &when), 3.0, 1e-9);
+    assert_float_equal(when, 25.0, 0.11);
+    assert_float_equal(growth(1.4, false, &when), 1.4, 1e-9);
+    assert_float_equal(growth(3.0, true, &when), 0.0, 0.0); /* out of sight */
+}
+
+/* 42 people, 6.25 per m2, stand still from `from` to `until` and are far apart otherwise; from
+   `gone` on nobody is there. */
+static JoxCongestionFound congestion(double from, double until, double gone, double end) {
+    JoxDanger *danger = begin(42);
+    for (int step = 0; step <= (int)(end / DT + 0.5); step++) {
+        const double t = DT * step;
+        for (uint32_t i = 0; i < 42; i++) {
+            crowd.x[i] = 1.0f + 3.0f * (float)(i % 7);
+            crowd.y[i] = 1.0f + 3.0f * (float)(i / 7);
+        }
+        if (t > from && t <= until + 1e-6)
+            block(0, 42);
+        crowd.count = t < gone - 1e-6 ? 42 : 0;
+        show(danger, t);
+    }
+    JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
+    jox_danger_free(danger);
+    return found;
+}
+
+/* A region above 4 per m2 for more than a tenth of the time until nobody is there is congested,
+   however many leave it. */
+static void congestion_is_dense_for_a_tenth_of_the_time(void **state) {
+    (void)state;
+    JoxCongestionFound found = congestion(5.0, 15.0, 50.0, 80.0);
+    assert_true(found.known && found.cleared);
+    assert_float_equal(found.time, 50.0, 1e-6);
+    assert_int_equal(found.count, 1);
+    assert_float_equal(found.regions[0].seconds, 10.0, 0.01);
+    assert_float_equal(found.regions[0].first, 5.0, 0.01);
+    assert_float_equal(found.regions[0].last, 15.0, 0.01);
+    assert_true(found.regions[0].at.x > 7.0f && found.regions[0].at.x < 10.0f);
+    assert_true(found.regions[0].area > 2.0 && found.regions[0].area < 6.7);
+    jox_congestion_found_free(&found);
+    /* 4.5 s are less than a tenth. */
+    found = congestion(5.0, 9.5, 50.0, 80.0);
+    assert_true(found.known && found.count == 0);
+    assert_float_equal(found.longest, 4.5, 0.01);
+    jox_congestion_found_free(&found);
+    /* People are still there: a tenth of what was measured so far. */
+    found = congestion(5.0, 9.5, 99.0, 30.0);
+    assert_true(found.known && !found.cleared && found.count == 1);
+    assert_float_equal(found.time, 30.0, 1e-6);
+    jox_congestion_found_free(&found);
+    found = congestion(1.0, 9.0, 99.0, 9.0); /* too short to tell */
+    assert_true(!found.known && found.count == 0);
+    jox_congestion_found_free(&found);
+    found = congestion(99.0, 99.0, 99.0, 30.0);
+    assert_true(found.known && found.count == 0 && found.longest == 0.0 && isnan(found.first));
+    jox_congestion_found_free(&found);
 }
 
 /* A line of 6 m through walls with a gap of 1.5 m: that is its width. */
@@ -297,7 +348,8 @@ int main(void) {
         cmocka_unit_test(levels_have_fruins_edges),
         cmocka_unit_test(flow_is_what_passes),
         cmocka_unit_test(stepping_back_is_no_passage),
-        cmocka_unit_test(congestion_is_more_coming_than_going),
+        cmocka_unit_test(queues_grow_by_more_coming_than_going),
+        cmocka_unit_test(congestion_is_dense_for_a_tenth_of_the_time),
         cmocka_unit_test(walls_cut_lines),
         cmocka_unit_test(a_line_of_gates_is_measured_at_all_of_them),
         cmocka_unit_test(people_have_levels),

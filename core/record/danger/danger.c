@@ -25,6 +25,7 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
     }
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
         d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
+    d->congestion = jox_congestion_create(local->grid);
     d->measured = jox_alloc(cells, sizeof *d->measured);
     d->stood = jox_alloc(cells, sizeof *d->stood);
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
@@ -248,6 +249,7 @@ static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     }
     chart(d, frame);
     note(d, frame, exits);
+    jox_congestion_sample(&d->congestion, d->local->grid, frame->time, duration);
     jox_danger_lines_sample(&d->lines, frame, d->here, duration);
     jox_danger_areas_sample(&d->areas, frame, d->here, duration);
 }
@@ -271,6 +273,7 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     jox_density_walls(d->local->grid,
                       frame->walls); /* of cells that people stand in between samples */
     press(d, frame);
+    jox_congestion_frame(&d->congestion, frame->count, frame->time);
     jox_danger_lines_cross(&d->lines, frame);
     if (exits)
         jox_leaving_note(&d->leaving, exits, frame->time);
@@ -322,6 +325,7 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
         d->bears_capacity = 0;
     JOX_SECTION(s, "has_compression", d->has_compression);
     JOX_SECTION(s, "has_load", d->has_load);
+    jox_congestion_sections(&d->congestion, s);
     jox_danger_lines_sections(&d->lines, s);
     jox_danger_areas_sections(&d->areas, s);
     jox_leaving_sections(&d->leaving, s);
@@ -350,6 +354,7 @@ void jox_danger_free(JoxDanger *d) {
     }
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
+    jox_congestion_free(&d->congestion);
     jox_danger_lines_free(&d->lines);
     jox_danger_areas_free(&d->areas);
     jox_leaving_free(&d->leaving);

@@ -9,8 +9,8 @@
    - dose: of load, the share of the time after which death is estimated (jox_danger_dose_text)
 
    Compression and load are exponential means over 1 s of each person: what is held, not a knock of
-   one step. With levels of service (levels.h), lines that people pass (lines.h), what walls bear
-   (walls.h); exits: who left where, and when the last did. */
+   one step. With levels of service (levels.h), congestion (congestion.h), lines that people pass
+   (lines.h), what walls bear (walls.h); exits: who left where, and when the last did. */
 #ifndef JOX_RECORD_DANGER_H
 #define JOX_RECORD_DANGER_H
 
@@ -78,8 +78,8 @@ typedef struct JoxDanger JoxDanger;
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
 /* The same on densities that someone else takes, of each frame before it comes here. */
 JoxDanger *jox_danger_create_on(JoxLocal *local);
-/* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
-   first frame. */
+/* A line that people pass, for flow, levels of service, stop-and-go and the growth of its queue;
+   before the first frame. */
 void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
 /* Those of probes that measure flow; and areas, for levels of service: polygons among the places,
    and those of probes that measure in one. */
@@ -101,8 +101,8 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 /* Whether there was anything to read it from: compression and load are in our own recordings alone,
    crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "areas": {...}, "lines": {...},
-   "walls": {...}, "leaving_s": {...}; null where it was not read. */
+/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "congestion": {...}, "areas": {...},
+   "lines": {...}, "walls": {...}, "leaving_s": {...}; null where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 

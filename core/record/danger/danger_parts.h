@@ -3,6 +3,7 @@
 #define JOX_RECORD_DANGER_PARTS_H
 
 #include "record/danger/areas.h"
+#include "record/danger/congestion.h"
 #include "record/danger/danger.h"
 #include "record/danger/leaving.h"
 #include "record/danger/lines.h"
@@ -60,6 +61,7 @@ struct JoxDanger {
     double least[JOX_DANGER_MEASURES]; /* limit of each measure; INFINITY: it has none */
     bool has_compression, has_load;
 
+    JoxCongestion congestion;
     JoxDangerLines lines;
     JoxDangerAreas areas;
     JoxLeaving leaving;

@@ -7,19 +7,15 @@
 #include "base/sort.h"
 #include "geom/polygon.h"
 
-static const double WINDOW = 10.0; /* s that flow and gain are taken over */
+static const double WINDOW = 10.0; /* s that flow and growth are taken over */
 static const float NEAR = 2.0f;    /* m: before a line */
 static const float FAR = 10.0f;    /* m: of those who wait before it */
 static const double DENSE = 3.5;   /* 1/m2 */
-static const double GAIN = 1.5;    /* 1/s */
 static const double HAIR = 1e-6;   /* s: times are sums of steps */
 
 const char jox_stop_and_go_source[] =
     "outflow below 0.8 per m s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; the "
-    "density, 3.5 per m2, is that of IMO's rule";
-const char jox_congestion_source[] =
-    "IMO MSC.1/Circ.1533, annex 2, section 3: 3.5 per m2 or more, and inflow less outflow above "
-    "1.5 per s";
+    "density, 3.5 per m2, is that of IMO's simplified method";
 
 void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV2 b) {
     const double length = (double)jox_length(jox_sub(b, a));
@@ -37,9 +33,10 @@ void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV
                                                    .width = length,
                                                    .flow_most = NAN,
                                                    .flow_most_time = NAN,
+                                                   .growth_most = NAN,
+                                                   .growth_most_time = NAN,
                                                    .worst = -1,
-                                                   .stop_and_go.first = NAN,
-                                                   .congestion.first = NAN};
+                                                   .stop_and_go.first = NAN};
 }
 
 static void add_crossing(JoxDangerLine *line, double time, uint32_t key, int direction) {
@@ -179,15 +176,17 @@ static void judge(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
     const bool dense = row->density >= DENSE;
     row->level = jox_level_of_walkway(row->flow, row->density);
     row->stop_and_go = dense && row->flow < JOX_STOP_FLOW;
-    row->congested = dense && row->gain > GAIN;
     line->level_s[row->level] += duration;
     line->worst = row->level > line->worst ? row->level : line->worst;
     if (!(line->flow_most >= row->flow)) {
         line->flow_most = row->flow;
         line->flow_most_time = row->time;
     }
+    if (!(line->growth_most >= row->growth)) {
+        line->growth_most = row->growth;
+        line->growth_most_time = row->time;
+    }
     count_spell(&line->stop_and_go, row->stop_and_go, row->time, duration);
-    count_spell(&line->congestion, row->congested, row->time, duration);
 }
 
 static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *density,
@@ -201,7 +200,7 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
                             .forward = line->forward,
                             .back = line->back,
                             .flow = NAN,
-                            .gain = NAN,
+                            .growth = NAN,
                             .level = -1};
     passed(line, frame->time - WINDOW, &forward, &back);
     look(line, &openings, frame, density, row.waiting, mean);
@@ -216,7 +215,7 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
     const JoxDangerLineRow *before = row_before(line, frame->time);
     if (before) {
         row.flow = (forward + back) / (WINDOW * line->width);
-        row.gain =
+        row.growth =
             ((double)row.waiting[row.side] - before->waiting[row.side]) / (row.time - before->time);
         judge(line, &row, duration);
     }
@@ -249,6 +248,8 @@ static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
     jox_json_whole(json, "back", line->back);
     jox_json_number(json, "flow_max", line->flow_most);
     jox_json_number(json, "flow_max_s", line->flow_most_time);
+    jox_json_number(json, "queue_growth_max", line->growth_most);
+    jox_json_number(json, "queue_growth_max_s", line->growth_most_time);
     if (known)
         jox_json_string(json, "worst_level", jox_levels[line->worst].name);
     else
@@ -258,7 +259,6 @@ static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
         jox_json_number(json, jox_levels[k].name, known ? line->level_s[k] : NAN);
     jox_json_end(json);
     add_spell(json, "stop_and_go", &line->stop_and_go, known, end);
-    add_spell(json, "congestion", &line->congestion, known, end);
     jox_json_end(json);
 }
 
@@ -291,7 +291,8 @@ static void line_sections(JoxDangerLine *line, JoxSections *s) {
     JOX_SECTION(s, "level_s", line->level_s);
     JOX_SECTION(s, "worst", line->worst);
     JOX_SECTION(s, "stop_and_go", line->stop_and_go);
-    JOX_SECTION(s, "congestion", line->congestion);
+    JOX_SECTION(s, "growth_most", line->growth_most);
+    JOX_SECTION(s, "growth_most_time", line->growth_most_time);
     JOX_SECTION_ARRAY(s, "crossings", line->crossings, line->crossing_count,
                       line->crossing_capacity);
     JOX_SECTION(s, "forward", line->forward);

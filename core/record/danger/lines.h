@@ -1,4 +1,4 @@
-/* Lines that people pass, such as doors: flow, level of service, stop-and-go and congestion. What
+/* Lines that people pass, such as doors: flow, level of service, stop-and-go and queue growth. What
    walls leave of a line is measured: about its middle, and between two walls, as of a line of
    gates; the length of all of it is the clear width. Read at each sample of danger, of what
    happened in the ten seconds before:
@@ -7,11 +7,11 @@
      within the time did not pass
    - density before the line, on the side that most came from: the mean, over the people there
    within 2 m, of the density where they stand, which is that of the map of danger
-   - gain, 1/s, inflow less outflow of the queue: how much the number of people grew who are in
+   - growth of the queue, 1/s, inflow less outflow: how much the number of people grew who are in
    sight of the middle of one of the openings within 10 m of it on that side
 
    Stop-and-go: the flow is below 0.8 per m s while the density before the line is 3.5 per m2 or
-   more. Congestion: that density, and a gain of more than 1.5 per s. */
+   more. Congestion is not judged at lines (congestion.h). */
 #ifndef JOX_RECORD_DANGER_LINES_H
 #define JOX_RECORD_DANGER_LINES_H
 
@@ -25,7 +25,7 @@
 #include "record/track.h"
 
 #define JOX_STOP_FLOW 0.8 /* 1/(m s) */
-extern const char jox_stop_and_go_source[], jox_congestion_source[];
+extern const char jox_stop_and_go_source[];
 
 /* How long something lasted in all, and when it began for the first time. */
 typedef struct JoxDangerSpell {
@@ -40,9 +40,9 @@ typedef struct JoxDangerLineRow {
     uint32_t waiting[2]; /* in sight within 10 m: on its right, on its left */
     int side;            /* the one before it: 0 its right, 1 its left */
     /* NAN where they are not known: in the first ten seconds; where nobody is. */
-    double flow, density, gain;     /* 1/(m s), 1/m2, 1/s */
-    int level;                      /* -1 in the first ten seconds */
-    uint8_t stop_and_go, congested; /* as they are read back from a checkpoint: any byte */
+    double flow, density, growth; /* 1/(m s), 1/m2, 1/s */
+    int level;                    /* -1 in the first ten seconds */
+    uint8_t stop_and_go;          /* as it is read back from a checkpoint: any byte */
 } JoxDangerLineRow;
 
 typedef struct JoxDangerLine {
@@ -52,10 +52,11 @@ typedef struct JoxDangerLine {
     double width;   /* m: from a to b */
     JoxDangerLineRow *rows;
     uint32_t row_count, row_capacity;
-    double flow_most, flow_most_time; /* NAN: not measured */
+    double flow_most, flow_most_time;     /* NAN: not measured */
+    double growth_most, growth_most_time; /* likewise */
     double level_s[JOX_LEVELS];
     int worst; /* level; -1: not measured */
-    JoxDangerSpell stop_and_go, congestion;
+    JoxDangerSpell stop_and_go;
     /* Crossings of the last ten seconds, ascending in time. */
     struct JoxDangerCrossing {
         double time;
