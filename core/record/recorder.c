@@ -3,14 +3,12 @@
 #include <errno.h>
 #include <math.h>
 #include <pthread.h>
-#include <sqlite3.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 
 #include "base/clock.h"
-#include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
 #include "record/recorder_file.h"
@@ -29,7 +27,7 @@ typedef struct Frame {
 
 struct JoxRecorder {
     FILE *claimed; /* the same file, so that no other run writes it */
-    sqlite3 *db;
+    JoxDatabase *db;
     sqlite3_stmt *row, *batch, *body, *frame;
     pthread_t thread;
     pthread_mutex_t lock;
@@ -45,17 +43,18 @@ struct JoxRecorder {
 
 static bool run(JoxRecorder *r, const char *sql) {
     char *why = NULL;
-    if (sqlite3_exec(r->db, sql, NULL, NULL, &why) == SQLITE_OK)
+    if (sqlite3_exec(r->db->sqlite, sql, NULL, NULL, &why) == SQLITE_OK)
         return true;
-    snprintf(r->why, sizeof r->why, "%s", why ? why : sqlite3_errmsg(r->db));
+    snprintf(r->why, sizeof r->why, "%s", why ? why : sqlite3_errmsg(r->db->sqlite));
     sqlite3_free(why);
     return false;
 }
 
 static bool prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
-    if (sqlite3_prepare_v2(r->db, sql, -1, statement, NULL) == SQLITE_OK)
+    *statement = jox_database_prepare(r->db, sql);
+    if (*statement)
         return true;
-    snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
     return false;
 }
 
@@ -63,7 +62,7 @@ static bool prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
 static bool put(JoxRecorder *r, sqlite3_stmt *statement) {
     bool good = sqlite3_step(statement) == SQLITE_DONE;
     if (!good)
-        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
     sqlite3_reset(statement);
     return good;
 }
@@ -75,7 +74,7 @@ static bool set_metadata(JoxRecorder *r, const char *key, const char *value) {
     sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
     sqlite3_bind_text(statement, 2, value, -1, SQLITE_STATIC);
     bool good = put(r, statement);
-    sqlite3_finalize(statement);
+    jox_database_finalize(r->db, statement);
     return good;
 }
 
@@ -150,7 +149,7 @@ static bool commit(JoxRecorder *r) {
 }
 
 static bool write_frame(JoxRecorder *r, const Frame *f) {
-    if (sqlite3_get_autocommit(r->db) && !run(r, "BEGIN"))
+    if (sqlite3_get_autocommit(r->db->sqlite) && !run(r, "BEGIN"))
         return false;
     sqlite3_bind_int64(r->frame, 1, f->number);
     sqlite3_bind_int64(r->frame, 2, (sqlite3_int64)r->geometry);
@@ -174,14 +173,15 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
 static void wait_for_frames(JoxRecorder *r) {
     struct timespec until;
     while (r->count == 0 && !r->ending) {
-        if (r->failed || sqlite3_get_autocommit(r->db)) {
+        if (r->failed || sqlite3_get_autocommit(r->db->sqlite)) {
             pthread_cond_wait(&r->filled, &r->lock);
             continue;
         }
         clock_gettime(CLOCK_REALTIME, &until);
         until.tv_sec += (time_t)COMMITTED;
         if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0 &&
-            !r->lent && !sqlite3_get_autocommit(r->db)) /* nobody else has committed meanwhile */
+            !r->lent &&
+            !sqlite3_get_autocommit(r->db->sqlite)) /* nobody else has committed meanwhile */
             r->failed |= !commit(r);
     }
 }
@@ -217,7 +217,7 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
         sqlite3_bind_text(geometry, 2, wkt, -1, SQLITE_STATIC);
         good = put(r, geometry);
     }
-    sqlite3_finalize(geometry);
+    jox_database_finalize(r->db, geometry);
     return good && run(r, "COMMIT");
 }
 
@@ -226,7 +226,7 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
     static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "frame_data"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
-    char sql[160];
+    char sql[400];
     bool good = run(r, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN");
     for (size_t t = 0; good && t < sizeof TABLES / sizeof *TABLES; t++) {
         snprintf(sql, sizeof sql, "DELETE FROM %s WHERE frame > %u", TABLES[t], last);
@@ -234,12 +234,12 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
     }
     for (int k = 0; good && k < 4; k++) {
         sqlite3_stmt *bound = NULL;
-        snprintf(sql, sizeof sql, "SELECT %s FROM trajectory_data", BOUNDS[k]);
+        snprintf(sql, sizeof sql, "SELECT %s FROM (" JOX_RECORDED_ROWS ")", BOUNDS[k]);
         good = prepare(r, &bound, sql);
         if (good && sqlite3_step(bound) == SQLITE_ROW &&
             sqlite3_column_type(bound, 0) != SQLITE_NULL)
             *to[k] = sqlite3_column_double(bound, 0);
-        sqlite3_finalize(bound);
+        jox_database_finalize(r->db, bound);
     }
     return good && run(r, "COMMIT");
 }
@@ -248,7 +248,7 @@ static bool prepare_rows(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
     static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
-    char *end = stpcpy(batch, INSERT); /* on the stack: nobody holds the database as yet */
+    char *end = stpcpy(batch, INSERT);
     for (int k = 0; k < BATCH; k++)
         end = stpcpy(end, ROW);
     end[-1] = '\0'; /* the last comma */
@@ -299,12 +299,12 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     r->committed = jox_clock_wall();
     r->claimed = file;
     /* One thread at a time uses it: the writer, and the others once that has nothing to write. */
-    const int how = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
-    bool good = sqlite3_open_v2(path, &r->db, how, NULL) == SQLITE_OK;
-    if (good)
-        sqlite3_busy_timeout(r->db, JOX_DATABASE_PATIENCE);
-    else /* where memory is out, there is no connection */
-        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    JoxText why = {0};
+    r->db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
+    bool good = r->db && jox_database_allow(r->db, jox_recording_tables, &why);
+    if (!good)
+        snprintf(r->why, sizeof r->why, "%s", why.data);
+    jox_text_free(&why);
     good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
     if (good && !jox_thread_start(&r->thread, writer, r)) {
         good = false;
@@ -369,7 +369,7 @@ static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const ch
     if (second)
         sqlite3_bind_text(statement, 4, second, -1, SQLITE_STATIC);
     put(r, statement);
-    sqlite3_finalize(statement);
+    jox_database_finalize(r->db, statement);
     return_file(r);
 }
 
@@ -407,8 +407,7 @@ void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
         good = put(r, statement);
         w += twin;
     }
-    if (statement)
-        sqlite3_finalize(statement);
+    jox_database_finalize(r->db, statement);
     return_file(r);
     jox_text_free(&points);
 }
@@ -433,7 +432,7 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
             sqlite3_bind_double(statement, 5 + k, (double)numbers[k]);
         sqlite3_bind_text(statement, 15, corners.data, -1, SQLITE_STATIC);
         put(r, statement);
-        sqlite3_finalize(statement);
+        jox_database_finalize(r->db, statement);
     }
     return_file(r);
     jox_text_free(&corners);
@@ -468,7 +467,7 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
 
 bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
     borrow_file(r);
-    const bool good = !r->failed && (sqlite3_get_autocommit(r->db) || commit(r));
+    const bool good = !r->failed && (sqlite3_get_autocommit(r->db->sqlite) || commit(r));
     return_file(r);
     if (!good)
         jox_text_printf(error, "recording failed: %s", r->why);
@@ -479,11 +478,11 @@ bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
     jox_let_go(r);
     stop(r);
     bool good = !r->failed && write_bounds(r);
-    if (good && !sqlite3_get_autocommit(r->db))
+    if (good && !sqlite3_get_autocommit(r->db->sqlite))
         good = run(r, "COMMIT");
     good = good && has_name(r);
     if (good && !jox_recording_fold(r->db, message)) {
-        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
         good = false;
     }
     if (!good)

@@ -2,22 +2,20 @@
 #include "record/recorder_file.h"
 
 #include <errno.h>
-#include <sqlite3.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/database.h"
 #include "base/file.h"
 
 enum { FOLD_PATIENCE = 500 }; /* ms, for others to close the file at the end */
 
 bool jox_is_recording(const char *path) {
-    sqlite3 *db = NULL;
-    sqlite3_stmt *statement = NULL;
-    bool found = jox_database_open(path, &db) &&
-                 sqlite3_prepare_v2(db, "SELECT number FROM jostle_state LIMIT 1", -1, &statement,
-                                    NULL) == SQLITE_OK;
+    JoxText why = {0};
+    JoxDatabase *db = jox_database_open(path, JOX_DATABASE_READ, &why);
+    const bool found = db && jox_database_allow(db, jox_recording_tables, &why) &&
+                       jox_database_prepare(db, "SELECT number FROM jostle_state LIMIT 1");
     jox_database_close(db); /* and its statement */
+    jox_text_free(&why);
     return found;
 }
 
@@ -26,13 +24,14 @@ bool jox_is_recording(const char *path) {
    next run.
  */
 static bool is_read_elsewhere(const char *path) {
-    sqlite3 *db = NULL;
-    const bool open = jox_database_open_to_write(path, &db);
-    if (open)
-        sqlite3_busy_timeout(db, 0);
-    const bool busy =
-        open && sqlite3_exec(db, "PRAGMA journal_mode=DELETE", NULL, NULL, NULL) == SQLITE_BUSY;
+    JoxText why = {0};
+    JoxDatabase *db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
+    if (db)
+        sqlite3_busy_timeout(db->sqlite, 0);
+    const bool busy = db && sqlite3_exec(db->sqlite, "PRAGMA journal_mode=DELETE", NULL, NULL,
+                                         NULL) == SQLITE_BUSY;
     jox_database_close(db);
+    jox_text_free(&why);
     return busy;
 }
 
@@ -74,14 +73,16 @@ FILE *jox_claim_recording(const char *path, JoxText *error) {
     return file;
 }
 
-bool jox_recording_has_name(FILE *claimed, sqlite3 *db) {
-    const char *path = sqlite3_db_filename(db, "main");
+bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db) {
+    const char *path = sqlite3_db_filename(db->sqlite, "main");
     return path && jox_file_has_name(claimed, path);
 }
 
 /* OFF: a run that is killed now leaves no journal, which those who only read could not roll back.
  */
-bool jox_recording_fold(sqlite3 *db, JoxText *message) {
+bool jox_recording_fold(JoxDatabase *database, JoxText *message) {
+    sqlite3 *db = database->sqlite;
+    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0, NULL); /* it would keep a journal */
     sqlite3_busy_timeout(db, FOLD_PATIENCE);
     if (sqlite3_exec(db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
         return true;
@@ -95,6 +96,10 @@ bool jox_recording_fold(sqlite3 *db, JoxText *message) {
                     path, path);
     return true;
 }
+
+const char *const jox_recording_tables[] = {
+    "trajectory_data", "metadata",     "geometry",    "frame_data",  "jostle_row",  "jostle_agent",
+    "jostle_group",    "jostle_state", "jostle_body", "jostle_part", "jostle_wall", NULL};
 
 /* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths
    of millimetres, directions in thousandths and loads in tenths, and the format's table is a view

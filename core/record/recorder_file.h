@@ -2,10 +2,10 @@
 #ifndef JOX_RECORD_RECORDER_FILE_H
 #define JOX_RECORD_RECORDER_FILE_H
 
-#include <sqlite3.h>
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "base/database.h"
 #include "base/text.h"
 
 /* Whether an existing file is a recording of ours, which may be replaced: another program's is not.
@@ -17,11 +17,14 @@ FILE *jox_claim_recording(const char *path, JoxText *error);
 /* Removes a recording and what lies beside it. */
 void jox_recording_remove(const char *path);
 /* Whether the file that is written still has its name. */
-bool jox_recording_has_name(FILE *claimed, sqlite3 *db);
+bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db);
 /* Makes a recording one file, with nothing beside it, once all is committed. While another program
    has the file open this cannot be: as much as that program allows goes into the file, the rest
    stays whole beside it, and `message` says so. False where SQLite says why. */
-bool jox_recording_fold(sqlite3 *db, JoxText *message);
+bool jox_recording_fold(JoxDatabase *db, JoxText *message);
+
+/* Names of the tables that a recording may have, those of older versions too, up to a NULL. */
+extern const char *const jox_recording_tables[];
 
 /* The rows of a recording of ours, as the format has them: jostle_row holds whole numbers. */
 #define JOX_RECORDED_ROWS                                                                          \

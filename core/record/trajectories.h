@@ -63,8 +63,8 @@ bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostic
 bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
 /* trajectory_plan.c: walls and groups alone, of an open file. */
-struct sqlite3;
-void jox_trajectories_plan(JoxTrajectories *t, struct sqlite3 *db);
+struct JoxDatabase;
+void jox_trajectories_plan(JoxTrajectories *t, struct JoxDatabase *db);
 /* The colour in a column of a row, 0 for none. */
 struct sqlite3_stmt;
 JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);

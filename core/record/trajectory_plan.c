@@ -1,7 +1,6 @@
 /* Walls, or the walkable area, and groups of a recording in the JuPedSim format. Versions 1 and 2
    differ in how they keep the area; its text is in `geometry.wkt` in both. */
 #include <math.h>
-#include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,15 +11,6 @@
 #include "record/trajectories.h"
 
 enum { MOST_RING = 5000, MOST_POINTS = 100000 };
-
-static sqlite3_stmt *ask(sqlite3 *db, const char *sql) {
-    sqlite3_stmt *statement = NULL;
-    if (sqlite3_prepare_v2(db, sql, -1, &statement, NULL) != SQLITE_OK) {
-        sqlite3_finalize(statement);
-        return NULL;
-    }
-    return statement;
-}
 
 /* Every ring of points in a WKT text, whatever it is a part of, becomes a closed line. */
 static void read_outlines(JoxTrajectories *t, const char *wkt) {
@@ -45,11 +35,11 @@ static void read_outlines(JoxTrajectories *t, const char *wkt) {
     }
 }
 
-static void read_geometry(JoxTrajectories *t, sqlite3 *db) {
-    sqlite3_stmt *statement = ask(db, "SELECT wkt FROM geometry LIMIT 1");
+static void read_geometry(JoxTrajectories *t, JoxDatabase *db) {
+    sqlite3_stmt *statement = jox_database_prepare(db, "SELECT wkt FROM geometry LIMIT 1");
     if (statement && sqlite3_step(statement) == SQLITE_ROW && sqlite3_column_text(statement, 0))
         read_outlines(t, (const char *)sqlite3_column_text(statement, 0));
-    sqlite3_finalize(statement);
+    jox_database_finalize(db, statement);
 }
 
 JoxColour jox_trajectory_colour(sqlite3_stmt *row, int column) {
@@ -58,11 +48,12 @@ JoxColour jox_trajectory_colour(sqlite3_stmt *row, int column) {
     return text && jox_colour_read(text, &colour) ? colour : 0;
 }
 
-static void read_groups(JoxTrajectories *t, sqlite3 *db) {
-    sqlite3_stmt *statement = ask(db, "SELECT name, colour FROM jostle_group ORDER BY number");
+static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
+    sqlite3_stmt *statement =
+        jox_database_prepare(db, "SELECT name, colour FROM jostle_group ORDER BY number");
     size_t capacity = 0, colour_capacity = 0;
     if (!statement) /* an older one */
-        statement = ask(db, "SELECT name, NULL FROM jostle_group ORDER BY number");
+        statement = jox_database_prepare(db, "SELECT name, NULL FROM jostle_group ORDER BY number");
     while (statement && t->group_count < UINT16_MAX && sqlite3_step(statement) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(statement, 0);
         JOX_RESERVE(t->groups, capacity, t->group_count + 1);
@@ -70,7 +61,7 @@ static void read_groups(JoxTrajectories *t, sqlite3 *db) {
         t->group_colours[t->group_count] = jox_trajectory_colour(statement, 1);
         t->groups[t->group_count++] = jox_strdup(name ? name : "");
     }
-    sqlite3_finalize(statement);
+    jox_database_finalize(db, statement);
 }
 
 /* "x y, x y, ..."; 0 points where it is something else. */
@@ -91,9 +82,9 @@ static uint32_t read_points(const char *text, JoxV2 *points, uint32_t most) {
 
 /* Walls of ours, in place of the walkable area, whose outline is where nobody went; false where the
    recording is another program's, which has none. */
-static bool read_walls(JoxTrajectories *t, sqlite3 *db) {
-    sqlite3_stmt *list =
-        ask(db, "SELECT name, solid, closed, open, height, points FROM jostle_wall");
+static bool read_walls(JoxTrajectories *t, JoxDatabase *db) {
+    sqlite3_stmt *list = jox_database_prepare(
+        db, "SELECT name, solid, closed, open, height, points FROM jostle_wall");
     if (!list)
         return false;
     JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
@@ -113,12 +104,12 @@ static bool read_walls(JoxTrajectories *t, sqlite3 *db) {
         if (name)
             jox_walls_name(walls, first, name, sqlite3_column_int(list, 3));
     }
-    sqlite3_finalize(list);
+    jox_database_finalize(db, list);
     jox_free(points);
     return true;
 }
 
-void jox_trajectories_plan(JoxTrajectories *t, sqlite3 *db) {
+void jox_trajectories_plan(JoxTrajectories *t, JoxDatabase *db) {
     if (!read_walls(t, db))
         read_geometry(t, db);
     read_groups(t, db);

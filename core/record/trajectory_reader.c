@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/database.h"
 #include "base/mem.h"
 #include "record/trajectory_reader_parts.h"
 
@@ -129,7 +128,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
         n++;
     }
     if (status != SQLITE_DONE)
-        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db));
+        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
     out->count = n;
     out->id = r->id;
     out->x = r->x;
@@ -189,7 +188,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
         n++;
     }
     if (status != SQLITE_ROW && status != SQLITE_DONE)
-        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db));
+        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
     out->body_count = n;
     out->bodies = r->body;
     return true;
@@ -280,11 +279,7 @@ bool jox_trajectory_reader_part(JoxTrajectoryReader *r, uint32_t frame, uint32_t
 void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     if (!r)
         return;
-    sqlite3_finalize(r->part);
-    sqlite3_finalize(r->rows);
-    sqlite3_finalize(r->body_at);
-    sqlite3_finalize(r->bodies);
-    jox_database_close(r->db);
+    jox_database_close(r->db); /* and its statements */
     jox_trajectories_free(r->all);
     for (uint32_t g = 0; g < r->outlines.group_count; g++)
         jox_free(r->outlines.groups[g]);

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
 #include "record/recorder_file.h"
@@ -18,21 +17,13 @@ static bool wrong(JoxDiagnostics *diagnostics, const char *path, const char *hin
     return false;
 }
 
-static sqlite3_stmt *prepare(sqlite3 *db, const char *sql) {
-    sqlite3_stmt *statement = NULL;
-    if (sqlite3_prepare_v2(db, sql, -1, &statement, NULL) == SQLITE_OK)
-        return statement;
-    sqlite3_finalize(statement);
-    return NULL;
-}
-
 /* The first column of the first row; false where there is none. */
-static bool ask(sqlite3 *db, const char *sql, double *value) {
-    sqlite3_stmt *statement = prepare(db, sql);
+static bool ask(JoxDatabase *db, const char *sql, double *value) {
+    sqlite3_stmt *statement = jox_database_prepare(db, sql);
     bool found = statement && sqlite3_step(statement) == SQLITE_ROW &&
                  sqlite3_column_type(statement, 0) != SQLITE_NULL;
     *value = found ? sqlite3_column_double(statement, 0) : 0.0;
-    sqlite3_finalize(statement);
+    jox_database_finalize(db, statement);
     return found;
 }
 
@@ -54,9 +45,9 @@ static bool list_by_index(JoxTrajectoryReader *r) {
     "MIN(frame) FROM trajectory_data WHERE frame > n) FROM f WHERE n IS NOT NULL) "                \
     "SELECT n FROM f WHERE n IS NOT NULL "
     sqlite3_stmt *list =
-        prepare(r->db, WITH_PEOPLE "UNION SELECT frame FROM frame_data ORDER BY 1");
+        jox_database_prepare(r->db, WITH_PEOPLE "UNION SELECT frame FROM frame_data ORDER BY 1");
     if (!list)
-        list = prepare(r->db, WITH_PEOPLE "ORDER BY 1");
+        list = jox_database_prepare(r->db, WITH_PEOPLE "ORDER BY 1");
 #undef WITH_PEOPLE
     int status = list ? SQLITE_ROW : SQLITE_ERROR;
     while (r->frames < MOST_FRAMES && (status = list ? sqlite3_step(list) : status) == SQLITE_ROW) {
@@ -64,13 +55,14 @@ static bool list_by_index(JoxTrajectoryReader *r) {
         if (r->frames == 0 || number > r->number[r->frames - 1])
             add_frame(r, number, 0);
     }
-    sqlite3_finalize(list);
+    jox_database_finalize(r->db, list);
     return r->frames > 0 && status == SQLITE_DONE;
 }
 
 /* Where each frame begins, in one pass; false where the rows are not in the order of frames. */
 static bool list_by_row(JoxTrajectoryReader *r) {
-    sqlite3_stmt *rows = prepare(r->db, "SELECT rowid, frame FROM trajectory_data ORDER BY rowid");
+    sqlite3_stmt *rows =
+        jox_database_prepare(r->db, "SELECT rowid, frame FROM trajectory_data ORDER BY rowid");
     bool ordered = rows != NULL;
     int64_t row = 0;
     int status = SQLITE_DONE;
@@ -83,7 +75,7 @@ static bool list_by_row(JoxTrajectoryReader *r) {
             add_frame(r, frame, row);
     }
     ordered = ordered && status == SQLITE_DONE;
-    sqlite3_finalize(rows);
+    jox_database_finalize(r->db, rows);
     if (r->frames)
         r->from[r->frames] = row + 1;
     if (!ordered)
@@ -101,7 +93,7 @@ static bool sort_rows(JoxTrajectoryReader *r) {
                         "CREATE TEMP TABLE trajectory_data AS SELECT *%s FROM "
                         "main.trajectory_data ORDER BY frame, id",
                         WAYS[w]);
-        r->sorted = sqlite3_exec(r->db, sql.data, NULL, NULL, NULL) == SQLITE_OK;
+        r->sorted = sqlite3_exec(r->db->sqlite, sql.data, NULL, NULL, NULL) == SQLITE_OK;
         jox_text_free(&sql);
     }
     return r->sorted && list_by_row(r);
@@ -110,12 +102,12 @@ static bool sort_rows(JoxTrajectoryReader *r) {
 /* ---- opening ---- */
 
 static void read_states(JoxTrajectoryReader *r) {
-    sqlite3_stmt *list =
-        prepare(r->db, "SELECT number, machine, state, colour FROM jostle_state ORDER BY number");
+    sqlite3_stmt *list = jox_database_prepare(
+        r->db, "SELECT number, machine, state, colour FROM jostle_state ORDER BY number");
     size_t capacity = 0;
     if (!list) /* an older one */
-        list = prepare(r->db, "SELECT number, machine, state, NULL FROM jostle_state "
-                              "ORDER BY number");
+        list = jox_database_prepare(r->db, "SELECT number, machine, state, NULL FROM jostle_state "
+                                           "ORDER BY number");
     while (list && r->state_count < UINT16_MAX && sqlite3_step(list) == SQLITE_ROW) {
         const char *machine = (const char *)sqlite3_column_text(list, 1);
         const char *name = (const char *)sqlite3_column_text(list, 2);
@@ -124,7 +116,7 @@ static void read_states(JoxTrajectoryReader *r) {
             jox_strdup(machine ? machine : ""), jox_strdup(name ? name : ""),
             sqlite3_column_int64(list, 0), jox_trajectory_colour(list, 3)};
     }
-    sqlite3_finalize(list);
+    jox_database_finalize(r->db, list);
 }
 
 /* The columns that there are: of ours; of older ones of ours, which have a table more, and of those
@@ -145,7 +137,7 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
         JoxText sql = {0};
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
-        r->rows = prepare(r->db, sql.data);
+        r->rows = jox_database_prepare(r->db, sql.data);
         r->loads = c < 2;
         r->ours = c < 3;
         r->facing = c < 4;
@@ -154,19 +146,22 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
     double last;
     if (ask(r->db, "SELECT MAX(rowid) FROM jostle_body", &last)) {
         r->last_body = (int64_t)last;
-        r->body_at = prepare(r->db, "SELECT frame FROM jostle_body WHERE rowid = ?");
-        r->bodies = prepare(r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
-                                   "WHERE rowid >= ? ORDER BY rowid");
+        r->body_at = jox_database_prepare(r->db, "SELECT frame FROM jostle_body WHERE rowid = ?");
+        r->bodies = jox_database_prepare(
+            r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
+                   "WHERE rowid >= ? ORDER BY rowid");
     }
-    r->part = prepare(r->db, "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners"
-                             " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT "
-                             "MAX(frame) FROM jostle_part WHERE id = ?1 AND frame <= ?2)");
-    sqlite3_stmt *list = prepare(r->db, "SELECT DISTINCT frame FROM jostle_part ORDER BY frame");
+    r->part = jox_database_prepare(
+        r->db, "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners"
+               " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT "
+               "MAX(frame) FROM jostle_part WHERE id = ?1 AND frame <= ?2)");
+    sqlite3_stmt *list =
+        jox_database_prepare(r->db, "SELECT DISTINCT frame FROM jostle_part ORDER BY frame");
     while (list && sqlite3_step(list) == SQLITE_ROW) {
         JOX_RESERVE(r->changes, r->change_capacity, r->change_count + 1);
         r->changes[r->change_count++] = sqlite3_column_int64(list, 0);
     }
-    sqlite3_finalize(list);
+    jox_database_finalize(r->db, list);
     return r->rows != NULL;
 }
 
@@ -199,36 +194,69 @@ static bool is_of_known_version(const JoxTrajectoryReader *r, const char *path,
     return wrong(diagnostics, path, "Versions 1 and 2 are read", what);
 }
 
+/* Whether an index of a table begins with the number of the frame. */
+static bool has_frame_index(JoxDatabase *db, const char *table) {
+    bool indexed = false;
+    char *sql = sqlite3_mprintf("PRAGMA main.index_list(%Q)", table);
+    sqlite3_stmt *indices = sql ? jox_database_prepare(db, sql) : NULL;
+    sqlite3_free(sql);
+    while (!indexed && indices && sqlite3_step(indices) == SQLITE_ROW) {
+        sql = sqlite3_mprintf("PRAGMA main.index_info(%Q)", sqlite3_column_text(indices, 1));
+        sqlite3_stmt *columns = sql ? jox_database_prepare(db, sql) : NULL;
+        sqlite3_free(sql);
+        while (!indexed && columns && sqlite3_step(columns) == SQLITE_ROW) {
+            const char *name = (const char *)sqlite3_column_text(columns, 2);
+            indexed = sqlite3_column_int(columns, 0) == 0 && name && !strcmp(name, "frame");
+        }
+        jox_database_finalize(db, columns);
+    }
+    jox_database_finalize(db, indices);
+    return indexed;
+}
+
+/* A view under the name of the format's table may be anything, and is not run; the one of our own
+   recordings is made anew, over their table. False with an error. */
+static bool find_rows(JoxTrajectoryReader *r, const char *path, const char **table,
+                      JoxDiagnostics *diagnostics) {
+    double found;
+    *table = "trajectory_data";
+    if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
+            &found)) {
+        *table = "jostle_row";
+        sqlite3_exec(r->db->sqlite, "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS, NULL,
+                     NULL, NULL);
+    } else if (ask(r->db,
+                   "SELECT 1 FROM sqlite_schema WHERE type = 'view' AND name = 'trajectory_data'",
+                   &found)) {
+        return wrong(diagnostics, path, "Copy its rows into a plain table of that name",
+                     "its trajectory_data is a view, and views of a file are not run");
+    }
+    return true;
+}
+
 /* False with an error. */
 static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajectoryOptions *options,
                      JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
+    const char *table;
     double found;
-    if (!is_of_known_version(r, path, diagnostics))
+    if (!is_of_known_version(r, path, diagnostics) || !find_rows(r, path, &table, diagnostics))
         return false;
-    /* Views of the file are not used: they may be anything. This one is ours. */
-    if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
-            &found))
-        sqlite3_exec(r->db, "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS, NULL, NULL,
-                     NULL);
-    sqlite3_stmt *probe = prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
-                                         "LIMIT 1");
+    sqlite3_stmt *probe =
+        jox_database_prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
+                                    "LIMIT 1");
     const int status = probe ? sqlite3_step(probe) : SQLITE_ERROR;
     if (!probe || (status != SQLITE_ROW && status != SQLITE_DONE))
-        wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
+        wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     else if (status == SQLITE_DONE)
         wrong(diagnostics, path, NULL, "nobody is in this recording");
-    sqlite3_finalize(probe);
+    jox_database_finalize(r->db, probe);
     if (status != SQLITE_ROW)
         return false;
-    bool indexed = ask(r->db, /* ours is a view of rows that are */
-                       "SELECT 1 FROM pragma_index_list((SELECT name FROM sqlite_schema WHERE name"
-                       " IN ('jostle_row', 'trajectory_data') ORDER BY name LIMIT 1)) l, "
-                       "pragma_index_info(l.name) i WHERE i.seqno = 0 AND i.name = 'frame'",
-                       &found);
+    const bool indexed = has_frame_index(r->db, table);
     r->way = indexed ? JOX_READ_BY_INDEX : JOX_READ_BY_ROW;
     if (!(indexed ? list_by_index(r) : list_by_row(r) || sort_rows(r)))
-        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
+        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     r->fps = options->fps;
     if (r->fps <= 0.0 &&
         !ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'", &r->fps))
@@ -237,7 +265,7 @@ static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajecto
         return wrong(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
                      "this recording does not say how many frames a second it has");
     if (!prepare_rows(r))
-        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
+        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     for (uint32_t f = 0; f < r->frames; f++)
         if (!(fabs((double)r->number[f]) / r->fps <= 1e9))
             return wrong(diagnostics, path, "Are id and frame exchanged?",
@@ -252,12 +280,17 @@ static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajecto
 
 static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
                         const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
-    double left;
-    if (!jox_database_open(path, &r->db))
-        return wrong(diagnostics, path, NULL, sqlite3_errmsg(r->db));
-    jox_database_bound(r->db, &left);
-    const bool good = describe(r, path, options, diagnostics);
-    jox_database_bound(r->db, NULL);
+    JoxText why = {0};
+    r->db = jox_database_open(path, JOX_DATABASE_READ, &why);
+    if (r->db)
+        jox_database_bound(r->db, true);
+    bool good = r->db && jox_database_allow(r->db, jox_recording_tables, &why);
+    if (!good)
+        wrong(diagnostics, path, NULL, why.data);
+    good = good && describe(r, path, options, diagnostics);
+    if (r->db)
+        jox_database_bound(r->db, false);
+    jox_text_free(&why);
     return good;
 }
 

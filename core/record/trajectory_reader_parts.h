@@ -2,8 +2,7 @@
 #ifndef JOX_RECORD_TRAJECTORY_READER_PARTS_H
 #define JOX_RECORD_TRAJECTORY_READER_PARTS_H
 
-#include <sqlite3.h>
-
+#include "base/database.h"
 #include "record/trajectory_reader.h"
 
 /* How the rows of a frame are found. */
@@ -12,7 +11,7 @@ typedef enum { JOX_READ_BY_INDEX, JOX_READ_BY_ROW, JOX_READ_WHOLE } JoxTrajector
 struct JoxTrajectoryReader {
     JoxTrajectoryReaderWay way;
     double fps;
-    sqlite3 *db;
+    JoxDatabase *db;
     sqlite3_stmt *rows, *body_at, *bodies;
     bool ours;   /* with states, forces and groups */
     bool loads;  /* with loads, which older ones of ours lack */

@@ -43,7 +43,7 @@ static bool find_columns(const JoxSweepStore *store, Names *paths, Names *figure
             line += strcspn(line, "\n");
             line += *line == '\n';
         }
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     if (code != SQLITE_DONE ||
         !(s = jox_sweep_ask(store, "SELECT DISTINCT name FROM figure ORDER BY name", error)))
         return s && jox_sweep_broken(store, error);
@@ -51,7 +51,7 @@ static bool find_columns(const JoxSweepStore *store, Names *paths, Names *figure
         JOX_RESERVE(figures->items, figures->capacity, figures->count + 1);
         figures->items[figures->count++] = jox_strdup(text_of(s, 0));
     }
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return code == SQLITE_DONE || jox_sweep_broken(store, error);
 }
 
@@ -130,8 +130,8 @@ static bool put_rows(const JoxSweepStore *store, FILE *out, const Names *paths,
         good = put_figures(store, out, figure, figures, error);
     }
     good = good && (code == SQLITE_DONE || jox_sweep_broken(store, error));
-    sqlite3_finalize(run);
-    sqlite3_finalize(figure);
+    jox_sweep_end(store, run);
+    jox_sweep_end(store, figure);
     return good;
 }
 

@@ -58,7 +58,7 @@ static bool agrees(const JoxSweepStore *store, const char *part, JoError *error)
     } else if (code != SQLITE_DONE) {
         jox_sweep_broken(store, error);
     }
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return code == SQLITE_DONE;
 }
 
@@ -72,7 +72,7 @@ static bool compare(const JoxSweepStore *store, const JoxSweepStore *part, JoxTe
         good = jox_sweep_note(store, (const char *)sqlite3_column_text(s, 0),
                               (const char *)sqlite3_column_text(s, 1), differences, error);
     good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
-    sqlite3_finalize(s);
+    jox_sweep_end(part, s);
     if (!good || !(s = jox_sweep_ask(part, "SELECT path, text FROM input", error)))
         return false;
     while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
@@ -82,7 +82,7 @@ static bool compare(const JoxSweepStore *store, const JoxSweepStore *part, JoxTe
                                             differences, error);
     }
     good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
-    sqlite3_finalize(s);
+    jox_sweep_end(part, s);
     return good;
 }
 
@@ -134,7 +134,7 @@ static bool count(const JoxSweepStore *store, JoxSweepState state, uint32_t *out
     sqlite3_bind_text(s, 1, jox_sweep_states[state], -1, SQLITE_STATIC);
     const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
     *out = good ? (uint32_t)sqlite3_column_int64(s, 0) : 0;
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }
 

@@ -4,7 +4,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/database.h"
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/hash.h"
@@ -31,13 +30,15 @@ static const char SCHEMA[] =
     " PRIMARY KEY(variant, seed, name));"
     "PRAGMA application_id=" APPLICATION ";PRAGMA user_version=" FORMAT ";"
     "COMMIT";
+static const char *const TABLES[] = {"sweep",      "input",       "variant", "run", "figure",
+                                     "curve_name", "curve_point", "field",   NULL};
 
 bool jox_sweep_broken(const JoxSweepStore *store, JoError *error) {
-    const int code = sqlite3_errcode(store->db) & 0xff;
+    const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
     const bool bad = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
                      code == SQLITE_MISMATCH;
     jox_error(error, bad ? JO_INPUT : JO_FAILED, "%.300s: %.150s%s", store->path,
-              sqlite3_errmsg(store->db),
+              sqlite3_errmsg(store->db->sqlite),
               code == SQLITE_FULL || code == SQLITE_IOERR
                   ? "; what was kept so far stays, and the same command goes on with it"
               : bad ? "; the file is damaged: move it away, and the sweep begins anew"
@@ -46,15 +47,18 @@ bool jox_sweep_broken(const JoxSweepStore *store, JoError *error) {
 }
 
 sqlite3_stmt *jox_sweep_ask(const JoxSweepStore *store, const char *sql, JoError *error) {
-    sqlite3_stmt *statement = NULL;
-    if (sqlite3_prepare_v2(store->db, sql, -1, &statement, NULL) == SQLITE_OK)
-        return statement;
-    jox_sweep_broken(store, error);
-    return NULL;
+    sqlite3_stmt *statement = jox_database_prepare(store->db, sql);
+    if (!statement)
+        jox_sweep_broken(store, error);
+    return statement;
+}
+
+void jox_sweep_end(const JoxSweepStore *store, sqlite3_stmt *statement) {
+    jox_database_finalize(store->db, statement);
 }
 
 bool jox_sweep_do_sql(const JoxSweepStore *store, const char *sql, JoError *error) {
-    return sqlite3_exec(store->db, sql, NULL, NULL, NULL) == SQLITE_OK ||
+    return sqlite3_exec(store->db->sqlite, sql, NULL, NULL, NULL) == SQLITE_OK ||
            jox_sweep_broken(store, error);
 }
 
@@ -62,7 +66,7 @@ bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoErr
     const bool good = statement && sqlite3_step(statement) == SQLITE_DONE;
     if (statement && !good)
         jox_sweep_broken(store, error);
-    sqlite3_finalize(statement);
+    jox_sweep_end(store, statement);
     return good;
 }
 
@@ -70,12 +74,11 @@ bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoErr
 
 /* A whole number that a pragma tells; -1 where it tells none. */
 static int64_t tell(const JoxSweepStore *store, const char *pragma) {
-    sqlite3_stmt *s = NULL;
+    sqlite3_stmt *s = jox_database_prepare(store->db, pragma);
     int64_t value = -1;
-    if (sqlite3_prepare_v2(store->db, pragma, -1, &s, NULL) == SQLITE_OK &&
-        sqlite3_step(s) == SQLITE_ROW)
+    if (s && sqlite3_step(s) == SQLITE_ROW)
         value = sqlite3_column_int64(s, 0);
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return value;
 }
 
@@ -83,7 +86,7 @@ static bool is_ours(const JoxSweepStore *store, JoError *error) {
     char text[24];
     snprintf(text, sizeof text, "%lld", (long long)tell(store, "PRAGMA application_id"));
     if (strcmp(text, APPLICATION) != 0) {
-        const int code = sqlite3_errcode(store->db) & 0xff;
+        const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
         jox_error(error, JO_INPUT, "%.300s is no file of `jostle sweep`%s; it is left as it is",
                   store->path, code == SQLITE_NOTADB ? ", nor any SQLite database" : "");
         return false;
@@ -96,11 +99,32 @@ static bool is_ours(const JoxSweepStore *store, JoError *error) {
     return false;
 }
 
+/* Opens the file; false with `error`. */
+static bool connect(JoxSweepStore *store, const char *path, JoxDatabaseUse use, JoError *error) {
+    JoxText why = {0};
+    store->db = jox_database_open(path, use, &why);
+    if (!store->db)
+        jox_error(error, use == JOX_DATABASE_READ ? JO_INPUT : JO_FAILED, "cannot %s '%.300s': %s",
+                  use == JOX_DATABASE_READ ? "read" : "write", store->path, why.data);
+    jox_text_free(&why);
+    return store->db != NULL;
+}
+
+/* Lets statements name the tables of a sweep; false with `error`. */
+static bool allow(const JoxSweepStore *store, JoError *error) {
+    JoxText why = {0};
+    const bool good = jox_database_allow(store->db, TABLES, &why);
+    if (!good)
+        jox_error(error, JO_INPUT, "%.300s: %s", store->path, why.data);
+    jox_text_free(&why);
+    return good;
+}
+
 /* Makes the tables of a file that is empty. */
 static bool begin(const JoxSweepStore *store, JoError *error) {
     if (tell(store, "PRAGMA schema_version") == 0 && tell(store, "PRAGMA application_id") == 0)
-        return jox_sweep_do_sql(store, SCHEMA, error);
-    return is_ours(store, error);
+        return allow(store, error) && jox_sweep_do_sql(store, SCHEMA, error);
+    return is_ours(store, error) && allow(store, error);
 }
 
 bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
@@ -115,18 +139,13 @@ bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
                   errno == EBUSY ? "another sweep writes it" : jox_file_why(errno));
         return false;
     }
-    if (!jox_database_open_to_write(path, &store->db))
-        return jox_sweep_broken(store, error);
-    return begin(store, error);
+    return connect(store, path, JOX_DATABASE_WRITE, error) && begin(store, error);
 }
 
 bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *error) {
     *store = (JoxSweepStore){.path = jox_strdup(path)};
-    if (!jox_database_open(path, &store->db)) {
-        jox_error(error, JO_INPUT, "cannot read '%.300s': %.150s", path, sqlite3_errmsg(store->db));
-        return false;
-    }
-    return is_ours(store, error);
+    return connect(store, path, JOX_DATABASE_READ, error) && is_ours(store, error) &&
+           allow(store, error);
 }
 
 void jox_sweep_close(JoxSweepStore *store) {
@@ -152,7 +171,7 @@ static bool find(const JoxSweepStore *store, const char *sql, const char *key, c
     if (text)
         *found = jox_strdup(text);
     const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }
 
@@ -209,7 +228,7 @@ bool jox_sweep_variant(const JoxSweepStore *store, const char *key, int64_t *id,
     sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
     const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
     *id = good ? sqlite3_column_int64(s, 0) : 0;
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }
 
@@ -228,6 +247,6 @@ bool jox_sweep_state(const JoxSweepStore *store, int64_t variant, uint64_t seed,
         if (strcmp(text, jox_sweep_states[k]) == 0)
             *state = k;
     const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }

@@ -11,13 +11,13 @@
 #ifndef JOX_SWEEP_STORE_H
 #define JOX_SWEEP_STORE_H
 
-#include <sqlite3.h>
 #include <stdio.h>
 
+#include "base/database.h"
 #include "sweep/sweep.h"
 
 typedef struct JoxSweepStore {
-    sqlite3 *db;
+    JoxDatabase *db;
     FILE *claim; /* one sweep writes a file at a time */
     char *path;  /* "" of one in memory */
 } JoxSweepStore;
@@ -34,6 +34,8 @@ void jox_sweep_close(JoxSweepStore *store);
 bool jox_sweep_broken(const JoxSweepStore *store, JoError *error);
 /* A statement, or NULL with `error`. */
 sqlite3_stmt *jox_sweep_ask(const JoxSweepStore *store, const char *sql, JoError *error);
+/* Ends it; NULL is fine. */
+void jox_sweep_end(const JoxSweepStore *store, sqlite3_stmt *statement);
 bool jox_sweep_do_sql(const JoxSweepStore *store, const char *sql, JoError *error);
 /* Ends a statement that returns no rows; false with `error`. */
 bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error);

@@ -56,7 +56,7 @@ static bool put_figures(Putting *p, const char *summary) {
         jox_error(p->error, JO_FAILED, "the figures of a run cannot be read");
         p->good = false;
     }
-    sqlite3_finalize(p->figure);
+    jox_sweep_end(p->store, p->figure);
     return p->good;
 }
 
@@ -74,7 +74,7 @@ static bool name_curve(Putting *p, const JoxSweepCurve *curve, int64_t *id) {
     sqlite3_bind_text(s, 1, curve->name, -1, SQLITE_STATIC);
     const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(p->store, p->error);
     *id = good ? sqlite3_column_int64(s, 0) : 0;
-    sqlite3_finalize(s);
+    jox_sweep_end(p->store, s);
     return good;
 }
 
@@ -95,7 +95,7 @@ static bool put_curve(Putting *p, const JoxSweepCurve *curve) {
         bind_number(s, 5, curve->points[2 * k + 1]);
         step(p, s);
     }
-    sqlite3_finalize(s);
+    jox_sweep_end(p->store, s);
     return p->good;
 }
 

@@ -294,7 +294,7 @@ static char *aggregate(Sweep *s, JoError *error) {
         all = jo_summaries_aggregate((const char *const *)texts, texts_count, error);
     else if (ask)
         jox_sweep_broken(&s->store, error);
-    sqlite3_finalize(ask);
+    jox_sweep_end(&s->store, ask);
     for (size_t t = 0; t < texts_count; t++)
         jox_free(texts[t]);
     jox_free(texts);

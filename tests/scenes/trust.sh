@@ -41,10 +41,31 @@ done
 table='CREATE TABLE metadata(key TEXT, value TEXT); INSERT INTO metadata VALUES ("fps", "10"); CREATE TABLE'
 columns='(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL)'
 sqlite3 view.sqlite "CREATE VIEW trajectory_data AS WITH RECURSIVE c(frame) AS (SELECT 0 UNION ALL SELECT frame + 1 FROM c) SELECT frame, 1 AS id, 0.0 AS pos_x, 0.0 AS pos_y FROM c"
-says "a view is no table" 3 "no such table" "$program" report view.sqlite --summary -
+says "a view is no table" 3 "views of a file are not run" "$program" report view.sqlite --summary -
 sqlite3 slow.sqlite "$table trajectory_data$columns; WITH RECURSIVE c(n) AS (SELECT 0 UNION ALL SELECT n + 1 FROM c WHERE n < 60000)
     INSERT INTO trajectory_data SELECT n, 1, 0.0, 0.0 FROM c; CREATE INDEX i ON trajectory_data(frame) WHERE frame < 0"
 says "an index that makes each look-up a pass is given up" 3 "interrupted" "$program" report slow.sqlite --summary -
+# What may stand in the place of a table, in each command that reads one.
+kept="metadata(key, value); INSERT INTO metadata VALUES ('fps', '10'); CREATE TABLE geometry(hash INTEGER, wkt TEXT)"
+sqlite3 virtual.sqlite "CREATE TABLE $kept; CREATE VIRTUAL TABLE trajectory_data USING fts5(frame, id, pos_x, pos_y)"
+sqlite3 computed.sqlite "CREATE TABLE $kept; CREATE TABLE trajectory_data(frame, id, pos_x, pos_y, t AS (hex(zeroblob(frame))))"
+for kind in virtual computed; do
+    for reader in "report --summary -" "render --out o.svg" "view --port 8791" "compare --out compared"; do
+        set -- $reader; command=$1; shift
+        says "a recording whose table is $kind is refused by $command" 3 "into a plain table" "$program" $command $kind.sqlite $([ "$command" = compare ] && echo slow.sqlite) "$@"
+    done
+done
+sqlite3 plan.sqlite "CREATE VIRTUAL TABLE geometry USING fts5(wkt); INSERT INTO geometry VALUES ('POLYGON ((0 0, 9 0, 9 9, 0 0))')"
+printf 'jostle: 1\nwalls: [{file: plan.sqlite}]\n%s\n' "$group" >plan.yaml
+says "so are walls from a virtual table" 3 "'geometry' is a virtual table" "$program" check plan.yaml
+says "  in a run that is trusted, too" 3 "'geometry' is a virtual table" "$program" run plan.yaml --quiet --trusted
+sqlite3 runs.sqlite "PRAGMA application_id = 1246984048; PRAGMA user_version = 1; CREATE VIRTUAL TABLE sweep USING fts5(key, value); CREATE TABLE run(variant, seed, state)"
+says "and runs of a sweep" 3 "'sweep' is a virtual table" "$program" compare runs.sqlite runs.sqlite --out compared
+says "  that are merged" 3 "'sweep' is a virtual table" "$program" sweep --merge runs.sqlite --out merged.sqlite
+says "  or gone on with" 3 "'sweep' is a virtual table" "$program" sweep "$scene" --steps 2 --seeds 1 --out runs.sqlite
+sqlite3 more.sqlite "CREATE TABLE $kept; CREATE TABLE trajectory_data$columns; INSERT INTO trajectory_data VALUES (0, 1, 1, 1), (1, 1, 1, 1); CREATE INDEX i ON trajectory_data(frame);
+    CREATE VIRTUAL TABLE notes USING fts5(text); CREATE TABLE more(a, b AS (a + 1)); CREATE VIEW v AS SELECT * FROM more; CREATE TRIGGER g AFTER INSERT ON more BEGIN DELETE FROM more; END"
+says "other things beside its tables do no harm to a recording" 0 '"people": 1' "$program" report more.sqlite --summary -
 for value in NULL "'here'" "x'00'"; do
     rm -f bad.sqlite
     sqlite3 bad.sqlite "$table trajectory_data(frame, id, pos_x, pos_y); INSERT INTO trajectory_data VALUES (0, 1, 1.0, 1.0), (1, 1, $value, 1.0)"

@@ -260,22 +260,26 @@ bool jox_wall_file_read(const char *path, const char *text, size_t length,
 }
 
 char *jox_wall_file_recorded(const char *path, JoxDiagnostics *diagnostics) {
-    sqlite3 *db = NULL;
-    sqlite3_stmt *statement = NULL;
+    static const char *const TABLES[] = {"geometry", NULL};
+    const JoxPosition at = {path, 0, 0, 0};
+    JoxText why = {0};
     char *text = NULL;
-    double left;
-    const bool open = jox_database_open(path, &db);
-    jox_database_bound(db, &left);
-    if (open &&
-        sqlite3_prepare_v2(db, "SELECT wkt FROM geometry LIMIT 1", -1, &statement, NULL) ==
-            SQLITE_OK &&
-        sqlite3_step(statement) == SQLITE_ROW && sqlite3_column_text(statement, 0))
-        text = jox_strdup((const char *)sqlite3_column_text(statement, 0));
-    else
-        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "bad-plan",
-                       "A recording of JuPedSim or of `jostle run --record` has one",
-                       "this database has no table 'geometry' with a plan: %.200s",
-                       sqlite3_errmsg(db));
+    JoxDatabase *db = jox_database_open(path, JOX_DATABASE_READ, &why);
+    if (db)
+        jox_database_bound(db, true);
+    if (!db || !jox_database_allow(db, TABLES, &why)) {
+        jox_diag_error(diagnostics, at, "bad-plan", NULL, "%s", why.data);
+    } else {
+        sqlite3_stmt *plan = jox_database_prepare(db, "SELECT wkt FROM geometry LIMIT 1");
+        if (plan && sqlite3_step(plan) == SQLITE_ROW && sqlite3_column_text(plan, 0))
+            text = jox_strdup((const char *)sqlite3_column_text(plan, 0));
+        else
+            jox_diag_error(diagnostics, at, "bad-plan",
+                           "A recording of JuPedSim or of `jostle run --record` has one",
+                           "this database has no table 'geometry' with a plan: %.200s",
+                           sqlite3_errmsg(db->sqlite));
+    }
     jox_database_close(db);
+    jox_text_free(&why);
     return text;
 }

@@ -95,7 +95,7 @@ static bool read(const JoxSweepStore *store, int64_t variant, JoxSide *side, boo
         count += add_run(side, s, greatest);
     jox_side_end_fields(side, greatest, count);
     const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }
 

@@ -16,7 +16,7 @@ static char *text_of(sqlite3_stmt *s, int column) {
 
 static bool ended(const JoxSweepStore *store, sqlite3_stmt *s, int code, JoError *error) {
     const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
-    sqlite3_finalize(s);
+    jox_sweep_end(store, s);
     return good;
 }
 
@@ -162,10 +162,9 @@ static bool find_title(void *context, const JoxJsonItem *item) {
 
 bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error) {
     JoxSweepStore store;
-    double left;
     bool good = jox_sweep_open_to_read(&store, path, error);
     if (good)
-        jox_database_bound(store.db, &left);
+        jox_database_bound(store.db, true);
     sqlite3_stmt *s =
         good ? jox_sweep_ask(&store, "SELECT id, settings, plan FROM variant ORDER BY id", error)
              : NULL;
@@ -188,9 +187,10 @@ bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error) {
     }
     if (s && good && code != SQLITE_DONE && code != SQLITE_ROW)
         good = jox_sweep_broken(&store, error);
-    sqlite3_finalize(s);
-    if (store.db)
-        jox_database_bound(store.db, NULL);
+    if (store.db) {
+        jox_sweep_end(&store, s);
+        jox_database_bound(store.db, false);
+    }
     jox_sweep_close(&store);
     if (good && sides->count == before) {
         jox_error(error, JO_INPUT, "%.300s has no runs as yet", path);
