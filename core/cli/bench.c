@@ -174,8 +174,10 @@ static const Named *find(const char *name) {
 
 /* The cases as they were asked for, once they are all measured. */
 static int finish(const Bench *bench, const BenchCase *cases, size_t count) {
-    if (bench->json)
+    if (bench->json) {
+        cli_output_is_data();
         bench_json(&bench->given, cases, count);
+    }
     if (bench->csv && !bench_csv(bench->csv, &bench->given, cases, count)) {
         fprintf(stderr, "jostle bench: cannot write '%s': %s\n", bench->csv, strerror(errno));
         return JO_FAILED;

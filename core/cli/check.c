@@ -21,6 +21,8 @@ static int check(const CliList *paths, bool json, bool trusted) {
         cli_reach_scene(&reach, paths->items[p]);
     cli_confine_work(&reach, trusted);
     JoError error;
+    if (json)
+        cli_output_is_data();
     size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
         return cli_failed(&cli_check, &error, false);
@@ -33,7 +35,8 @@ static int run(int argc, char **argv) {
     int status = cli_parse(&cli_check, argc, argv, &options, &paths);
     if (status == CLI_GO_ON && options.reference) {
         char *text = jo_scene_reference();
-        status = text && fputs(text, stdout) >= 0 ? JO_OK : JO_FAILED;
+        status = text ? JO_OK : JO_FAILED;
+        fputs(text ? text : "", stdout); /* main says where that fails */
         jo_free(text);
     } else if (status == CLI_GO_ON) {
         status = check(&paths, options.json, options.trusted);

@@ -112,12 +112,15 @@ extern volatile int cli_signal;
 /* As the first of them, by another one; false where the command has no files to finish. */
 bool cli_end_soon(int number);
 /* The exit status of a command that a signal ended: 128 and its number, as shells have it;
-   JO_FAILED where it took all of its processor time. */
+   JO_FAILED where it took all of its processor time, or its address could not be printed. */
 int cli_interrupted(int status);
 
-/* Whether all that was printed has been written to standard output. If not, the program ends with
-   JO_FAILED and a message, for which the first errno is kept. */
+/* Whether all that was printed has been written to standard output, or it is text to read and its
+   reader closed the pipe, as `head` does. If not, the program ends with JO_FAILED and a message,
+   for which the first errno is kept. */
 bool cli_flush(void);
+/* What is printed is data, such as a summary: a closed pipe is an error, too. */
+void cli_output_is_data(void);
 extern int cli_output_errno;
 /* Prints the address of a page that can be opened now (a JoMessage). Where it cannot be written,
    serving ends, by cli_signal. */

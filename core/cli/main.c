@@ -62,7 +62,7 @@ int main(int argc, char **argv) {
         printf("scenes are read by a process with %s and %s\n",
                can.files ? "Landlock" : "no Landlock in this kernel",
                can.calls ? "seccomp" : "no seccomp");
-        return JO_OK;
+        return end(JO_OK);
     }
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))

@@ -56,8 +56,9 @@ static int list(const JoSceneDef *def) {
     }
     if (mods && mods->count == 0)
         puts("no mods found");
+    const int status = !mods ? JO_FAILED : mods->errors ? JO_INPUT : JO_OK;
     jo_free(mods);
-    return JO_OK;
+    return status;
 }
 
 enum { LONGEST_SHOWN = 60 }; /* bytes of a value */

@@ -267,6 +267,7 @@ int cli_apart(const CliCommand *command, const char *const *outputs, size_t outp
 int cli_write(const CliCommand *command, const char *path, const char *text) {
     JoError error = {0};
     if (!strcmp(path, "-")) {
+        cli_output_is_data();
         fputs(text, stdout); /* main says where that fails */
         return JO_OK;
     }
@@ -292,7 +293,10 @@ bool cli_troubled(const CliCommand *command, const JoScene *scene) {
 
 void cli_print(void *context, const char *text) {
     fputs(text, context);
-    fflush(context);
+    if (context == stdout)
+        cli_flush(); /* main says where that fails */
+    else
+        fflush(context);
 }
 
 int cli_failed(const CliCommand *command, const JoError *error, bool sent) {

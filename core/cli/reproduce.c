@@ -59,8 +59,10 @@ static int reproduce(JoReproduceDef *def, bool trusted) {
     def->stop = &cli_signal;
     cli_catch_signals(true);
     confine(def, trusted);
-    if (!jo_reproduce(def, &missed, &error)) /* what is wrong with a file was sent as a message */
-        return cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
+    if (!jo_reproduce(def, &missed, &error)) { /* what is wrong with a file was sent as a message */
+        const int status = cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
+        return cli_signal ? cli_interrupted(JO_OK) : status;
+    }
     return missed ? JO_FAILED : JO_OK;
 }
 
@@ -87,7 +89,8 @@ const CliCommand cli_reproduce = {
              "of scenes/claims, or those named; `paper`, `real`, `rimea`, `imo`, `nist` "
              "and `iso` name several, `standards` the last four. Runs that are there already are "
              "not done again.",
-    .notes = "exit status: 0 all in band, 1 a claim misses, 2 wrong usage, 3 a claim file is wrong",
+    .notes = "exit status: 0 all in band, 1 a claim misses, 2 wrong usage, 3 a claim file is "
+             "wrong; 129, 130 and 143: SIGHUP, SIGINT or SIGTERM ended it early",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "claim",

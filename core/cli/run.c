@@ -330,7 +330,7 @@ static int begin(Run *run) {
     }
     jo_free(summary);
     status = status == JO_OK && run->troubled ? JO_FAILED : status;
-    return run->view && cli_signal != SIGXCPU ? status : cli_interrupted(status);
+    return cli_interrupted(status);
 }
 
 static int run_scene(int argc, char **argv) {
@@ -365,11 +365,13 @@ const CliCommand cli_run = {
              "Jostle: `jostle` lists some.",
     .notes =
         "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), or a "
-        "behaviour was suspended by its own errors and not mended and reloaded (then the run goes "
-        "on to its end), 2 wrong usage, 3 bad input: "
+        "function of a behaviour failed in a tenth of its calls or more, or 100 times within a "
+        "second, which suspends it, and was not mended and reloaded (then the run goes on to its "
+        "end), 2 wrong usage, 3 bad input: "
         "also a mod that is asked for and is not there, or does not load; 129, 130 and 143: "
         "SIGHUP, "
-        "SIGINT or SIGTERM ended it early, its files and figures being whole up to there. The "
+        "SIGINT or SIGTERM ended it early, its files and figures being whole up to there, with "
+        "--view, too. The "
         "second of them ends it at once",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

@@ -118,6 +118,7 @@ static int list(const Sweep *sweep) {
     const uint32_t runs = jo_sweep_runs(&sweep->def, &error);
     if (!runs)
         return cli_failed(&cli_sweep, &error, false);
+    cli_output_is_data();
     program[length > 0 ? length : 0] = 0;
     JoxText folder = {0};
     jox_text_printf(&folder, "%.*s-parts", (int)stem, out);

@@ -71,6 +71,8 @@ static int run(int argc, char **argv) {
         const char *usual = usual_place();
         confine(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.trusted);
         size_t passed = 0, failed = 0;
+        if (options.json)
+            cli_output_is_data();
         JoError error = {0};
         bool good =
             jo_test(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.only,

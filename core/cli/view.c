@@ -47,7 +47,7 @@ static int run(int argc, char **argv) {
         view.def.opened = cli_print_address;
         confine(&view);
         status = jo_view_recording(&view.def, &error)
-                     ? JO_OK /* what is wrong with a file was sent as a message */
+                     ? cli_interrupted(JO_OK) /* what is wrong with a file was sent as a message */
                      : cli_failed(&cli_view, &error, error.code != JO_FAILED);
     }
     cli_free(&cli_view, &view, &plain);
@@ -62,8 +62,8 @@ const CliCommand cli_view = {
              "of `jostle run --record` or of JuPedSim (versions 1 and 2), text with the columns "
              "id, frame, x, y (PeTrack, the archive of Juelich), or CSV with a line of names. "
              "Prints the page's address.",
-    .notes = "exit status: 0 done (Ctrl-C ends it), 1 the page cannot be served, 2 wrong usage, 3 "
-             "bad input",
+    .notes = "exit status: 1 the page cannot be served, 2 wrong usage, 3 bad input; 129, 130 and "
+             "143: SIGHUP, SIGINT (Ctrl-C) or SIGTERM ended it",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "recording",

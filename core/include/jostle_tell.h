@@ -66,11 +66,12 @@ JO_API JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n);
 
 typedef enum JoTroubleKind {
     JO_TROUBLE_SUSPENDED, /* a function of a behaviour failed too often and is no longer called */
-    JO_TROUBLE_LOST       /* people were lost (JoLost) */
+    JO_TROUBLE_LOST,      /* people were lost (JoLost) */
+    JO_TROUBLE_FAILED     /* a function of a behaviour failed in a tenth of its calls or more */
 } JoTroubleKind;
 typedef struct JoTrouble {
     JoTroubleKind kind;
-    uint64_t count;   /* failures within a second; people */
+    uint64_t count;   /* failures within a second; people; calls that failed */
     const char *file; /* of the behaviour, or "" */
     const char *text; /* a sentence, without its full stop */
 } JoTrouble;
@@ -149,6 +150,7 @@ typedef struct JoMod {
 typedef struct JoMods {
     const JoMod *items; /* those that are taken, in their order, then the others, by name */
     uint32_t count, taken;
+    uint32_t errors; /* found in mods that are taken, asked for or lie there, also told */
 } JoMods;
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), and
    the others that were found. What is wrong with one goes to def->message. */

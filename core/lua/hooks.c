@@ -33,6 +33,10 @@ void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) 
         JOX_SECTION(s, "second", hook->second);
         JOX_SECTION(s, "second_failures", hook->second_failures);
         JOX_SECTION(s, "suspended", hook->suspended);
+        jox_sections_unhashed(s, true);
+        JOX_SECTION(s, "calls", hook->calls);
+        JOX_SECTION(s, "failures", hook->failures);
+        jox_sections_unhashed(s, false);
     }
 }
 
@@ -120,6 +124,14 @@ static const char *read_result(lua_State *L, JoxHookKind kind, double result[2])
     return NULL;
 }
 
+/* The line of a function that failed as a whole, and not at one of its lines. */
+static int blame_function(JoxScript *script, const lua_Debug *where) {
+    const int source = jox_vm_source(&script->vm, where->short_src);
+    script->vm.failed_source = source > 0 ? (size_t)source : 0;
+    script->vm.traceback[0] = 0;
+    return where->linedefined;
+}
+
 bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxHookKind kind,
                   uint32_t agent, double result[2]) {
     JoxLua *lua = context;
@@ -140,20 +152,21 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
     const char *why = NULL;
     int line = 0;
     bool good = jox_vm_call(&script->vm, 1, 2, lua->group.limits.hook_instructions, &why, &line);
+    char name[64], changed[200];
+    lua_Debug where;
     if (good) {
         why = read_result(L, kind, result);
         good = !why;
-        script->vm.traceback[0] = 0;
+        if (why) {
+            lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
+            lua_getinfo(L, ">S", &where);
+            line = blame_function(script, &where);
+        }
         lua_settop(L, 0);
     }
-    char name[64], changed[200];
-    lua_Debug where;
     if (jox_upvalues_restore(L, &script->upvalues, hook->first_upvalue, hook->upvalue_count, name,
                              &where)) {
-        int source = jox_vm_source(&script->vm, where.short_src);
-        script->vm.failed_source = source > 0 ? (size_t)source : 0;
-        script->vm.traceback[0] = 0;
-        line = where.linedefined;
+        line = blame_function(script, &where);
         snprintf(
             changed, sizeof changed,
             "a function changed '%s', a variable from outside of it, and it was set back: what "

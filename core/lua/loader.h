@@ -8,8 +8,9 @@
 #include "lua/vm/limits.h"
 #include "machine/run.h"
 
-/* Failures of a function in a simulated second, with which it is suspended. */
-enum { JOX_MOST_FAILURES = 100 };
+/* Failures of a function in a simulated second, with which it is suspended; and the share of its
+   calls, one in so many, from which on failures are a trouble of the run (jox_lua_is_failing). */
+enum { JOX_MOST_FAILURES = 100, JOX_FAILING_SHARE = 10 };
 
 /* NULL if anything is wrong; every error (up to 20) is then in `diagnostics`, and nothing changed.
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
@@ -95,14 +96,18 @@ bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKin
                   uint32_t agent, double result[2]);
 /* Ready for JoxMachineRun.bracket. */
 void jox_lua_bracket(void *lua, bool begins);
-/* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, and how often
-   they have failed in the present second. */
+/* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, how often they
+   have failed in the present second and, outside of the hash, were called and failed in all. */
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
 /* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
  */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
 /* What its n-th function cost, with texts of the machine; false behind the last. */
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);
+/* Whether so many of its calls failed that the run did not go as its behaviour says. */
+static inline bool jox_lua_is_failing(const JoLuaCost *cost) {
+    return cost->failures > 0 && cost->failures * JOX_FAILING_SHARE >= cost->calls;
+}
 /* Path of the behaviour whose functions take so much longer than their instructions explain that
    the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
 const char *jox_lua_stalled(const JoxLua *lua);

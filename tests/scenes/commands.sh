@@ -87,11 +87,11 @@ hostile "eats memory while loading" 3 "memory" 'local t = {} for i = 1, 1e9 do t
 hostile "throws while loading" 3 "boom" 'error("boom")'
 hostile "returns nothing" 3 "must return one machine" 'local x = 1'
 hostile "compiled code" 3 "compiled Lua" "$(printf '\033Lua')"
-hostile "loops for ever in a hook" 0 "too long" "$(sheet 'while true do end')"
-hostile "eats memory in a hook" 0 "was stopped" "$(sheet 'local s = "x" for i = 1, 40 do s = s .. s end')"
-hostile "throws a table in a hook" 0 "error needs a text" "$(sheet 'error({})')"
-hostile "returns nonsense" 0 "must return true or false" "$(sheet 'return 7')"
-hostile "recurses without end" 0 "m > state A" "$(sheet 'local function f() return 1 + f() end return f() > 0')"
+hostile "loops for ever in a hook" 1 "too long" "$(sheet 'while true do end')"
+hostile "eats memory in a hook" 1 "was stopped" "$(sheet 'local s = "x" for i = 1, 40 do s = s .. s end')"
+hostile "throws a table in a hook" 1 "error needs a text" "$(sheet 'error({})')"
+hostile "returns nonsense" 1 "s/bad.lua:1: a \`when\` function must return true or false" "$(sheet 'return 7')"
+hostile "recurses without end" 1 "m > state A" "$(sheet 'local function f() return 1 + f() end return f() > 0')"
 hostile "reads files" 3 "unknown word 'io'" 'local f = io.open("/etc/passwd") return machine {}'
 hostile "leaves its folder" 3 "not a plain name" 'require "../../secret"'
 hostile "NaN for mass" 3 "mass must be" 'return machine { name = "m", start = "A", defaults = { mass = 0/0 }, states = { A = {} } }'

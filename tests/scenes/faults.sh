@@ -43,6 +43,22 @@ says "  with several seeds too" 1 "was suspended" "$program" run scene.yaml --fo
 behaviour 'function(me) if me.time < 0.1 then return nil, 0 end return 0, 0 end'
 says "one that failed a few times is not suspended" 0 "must return two numbers" "$program" run scene.yaml --for 2 --quiet
 
+cp "$yard/scene.yaml" "$yard/many.yaml"
+for agents in 1 2 4; do
+    behaviour 'function(me) return me.x + nil, 0 end'
+    sed "s/count: 30, in: yard/count: $agents, in: yard/" "$yard/many.yaml" >"$yard/scene.yaml"
+    says "one that fails in each call of $agents agents ends with status 1" 1 \
+        "jostle run: behaviour odd.lua failed: state A > steer, in $((40 * agents)) of $((40 * agents)) calls" \
+        "$program" run scene.yaml --for 2 --quiet
+    behaviour 'function(me) if me.time > 1.799 then return nil, 0 end return 0, 0 end'
+    says "  in a tenth of them, too" 1 "in $((4 * agents)) of $((40 * agents)) calls" "$program" run scene.yaml --for 2 --quiet
+done
+behaviour 'function(me) if me.time < 0.1 then return nil, 0 end return 0, 0 end'
+says "in fewer, the last lines count them" 0 "8 failed calls of functions of" "$program" run scene.yaml --for 2
+behaviour 'function(me) return me.x + nil, 0 end'
+"$program" run "$yard/scene.yaml" --for 2 --quiet --checkpoint 1 --checkpoint-dir "$yard/points" >/dev/null 2>&1
+says "a run that goes on from a checkpoint counts them, too" 1 "in 320 of 320 calls" "$program" resume points --for 4 --quiet
+
 # ---- people who are lost ----
 behaviour 'drift(1, 0)'
 scene 'groups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9990, 3], [9990, 6]]}}'

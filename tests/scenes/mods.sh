@@ -228,7 +228,7 @@ names=; for i in $(seq 10 49); do mod m$i "depends: [$names]"; names="$names${na
 on
 says "forty mods, each in need of all before" 0 "40. m49 1.0" timeout 10 "$program" mod list "$tree/scenes/yard.yaml"
 for i in $(seq 50 80); do mod m$i ""; done
-says "more mods than there may be" 0 "m74/mod.yaml:1:1: there are over 64 mods" "$program" mod list "$tree/scenes/yard.yaml"
+says "more mods than there may be, which is an error" 3 "m74/mod.yaml:1:1: there are over 64 mods" "$program" mod list "$tree/scenes/yard.yaml"
 rm -rf "$tree/scenes/mods"/*
 mod aaa "depends: yy"; mod zz "load_after: yy"; mod yy "load_after: zz"
 on

@@ -197,7 +197,7 @@ left=$(ps -o pid= --ppid $parent)
 [ "$(echo $left | wc -w)" = 2 ]; verdict "two runs at once" $?
 kill -TERM $parent # bash lets what runs in the background ignore SIGINT
 wait $parent
-[ $? = 1 ]; verdict "an interruption is exit status 1" $?
+[ $? = 143 ]; verdict "an interruption is exit status 143, as of a run" $?
 says "and says what is kept" "interrupted; what was done is kept in"
 alive=0; for pid in $left; do kill -0 "$pid" 2>/dev/null && alive=1; done
 verdict "no run is left behind" $alive

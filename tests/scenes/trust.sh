@@ -83,6 +83,18 @@ says "standard output that is full" 1 "cannot write to standard output: No space
 (sleep 0.3; "$program" run "$scene" --steps 2 --summary - --record closed.sqlite; echo $? >status) 2>closed.err | true
 grep -q '^1$' status && grep -q 'Broken pipe' closed.err && [ "$(sqlite3 closed.sqlite 'PRAGMA integrity_check')" = ok ]
 verdict "a pipe that was closed: status 1, and the recording is whole" $?
+# What is printed to be read may be left unread; data may not, nor is a full disk a reader.
+cp "$scene" read.yaml
+for command in --help --version "run --help" "bench --help" reference "reference scenes" "check --reference" "check read.yaml" "mod list"; do
+    (sleep 0.1; "$program" $command; echo $? >status) 2>closed.err | true
+    grep -q '^0$' status && [ ! -s closed.err ]; verdict "jostle $command | head -1: status 0" $?
+    says "  to a full disk: 1" 1 "cannot write to standard output: No space" sh -c "'$program' $command >/dev/full"
+done
+(sleep 0.1; "$program" check read.yaml --json; echo $? >status) 2>closed.err | true
+grep -q '^1$' status && grep -q 'Broken pipe' closed.err; verdict "check --json to a pipe that was closed: status 1" $?
+echo 'jostle: 2' >wrong.yaml
+(sleep 0.1; "$program" check wrong.yaml; echo $? >status) 2>closed.err | true
+grep -q '^3$' status; verdict "check of what is wrong, unread: status 3" $?
 sqlite3 foreign.sqlite "$table trajectory_data$columns"
 says "another program's recording is not replaced" 1 "is not a recording of Jostle's" "$program" run "$scene" --quiet --record foreign.sqlite
 (ulimit -f 1000; exec "$program" run "$scene" --quiet --for 1e6 --record full.sqlite) >out 2>&1

@@ -36,7 +36,7 @@ waiting=$!
 sleep 0.5
 kill -INT $pid
 wait $pid
-verdict "Ctrl-C ends it well" $?
+[ $? = 130 ]; verdict "Ctrl-C ends it, with the status of a run" $?
 [ -n "$(figure hash <"$work/summary")" ]
 verdict "with its figures" $?
 hash=$(figure hash <"$work/summary")
@@ -46,8 +46,9 @@ same_hash "a run without a page gives the same state" "$hash" \
 "$JOSTLE" resume "$work/ck" --quiet --for "$(awk -v n="$(figure steps <"$work/summary")" 'BEGIN {print n * 0.05}')" --summary "$work/rest" 2>"$work/errors"
 same_hash "and it goes on from its checkpoint" "$hash" "$(figure hash <"$work/rest")"
 
-kill -INT $waiting
+kill -TERM $waiting
 wait $waiting
+[ $? = 143 ]; verdict "SIGTERM: status 143" $?
 [ "$(figure steps <"$work/waited")" = 0 ]
 verdict "a run waits for its first page" $?
 
@@ -63,6 +64,15 @@ for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
     timeout -s KILL 60 "$JOSTLE" $command $page >/dev/full 2>"$work/errors" </dev/null
     [ $? = 1 ] && grep -q "cannot write to standard output: No space" "$work/errors"
     verdict "${command%% *} ends where its address cannot be written" $?
+done
+for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
+    (sleep 0.3; timeout -s KILL 60 "$JOSTLE" $command $page; echo $? >"$work/status") 2>/dev/null </dev/null | true
+    [ "$(cat "$work/status")" = 1 ]; verdict "  and where nobody reads it" $?
+    env --default-signal=HUP "$JOSTLE" $command $page >"$work/said" 2>/dev/null </dev/null &
+    pid=$!
+    for _ in $(seq 100); do grep -q token "$work/said" && break; sleep 0.1; done
+    kill -HUP $pid; wait $pid
+    [ $? = 129 ]; verdict "SIGHUP ends ${command%% *}: status 129" $?
 done
 refuses "a page that is not there" 1 "give its folder by --page" scenes/circle.yaml --view --page /nowhere
 refuses "three.js that is not there" 1 "libjs-three" scenes/circle.yaml --view --page "$work/page" --three /nowhere

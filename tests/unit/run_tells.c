@@ -159,7 +159,10 @@ static void costs_and_troubles(void **state) {
     assert_int_equal(costs->items[0].failures, 2);
     assert_false(costs->items[0].suspended);
     assert_true(costs->stepping > 0.0);
-    assert_int_equal(troubles->count, 0);
+    assert_int_equal(troubles->count, 1);
+    assert_int_equal(troubles->items[0].kind, JO_TROUBLE_FAILED);
+    assert_int_equal(troubles->items[0].count, 2);
+    assert_non_null(strstr(troubles->items[0].text, "state Go > on_enter, in 2 of 2 calls"));
     jo_free(costs);
     jo_free(troubles);
     jo_scene_free(scene);

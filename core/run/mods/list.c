@@ -77,6 +77,7 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
     }
     head->taken = mods->count;
     head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoMod));
+    head->errors = (uint32_t)diagnostics.errors;
     jox_mods_free(mods);
     jox_run_report(def->message, def->message_context, &diagnostics, NULL);
     return jox_disown(jox_pack_end(&pack));

@@ -65,7 +65,10 @@ static void say_events(const JoScene *scene, JoxText *out) {
                   {s->kicks, "kick"},
                   {s->throws, "throw"},
                   {s->people_lost, "person was lost|people were lost"},
-                  {s->bodies_lost, "body was lost|bodies were lost"}};
+                  {s->bodies_lost, "body was lost|bodies were lost"},
+                  {jox_lua_failures(scene->lua),
+                   "failed call of a function of a behaviour|failed calls of functions of "
+                   "behaviours"}};
     const char *before = " There were ";
     for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
         if (events[e].count == 0)

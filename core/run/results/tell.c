@@ -100,18 +100,25 @@ static void add_trouble(JoxPack *pack, JoTroubles *head, JoTroubleKind kind, uin
     jox_text_free(text);
 }
 
-static void add_suspended(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
+/* Functions that are suspended, and those that failed in a tenth of their calls or more: with two
+   agents as with many. */
+static void add_failing(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         JoLuaCost cost;
         for (uint32_t h = 0;
              jox_lua_cost(scene->lua, scene->world->model.machines.items[m], h, &cost); h++) {
             JoxText text = {0};
-            if (!cost.suspended)
-                continue;
-            jox_text_printf(
-                &text, "behaviour %.200s was suspended: %.200s failed %d times within a second",
-                cost.file, cost.where, JOX_MOST_FAILURES);
-            add_trouble(pack, head, JO_TROUBLE_SUSPENDED, JOX_MOST_FAILURES, cost.file, &text);
+            if (cost.suspended) {
+                jox_text_printf(
+                    &text, "behaviour %.200s was suspended: %.200s failed %d times within a second",
+                    cost.file, cost.where, JOX_MOST_FAILURES);
+                add_trouble(pack, head, JO_TROUBLE_SUSPENDED, JOX_MOST_FAILURES, cost.file, &text);
+            } else if (jox_lua_is_failing(&cost)) {
+                jox_text_printf(&text, "behaviour %.200s failed: %.200s, in %llu of %llu calls",
+                                cost.file, cost.where, (unsigned long long)cost.failures,
+                                (unsigned long long)cost.calls);
+                add_trouble(pack, head, JO_TROUBLE_FAILED, cost.failures, cost.file, &text);
+            }
         }
     }
 }
@@ -125,7 +132,7 @@ JoTroubles *jo_scene_troubles(const JoScene *scene) {
     JoxText text = {0};
     JoTroubles *head = jox_pack_add(&pack, HEAD, sizeof *head);
     jox_pack_list(&pack, HEAD, &head->items, ITEMS);
-    add_suspended(scene, &pack, head);
+    add_failing(scene, &pack, head);
     if (s->people_lost) {
         jox_text_printf(&text, "%llu times the numbers of somebody went wrong, who was %s",
                         (unsigned long long)s->people_lost,
