@@ -45,7 +45,7 @@ typedef struct JoError {
     JoCode code;
     int line, column; /* from 1; 0 unknown */
     char file[256];
-    char text[1024];
+    char text[1024]; /* with the way out, where one is known */
 } JoError;
 
 /* Called with each broken precondition; may return. NULL restores the default, which prints (and

@@ -25,9 +25,11 @@ class Error : public std::runtime_error {
 
   private:
     static std::string text_of(const JoError &error) {
-        if (!error.file[0] || error.line == 0)
-            return error.text;
-        return std::string(error.file) + ":" + std::to_string(error.line) + ": " + error.text;
+        std::string place = error.file;
+        for (const int number : {error.line, error.line ? error.column : 0})
+            if (number)
+                place += ":" + std::to_string(number);
+        return place.empty() ? error.text : place + ": " + error.text;
     }
     JoError error_;
 };

@@ -52,7 +52,7 @@ void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnosti
         const JoxDiagnostic *d = &diagnostics->items[i];
         if (d->severity != JOX_SEVERITY_ERROR)
             continue;
-        jox_error(error, JO_INPUT, "%s", d->message);
+        jox_error(error, JO_INPUT, d->hint ? "%s. %s" : "%s", d->message, d->hint);
         error->line = d->line;
         error->column = d->column;
         snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");

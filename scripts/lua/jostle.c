@@ -58,9 +58,19 @@ static void tell(lua_State *L, Scene *s, int at) {
 }
 
 static int fail(lua_State *L, const JoError *error) {
+    const char *text = *error->text ? error->text : "it failed";
     if (*error->file && error->line)
-        return luaL_error(L, "%s:%d: %s", error->file, error->line, error->text);
-    return luaL_error(L, "%s", *error->text ? error->text : "it failed");
+        return luaL_error(L, "%s:%d:%d: %s", error->file, error->line, error->column, text);
+    return *error->file ? luaL_error(L, "%s: %s", error->file, text) : luaL_error(L, "%s", text);
+}
+
+/* An argument that is a text for C, which would end at a zero byte. */
+static const char *text_at(lua_State *L, int at) {
+    size_t length;
+    const char *text = luaL_checklstring(L, at, &length);
+    if (strlen(text) != length)
+        luaL_error(L, "a text with a zero byte names nothing: '%s...'", text);
+    return text;
 }
 
 static Scene *scene_at(lua_State *L) {
@@ -96,7 +106,8 @@ static size_t read_sets(lua_State *L, int keep, const char *sets[MOST_SETS]) {
             luaL_error(L, "set maps paths to values: set = {[\"groups.people.count\"] = 50}");
         if (count == MOST_SETS)
             luaL_error(L, "at most %d values can be set", MOST_SETS);
-        const char *path = lua_tostring(L, -2), *value = luaL_tolstring(L, -1, NULL);
+        luaL_tolstring(L, -1, NULL);
+        const char *path = text_at(L, -3), *value = text_at(L, -1);
         sets[count] = lua_pushfstring(L, "%s=%s", path, value);
         lua_rawseti(L, keep, (lua_Integer)++count);
         lua_pop(L, 2); /* the text of the value, and it */
@@ -113,7 +124,7 @@ static size_t read_list(lua_State *L, const char *items[MOST_SETS]) {
         lua_rawgeti(L, -1, (lua_Integer)i + 1);
         if (lua_type(L, -1) != LUA_TSTRING)
             luaL_error(L, "mods is a list of names or folders");
-        items[i] = lua_tostring(L, -1); /* the list keeps it */
+        items[i] = text_at(L, -1); /* the list keeps it */
         lua_pop(L, 1);
     }
     return count;
@@ -157,7 +168,7 @@ static int load(lua_State *L) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     const char *sets[MOST_SETS], *mods[MOST_SETS];
-    def.path = luaL_checkstring(L, 1);
+    def.path = text_at(L, 1);
     lua_settop(L, 2);
     if (lua_isnil(L, 2)) {
         lua_newtable(L);
@@ -166,8 +177,11 @@ static int load(lua_State *L) {
     luaL_checktype(L, 2, LUA_TTABLE);
     refuse_others(L);
     lua_newtable(L); /* 3: keeps the texts of sets */
-    if ((def.has_seed = option(L, "seed", LUA_TNUMBER)))
-        def.seed = (uint64_t)whole(L, "seed");
+    if ((def.has_seed = option(L, "seed", LUA_TNUMBER))) {
+        const lua_Integer seed = whole(L, "seed");
+        luaL_argcheck(L, seed >= 0, 2, "a seed is 0 or more");
+        def.seed = (uint64_t)seed;
+    }
     if ((def.has_dt = option(L, "step", LUA_TNUMBER)))
         def.dt = lua_tonumber(L, -1);
     if (option(L, "threads", LUA_TNUMBER)) {
@@ -263,23 +277,24 @@ static int step(lua_State *L) {
 static int run(lua_State *L) {
     Scene *s = scene_at(L);
     const double now = jo_world_time(jo_scene_world(s->scene)),
-                 seconds = luaL_optnumber(L, 2, jo_scene_duration(s->scene) - now),
+                 left = fmax(jo_scene_duration(s->scene) - now, 0.0),
+                 seconds = luaL_optnumber(L, 2, left),
                  steps = ceil(seconds / jo_scene_stats(s->scene).dt - 1e-6);
-    luaL_argcheck(L, seconds <= 1e9, 2, "seconds are 1e9 at most");
+    luaL_argcheck(L, seconds >= 0.0 && seconds <= 1e9, 2, "seconds are 0 to 1e9");
     return advance(L, s, steps > 0 ? (uint64_t)steps : 0);
 }
 
 static int input(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
-    const bool good = jo_scene_input(s->scene, luaL_checkstring(L, 2), &error);
+    const bool good = jo_scene_input(s->scene, text_at(L, 2), &error);
     return done(L, s, good, &error);
 }
 
 static int signal(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
-    const bool good = jo_scene_signal(s->scene, luaL_checkstring(L, 2), &error);
+    const bool good = jo_scene_signal(s->scene, text_at(L, 2), &error);
     return done(L, s, good, &error);
 }
 
@@ -287,7 +302,7 @@ static int open_wall(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
     const bool open = lua_isnoneornil(L, 3) || lua_toboolean(L, 3),
-               good = jo_scene_open_wall(s->scene, luaL_checkstring(L, 2), open, &error);
+               good = jo_scene_open_wall(s->scene, text_at(L, 2), open, &error);
     return done(L, s, good, &error);
 }
 
@@ -295,7 +310,7 @@ static int record(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
     const double every = luaL_optnumber(L, 3, 0);
-    const char *path = luaL_checkstring(L, 2);
+    const char *path = text_at(L, 2);
     luaL_argcheck(L, every >= 0 && every <= 1e6, 3, "a frame each so many seconds, 0 to 1e6");
     luaL_argcheck(L, !s->recorded, 1, "the scene is recorded already");
     const bool good = s->recorded = jo_scene_record(s->scene, path, every, &error);
@@ -355,7 +370,7 @@ static void push_number(lua_State *L, const JoColumn *column, uint32_t agent) {
 
 /* scene:column(NAME): an array of numbers, as of jo_world_column; those of `id` have its order. */
 static int column(lua_State *L) {
-    const char *name = luaL_checkstring(L, 2);
+    const char *name = text_at(L, 2);
     const uint32_t room = jo_world_agent_count(world_at(L));
     lua_createtable(L, (int)room, 0); /* may close the scene: by what is collected then */
     const JoColumn found = jo_world_column(world_at(L), name);
@@ -408,7 +423,7 @@ static int summary(lua_State *L) {
 /* scene:probe(NAME): what it has measured, as lists by column. */
 static int probe(lua_State *L) {
     const JoScene *scene = scene_at(L)->scene;
-    const char *name = luaL_checkstring(L, 2);
+    const char *name = text_at(L, 2);
     for (uint32_t n = 0; jo_scene_probe_name(scene, n); n++)
         if (strcmp(jo_scene_probe_name(scene, n), name) == 0)
             return jol_push(L, jol_push_table, jo_scene_probe_table(scene, n));

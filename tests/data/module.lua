@@ -34,6 +34,19 @@ fails("an option that there is not", "no option 'sed'", jostle.scene, "scenes/ca
 fails("an option of another type", "seed must be a number", jostle.scene, "scenes/catch.yaml", { seed = "a" })
 fails("a scene that there is not", "gone.yaml", jostle.scene, "gone.yaml")
 fails("a path that there is not", "Did you mean 'count'?", jostle.scene, "scenes/catch.yaml", { set = { ["groups.red.cout"] = 3 } })
+local function broken()
+  local file = io.open(folder .. "/broken.yaml", "w"); file:write("jostle: 1\nduraton: 5\n"); file:close()
+  jostle.scene(folder .. "/broken.yaml")
+end
+fails("an error has its line and column", "broken.yaml:2:1:", broken)
+fails("  and the way out", "Did you mean 'duration'?", broken)
+fails("a path with a zero byte", "zero byte", jostle.scene, "scenes/catch.yaml\0.lua")
+fails("a value with a zero byte", "zero byte", jostle.scene, "scenes/catch.yaml", { set = { ["groups.red.count"] = "3\0" } })
+fails("a signal with a zero byte", "zero byte", scene.signal, scene, "a\0b")
+fails("a seed below 0", "0 or more", jostle.scene, "scenes/catch.yaml", { seed = -1 })
+fails("steps below 0", "0 or more", scene.step, scene, -1)
+fails("a time below 0", "0 to 1e9", scene.run, scene, -1)
+fails("a time that is no number", "0 to 1e9", scene.run, scene, 0 / 0)
 fails("another thing in place of a scene", "jostle.scene expected", scene.step, {})
 
 -- Values that are set; probes; gates; recordings; messages.

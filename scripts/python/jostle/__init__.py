@@ -4,7 +4,7 @@
 
     scene = jostle.Scene("scenes/evacuation.yaml", seed=3, set={"groups.people.count": 80})
     scene.run(20)                                # simulated seconds; other Python threads go on meanwhile
-    x, y = scene["x"], scene["y"]                # views, not copies, until the next step
+    x, y = scene["x"], scene["y"]                # arrays of how it is now
     print(scene.summary()["density_max"], scene.probes()["door"])
 
 Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.

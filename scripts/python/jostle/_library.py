@@ -1,14 +1,15 @@
 """The shared library, and its errors as exceptions."""
 from __future__ import annotations
 
+import operator
 import os
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Iterator, Union
 
 from ._declarations import ffi
 
-__all__ = ["Error", "check", "ffi", "lib", "named", "text_of", "told"]
+__all__ = ["Error", "check", "ffi", "lib", "named", "path_named", "text_of", "told", "whole"]
 
 
 def _candidates() -> list[str]:
@@ -39,14 +40,17 @@ lib = _open()
 class Error(Exception):
     """What the library refused, with where in which file.
 
-    `code` is 1 where a run failed, 2 where the call makes no sense, 3 where a scene, behaviour or value is
+    str() has the place, the message and the way out ("Did you mean ...?"); `text` has no place. `code` is 1 where a run failed, 2 where the call makes no sense, 3 where a scene, behaviour or value is
     wrong; `file` is "" and `line` and `column` are 0 where there is no such place.
     """
 
     def __init__(self, text: str, code: int = 1, file: str = "", line: int = 0, column: int = 0) -> None:
         self.text, self.code, self.file, self.line, self.column = text, code, file, line, column
-        place = f"{file}:{line}:{column}: " if file and line else f"{file}: " if file else ""
-        super().__init__(place + text)
+        super().__init__(text, code, file, line, column)
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}:{self.column}: " if self.file and self.line else f"{self.file}: " if self.file else ""
+        return place + self.text
 
 
 def named(text: str) -> bytes:
@@ -56,6 +60,25 @@ def named(text: str) -> bytes:
     if "\0" in text:
         raise ValueError(f"a text with a zero byte names nothing: {text!r}")
     return text.encode()
+
+
+def path_named(path: Union[str, "os.PathLike[str]"]) -> bytes:
+    """A path for C, as the system has it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"a path with a zero byte names nothing: {path!r}")
+    return name
+
+
+def whole(what: str, number: Any, most: int = 2**64 - 1) -> int:
+    """A whole number from 0 to `most`."""
+    try:
+        value = operator.index(number)
+    except TypeError:
+        raise TypeError(f"{what} is a whole number, not {number!r}") from None
+    if not 0 <= value <= most:
+        raise ValueError(f"{what} is from 0 to {most}, not {number!r}")
+    return value
 
 
 def text_of(pointer: Any) -> str:
@@ -78,4 +101,7 @@ def check(good: Any, error: Any) -> Any:
     """Returns what a call returned, or raises what it refused."""
     if good:
         return good
-    raise Error(text_of(error.text) or "the call was refused", error.code, text_of(error.file), error.line, error.column)
+    refused = Error(text_of(error.text) or "this call makes no sense with these values, or at this time", error.code or 2,
+                    text_of(error.file), error.line, error.column)
+    ffi.buffer(error)[:] = bytes(ffi.sizeof("JoError"))  # a later call need not fill it
+    raise refused

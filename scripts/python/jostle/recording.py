@@ -1,9 +1,12 @@
 """Recordings of runs: SQLite files in the format of JuPedSim, version 2, which PedPy reads too."""
 from __future__ import annotations
 
+import os
 import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import Any, Iterator, Optional, Union
+from urllib.parse import quote
 
 import numpy as np
 
@@ -17,11 +20,15 @@ class Recording:
     force and load (N), compression (N/m)."""
 
     def __init__(self, path: Union[str, Path]) -> None:
-        self.path = str(path)
+        self.path = os.fsdecode(path)
         if not Path(path).is_file():
             raise Error("there is no such recording", 3, self.path)
         try:
-            with sqlite3.connect(f"file:{self.path}?mode=ro", uri=True) as database:
+            with closing(sqlite3.connect(f"file:{quote(os.fsencode(path))}?mode=ro", uri=True)) as database:
+                virtual = database.execute("SELECT name FROM sqlite_master WHERE type = 'table' AND rootpage = 0 AND "
+                                           "lower(name) IN ('metadata', 'trajectory_data', 'jostle_row')").fetchall()
+                if virtual:
+                    raise Error(f"its '{virtual[0][0]}' is a virtual table, which is not read", 3, self.path)
                 self.metadata = dict(database.execute("SELECT key, value FROM metadata"))
                 rows = database.execute("SELECT * FROM trajectory_data ORDER BY frame, id")
                 names = [column[0] for column in rows.description]
@@ -29,11 +36,19 @@ class Recording:
         except sqlite3.Error as error:
             raise Error(str(error), 3, self.path) from error
         self._columns = {name.replace("pos_", ""): np.array([row[n] for row in table]) for n, name in enumerate(names)}
+        for name in ("frame", "id", "x", "y"):
+            if name not in self._columns:
+                raise Error(f"its trajectory_data has no column for {name}", 3, self.path)
+            if self._columns[name].dtype.kind not in "iuf":
+                raise Error(f"somebody's {name} is no number", 3, self.path)
 
     @property
     def fps(self) -> float:
         """Frames a second."""
-        return float(self.metadata["fps"])
+        try:
+            return float(self.metadata["fps"])
+        except (KeyError, TypeError, ValueError):
+            raise Error("it does not say how many frames a second it has", 3, self.path) from None
 
     def names(self) -> list:
         """Of the columns."""

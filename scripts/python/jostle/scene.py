@@ -2,6 +2,9 @@
 from __future__ import annotations
 
 import json
+import math
+import operator
+import os
 import sys
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
@@ -9,7 +12,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 
 from ._events import Events, events_of
-from ._library import Error, check, ffi, lib, named, text_of, told
+from ._library import Error, check, ffi, lib, named, path_named, text_of, told, whole
 from .show import Picture, live_page, picture_of
 
 __all__ = ["Agent", "Body", "Scene"]
@@ -59,35 +62,39 @@ class Scene:
     seed, dt: in place of the scene's (dt in s). set: keys of the scene and their values, as `jostle run --set`.
     threads: 0 are all processors; they never change a result. mods: folders or names of mods, and no others.
     input_log: a file of what people and programs did, played back. message: is told what is to be said to people;
-    by default it goes to stderr. One scene must not be used by two threads at once.
+    by default it goes to stderr. One scene must not be used by two threads at once, and is neither copied nor pickled.
     """
 
     def __init__(self, path: Union[str, Path], seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
                  dt: Optional[float] = None, threads: int = 0, mods: Sequence[str] = (),
                  input_log: Union[str, Path, None] = None, message: Optional[Callable[[str], Any]] = None,
                  density: bool = True) -> None:
-        self.path, self.seed, self.overrides = str(path), seed, dict(set or {})
-        self._scene = self._closed = ffi.NULL
-        self._stepping = self._finished = False
-        self._views = 0
+        if getattr(self, "_scene", None):
+            raise Error("the scene is loaded already", 2)
+        if isinstance(mods, (str, bytes)):
+            raise TypeError(f"mods are a list of folders or names, not the text {mods!r}")
+        self._scene = ffi.NULL
+        self._busy = self._finished = self._recorded = False
+        name = path_named(path)
+        self.path, self.seed, self.overrides = os.fsdecode(path), seed, dict(set or {})
         say = message or sys.stderr.write
         self._message = ffi.callback("void(void *, const char *)", lambda _context, text: (say(text_of(text)), None)[1])
         definition = ffi.new("JoSceneDef *", lib.jo_default_scene_def())
-        kept = [ffi.new("char[]", named(self.path))]
+        kept = [ffi.new("char[]", name)]
         definition.path = kept[0]
         overrides = [ffi.new("char[]", named(f"{key}={_written(value)}")) for key, value in self.overrides.items()]
-        names = [ffi.new("char[]", named(str(mod))) for mod in mods]
+        names = [ffi.new("char[]", path_named(mod)) for mod in mods]
         kept += [ffi.new("char *[]", overrides or [ffi.NULL]), ffi.new("char *[]", names or [ffi.NULL])]
         definition.overrides, definition.override_count = ffi.cast("const char *const *", kept[1]), len(overrides)
         definition.mods, definition.mod_count = ffi.cast("const char *const *", kept[2]), len(names)
         definition.named_mods_only, definition.no_density = True, not density
-        definition.threads, definition.message = threads, self._message
+        definition.threads, definition.message = whole("threads", threads, 2**32 - 1), self._message
         if seed is not None:
-            definition.has_seed, definition.seed = True, seed
+            definition.has_seed, definition.seed = True, whole("a seed", seed)
         if dt is not None:
             definition.has_dt, definition.dt = True, dt
         if input_log is not None:
-            kept.append(ffi.new("char[]", named(str(input_log))))
+            kept.append(ffi.new("char[]", path_named(input_log)))
             definition.input_log = kept[-1]
         self._error = ffi.new("JoError *")
         self._scene = check(lib.jo_scene_load(definition, self._error), self._error)
@@ -96,21 +103,11 @@ class Scene:
     # ---- its life ----
 
     def close(self) -> None:
-        """Ends it. It is freed at once, or with the last array that is a view of it."""
+        """Ends it and frees it. Arrays that were read from it remain."""
         if self._scene:
             self._live()
-            self._closed, self._scene, self._world = self._scene, ffi.NULL, ffi.NULL
-            self._free_closed()
-
-    def _free_closed(self) -> None:
-        if self._closed and not self._views:
-            lib.jo_scene_free(self._closed)
-            self._closed = ffi.NULL
-
-    def _drop_view(self, _pointer: Any) -> None:
-        """An array was freed. What it referred to, its scene, lives at least as long."""
-        self._views -= 1
-        self._free_closed()
+            closed, self._scene, self._world = self._scene, ffi.NULL, ffi.NULL
+            lib.jo_scene_free(closed)
 
     def __enter__(self) -> "Scene":
         return self
@@ -122,18 +119,29 @@ class Scene:
         if getattr(self, "_scene", None):
             lib.jo_scene_free(self._scene)
 
+    def __reduce_ex__(self, _protocol: Any) -> Any:
+        """Also what copy.copy and copy.deepcopy call: two objects would free one scene."""
+        raise TypeError("a scene is neither copied nor pickled: load it anew, and give that its state by "
+                        "restore(scene.snapshot())")
+
     def _live(self) -> Any:
-        """The world; refuses where the scene is closed or another thread steps it."""
+        """The world; refuses where the scene is closed, or a call of it is under way: in another thread, or the one that
+        gives a message to the function that asks."""
         if not self._scene:
             raise Error("the scene is closed", 2)
-        if self._stepping:
-            raise Error("another thread steps this scene", 2)
+        if self._busy:
+            raise Error("another call of this scene is under way", 2)
         return self._world
 
     def _do(self, call: Any, *arguments: Any) -> Any:
-        """A call of the library that takes a JoError at its end."""
+        """A call of the library that takes a JoError at its end. Other Python threads run meanwhile."""
         self._live()
-        return check(call(*arguments, self._error), self._error)
+        self._busy = True
+        try:
+            result = call(*arguments, self._error)
+        finally:
+            self._busy = False
+        return check(result, self._error)
 
     # ---- stepping ----
 
@@ -143,21 +151,20 @@ class Scene:
             raise Error("the scene is finished: nothing is done to it any more", 2)
 
     def step(self, steps: int = 1) -> None:
-        """Advances by so many steps. Other Python threads run meanwhile."""
-        for _ in range(steps):
+        """Advances by so many steps, 0 or more. Other Python threads run meanwhile."""
+        for _ in range(whole("a number of steps", steps)):
             self._going()
-            self._stepping = True
-            try:
-                good = lib.jo_scene_step(self._scene, self._error)
-            finally:
-                self._stepping = False
-            check(good, self._error)
+            self._do(lib.jo_scene_step, self._scene)
 
     def run(self, seconds: Optional[float] = None) -> "Scene":
-        """Advances by simulated seconds; without, until the scene's duration is over."""
+        """Advances by simulated seconds, to the nearest step; without, until the scene's duration is over."""
         self._live()
-        left = lib.jo_scene_duration(self._scene) - self.time if seconds is None else seconds
-        self.step(max(0, round(left / self.dt)))
+        if seconds is not None:
+            _within("a time to run, s,", 0.0, 1e9, seconds)
+        left = max(0.0, lib.jo_scene_duration(self._scene) - self.time) if seconds is None else seconds
+        if not math.isfinite(left):
+            raise ValueError("the scene gives no duration: say how many seconds it runs")
+        self.step(round(left / self.dt))
         return self
 
     @property
@@ -187,22 +194,19 @@ class Scene:
     # ---- what is there ----
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A column, one number for each agent, in place and read-only: it holds until the next step or the next call
-        that changes the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
+        """A column, one number for each agent, as it is now: a read-only copy, which later steps do not change and
+        which outlives the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
         column = lib.jo_world_column(self._live(), named(name))
         if not column.stride and not column.count:
             raise KeyError(name)
         dtype = TYPES[column.type]
         if not column.count:
             return np.empty(0, dtype)
-        owner = ffi.gc(ffi.cast("char *", column.data), self._drop_view)
-        self._views += 1
         extent = (column.count - 1) * column.stride + np.dtype(dtype).itemsize
-        view = np.frombuffer(ffi.buffer(owner, extent), dtype)
-        if not column.stride:  # one number is that of all
-            view = np.broadcast_to(view, column.count)
-        view.flags.writeable = False
-        return view
+        memory = ffi.buffer(ffi.cast("char *", column.data), extent)
+        copy = np.ndarray(column.count, dtype, memory, strides=(column.stride,)).copy()
+        copy.flags.writeable = False
+        return copy
 
     def columns(self) -> list:
         """Names of all columns."""
@@ -215,18 +219,18 @@ class Scene:
             n += 1
 
     def positions(self) -> np.ndarray:
-        """Rows x, y of all agents, m, in the order of `scene["id"]`: a copy."""
+        """Rows x, y of all agents, m, in the order of `scene["id"]`."""
         return np.column_stack((self["x"], self["y"]))
 
     def states(self) -> np.ndarray:
-        """The name of each agent's state: a copy."""
+        """The name of each agent's state."""
         machine, state = self["machine"], self["state"]
         names = {(m, s): text_of(lib.jo_world_state_name(self._world, int(m), int(s)))
                  for m, s in np.unique(np.column_stack((machine, state)), axis=0)}
         return np.array([names[pair] for pair in zip(machine, state)])
 
     def table(self, names: Optional[Sequence[str]] = None) -> Any:
-        """Columns as a pandas DataFrame where pandas is installed, else as a dict of arrays: a copy."""
+        """Columns as a pandas DataFrame where pandas is installed, else as a dict of arrays."""
         chosen = {name: self[name].copy() for name in (names or ("id", "x", "y", "vx", "vy", "group", "state"))}
         try:
             import pandas
@@ -244,9 +248,10 @@ class Scene:
 
     def agent(self, agent: int) -> "Agent":
         """The agent with an id. KeyError where it is not there."""
-        if not lib.jo_world_agent_of(self._live(), agent).generation:
+        world = self._live()
+        if not 0 <= operator.index(agent) < 2**32 or not lib.jo_world_agent_of(world, agent).generation:
             raise KeyError(agent)
-        return Agent(self, agent)
+        return Agent(self, operator.index(agent))
 
     def body(self, name: str) -> "Body":
         """The body of a name. KeyError where there is none."""
@@ -324,11 +329,14 @@ class Scene:
 
     def record(self, path: Union[str, Path], every: float = 0.0) -> None:
         """Writes trajectories to an SQLite file from here on, a frame each `every` s (0: each 0.1 s)."""
-        self._do(lib.jo_scene_record, self._scene, named(str(path)), every)
+        _within("a time between frames, s,", 0.0, 1e6, every)
+        if self._recorded:
+            raise Error("the scene is recorded already", 2)
+        self._recorded = bool(self._do(lib.jo_scene_record, self._scene, path_named(path), every))
 
     def log_input(self, path: Union[str, Path]) -> None:
         """Writes what is done to it to a file from here on, which `input_log` plays back to the same state."""
-        self._do(lib.jo_scene_log_input, self._scene, named(str(path)))
+        self._do(lib.jo_scene_log_input, self._scene, path_named(path))
 
     def finish(self) -> None:
         """Ends recordings and logs: their files are whole."""

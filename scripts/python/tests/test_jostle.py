@@ -1,4 +1,7 @@
 """Tests of the package `jostle`, with small scenes and few steps."""
+import copy
+import pickle
+import sqlite3
 import threading
 import time
 
@@ -39,7 +42,7 @@ def test_steps_and_columns(path):
         scene.step(3)
         assert scene.tick == 3 and scene.time == pytest.approx(0.15)
         x = scene["x"]
-        assert x.dtype == np.float32 and not x.flags.writeable and not x.flags.owndata
+        assert x.dtype == np.float32 and not x.flags.writeable
         agent = scene.agent(2)
         assert x[list(scene["id"]).index(2)] == np.float32(agent.position[0])
         assert set(scene.columns()) >= {"id", "x", "radius", "speed"}
@@ -65,9 +68,128 @@ def test_errors_have_their_place(path):
     with pytest.raises(jostle.Error) as error:
         jostle.Scene(path, message=said.append)
     assert error.value.file.endswith("walker.lua") and error.value.line == 6 and error.value.code == 3
-    assert "hald" in str(error.value) and "Did you mean 'hold'?" in "".join(said)
+    assert "hald" in error.value.text and "Did you mean 'hold'?" in error.value.text and "Did you mean 'hold'?" in "".join(said)
+    assert str(error.value) == f"{error.value.file}:6:{error.value.column}: {error.value.text}" and error.value.column > 1
+    again = pickle.loads(pickle.dumps(error.value))
+    assert str(again) == str(error.value) and again.line == 6
     with pytest.raises(jostle.Error):
         jostle.Scene(path.parent / "none.yaml", message=said.append)
+
+
+def test_a_scene_is_neither_copied_nor_pickled(path):
+    scene = jostle.Scene(path)
+    for act in (copy.copy, copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match="load it anew"):
+            act(scene)
+    for whole in ([scene], scene.agent(1), {"scene": scene}):
+        for act in (copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="load it anew"):
+                act(whole)
+    with pytest.raises(jostle.Error, match="loaded already"):
+        scene.__init__(path)
+    assert copy.copy(scene.agent(1)).position == scene.agent(1).position
+    scene.step(3)
+    other = jostle.Scene(path)
+    other.restore(scene.snapshot())  # the way that the error names
+    assert other.hash == scene.hash and other.run(0.5).hash == scene.run(0.5).hash
+
+
+def test_a_column_is_of_its_time(path):
+    text = SCENE.replace("places: {", "sources: [{like: people, at: yard, rate: 200}]\nplaces: {yard: {point: [0, 20], radius: 14}, ")
+    (path.parent / "grows.yaml").write_text(text)
+    scene = jostle.Scene(path.parent / "grows.yaml")
+    kept = {name: (scene[name], scene[name].copy()) for name in scene.columns() if len(scene[name])}
+    scene.run(2)
+    assert len(scene) > 100
+    for column, was in kept.values():  # memory of the engine would be freed, or hold other numbers
+        assert np.array_equal(column, was, equal_nan=column.dtype.kind == "f")
+    x = scene["x"]
+    with pytest.raises(ValueError):
+        x[0] = 5
+    x.flags.writeable = True
+    x[:] = 5
+    assert not np.any(scene["x"] == 5)
+    scene.close()
+    assert x[0] == 5
+
+
+def test_odd_values_are_refused(path):
+    scene = jostle.Scene(path)
+    state = scene.hash
+    nan, inf = float("nan"), float("inf")
+    for act in (lambda: scene.step(-1), lambda: scene.run(-1), lambda: scene.run(nan), lambda: scene.run(inf),
+                lambda: jostle.Scene(path, seed=-1), lambda: jostle.Scene(path, seed=2**64), lambda: jostle.Scene(path, threads=-1),
+                lambda: jostle.Scene("a\0b"), lambda: scene.signal("a\0b"), lambda: scene.record("a\0b"),
+                lambda: scene.record("a", every=nan), lambda: scene.record("a", every=-1),
+                lambda: scene.neighbours(nan, 0, 1), lambda: scene.density(inf, 0), lambda: scene.cast((0,), (1, 1)),
+                lambda: scene.add_wall("w", [(0, 0), (1,)])):
+        with pytest.raises(ValueError):
+            act()
+    for act in (lambda: scene.step(1.5), lambda: scene.step("1"), lambda: scene.step(None), lambda: scene.run("1"),
+                lambda: jostle.Scene(path, seed=1.5), lambda: jostle.Scene(path, mods="folder"), lambda: jostle.Scene(5),
+                lambda: jostle.Scene(None), lambda: scene.signal(5), lambda: scene[5], lambda: scene.agent(1.5),
+                lambda: scene.restore("text"), lambda: scene.spawn("people", "a", 0)):
+        with pytest.raises(TypeError):
+            act()
+    for agent in (-1, 2**32, 2**70, 99):
+        with pytest.raises(KeyError):
+            scene.agent(agent)
+    first = scene.agent(0)
+    for act in (lambda: jostle.Scene(path, dt=nan, message=len), lambda: jostle.Scene(path, dt=-1, message=len),
+                lambda: jostle.Scene(path, dt=0, message=len), lambda: jostle.Scene(path, threads=10**6, message=len),
+                lambda: scene.record(path.parent), lambda: scene.log_input(path.parent),
+                lambda: scene.spawn("people", nan, 0), lambda: scene.spawn("people", 1e9, 0), lambda: scene.spawn("peopel", 0, 0),
+                lambda: scene.add_wall("w", []), lambda: scene.add_wall("w", [(nan, 0), (1, 1)]), lambda: scene.remove_wall("none"),
+                lambda: scene.open("none"), lambda: scene.input(""), lambda: scene.input("push 0 nan 0"),
+                lambda: first.teleport(nan, 0), lambda: first.push(inf, 0), lambda: first.set_goal(""),
+                lambda: first.set_state("none"), lambda: first.set_memory("hits", nan), lambda: first.set_memory("none", 1),
+                lambda: first.set_parameter("speed", nan), lambda: first.set_parameter("mass", -1),
+                lambda: scene.restore(b""), lambda: scene.restore(scene.snapshot()[:-1])):
+        with pytest.raises(jostle.Error) as error:
+            act()
+        assert error.value.text and error.value.code in (1, 2, 3)
+    assert scene.hash == state and scene.step() is None
+
+
+def test_a_message_may_not_use_its_scene(path):
+    said = []
+
+    def close(text):
+        with pytest.raises(jostle.Error, match="under way"):
+            scene.close()
+        said.append(text)
+
+    (path.parent / "walker.lua").write_text(BEHAVIOUR.replace('"here" }', '"here", on_enter = function(me) print "called" end }'))
+    scene = jostle.Scene(path, message=close)
+    scene.agent(0).set_memory("hits", 3)
+    scene.step(2)
+    assert "called" in "".join(said)
+
+
+def test_recordings_of_others(tmp_path):
+    path = tmp_path / "run #1?.sqlite"
+    table = "(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL)"
+
+    def write(*statements):
+        path.unlink(missing_ok=True)
+        database = sqlite3.connect(path)
+        database.execute("CREATE TABLE metadata(key, value)")
+        for statement in statements:
+            database.execute(statement)
+        database.commit()
+        database.close()
+        return jostle.Recording(path)
+
+    good = write(f"CREATE TABLE trajectory_data{table}", "INSERT INTO trajectory_data VALUES (0, 1, 2.5, 3)")
+    assert good["x"][0] == 2.5 and pickle.loads(pickle.dumps(good))["x"][0] == 2.5
+    with pytest.raises(jostle.Error, match="frames a second"):
+        good.fps
+    with pytest.raises(jostle.Error, match="somebody's x is no number"):
+        write(f"CREATE TABLE trajectory_data{table}", "INSERT INTO trajectory_data VALUES (0, 1, 'here', 3)")
+    with pytest.raises(jostle.Error, match="no column for y"):
+        write("CREATE TABLE trajectory_data(frame, id, pos_x)", "INSERT INTO trajectory_data VALUES (0, 1, 2)")
+    with pytest.raises(jostle.Error, match="virtual table"):
+        write("CREATE VIRTUAL TABLE trajectory_data USING fts5(frame, id, pos_x, pos_y)")
 
 
 def test_what_is_done_and_what_happens(path):
