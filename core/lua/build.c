@@ -211,6 +211,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
     }
+    jox_misuse_find(&build);
     read_renamed(&build, table); /* first: what follows may be an old name */
     const char *known[16];
     jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),

@@ -1,17 +1,131 @@
-/* Misuse that Lua would pass over in silence: `and`, `or`, `not`, `==` and `~=` between conditions
-   decide while the file loads. The tokens of a condition, and of the locals that it uses, are
-   looked at.
- */
+/* Misuse that Lua would pass over in silence: `and`, `or`, `not`, `==`, `~=` and tests decide at
+   once, by whether there is a value, and a condition always is one. Reported are places where a
+   value of the language, and nothing else, gets there, in functions too; a name's kind is that of
+   the variable it means. Where optional arguments of functions are told apart, as in `x = x or
+   goal`, nothing is lost. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
+#include "lua/kinds.h"
 #include "lua/read.h"
 
-enum { MOST_LOOKS = 20000000 };
+typedef struct Search {
+    JoxScript *script;
+    const JoxSyntax *s;
+    const JoxKind *kinds; /* of its trees */
+    uint32_t source;
+} Search;
 
-/* Reports Lua operators that are evaluated at load, where one between conditions was meant. */
-static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first, uint32_t last) {
-    JOX_ASSERT(first <= last && last <= source->token_count);
+static void add_misuse(const Search *f, uint32_t at, bool certain) {
+    JoxScript *script = f->script;
+    JOX_RESERVE(script->misuses, script->misuse_capacity, script->misuse_count + 1);
+    script->misuses[script->misuse_count++] = (JoxMisuse){f->source, at, certain, false};
+}
+
+static const JoxTree *bare(const Search *f, int32_t tree) {
+    return &f->s->trees[jox_syntax_bare(f->s, tree)];
+}
+
+/* Whether a tree is a parameter of a function by itself: others may call it with nothing. */
+static bool is_parameter(const Search *f, int32_t tree) {
+    const JoxTree *t = bare(f, tree);
+    return t->kind == JOX_TREE_NAME && t->variable != JOX_NO_TREE &&
+           f->s->variables[t->variable].parameter != JOX_NO_TREE;
+}
+
+/* The variable that a name, or a field of a field of it, begins with. */
+static int32_t root_of(const Search *f, int32_t tree) {
+    const JoxTree *t = bare(f, tree);
+    while (t->kind == JOX_TREE_INDEX)
+        t = bare(f, t->a);
+    return t->kind == JOX_TREE_NAME ? t->variable : JOX_NO_TREE;
+}
+
+/* Whether the right operand uses the left one, so that it is not dropped: `x and near(x, 2)`. */
+static bool uses_left(const Search *f, const JoxTree *t) {
+    const int32_t root = root_of(f, t->a);
+    for (int32_t part = t->a + 1; root != JOX_NO_TREE && part <= t->b; part++)
+        if (f->s->trees[part].kind == JOX_TREE_NAME && f->s->trees[part].variable == root)
+            return true;
+    return false;
+}
+
+/* Whether a tree is the value of an assignment to a variable with the name of its left operand. */
+static bool is_default(const Search *f, int32_t tree) {
+    const JoxTree *left = bare(f, f->s->trees[tree].a);
+    const JoxToken *name = &f->s->source->tokens[left->at];
+    for (size_t b = 0; b < f->s->binding_count; b++) {
+        const JoxTreeBinding *bound = &f->s->bindings[b];
+        const JoxToken *to = jox_syntax_token(f->s, bound->target);
+        if (bound->value == tree && left->kind == JOX_TREE_NAME && to->length == name->length &&
+            memcmp(to->text, name->text, name->length) == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool is_joining(const Search *f, const JoxTree *t, const char *sign) {
+    return t->kind == JOX_TREE_BINARY && jox_token_is(&f->s->source->tokens[t->at], sign);
+}
+
+/* `a and b`, `a or b` */
+static void judge_joining(const Search *f, int32_t tree, bool is_or) {
+    const JoxTree *t = &f->s->trees[tree], *left = bare(f, t->a);
+    const JoxKind a = f->kinds[t->a], b = f->kinds[t->b];
+    if (!jox_kind_is_value(a)) {
+        if ((a.bits & JOX_KIND_UNKNOWN) && (jox_kind_is_value(b) || (b.bits & JOX_KIND_UNKNOWN)))
+            add_misuse(f, t->at, false);
+        return;
+    }
+    const bool parameter = is_parameter(f, t->a);
+    const bool optional =
+        parameter && (t->tested || (is_or && (a.bits == JOX_KIND_VALUE || is_default(f, tree))));
+    /* Of `a and b or c` the first operator is told of, or is none. */
+    const bool chosen = is_or && is_joining(f, left, "and") && jox_kind_is_value(f->kinds[left->a]);
+    if (!optional && !chosen && (is_or || !uses_left(f, t)))
+        add_misuse(f, t->at, true);
+}
+
+/* `a == b`, `a ~= b`: fine with nil, and where a function tells names from values. */
+static void judge_comparison(const Search *f, const JoxTree *t) {
+    const int32_t sides[] = {t->a, t->b};
+    for (int i = 0; i < 2; i++) {
+        const JoxTree *other = bare(f, sides[1 - i]);
+        const bool text = other->kind == JOX_TREE_CONSTANT &&
+                          f->s->source->tokens[other->at].kind == JOX_TOKEN_STRING;
+        if (!jox_kind_is_value(f->kinds[sides[i]]) || other->kind == JOX_TREE_FALSE ||
+            (text && is_parameter(f, sides[i])))
+            continue;
+        add_misuse(f, t->at, true);
+        return;
+    }
+}
+
+static void judge_tree(const Search *f, int32_t tree) {
+    const JoxTree *t = &f->s->trees[tree];
+    if (t->kind == JOX_TREE_UNARY && jox_token_is(&f->s->source->tokens[t->at], "not")) {
+        const JoxKind kind = f->kinds[t->a];
+        if (jox_kind_is_value(kind) && !(t->tested && is_parameter(f, t->a)))
+            add_misuse(f, t->at, true);
+        else if (kind.bits & JOX_KIND_UNKNOWN)
+            add_misuse(f, t->at, false);
+    } else if (is_joining(f, t, "and") || is_joining(f, t, "or")) {
+        judge_joining(f, tree, is_joining(f, t, "or"));
+    } else if (is_joining(f, t, "==") || is_joining(f, t, "~=")) {
+        judge_comparison(f, t);
+    }
+}
+
+static void judge_test(const Search *f, const JoxTreeTest *test) {
+    const JoxTree *t = bare(f, test->value);
+    if (jox_kind_is_value(f->kinds[test->value]) && !is_parameter(f, test->value) &&
+        !is_joining(f, t, "and") && !is_joining(f, t, "or"))
+        add_misuse(f, test->at, true);
+}
+
+static void report(JoxBuild *b, JoxMisuse *misuse) {
     static const struct {
         const char *sign, *instead;
     } MISUSED[] = {{"and", "Use & between conditions"},
@@ -19,53 +133,58 @@ static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first,
                    {"not", "Use ~ before a condition"},
                    {"==", "Write :is(n)"},
                    {"~=", "Write ~x:is(n)"}};
-    bool found = false;
-    int body = 0;
-    for (uint32_t i = first; i < last && i < source->token_count; i++) {
-        const JoxToken *t = &source->tokens[i];
-        if (jox_token_is(t, "function") ||
-            (body > 0 && (jox_token_is(t, "if") || jox_token_is(t, "do"))))
-            body++;
-        else if (body > 0 && jox_token_is(t, "end"))
-            body--;
-        for (size_t k = 0; body == 0 && k < sizeof MISUSED / sizeof *MISUSED; k++)
-            if (jox_token_is(t, MISUSED[k].sign)) {
-                jox_build_error(b, (JoxPosition){source->path, t->line, t->column, t->end_column},
-                                "lua-operator", MISUSED[k].instead,
-                                "'%s' decides while the file loads, not while the crowd runs",
-                                MISUSED[k].sign);
-                found = true;
-            }
-    }
-    return found;
+    const JoxSource *source = b->script->vm.sources[misuse->source];
+    const JoxToken *t = &source->tokens[misuse->at];
+    const char *instead =
+        "What depends on a condition belongs in a `when`, or in memory that `set` "
+        "makes true";
+    char sign[16];
+    for (size_t k = 0; k < sizeof MISUSED / sizeof *MISUSED; k++)
+        if (jox_token_is(t, MISUSED[k].sign))
+            instead = MISUSED[k].instead;
+    snprintf(sign, sizeof sign, "%.*s", (int)t->length, t->text);
+    misuse->reported = true;
+    jox_build_error(b, (JoxPosition){source->path, t->line, t->column, t->end_column},
+                    "lua-operator", instead,
+                    "'%s' decides by whether there is a value, not by what the crowd does", sign);
 }
 
-/* Scans the value at a path and the definitions of the local variables that it uses. */
-bool jox_read_misuse(JoxBuild *b, const char *path) {
+void jox_misuse_find(JoxBuild *b) {
+    JoxScript *script = b->script;
+    JOX_ASSERT(script->misuse_count == 0);
+    JoxKinds *kinds = jox_kinds_read(script);
+    for (uint32_t n = 0; kinds->settled && n < kinds->source_count; n++) {
+        if (!kinds->trees[n])
+            continue;
+        const Search f = {script, jox_outline_syntax(script->vm.sources[n]), kinds->trees[n], n};
+        for (size_t t = 0; t < f.s->tree_count; t++)
+            judge_tree(&f, (int32_t)t);
+        for (size_t t = 0; t < f.s->test_count; t++)
+            judge_test(&f, &f.s->tests[t]);
+    }
+    if (!kinds->settled)
+        jox_diag_warn(
+            script->diagnostics, ((JoxPosition){b->source->path, 0, 0, 0}), "too-large",
+            "Write less in one file, or fewer calls from one file to another",
+            "it is too large to be searched for `and`, `or`, `not`, `==` and `~=` between "
+            "conditions");
+    jox_kinds_free(kinds);
+    for (uint32_t i = 0; i < script->misuse_count; i++)
+        if (script->misuses[i].certain)
+            report(b, &script->misuses[i]);
+}
+
+bool jox_misuse_explains(JoxBuild *b, const char *path) {
     const JoxSource *source;
     const JoxPath *span = jox_read_span(b, path, &source);
-    if (!span)
-        return false;
-    JoxOutline *outline = jox_outline_of(source);
-    bool found = scan_operators(b, source, span->first, span->last);
-    const JoxToken *t = source->tokens;
-    for (uint32_t use = span->first; use < span->last; use++) {
-        if (t[use].kind != JOX_TOKEN_NAME)
-            continue;
-        for (uint32_t i = 0; i + 2 < span->first && outline->looks < MOST_LOOKS; i++) {
-            outline->looks++;
-            bool defines = jox_token_is(&t[i], "local") && jox_token_is(&t[i + 2], "=") &&
-                           t[i + 1].length == t[use].length &&
-                           memcmp(t[i + 1].text, t[use].text, t[use].length) == 0;
-            if (!defines || t[i].used)
-                continue;
-            uint32_t end = i + 3;
-            while (end < span->first && !jox_token_is(&t[end], "local") &&
-                   !jox_token_is(&t[end], "return"))
-                end++;
-            source->tokens[i].used = true; /* its definition is scanned only once */
-            found |= scan_operators(b, source, i + 3, end);
-        }
+    bool found = false;
+    for (uint32_t i = 0; i < b->script->misuse_count; i++) {
+        JoxMisuse *misuse = &b->script->misuses[i];
+        const bool here = span && b->script->vm.sources[misuse->source] == source &&
+                          misuse->at >= span->first && misuse->at < span->last;
+        if (here && !misuse->reported)
+            report(b, misuse);
+        found |= misuse->reported;
     }
     return found;
 }

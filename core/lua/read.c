@@ -178,7 +178,7 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
         *hook = jox_read_add_hook(b, path);
         return -1;
     }
-    bool trapped = type != LUA_TNIL && jox_read_misuse(b, path);
+    bool trapped = type != LUA_TNIL && jox_misuse_explains(b, path);
     if (node && node->kind == JOX_NODE_CONDITION) {
         expression = jox_build_expression(b, node, jox_read_at(b, path));
     } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_ERROR)) {

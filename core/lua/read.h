@@ -33,8 +33,12 @@ void jox_build(JoxScript *script, const JoxSource *source);
 JoxPosition jox_read_at(const JoxBuild *build, const char *path);
 /* The tokens of a path's value, and the source they are in; NULL where it is not written out. */
 const JoxPath *jox_read_span(const JoxBuild *build, const char *path, const JoxSource **source);
-/* Reports Lua's own operators between conditions at a path; whether there were any. */
-bool jox_read_misuse(JoxBuild *build, const char *path);
+/* misuse.c: finds where Lua's own operators and tests decide by values of the language, in all
+   files of the script, and reports what is certain. */
+void jox_misuse_find(JoxBuild *build);
+/* Reports what is uncertain in the condition at a path; whether any misuse explains what is wrong
+   with it. */
+bool jox_misuse_explains(JoxBuild *build, const char *path);
 /* Slot of a name in memory, or -1. */
 int32_t jox_read_memory(const JoxBuild *build, const char *name);
 /* Reads the `counts` of the table at `index`, for one state or, with -1, for all. */

@@ -55,6 +55,9 @@ static void assigned_upvalues(void **state) {
         {"local n = 0\nreturn function(me)\n n = n + 1\nend", "n", 3},
         {"local n = 0\nreturn function(me) local n = 0 n = n + 1 return n end", NULL, 0},
         {"local n = 0\nreturn function(me) return n + 1 end", NULL, 0},
+        {"local n = 0\nreturn function(me) local n = (function() n = n + 1 return n end)() return "
+         "n end",
+         "n", 2},
         {"return function() local n = 0\n return function() n = n + 1 end end", NULL, 0},
         {"return function() local n = 0 return function() return function() n = 1 end end end",
          NULL, 0},

@@ -91,10 +91,17 @@ void jox_outline_free(JoxSource *source) {
         return;
     for (size_t i = 0; i < outline->path_count; i++)
         jox_free(outline->paths[i].path);
-    jox_scopes_free(outline->scopes);
+    jox_syntax_free(outline->syntax);
     jox_free(outline->paths);
     jox_free(outline);
     source->outline = NULL;
+}
+
+const JoxSyntax *jox_outline_syntax(const JoxSource *source) {
+    JoxOutline *outline = jox_outline_of(source);
+    if (!outline->syntax)
+        outline->syntax = jox_syntax_read(source);
+    return outline->syntax;
 }
 
 const JoxPath *jox_outline_find(const JoxSource *source, const char *path) {

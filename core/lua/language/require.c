@@ -4,10 +4,11 @@
 #include <sys/stat.h>
 
 #include "base/format/path.h"
+#include "base/mem.h"
 #include "base/overlay.h"
 #include "lua/language/script.h"
 
-enum { MOST_FILES = 64 };
+enum { MOST_FILES = 64, MOST_REQUIRED = 1000 };
 
 /* Only plain names below the behaviour's folder or the library's: no "..", no absolute paths. */
 static bool plain_name(const char *name) {
@@ -63,6 +64,24 @@ static bool find_module(lua_State *L, const char *name, char path[1024]) {
     return is_module(script, folder, name, path);
 }
 
+static uint32_t source_at(const JoxScript *script, const char *path) {
+    uint32_t number = 0;
+    while (number < script->vm.source_count && strcmp(script->vm.sources[number]->path, path) != 0)
+        number++;
+    return number;
+}
+
+/* Keeps which file a name means in the file that asks. */
+static void keep_required(JoxScript *script, const char *asking, const char *name,
+                          const char *path) {
+    const uint32_t from = asking ? source_at(script, asking) : 0, given = source_at(script, path);
+    if (given == script->vm.source_count || script->required_count == MOST_REQUIRED)
+        return;
+    JOX_RESERVE(script->required, script->required_capacity, script->required_count + 1);
+    script->required[script->required_count++] =
+        (JoxRequired){from, given, jox_vm_intern(&script->vm, name)};
+}
+
 int jox_require(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     const char *name = luaL_checkstring(L, 1);
@@ -80,8 +99,10 @@ int jox_require(lua_State *L) {
             "library",
             name);
     luaL_getsubtable(L, LUA_REGISTRYINDEX, "jostle loaded");
-    if (lua_getfield(L, -1, path) != LUA_TNIL)
+    if (lua_getfield(L, -1, path) != LUA_TNIL) {
+        keep_required(script, jox_vm_place(L).file, name, path);
         return 1;
+    }
     JoxPosition from = jox_word_position(L, name);
     size_t number = script->vm.source_count;
     JoxSource *source = jox_script_read(script, path, NULL, 0, from);
@@ -95,5 +116,6 @@ int jox_require(lua_State *L) {
     lua_call(L, 0, 1);
     lua_pushvalue(L, -1);
     lua_setfield(L, 2, path);
+    keep_required(script, jox_vm_place(L).file, name, path);
     return 1;
 }

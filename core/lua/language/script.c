@@ -17,6 +17,7 @@ static int open_language(lua_State *L) {
 JoxScript *jox_script_create(JoxLua *lua) {
     JoxScript *script = jox_alloc(1, sizeof *script);
     script->owner = lua;
+    script->vm.watch = jox_calls_watch;
     if (jox_vm_open(&script->vm, &lua->group, open_language))
         return script;
     jox_script_free(script);
@@ -38,6 +39,9 @@ void jox_script_free(JoxScript *script) {
         jox_free(script->hooks[h].where);
         jox_free(script->hooks[h].complaint);
     }
+    jox_free(script->facts);
+    jox_free(script->misuses);
+    jox_free(script->required);
     jox_free(script->nodes);
     jox_free(script->memory);
     jox_free(script->hooks);

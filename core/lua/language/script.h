@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/format/patch.h"
 #include "lua/language/scope.h"
+#include "lua/vm/syntax.h"
 #include "lua/vm/vm.h"
 #include "machine/run.h"
 
@@ -22,9 +23,8 @@ typedef struct JoxPath {
 typedef struct JoxOutline {
     JoxPath *paths;
     size_t path_count, path_capacity;
-    const JoxToken *patches;  /* of a mod's file: the name of what it changes */
-    uint32_t looks;           /* tokens looked at for conditions; bounded */
-    struct JoxScopes *scopes; /* of its variables; NULL until asked for */
+    const JoxToken *patches; /* of a mod's file: the name of what it changes */
+    JoxSyntax *syntax;       /* NULL until asked for */
 } JoxOutline;
 
 /* Of a source that jox_script_read has read. */
@@ -44,7 +44,8 @@ void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
    variables, which was declared outside of it; NULL where none is seen. */
 const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, int last_line,
                                      const char *const *names, size_t name_count);
-void jox_scopes_free(struct JoxScopes *scopes);
+/* The syntax tree of a source that Lua has compiled. */
+const JoxSyntax *jox_outline_syntax(const JoxSource *source);
 
 /* ---- expression values ---- */
 
@@ -104,6 +105,41 @@ struct JoxNode {
     JoxNamePlace written; /* of own values, and of names of what others have */
 };
 
+/* ---- what functions are given while a file loads ---- */
+
+/* What a value is, for the search of misuse; bits, as a variable may hold several. */
+enum {
+    JOX_KIND_FALSE = 1, /* nil or false */
+    JOX_KIND_PLAIN = 2, /* any other value of Lua's own that is no table and no function */
+    JOX_KIND_CONDITION = 4,
+    JOX_KIND_VALUE = 8, /* any other value of the language: a number, a target, ... */
+    JOX_KIND_TABLE = 16,
+    JOX_KIND_FUNCTION = 32,
+    JOX_KIND_UNKNOWN = 64
+};
+
+enum { JOX_FACT_PARAMETERS = 8 };
+
+/* Kinds that a function was called with while the file loaded, and returned first. */
+typedef struct JoxCallFact {
+    uint32_t source;
+    int first_line, last_line;
+    uint8_t given[JOX_FACT_PARAMETERS], returned;
+} JoxCallFact;
+
+/* A place where Lua decides by a value of the language, which it always takes for true. */
+typedef struct JoxMisuse {
+    uint32_t source, at; /* token */
+    bool certain;        /* false: it may be one, and is where a condition was meant */
+    bool reported;
+} JoxMisuse;
+
+/* Which file a `require` gave. */
+typedef struct JoxRequired {
+    uint32_t asking, given; /* sources */
+    const char *name;       /* interned */
+} JoxRequired;
+
 /* ---- one Lua state with its load ---- */
 
 /* A plain function of the behaviour. */
@@ -130,7 +166,16 @@ typedef struct JoxScript {
     JoxDiagnostics *diagnostics; /* while loading */
     const JoxMod *mod;           /* whose file is running; NULL: the script's own */
     JoxPatchChanges changes;     /* that mods made */
-    JoxUpvalues upvalues;        /* those of each hook in one piece */
+    JoxCallFact *facts;
+    uint32_t fact_count;
+    size_t fact_capacity;
+    JoxMisuse *misuses;
+    uint32_t misuse_count;
+    size_t misuse_capacity;
+    JoxRequired *required;
+    uint32_t required_count;
+    size_t required_capacity;
+    JoxUpvalues upvalues; /* those of each hook in one piece */
     JoxHook *hooks;
     uint32_t hook_count;
     uint32_t hook_walked; /* while loading: whose upvalues are looked at */
@@ -184,6 +229,13 @@ JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text
                            JoxPosition from);
 /* Puts the table on top of the stack, popped, in the place of the words that a file can use. */
 void jox_script_set_words(lua_State *L);
+
+uint8_t jox_kind_of(lua_State *L, int index);
+/* Keeps what a call that is told of, or its return, says of its function. */
+void jox_calls_watch(lua_State *L, lua_Debug *about);
+/* What is known of the function with these lines; NULL where it was not called. */
+JoxCallFact *jox_calls_find(const JoxScript *script, uint32_t source, int first_line,
+                            int last_line);
 
 /* Reports an error at a word's place in the running chunk and pushes an error value; returns 1. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,

@@ -36,10 +36,14 @@ void jox_source_free(JoxSource *source);
 /* The first unused token of this name on a line, marked used; else any of them; else NULL. */
 JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
 
-static inline bool jox_token_is(const JoxToken *token, const char *text) {
+/* Whether a name or a string has this text. */
+static inline bool jox_token_says(const JoxToken *token, const char *text) {
     size_t n = token->length;
-    return token->kind != JOX_TOKEN_STRING && __builtin_strlen(text) == n &&
-           __builtin_memcmp(token->text, text, n) == 0;
+    return __builtin_strlen(text) == n && __builtin_memcmp(token->text, text, n) == 0;
+}
+
+static inline bool jox_token_is(const JoxToken *token, const char *text) {
+    return token->kind != JOX_TOKEN_STRING && jox_token_says(token, text);
 }
 
 #endif

@@ -68,16 +68,45 @@ static void skip_comment(Scan *s) {
             s->at++;
 }
 
+/* Skips a backslash and what it escapes: a character, the end of a line, or with `\z` all space. */
+static void skip_escape(Scan *s) {
+    s->at++;
+    if (s->at < s->end && *s->at == 'z') {
+        for (s->at++; s->at < s->end && isspace((unsigned char)*s->at);)
+            if (*s->at++ == '\n')
+                newline(s);
+        return;
+    }
+    if (s->at + 1 < s->end && s->at[0] == '\r' && s->at[1] == '\n')
+        s->at++;
+    if (s->at < s->end && *s->at++ == '\n')
+        newline(s);
+}
+
 static void scan_string(Scan *s) {
     const char *from = s->at, *line_start = s->line_start;
     int line = s->line;
     char quote = *s->at++;
-    while (s->at < s->end && *s->at != quote && *s->at != '\n')
-        s->at += *s->at == '\\' && s->at + 1 < s->end && s->at[1] != '\n' ? 2 : 1;
+    while (s->at < s->end && *s->at != quote && *s->at != '\n') {
+        if (*s->at == '\\')
+            skip_escape(s);
+        else
+            s->at++;
+    }
     size_t length = (size_t)(s->at - from) - 1;
     if (s->at < s->end && *s->at == quote)
         s->at++;
     add_token(s, JOX_TOKEN_STRING, from + 1, length, from, line, line_start);
+}
+
+static void skip_number(Scan *s) {
+    const bool hex = *s->at == '0' && s->at + 1 < s->end && (s->at[1] | 32) == 'x';
+    for (s->at++; s->at < s->end; s->at++) {
+        const char before = (char)(s->at[-1] | 32);
+        const bool exponent = before == (hex ? 'p' : 'e') && (*s->at == '+' || *s->at == '-');
+        if (!isalnum((unsigned char)*s->at) && *s->at != '.' && !exponent)
+            return;
+    }
 }
 
 static void scan_one(Scan *s) {
@@ -88,9 +117,8 @@ static void scan_one(Scan *s) {
         while (s->at < s->end && (isalnum((unsigned char)*s->at) || *s->at == '_'))
             s->at++;
         add_token(s, JOX_TOKEN_NAME, from, (size_t)(s->at - from), from, line, line_start);
-    } else if (isdigit(c)) {
-        while (s->at < s->end && (isalnum((unsigned char)*s->at) || *s->at == '.'))
-            s->at++;
+    } else if (isdigit(c) || (c == '.' && s->at + 1 < s->end && isdigit((unsigned char)s->at[1]))) {
+        skip_number(s);
         add_token(s, JOX_TOKEN_NUMBER, from, (size_t)(s->at - from), from, line, line_start);
     } else if (c == '"' || c == '\'') {
         scan_string(s);
@@ -105,6 +133,8 @@ static void scan_one(Scan *s) {
                 s->at++;
                 break;
             }
+        if (c == '.' && s->at - from == 2 && s->at < s->end && *s->at == '.')
+            s->at++; /* ... */
         add_token(s, JOX_TOKEN_SYMBOL, from, (size_t)(s->at - from), from, line, line_start);
     }
 }

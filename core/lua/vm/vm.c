@@ -33,13 +33,19 @@ JoxLuaLimits jox_lua_default_limits(void) {
     return (JoxLuaLimits){20000000, 100000, 20000000, 32u << 20, 2u << 20, 256u << 10, 20};
 }
 
-static void count_hook(lua_State *L, lua_Debug *debug);
+static void hook(lua_State *L, lua_Debug *debug);
+
+/* Has the hook run at each so many instructions, and at calls where somebody watches them. */
+static void set_hook(JoxVm *vm, uint32_t every) {
+    const int calls = vm->loading && vm->watch ? LUA_MASKCALL | LUA_MASKRET : 0;
+    lua_sethook(vm->L, hook, LUA_MASKCOUNT | calls, (int)every);
+}
 
 /* Makes the count hook run at the very next instruction, instead of within the next thousand. */
 static void stop_soon(JoxVm *vm) {
     vm->left = 0;
     if (vm->running)
-        lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, 1);
+        set_hook(vm, 1);
 }
 
 /* Whether a block is that of a table's keys: so many slots, a power of two. Where keys collide, its
@@ -149,9 +155,8 @@ static int stop_long(lua_State *L, int level) {
 }
 
 /* Counts instructions. Once over, every instruction trips, so that nothing can swallow it. */
-static void count_hook(lua_State *L, lua_Debug *debug) {
-    (void)debug;
-    JoxVm *vm = jox_vm_of(L);
+static void count(JoxVm *vm) {
+    lua_State *L = vm->L;
     bool good = !vm->over && !vm->starved && vm->left > vm->interval;
     if (good)
         vm->left -= vm->interval;
@@ -168,8 +173,16 @@ static void count_hook(lua_State *L, lua_Debug *debug) {
         stop_long(L, 0);
     if (vm->interval != CHECK_EVERY) {
         vm->interval = CHECK_EVERY;
-        lua_sethook(L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+        set_hook(vm, CHECK_EVERY);
     }
+}
+
+static void hook(lua_State *L, lua_Debug *debug) {
+    JoxVm *vm = jox_vm_of(L);
+    if (debug->event == LUA_HOOKCOUNT)
+        count(vm);
+    else if (!vm->over && vm->running)
+        vm->watch(L, debug);
 }
 
 void jox_vm_charge(lua_State *L, uint64_t steps) {
@@ -347,7 +360,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         vm->watch_left = vm->left;
     }
     vm->interval = vm->loading ? CHECK_EVERY : FIRST_CHECK;
-    lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, (int)vm->interval);
+    set_hook(vm, vm->interval);
     int handler = lua_gettop(vm->L) - arguments;
     lua_pushcfunction(vm->L, keep_traceback);
     lua_insert(vm->L, handler);

@@ -28,6 +28,7 @@ typedef struct JoxVm {
     bool no_memory;     /* the machine had none when it last asked for more */
     bool running;       /* within jox_vm_call */
     bool loading;       /* a file is loaded: a clock counts besides the instructions */
+    lua_Hook watch;     /* told of calls and returns while loading; NULL: nobody */
     bool untimed;       /* no budget is shared by the calls of a step, and no clock looks on */
     double deadline;    /* of a load, seconds of this thread's processor time; 0 is unset */
     uint32_t interval;  /* instructions from one check to the next */
@@ -58,8 +59,8 @@ typedef struct JoxVm {
     uint32_t complaints, complaint_second; /* said in full in that second */
 } JoxVm;
 
-/* Makes the state of `vm`, which is all zero, and calls `open` in it. False where memory lacks;
-   close it then too. */
+/* Makes the state of `vm`, which is all zero but for `watch`, and calls `open` in it. False where
+   memory lacks; close it then too. */
 bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open);
 void jox_vm_close(JoxVm *vm);
 JoxVm *jox_vm_of(lua_State *L);
