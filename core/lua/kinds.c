@@ -305,7 +305,9 @@ static void read_parameters(JoxKinds *k, uint32_t source) {
                                       : NULL;
         const uint8_t given = fact ? fact->given[variable->parameter] : 0;
         k->looks += s->function_count + k->script->fact_count;
-        k->variables[source][v] = given ? (JoxKind){.bits = given} : UNKNOWN;
+        k->variables[source][v] = UNKNOWN;
+        if (given)
+            k->variables[source][v].bits = given;
     }
 }
 
