@@ -114,21 +114,22 @@ void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
         jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
 }
 
-bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
+bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 p) {
+    const struct JoxWallRing *r = &walls->rings[ring];
     bool inside = false;
-    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
-        if (!walls->rings[r].solid)
-            continue;
-        bool in_ring = false;
-        for (uint32_t i = 0; i < walls->rings[r].count; i++) {
-            JoxV2 a = walls->vertices[walls->rings[r].first + i].point;
-            JoxV2 b = end_of(walls, walls->rings[r].first + i)->point;
-            if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-                in_ring = !in_ring;
-        }
-        inside |= in_ring;
+    for (uint32_t i = 0; i < r->count; i++) {
+        JoxV2 a = walls->vertices[r->first + i].point, b = end_of(walls, r->first + i)->point;
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+            inside = !inside;
     }
     return inside;
+}
+
+bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
+    for (uint32_t r = 0; walls && r < walls->ring_count; r++)
+        if (walls->rings[r].solid && jox_walls_ring_holds(walls, r, p))
+            return true;
+    return false;
 }
 
 bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {

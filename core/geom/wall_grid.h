@@ -56,7 +56,9 @@ JOX_ISAS(X)
 /* Whether the ways p -> q and a -> b cross; where one ends on the other is on its right. */
 bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b);
 void jox_wall_grid_free(JoxWallGrid *grid);
-/* Point inside a solid (crossing number over the solid rings). */
+/* Point inside a ring (crossing number). */
+bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 point);
+/* Point inside a solid. */
 bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);
 
 #endif

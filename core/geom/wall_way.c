@@ -98,3 +98,27 @@ JoxV2 jox_way_by_walls(const JoxWallGrid *grid, JoxV2 from, JoxV2 to, float radi
     const JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, to), radius);
     return stop_at_walls(grid, from, clear);
 }
+
+/* On which side of a line through a and b a point lies: 1 left, -1 right, 0 on it. */
+static int side_of(JoxV2 a, JoxV2 b, JoxV2 p) {
+    const double d =
+        ((double)b.x - a.x) * ((double)p.y - a.y) - ((double)b.y - a.y) * ((double)p.x - a.x);
+    return (d > 0.0) - (d < 0.0);
+}
+
+bool jox_edge_lies_between(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
+    return jox_boxes_meet(a, b, p, q) && side_of(a, b, p) * side_of(a, b, q) < 0 &&
+           side_of(p, q, a) * side_of(p, q, b) <= 0;
+}
+
+bool jox_walls_lie_between(const JoxWalls *walls, JoxV2 p, JoxV2 q, const bool *passable) {
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t i = 0; i < ring->count && !(passable && passable[r]); i++) {
+            const JoxWallVertex *v = &walls->vertices[ring->first + i];
+            if (jox_edge_lies_between(v->point, walls->vertices[v->next].point, p, q))
+                return true;
+        }
+    }
+    return false;
+}

@@ -14,6 +14,7 @@ typedef struct JoxWallVertex {
     JoxV2 direction; /* unit vector to next */
     uint32_t next, previous;
     bool convex; /* the ring turns left here (ends of polylines count as convex) */
+    bool came;   /* the edge rose after people were last cleared out of walls that came */
 } JoxWallVertex;
 
 typedef struct JoxWalls {
@@ -69,6 +70,13 @@ typedef struct JoxWallOpenings {
     float width;    /* m, of all */
 } JoxWallOpenings;
 void jox_walls_openings(const JoxWalls *walls, const JoxV2 line[2], JoxWallOpenings *out);
+/* Marks all edges of a ring as came. */
+void jox_walls_ring_came(JoxWalls *walls, uint32_t ring);
+/* Marks the edges of standing rings that did not stand before, between the same points and of a
+   solid or of none, or that had come then. Returns whether there is one. */
+bool jox_walls_mark_new(JoxWalls *walls, const JoxWalls *before);
+/* Marks no edge as came. */
+void jox_walls_clear_came(JoxWalls *walls);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

@@ -73,12 +73,16 @@ JO_API bool jo_body_remove(JoWorld *world, JoBody body, JoError *error);
 
 /* A new wall from 2 points (thin) or 4 (a solid quadrangle), x0, y0, x1, y1, ..., m. Several may
    have one name: together they open, close and go. It may have the name of a gate of the scene.
-   Up to 4,096 of them. Who stands there is moved out. */
+   Up to 4,096 of them. Before the next step agents whose centre lies in it, or nearer than 0.7
+   radii to its edges, are moved to the nearest free spot within 25 m, out of the solid and through
+   no other wall; the summary counts them as `moved_out`, and those without such a spot as
+   `not_moved_out`. */
 JO_API bool jo_world_add_wall(JoWorld *world, const char *name, const double *xy, size_t count,
                               JoError *error);
 /* Takes out the walls of a name that jo_world_add_wall made. */
 JO_API bool jo_world_remove_wall(JoWorld *world, const char *name, JoError *error);
-/* Opens or closes the walls of a name. Who stands in a wall that closes is moved out. */
+/* Opens or closes the walls of a name. Agents in the way of a wall that closes are
+   moved as for jo_world_add_wall. */
 JO_API bool jo_world_open_wall(JoWorld *world, const char *name, bool open, JoError *error);
 /* Calls a name out, which everybody hears in the next step, wherever they are. */
 JO_API bool jo_world_signal(JoWorld *world, const char *name, JoError *error);

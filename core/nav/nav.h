@@ -107,10 +107,12 @@ typedef struct JoxPlacement {
     float farthest;       /* m, the longest way an agent was moved */
 } JoxPlacement;
 /* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
-   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. Where
-   `walls_came`, also older ones that stand in a wall or deep within its reach. */
-JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *agents, uint32_t first_id,
-                                       bool walls_came);
+   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. */
+JoxPlacement jox_nav_place_newborn(JoxNav *nav, JoxAgents *agents, uint32_t first_id);
+/* Moves agents whose centre lies in a solid that came, or nearer than 0.7 radii to an edge that
+   did, in ascending id, to the nearest free spot of a spiral. No wall lies on the way, but for
+   solids that came over the centre: out of these it leads. */
+JoxPlacement jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *agents);
 /* Where the agent at an index could stand: *at, or the nearest spot to it of a spiral that is free
    of walls and of others, by the same measures. False where there is none within 25 m. */
 bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *agents, uint32_t agent, JoxV2 *at);

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "geom/polygon.h"
+#include "geom/wall_way.h"
 #include "nav/internal.h"
 
 static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
@@ -77,17 +78,6 @@ static bool is_free(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float r
     return !in_wall(grid, p, TOUCHING * radius);
 }
 
-/* Whether no wall lies between two points, but for those that p itself is closer to than `near`. */
-static bool sees(const JoxWalls *walls, JoxV2 p, JoxV2 q, float near) {
-    for (uint32_t e = 0; walls && e < walls->count; e++) {
-        JoxV2 a = walls->vertices[e].point, b = walls->vertices[walls->vertices[e].next].point;
-        if (jox_segment_crossing(a, b, p, q) != 0 &&
-            jox_length2(jox_sub(p, jox_segment_nearest(a, b, p))) >= near * near)
-            return false;
-    }
-    return true;
-}
-
 /* The searches about p for somebody as wide. */
 static struct Searched *searched_about(const Occupied *t, JoxV2 p, float radius, bool beyond) {
     const int32_t x = (int32_t)floorf(p.x / NEARBY), y = (int32_t)floorf(p.y / NEARBY);
@@ -98,18 +88,29 @@ static struct Searched *searched_about(const Occupied *t, JoxV2 p, float radius,
     return s;
 }
 
-/* Spots on a spiral about p, half a radius apart, the first free one that is not beyond walls other
-   than those nearer to p than `near`; INFINITY: it may lie beyond any. */
-static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius, float near,
+/* Where a search may end: `beyond` walls too, or beyond those of rings that are `passable`, which
+   may be NULL. */
+typedef struct Allowed {
+    bool beyond;
+    const bool *passable;
+} Allowed;
+
+static bool is_allowed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, Allowed allowed) {
+    return allowed.beyond || !grid->walls ||
+           !jox_walls_lie_between(grid->walls, p, q, allowed.passable);
+}
+
+/* Spots on a spiral about p, half a radius apart: the first that is free and allowed. */
+static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius, Allowed allowed,
                       JoxV2 *spot) {
-    struct Searched *s = searched_about(t, p, radius, near == INFINITY);
+    struct Searched own = {0}; /* about passable walls nobody else searches alike */
+    struct Searched *s = allowed.passable ? &own : searched_about(t, p, radius, allowed.beyond);
     const float step = jox_maxf(radius * 0.5f, 0.05f);
     float angle = 0.0f, distance = jox_maxf(step, s->reached - 2.0f * NEARBY);
     for (; distance < FARTHEST && t->work < MOST_WORK; t->work += t->each) {
         *spot =
             (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
-        if (is_free(t, grid, *spot, radius) &&
-            (near == INFINITY || sees(grid->walls, p, *spot, near)))
+        if (is_free(t, grid, *spot, radius) && is_allowed(grid, p, *spot, allowed))
             break;
         angle += step / distance;
         distance += step * step / (6.2831853f * distance);
@@ -118,21 +119,18 @@ static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radiu
     return distance < FARTHEST && t->work < MOST_WORK;
 }
 
-/* Looks for a free spot for an agent that has none where it is. Who has been born stays on that
-   side of every wall; one that a wall came upon may go to either side of it. */
-static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool born,
+/* Puts an agent on a spot that was found for it, or counts it as stuck. */
+static void relocate(JoxNav *nav, JoxAgents *a, uint32_t i, bool found, JoxV2 spot,
                      JoxPlacement *result) {
-    JoxV2 p = {a->x[i], a->y[i]}, spot;
-    float radius = jox_param(a, JOX_PARAM_radius, i);
-    if (!find_spot(t, &nav->grid, p, radius, born ? 0.0f : TOUCHING * radius, &spot) &&
-        !find_spot(t, &nav->grid, p, radius, INFINITY, &spot)) {
+    if (!found) {
         if (result->stuck++ == 0)
             result->first_stuck = i;
         return;
     }
+    result->farthest =
+        jox_maxf(result->farthest, jox_length(jox_sub(spot, jox_v2(a->x[i], a->y[i]))));
     a->x[i] = spot.x;
     a->y[i] = spot.y;
-    result->farthest = jox_maxf(result->farthest, jox_length(jox_sub(spot, p)));
     result->moved++;
     nav->drift = jox_drift_unknown(); /* the order in memory no longer follows space */
 }
@@ -167,6 +165,13 @@ static void end_spots(Occupied *t) {
     jox_free(t->searched);
 }
 
+/* Where somebody may be put who has none yet: on this side of every wall, else beyond. */
+static bool find_any_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius,
+                          JoxV2 *spot) {
+    return find_spot(t, grid, p, radius, (Allowed){0}, spot) ||
+           find_spot(t, grid, p, radius, (Allowed){.beyond = true}, spot);
+}
+
 bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *a, uint32_t agent, JoxV2 *at) {
     Occupied t = begin_spots(nav, a);
     const float radius = jox_param(a, JOX_PARAM_radius, agent);
@@ -175,39 +180,148 @@ bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *a, uint32_t agent, JoxV2 *a
     for (uint32_t i = 0; i < a->count; i++)
         if (i != agent)
             occupy(&t, i);
-    const bool good = is_free(&t, &nav->grid, p, radius) ||
-                      find_spot(&t, &nav->grid, p, radius, 0.0f, at) ||
-                      find_spot(&t, &nav->grid, p, radius, INFINITY, at);
+    const bool good =
+        is_free(&t, &nav->grid, p, radius) || find_any_spot(&t, &nav->grid, p, radius, at);
     end_spots(&t);
     return good;
 }
 
-JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first_id,
-                                       bool walls_came) {
+JoxPlacement jox_nav_place_newborn(JoxNav *nav, JoxAgents *a, uint32_t first_id) {
     JoxPlacement result = {0};
     Occupied t = begin_spots(nav, a);
-    bool *moves = jox_alloc((size_t)a->count + 1, sizeof *moves);
-    for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
-        JoxV2 p = {a->x[i], a->y[i]};
-        moves[i] = a->id[i] >= first_id;
-        if (walls_came && !moves[i])
-            moves[i] = in_wall(&nav->grid, p, STANDING * jox_param(a, JOX_PARAM_radius, i));
-        if (!moves[i])
+    for (uint32_t i = 0; i < a->count; i++) /* those who stay take their spots first */
+        if (a->id[i] < first_id)
             occupy(&t, i);
-    }
     for (uint32_t rank = 0; rank < a->count; rank++) {
-        uint32_t i = a->by_rank[rank], id = a->id[i];
-        if (!moves[i])
+        const uint32_t i = a->by_rank[rank];
+        const JoxV2 p = {a->x[i], a->y[i]};
+        const float radius = jox_param(a, JOX_PARAM_radius, i);
+        JoxV2 spot;
+        if (a->id[i] < first_id)
             continue;
-        JoxV2 p = {a->x[i], a->y[i]};
-        if (id < first_id || !is_free(&t, &nav->grid, p, jox_param(a, JOX_PARAM_radius, i)))
-            relocate(&t, nav, a, i, id >= first_id, &result);
+        if (!is_free(&t, &nav->grid, p, radius)) {
+            const bool found = find_any_spot(&t, &nav->grid, p, radius, &spot);
+            relocate(nav, a, i, found, spot, &result);
+        }
         start_at(a, i);
         occupy(&t, i);
     }
     JOX_ASSERT(result.moved + result.stuck <= a->count);
     JOX_ASSERT(result.farthest <= FARTHEST * 1.001f);
     end_spots(&t);
+    return result;
+}
+
+/* ---- walls that came ---- */
+
+/* The solids of which an edge came. */
+typedef struct NewSolids {
+    struct NewSolid {
+        JoxV2 low, high; /* m: a box about it */
+        uint32_t ring;
+    } * items;
+    uint32_t count;
+    bool *holds; /* by ring: that it came over the agent in question */
+} NewSolids;
+
+static NewSolids list_new_solids(const JoxWalls *walls) {
+    NewSolids solids = {.items = jox_alloc((size_t)walls->ring_count + 1, sizeof *solids.items),
+                        .holds = jox_alloc((size_t)walls->ring_count + 1, sizeof *solids.holds)};
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        struct NewSolid *solid = &solids.items[solids.count];
+        bool came = false;
+        *solid = (struct NewSolid){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, r};
+        for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
+            const JoxV2 p = walls->vertices[i].point;
+            came |= walls->vertices[i].came;
+            solid->low = (JoxV2){jox_minf(solid->low.x, p.x), jox_minf(solid->low.y, p.y)};
+            solid->high = (JoxV2){jox_maxf(solid->high.x, p.x), jox_maxf(solid->high.y, p.y)};
+        }
+        solids.count += ring->solid && came;
+    }
+    return solids;
+}
+
+static void free_new_solids(NewSolids *solids) {
+    jox_free(solids->items);
+    jox_free(solids->holds);
+}
+
+/* Marks the new solids that hold a point, and says whether there is one. */
+static bool mark_holding(const JoxWalls *walls, NewSolids *solids, JoxV2 p) {
+    bool any = false;
+    for (uint32_t s = 0; s < solids->count; s++) {
+        const struct NewSolid *solid = &solids->items[s];
+        const bool holds = jox_is_within(p, solid->low, solid->high) &&
+                           jox_walls_ring_holds(walls, solid->ring, p);
+        solids->holds[solid->ring] = holds;
+        any |= holds;
+    }
+    return any;
+}
+
+/* Whether an edge that came is nearer to p than `clear`, and no older one lies before it. */
+static bool is_on_new_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    const JoxWallVertex *vertices = grid->walls->vertices;
+    for (uint32_t e = 0; e < count; e++) {
+        const JoxWallVertex *v = &vertices[edges[e]];
+        const JoxV2 q = jox_segment_nearest(v->point, vertices[v->next].point, p);
+        bool seen = v->came && jox_length2(jox_sub(p, q)) < clear * clear;
+        for (uint32_t o = 0; o < count && seen; o++) {
+            const JoxWallVertex *other = &vertices[edges[o]];
+            seen = other->came ||
+                   !jox_edge_lies_between(other->point, vertices[other->next].point, p, q);
+        }
+        if (seen)
+            return true;
+    }
+    return false;
+}
+
+/* Clears one agent: to the nearest free spot with no wall between, but for the solids that came
+   over its centre, out of which it has to go. */
+static void clear_agent(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, NewSolids *solids,
+                        JoxPlacement *result) {
+    const JoxWalls *walls = nav->grid.walls;
+    const JoxV2 p = {a->x[i], a->y[i]};
+    const bool inside = mark_holding(walls, solids, p);
+    const Allowed allowed = {.passable = inside ? solids->holds : NULL};
+    JoxV2 spot;
+    const bool found =
+        find_spot(t, &nav->grid, p, jox_param(a, JOX_PARAM_radius, i), allowed, &spot);
+    JOX_ASSERT(!found || !jox_walls_lie_between(walls, p, spot, allowed.passable));
+    relocate(nav, a, i, found, spot, result);
+    start_at(a, i);
+}
+
+JoxPlacement jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *a) {
+    JoxPlacement result = {0};
+    const JoxWalls *walls = nav->grid.walls;
+    if (!walls || walls->count == 0 || a->count == 0)
+        return result;
+    Occupied t = begin_spots(nav, a);
+    NewSolids solids = list_new_solids(walls);
+    bool *moves = jox_alloc(a->count, sizeof *moves);
+    for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
+        const JoxV2 p = {a->x[i], a->y[i]};
+        moves[i] = mark_holding(walls, &solids, p) ||
+                   is_on_new_edge(&nav->grid, p, STANDING * jox_param(a, JOX_PARAM_radius, i));
+        if (!moves[i])
+            occupy(&t, i);
+    }
+    for (uint32_t rank = 0; rank < a->count; rank++) {
+        const uint32_t i = a->by_rank[rank];
+        if (!moves[i])
+            continue;
+        clear_agent(&t, nav, a, i, &solids, &result);
+        occupy(&t, i);
+    }
+    JOX_ASSERT(result.moved + result.stuck <= a->count);
+    end_spots(&t);
+    free_new_solids(&solids);
     jox_free(moves);
     return result;
 }

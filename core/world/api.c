@@ -126,11 +126,12 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
     uint32_t a, b;
     bool good = !jox_polygon_self_crosses(points, (uint32_t)count, &a, &b) &&
                 jox_polygon_area(points, (uint32_t)count) != 0.0;
-    if (good)
+    if (good) {
         jox_walls_add_solid(&world->model.all_walls, points, (uint32_t)count, INFINITY);
-    world->state.walls_set = false;
-    if (!good)
+        jox_world_wall_came(world);
+    } else {
         jox_error(error, JO_INPUT, "a solid must enclose an area and not cross itself");
+    }
     jox_free(points);
     return good;
 }
@@ -143,7 +144,7 @@ bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *
     if (!points)
         return false;
     jox_walls_add_polyline(&world->model.all_walls, points, (uint32_t)count, false, INFINITY);
-    world->state.walls_set = false;
+    jox_world_wall_came(world);
     jox_free(points);
     return true;
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/world.h"
@@ -10,6 +11,16 @@
 static void change(JoWorld *world) {
     world->state.walls_set = false;
     world->state.walls_version++;
+}
+
+void jox_world_wall_came(JoWorld *world) {
+    JoxWalls *walls = &world->model.all_walls;
+    JOX_ASSERT(world->state.tick == 0 && walls->ring_count > 0);
+    world->state.walls_set = false;
+    if (world->state.agents.count == 0)
+        return;
+    jox_walls_ring_came(walls, walls->ring_count - 1);
+    world->state.walls_came = true;
 }
 
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
@@ -25,11 +36,12 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
             ring->set = true;
         }
     }
-    jox_walls_free(&old);
     world->model.made_ring = world->model.all_walls.ring_count;
     world->model.made_vertex = world->model.all_walls.count;
     jox_world_lay_made(world);
-    world->state.walls_came = true;
+    if (world->state.agents.count > 0) /* else there is nobody to be in their way */
+        world->state.walls_came |= jox_walls_mark_new(&world->model.all_walls, &old);
+    jox_walls_free(&old);
     change(world);
 }
 
@@ -53,6 +65,8 @@ static void lay(JoWorld *world, const JoxMadeWall *made) {
     JOX_ASSERT(walls->ring_count == ring + 1);
     jox_walls_name(walls, ring, made->name, made->open);
     walls->rings[ring].set = true;
+    if (made->came)
+        jox_walls_ring_came(walls, ring);
 }
 
 void jox_world_lay_made(JoWorld *world) {
@@ -87,6 +101,7 @@ bool jox_world_make_wall(JoWorld *world, const char *name, const JoxV2 *points, 
     for (uint32_t r = 0; r < walls->ring_count; r++) /* it is as others of its name are */
         if (walls->rings[r].name && strcmp(walls->rings[r].name, name) == 0)
             made.open = walls->rings[r].open;
+    made.came = !made.open;
     jox_world_mark_made(world);
     JOX_RESERVE(state->made, state->made_capacity, state->made_count + 1);
     state->made[state->made_count++] = made;
@@ -122,8 +137,12 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
         if (ring->open == open)
             continue;
         ring->open = open;
-        if (world->state.made_count > 0 && r >= world->model.made_ring)
+        if (!open)
+            jox_walls_ring_came(&world->model.all_walls, r);
+        if (world->state.made_count > 0 && r >= world->model.made_ring) {
             world->state.made[r - world->model.made_ring].open = open;
+            world->state.made[r - world->model.made_ring].came |= !open;
+        }
         world->state.walls_came |= !open;
         change(world);
     }
@@ -143,19 +162,43 @@ void jox_world_raise_walls(JoWorld *world) {
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
 
+/* Moves those in whose way walls came, and says of whom that cannot be. */
+static void clear_new_walls(JoWorld *world) {
+    const JoxAgents *a = &world->state.agents;
+    JoxStatistics *s = &world->state.statistics;
+    const JoxPlacement cleared = jox_nav_clear_new_walls(world->scratch.nav, &world->state.agents);
+    s->moved_out += cleared.moved;
+    s->not_moved_out += cleared.stuck;
+    if (cleared.stuck) {
+        jox_text_printf(&world->scratch.news,
+                        "t = %.2f s: ", (double)world->state.tick * world->model.def.dt);
+        jox_text_noun(&world->scratch.news, cleared.stuck, "person|people");
+        jox_text_printf(&world->scratch.news,
+                        " in the way of a wall that came could not be moved, as there is no free "
+                        "spot on the same side of all walls: the first is agent %u at (%.2f, "
+                        "%.2f)\n",
+                        a->id[cleared.first_stuck], (double)a->x[cleared.first_stuck],
+                        (double)a->y[cleared.first_stuck]);
+    }
+    jox_walls_clear_came(&world->model.all_walls);
+    jox_walls_clear_came(&world->scratch.walls);
+    for (uint32_t m = 0; m < world->state.made_count; m++)
+        world->state.made[m].came = 0;
+    world->state.walls_came = false;
+}
+
 JoxPlacement jox_world_resolve_placement(JoWorld *world) {
     JoxPlacement settled = {0};
     jox_world_raise_walls(world);
-    if (world->state.settled && !world->state.walls_came)
+    if (world->state.walls_came)
+        clear_new_walls(world);
+    if (world->state.settled)
         return settled;
-    uint32_t first =
-        world->state.settled ? world->state.agents.next_id : world->state.first_unsettled;
-    settled = jox_nav_resolve_placement(world->scratch.nav, &world->state.agents, first,
-                                        world->state.walls_came);
-    JOX_ASSERT(first <= world->state.agents.next_id);
+    JOX_ASSERT(world->state.first_unsettled <= world->state.agents.next_id);
+    settled = jox_nav_place_newborn(world->scratch.nav, &world->state.agents,
+                                    world->state.first_unsettled);
     JOX_ASSERT(settled.moved <= world->state.agents.count);
-    world->state.statistics.moved_out += settled.moved;
+    world->state.statistics.shifted_at_birth += settled.moved;
     world->state.settled = true;
-    world->state.walls_came = false;
     return settled;
 }

@@ -12,8 +12,8 @@ static void restore_made(JoWorld *w, JoxSections *s) {
     bool good = w->state.made_count <= JOX_MOST_MADE_WALLS;
     for (uint32_t m = 0; good && m < w->state.made_count; m++) {
         const JoxMadeWall *made = &w->state.made[m];
-        good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->name[0] &&
-               memchr(made->name, 0, sizeof made->name);
+        good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->came <= 1 &&
+               made->name[0] && memchr(made->name, 0, sizeof made->name);
         for (uint32_t p = 0; good && p < 4; p++)
             good = fabsf(made->points[p].x) <= 1e4f && fabsf(made->points[p].y) <= 1e4f;
     }
@@ -47,6 +47,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_set);
     JOX_SECTION(s, "walls_came", w->state.walls_came);
+    for (uint32_t v = 0; w->state.walls_came && v < own; v++) /* of made walls they say it */
+        JOX_SECTION(s, "came", walls->vertices[v].came);
     JOX_SECTION(s, "settled", w->state.settled);
     JOX_SECTION(s, "first_unsettled", w->state.first_unsettled);
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && w->state.walls_set) {

@@ -66,6 +66,7 @@ typedef struct JoxMadeWall {
     JoxV2 points[4]; /* m */
     uint32_t count;  /* 2: thin; 4: a solid */
     uint32_t open;   /* 0 or 1 */
+    uint32_t came;   /* the same: it rose after people were last cleared out of walls that came */
 } JoxMadeWall;
 enum { JOX_MOST_MADE_WALLS = 4096 };
 
@@ -86,9 +87,9 @@ typedef struct JoxWorldState {
     uint32_t
         first_unsettled; /* unless settled: id of the first agent added since the last settling */
     bool settled;
-    bool walls_set;           /* scratch.walls, nav and bodies are as all_walls says */
-    bool walls_came;          /* since the last settling: some agents may stand in them */
-    JoxExits exits;           /* figures of the run, which no step reads */
+    bool walls_set;  /* scratch.walls, nav and bodies are as all_walls says */
+    bool walls_came; /* some edges of walls are marked as such, and people may stand there */
+    JoxExits exits;  /* figures of the run, which no step reads */
     JoxStatistics statistics; /* likewise */
 } JoxWorldState;
 
@@ -147,11 +148,14 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint
 /* Adds an agent at (x, y), m; it is settled before the next step. Who calls this sets its
    machine and all of its parameters. Returns its index, valid until the next step. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
-/* Brings walls into effect, moves agents that were born in them or in each other or that stand
-   where walls came, and says how many. Runs by itself before a step. */
+/* Brings walls into effect, moves agents in whose way they came, then those that were born in walls
+   or in each other, and says how many of the latter. Runs by itself before a step. */
 JoxPlacement jox_world_resolve_placement(JoWorld *world);
 /* Brings the walls that stand into effect, unless they are. */
 void jox_world_raise_walls(JoWorld *world);
+/* Brings the last ring of all_walls into effect, which was added before the first step: who stands
+   there is moved out with it. */
+void jox_world_wall_came(JoWorld *world);
 /* Takes walls over, in place of all there are. Those whose names were opened or closed before stay
    so. Who stands in a new wall is moved out before the next step. */
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);

@@ -216,7 +216,7 @@ static void who_would_stand_in_another_waits(void **state) {
     const JoxAgents *a = &w->state.agents;
     step(scene, 40);
     assert_int_equal(a->count, 3);
-    assert_int_equal(w->state.statistics.moved_out, 0);
+    assert_int_equal(w->state.statistics.shifted_at_birth, 0);
     assert_int_equal(w->state.population.all_until, 0);
     jo_scene_free(scene);
 
@@ -243,7 +243,7 @@ static void nobody_is_born_through_a_wall(void **state) {
     const JoxAgents *a = &scene->world->state.agents;
     step(scene, 10);
     assert_int_equal(a->count, 7);
-    assert_int_equal(scene->world->state.statistics.moved_out, 2);
+    assert_int_equal(scene->world->state.statistics.shifted_at_birth, 2);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->id[i] == 6 ? a->x[i] < 1.15f : a->x[i] > 0.85f)
             fail_msg("person %u stands at x = %g", a->id[i], (double)a->x[i]);

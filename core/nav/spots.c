@@ -1,0 +1,210 @@
+#include "nav/spots.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "base/number/elementary.h"
+#include "geom/polygon.h"
+#include "geom/wall_way.h"
+
+static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
+static const float TOUCHING = 0.99f; /* radii from a wall */
+static const float NEARBY = 0.25f;   /* m: a search begins where one ended whose point is as near */
+enum { SEARCHES = 1024, MOST_LOOKED = 5000000, FEW = 1000 };
+
+static uint32_t hash_cell(int32_t x, int32_t y) {
+    return (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
+}
+
+static uint32_t bucket_of(const JoxSpots *t, int32_t x, int32_t y) {
+    const uint32_t h = hash_cell(x, y);
+    return (h ^ h >> 15) & t->mask;
+}
+
+static int32_t cell_of(const JoxSpots *t, float at) {
+    return (int32_t)floorf(at / t->cell);
+}
+
+JoxSpots jox_spots_begin(JoxWallGrid *grid, const JoxAgents *a, float widest) {
+    for (uint32_t i = 0; i < a->count; i++)
+        widest = jox_maxf(widest, jox_param(a, JOX_PARAM_radius, i));
+    if (grid->walls)
+        jox_wall_grid_fit(grid, jox_maxf(widest, 1.0f));
+    JoxSpots t = {.agents = a,
+                  .widest = widest,
+                  .cell = 2.0f * jox_maxf(widest, 0.1f),
+                  .mask = 1023,
+                  .blocking = UINT32_MAX};
+    while (t.mask < a->capacity)
+        t.mask = t.mask * 2 + 1;
+    t.next_capacity = a->capacity + 1;
+    t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
+    t.next = jox_alloc(t.next_capacity, sizeof *t.next);
+    t.searched = jox_alloc(SEARCHES, sizeof *t.searched);
+    memset(t.head, 0xff, ((size_t)t.mask + 1) * sizeof *t.head);
+    return t;
+}
+
+void jox_spots_free(JoxSpots *t) {
+    jox_free(t->head);
+    jox_free(t->next);
+    jox_free(t->searched);
+    jox_free(t->edges);
+    *t = (JoxSpots){0};
+}
+
+void jox_spots_enter(JoxSpots *t, uint32_t i) {
+    const JoxAgents *a = t->agents;
+    const uint32_t b = bucket_of(t, cell_of(t, a->x[i]), cell_of(t, a->y[i]));
+    JOX_ASSERT(i < a->count && b <= t->mask && t->head[b] != i);
+    JOX_RESERVE(t->next, t->next_capacity, i + 1);
+    t->next[i] = t->head[b];
+    t->head[b] = i;
+}
+
+/* Whether a disc lies deep in an agent of a cell. */
+static bool is_taken_in(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float radius) {
+    const JoxAgents *a = t->agents;
+    for (uint32_t j = t->head[bucket_of(t, x, y)]; j != JOX_NO_INDEX; j = t->next[j]) {
+        const float other = jox_param(a, JOX_PARAM_radius, j);
+        const float least = radius + other - DEEP * 2.0f * jox_minf(radius, other);
+        if (jox_length2((JoxV2){a->x[j] - p.x, a->y[j] - p.y}) < least * least)
+            return true;
+    }
+    return false;
+}
+
+/* Its own cell first: of a spot that is taken it mostly tells. */
+static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
+    static const int8_t AROUND[9][2] = {{0, 0},  {-1, 0}, {1, 0},  {0, -1}, {0, 1},
+                                        {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    const int32_t x = cell_of(t, p.x), y = cell_of(t, p.y);
+    for (int k = 0; k < 9; k++)
+        if (is_taken_in(t, x + AROUND[k][0], y + AROUND[k][1], p, radius))
+            return true;
+    return false;
+}
+
+static bool is_near_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t e = 0; e < count; e++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[e]];
+        const JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
+        if (jox_length2(jox_sub(p, q)) < clear * clear)
+            return true;
+    }
+    return false;
+}
+
+bool jox_spots_is_free(const JoxSpots *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
+    JOX_ASSERT(2.0f * jox_maxf(radius, t->widest) <= t->cell * 1.001f);
+    return !is_taken(t, p, radius) && !is_near_edge(grid, p, TOUCHING * radius);
+}
+
+/* ---- walls between ---- */
+
+/* Lists the edges that may lie between a wish's point and a spot. */
+static void list_edges(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish) {
+    const JoxV2 reach = {JOX_SPOTS_FARTHEST * 1.01f, JOX_SPOTS_FARTHEST * 1.01f};
+    const JoxV2 low = jox_sub(wish->at, reach), high = jox_add(wish->at, reach);
+    t->edge_count = 0;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
+            const JoxV2 a = walls->vertices[v].point;
+            const JoxV2 b = walls->vertices[walls->vertices[v].next].point;
+            if ((wish->passable && wish->passable[r]) || !jox_boxes_meet(a, b, low, high))
+                continue;
+            JOX_RESERVE(t->edges, t->edge_capacity, t->edge_count + 1);
+            t->edges[t->edge_count++] = v;
+        }
+    }
+}
+
+static bool lies_between(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxV2 q) {
+    const JoxWallVertex *v = &walls->vertices[edge];
+    return jox_edge_lies_between(v->point, walls->vertices[v->next].point, p, q);
+}
+
+/* Whether a wall lies between; the edge that lay before the last spot mostly lies before this. */
+static bool is_hidden(JoxSpots *t, const JoxWalls *walls, JoxV2 p, JoxV2 q) {
+    if (t->blocking != UINT32_MAX && lies_between(walls, t->blocking, p, q))
+        return true;
+    for (uint32_t e = 0; e < t->edge_count; e++)
+        if (lies_between(walls, t->edges[e], p, q)) {
+            t->blocking = t->edges[e];
+            return true;
+        }
+    return false;
+}
+
+/* ---- the search ---- */
+
+static bool is_same_point(JoxV2 p, JoxV2 q) {
+    return p.x == q.x && p.y == q.y;
+}
+
+/* Where to keep what is known about a point. */
+static JoxSearched *searched_about(const JoxSpots *t, const JoxSpotWish *wish) {
+    const int32_t x = (int32_t)floorf(wish->at.x / NEARBY);
+    const int32_t y = (int32_t)floorf(wish->at.y / NEARBY);
+    return &t->searched[(hash_cell(x, y) ^ wish->kind * 2654435761u) % SEARCHES];
+}
+
+/* Where a search begins: as far as the last one about this point, or about one nearby on this side of
+   all walls, has come; what was taken then is taken now. */
+static JoxSearched begin_search(const JoxSearched *last, const JoxWallGrid *grid,
+                                const JoxSpotWish *wish, float step) {
+    JoxSearched own = {wish->at, wish->radius, 0.0f, step, wish->kind, true};
+    if (wish->passable || !last->known || last->kind != wish->kind || last->radius > wish->radius)
+        return own;
+    if (is_same_point(last->at, wish->at) && last->radius == wish->radius)
+        return *last;
+    if (floorf(last->at.x / NEARBY) != floorf(wish->at.x / NEARBY) ||
+        floorf(last->at.y / NEARBY) != floorf(wish->at.y / NEARBY) ||
+        (grid->walls && jox_walls_lie_between(grid->walls, last->at, wish->at, NULL)))
+        return own;
+    if (last->distance >= JOX_SPOTS_FARTHEST)
+        return *last;
+    own.distance = jox_maxf(step, last->distance - 2.0f * NEARBY);
+    return own;
+}
+
+/* Whether a free spot can be gone to: no wall lies between, and no solid holds it. */
+static bool is_reached(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish, JoxV2 spot,
+                       bool *listed) {
+    if (!walls)
+        return true;
+    if (!*listed)
+        list_edges(t, walls, wish);
+    *listed = true;
+    return !is_hidden(t, walls, wish->at, spot) && !jox_walls_contain(walls, spot);
+}
+
+bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wish, JoxV2 *spot) {
+    const float radius = wish->radius, step = jox_maxf(radius * 0.5f, 0.05f);
+    const JoxWalls *walls = grid->walls && grid->walls->count > 0 ? grid->walls : NULL;
+    JoxSearched *kept = searched_about(t, wish);
+    JoxSearched s = begin_search(kept, grid, wish, step);
+    bool found = false, listed = false;
+    for (uint32_t looked = 0; s.distance < JOX_SPOTS_FARTHEST; looked++, t->looked++) {
+        if (t->looked >= MOST_LOOKED && looked >= FEW)
+            break;
+        *spot = (JoxV2){wish->at.x + s.distance * (float)jox_cos(s.angle),
+                        wish->at.y + s.distance * (float)jox_sin(s.angle)};
+        found = (!wish->holds || wish->holds(wish->place, *spot)) &&
+                jox_spots_is_free(t, grid, *spot, radius) &&
+                is_reached(t, walls, wish, *spot, &listed);
+        if (found)
+            break;
+        s.angle += step / s.distance;
+        s.distance += step * step / (6.2831853f * s.distance);
+    }
+    t->blocking = UINT32_MAX;
+    if (!wish->passable)
+        *kept = s;
+    return found;
+}

@@ -1,0 +1,258 @@
+/* Walls that come while people are there: who is moved, and that nobody is moved through a wall. */
+#include <dirent.h>
+#include <math.h>
+
+#include "geom/wall_way.h"
+#include "unit/run_acted.h"
+
+#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define SEEK                                                                                       \
+    HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 " \
+         "} }, own = { goal = \"out\" } }\n"
+
+static const JoxStatistics *counts(const JoScene *scene) {
+    return &scene->world->state.statistics;
+}
+
+/* ---- gates ---- */
+
+/* People push against the end of a sealed hall, closer than they are broad. */
+#define HALL(gate)                                                                                 \
+    "jostle: 1\n"                                                                                  \
+    "places: {hall: {polygon: [[4, 1], [9.5, 1], [9.5, 5], [4, 5]]}, out: {point: [14, 3]}}\n"     \
+    "walls:\n"                                                                                     \
+    "  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"                               \
+    "  - " gate "\n"                                                                               \
+    "groups: {people: {behaviour: own.lua, count: 120, in: hall, fill: random}}\n"                 \
+    "events: [{at: 10, close: gate}]\n"
+
+static void all_are_in_the_hall(const JoScene *scene) {
+    const JoxAgents *a = &scene->world->state.agents;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (!(a->x[i] > 0.0f && a->x[i] < 10.0f && a->y[i] > 0.0f && a->y[i] < 6.0f))
+            fail_msg("agent %u at (%g, %g)", a->id[i], (double)a->x[i], (double)a->y[i]);
+}
+
+static void gate_far_from_a_dense_crowd_moves_nobody(void **state) {
+    (void)state;
+    JoScene *scene = load_own(HALL("{line: [[1, 2], [1, 4]], name: gate, open: true}"), SEEK);
+    step(scene, 205);
+    assert_int_equal(counts(scene)->closed, 1);
+    assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
+    all_are_in_the_hall(scene);
+    jo_scene_free(scene);
+}
+
+static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
+    (void)state;
+    JoScene *scene = load_own(HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}"), SEEK);
+    const JoxAgents *a = &scene->world->state.agents;
+    bool before[120];
+    uint32_t across = 0;
+    step(scene, 200);
+    assert_int_equal(a->count, 120);
+    for (uint32_t i = 0; i < a->count; i++) {
+        before[a->id[i]] = a->x[i] < 8.5f;
+        across += fabsf(a->x[i] - 8.5f) < 0.7f * 0.2f;
+    }
+    assert_true(across >= 3);
+    for (int n = 0; n < 40; n++) {
+        step(scene, 1);
+        for (uint32_t i = 0; i < a->count; i++)
+            assert_true(before[a->id[i]] == (a->x[i] < 8.5f));
+    }
+    assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, across);
+    all_are_in_the_hall(scene);
+    jo_scene_free(scene);
+}
+
+/* ---- solids that come over people ---- */
+
+static void solid_over_people_is_left_by_no_other_wall(void **state) {
+    (void)state;
+    /* The nearest ways out lead through the line at x = 6.4. */
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "walls:\n"
+                 "  - {line: [[6.4, -3], [6.4, 3]]}\n"
+                 "  - {solid: [[4, -1], [7, -1], [7, 1], [4, 1]], name: block, open: true}\n"
+                 "groups: {people: {behaviour: own.lua, at: [[6.3, 0], [6.5, 0.1], [5, 0.9]]}}\n"
+                 "events: [{at: 0.1, close: block}]\n",
+                 STAY);
+    const JoxAgents *a = &scene->world->state.agents;
+    step(scene, 3);
+    assert_int_equal(counts(scene)->moved_out, 3);
+    for (uint32_t i = 0; i < a->count; i++) {
+        assert_false(jox_walls_contain(&scene->world->scratch.walls, jox_v2(a->x[i], a->y[i])));
+        assert_true((a->x[i] > 6.4f) == (a->id[i] == 1));
+    }
+    jo_scene_free(scene);
+}
+
+static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "walls:\n"
+                 "  - {line: [[-1, -1], [1, -1], [1, 1], [-1, 1]], closed: true}\n"
+                 "  - {solid: [[-3, -3], [3, -3], [3, 3], [-3, 3]], name: block, open: true}\n"
+                 "groups: {people: {behaviour: own.lua, at: [[0.5, 0.25], [2, 0]]}}\n"
+                 "events: [{at: 0.1, close: block}]\n",
+                 STAY);
+    const JoxAgents *a = &scene->world->state.agents;
+    step(scene, 10);
+    assert_int_equal(counts(scene)->moved_out, 1);
+    assert_int_equal(counts(scene)->not_moved_out, 1);
+    assert_non_null(said.data);
+    assert_non_null(strstr(said.data, "t = 0.10 s: 1 person in the way of a wall that came could "
+                                      "not be moved"));
+    assert_non_null(strstr(said.data, "agent 0 at (0.50, 0.25)"));
+    const uint32_t first = jox_agents_find(a, 0);
+    assert_true(fabsf(a->x[first]) < 1.0f && fabsf(a->y[first]) < 1.0f);
+    JoFigures *told = jo_scene_figures(scene);
+    assert_float_equal(jo_figure(told, "events.moved_out"), 1, 0);
+    assert_float_equal(jo_figure(told, "events.not_moved_out"), 1, 0);
+    jo_free(told);
+    jo_scene_free(scene);
+}
+
+/* ---- reloads ---- */
+
+#define EDITED(walls)                                                                              \
+    "jostle: 1\n"                                                                                  \
+    "places: {hall: {polygon: [[4, 1], [9.5, 1], [9.5, 5], [4, 5]]}, out: {point: [14, 3]}}\n"     \
+    "walls:\n" walls                                                                               \
+    "groups: {people: {behaviour: own.lua, count: 120, in: hall, fill: random}}\n"
+
+static void edit(JoScene *scene, const char *text) {
+    JoxDiagnostics diagnostics = {0};
+    write_file("scene.yaml", text);
+    JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
+    assert_non_null(spec);
+    jox_run_rescene(scene, &spec, 0.0);
+    jox_scene_free(spec);
+    jox_diag_free(&diagnostics);
+}
+
+/* Other walls before it, another start of its ring, the other direction: it is the same wall. */
+static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(EDITED("  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"), SEEK);
+    step(scene, 200);
+    edit(scene, EDITED("  - {line: [[20, 0], [20, 6]]}\n"
+                       "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
+    step(scene, 5);
+    assert_int_equal(scene->world->scratch.walls.ring_count, 3);
+    assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
+    all_are_in_the_hall(scene);
+    /* One side of it moves inwards, over people; the rest stays. */
+    const JoxAgents *a = &scene->world->state.agents;
+    uint32_t on_it = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        on_it += fabsf(a->x[i] - 9.0f) < 0.7f * 0.2f;
+    assert_true(on_it > 2);
+    edit(scene, EDITED("  - {line: [[9, 0], [9, 6]]}\n"
+                       "  - {line: [[20, 0], [20, 6]]}\n"
+                       "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
+    step(scene, 1);
+    assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, on_it);
+    all_are_in_the_hall(scene);
+    jo_scene_free(scene);
+}
+
+/* Whoever stands within a thin ring stands within a solid once it is one. */
+static void ring_that_becomes_solid_came(void **state) {
+    (void)state;
+    static const char OPEN[] = "jostle: 1\n"
+                               "walls: [{line: [[0, 0], [4, 0], [4, 4], [0, 4]], closed: true}]\n"
+                               "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n";
+    JoScene *scene = load_own(OPEN, STAY);
+    step(scene, 2);
+    edit(scene, "jostle: 1\n"
+                "walls: [{solid: [[0, 0], [4, 0], [4, 4], [0, 4]]}]\n"
+                "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n");
+    step(scene, 1);
+    assert_int_equal(counts(scene)->moved_out, 1);
+    jo_scene_free(scene);
+}
+
+/* ---- state ---- */
+
+/* Between the call that closes a gate and the step, which edges came is state. */
+static void edges_that_came_are_saved(void **state) {
+    (void)state;
+    const char *yaml = HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}");
+    JoScene *scene = load_own(yaml, SEEK), *other = load_own(yaml, SEEK);
+    JoxText saved = {0};
+    JoError error = {0};
+    step(scene, 100);
+    does(scene, "wall post 5 2 6 3");
+    assert_true(jo_scene_open_wall(scene, "gate", false, &error));
+    assert_true(jox_world_snapshot(scene->world, &saved, &error));
+    if (!jox_world_restore(other->world, saved.data, saved.length, &error))
+        fail_msg("%s", error.text);
+    step(scene, 3);
+    step(other, 3);
+    assert_true(counts(scene)->moved_out > 0);
+    assert_int_equal(counts(scene)->moved_out, counts(other)->moved_out);
+    assert_true(jo_world_hash(scene->world) == jo_world_hash(other->world));
+    jox_text_free(&saved);
+    jo_scene_free(scene);
+    jo_scene_free(other);
+}
+
+/* ---- every scene that ships ---- */
+
+static const char *override_for(const char *name) {
+    return strstr(name, "tawaf")        ? "groups.pilgrims.count=2000"
+           : strstr(name, "san-fermin") ? "groups.crowd.count=300"
+           : strstr(name, "arena")      ? "groups.people.count=500"
+           : strstr(name, "circle")     ? "groups.crossing.count=200"
+                                        : "seed=1";
+}
+
+static void far_wall_moves_nobody_of(const char *name) {
+    char path[300];
+    const char *set = override_for(name);
+    snprintf(path, sizeof path, "scenes/%s", name);
+    JoScene *scene = load(path, &set, 1);
+    step(scene, 50);
+    const uint64_t before = counts(scene)->moved_out + counts(scene)->not_moved_out;
+    does(scene, "wall far 500 500 504 500");
+    does(scene, "wall far 500 500 504 500 504 504 500 504");
+    step(scene, 1);
+    if (counts(scene)->moved_out + counts(scene)->not_moved_out != before)
+        fail_msg("%s: people were moved by a wall 500 m away", path);
+    jo_scene_free(scene);
+}
+
+static void wall_500_m_away_moves_nobody_of_any_shipped_scene(void **state) {
+    (void)state;
+    DIR *scenes = opendir("scenes");
+    assert_non_null(scenes);
+    uint32_t count = 0;
+    for (struct dirent *entry; (entry = readdir(scenes));) {
+        const size_t length = strlen(entry->d_name);
+        if (length < 6 || strcmp(entry->d_name + length - 5, ".yaml") != 0)
+            continue;
+        far_wall_moves_nobody_of(entry->d_name);
+        count++;
+    }
+    closedir(scenes);
+    assert_true(count > 70);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gate_far_from_a_dense_crowd_moves_nobody),
+        cmocka_unit_test(gate_that_closes_on_people_leaves_each_on_its_side),
+        cmocka_unit_test(solid_over_people_is_left_by_no_other_wall),
+        cmocka_unit_test(people_closed_in_within_a_solid_stay_and_are_told_of),
+        cmocka_unit_test(reload_moves_nobody_for_a_wall_that_stood),
+        cmocka_unit_test(ring_that_becomes_solid_came),
+        cmocka_unit_test(edges_that_came_are_saved),
+        cmocka_unit_test(wall_500_m_away_moves_nobody_of_any_shipped_scene),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
