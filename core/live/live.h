@@ -143,6 +143,8 @@ void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *c
 /* As last spread, 1/m2: at a point, and the greatest. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 float jox_live_density_max(const JoxLiveGrid *grid);
+/* R of its Gaussian, m: 1 but on wide cells; NAN before the first. */
+float jox_live_density_r(const JoxLiveGrid *grid);
 /* Values of a grid's cells. */
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,
                          JoxBytes *out);

@@ -61,6 +61,10 @@ float jox_live_density_max(const JoxLiveGrid *g) {
     return g->grid ? g->grid->most : 0.0f;
 }
 
+float jox_live_density_r(const JoxLiveGrid *g) {
+    return g->grid ? g->grid->kernel * sqrtf(2.0f) : NAN;
+}
+
 static uint8_t *put(uint8_t *at, const void *number) {
     uint32_t bits;
     memcpy(&bits, number, sizeof bits);

@@ -112,6 +112,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     add_machines(&json, live, &world->machines);
     jox_json_number(&json, "mean_speed", jox_live_speed(scene));
     jox_json_number(&json, "density_max", jox_live_density_max(&live->grid));
+    jox_json_digits(&json, "density_r", (double)jox_live_density_r(&live->grid), 3);
     add_costs(&json, live, scene);
     add_doors(&json, scene);
     add_hints(&json, scene);

@@ -173,6 +173,7 @@ void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double facto
     add_machines(&json, r);
     jox_json_digits(&json, "mean_speed", jox_replay_speed(r), 6);
     jox_json_digits(&json, "density_max", shown ? (double)jox_live_density_max(&r->grid) : NAN, 6);
+    jox_json_digits(&json, "density_r", shown ? (double)jox_live_density_r(&r->grid) : NAN, 3);
     jox_json_null(&json, "failures");
     for (int u = 0; u < 3; u++) {
         jox_json_object(&json, UNKNOWN[u]);

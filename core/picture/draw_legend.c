@@ -163,7 +163,7 @@ static void levels(Legend *l, float most) {
 static void field(Legend *l) {
     const JoxPicture *p = l->d->picture;
     heading(l, p->field_legend                ? p->field_legend
-               : p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
+               : p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2 (Gaussian, R = 1 m)"
                                               : "Floor: pressure, 1/s\xc2\xb2");
     bar(l, p->floor_most, true);
     if (p->floor == JOX_SHOW_DENSITY)

@@ -24,7 +24,7 @@ static bool is_drawn(const JoxDanger *d, int measure) {
 /* How many strips there are. */
 static int drawn(const JoxDanger *d) {
     int count = 0;
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+    for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         count += is_drawn(d, m);
     return count;
 }
@@ -41,7 +41,7 @@ static void begin_picture(FILE *script, const char *name, bool svg, int width, i
 /* Greatest value over time, with the limits as lines that say what they are. */
 static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     static const char *const TITLES[JOX_DANGER_MAPPED] = {
-        "Greatest density anywhere", "Greatest crowd pressure anywhere",
+        "Greatest density anywhere, by a Gaussian of R = 1 m", "Greatest crowd pressure anywhere",
         "Greatest compression of a person", "Greatest load of a person, from one side"};
     static const char *const UNITS[JOX_DANGER_MAPPED] = {"people per m\xc2\xb2", "per s\xc2\xb2",
                                                          "N/m", "N"};
@@ -71,8 +71,8 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
 
 /* People over each limit that anyone passed, and who left. */
 static void counts(const JoxDanger *d, FILE *script) {
-    static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00",
-                                          "#56b4e9", "#cc79a7", "#000000"};
+    static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9",
+                                          "#cc79a7", "#000000", "#999933", "#882255"};
     bool any = false;
     fputs("unset arrow\nunset label\nset yrange [0:*]\nset ylabel 'people'\nset key at graph "
           "1.01,1 left top Left reverse\nset title 'People over a limit'\n",

@@ -141,9 +141,10 @@ static const struct Map {
     bool greatest;
     const char *title, *legend;
 } MAPS[] = {
-    {"density", JOX_DANGER_DENSITY, false, "Mean density", "people per m\xc2\xb2, mean over time"},
-    {"density-greatest", JOX_DANGER_DENSITY, true, "Greatest density",
-     "people per m\xc2\xb2, greatest of all times"},
+    {"density", JOX_DANGER_DENSITY, false, "Mean density " JOX_DENSITY_BY,
+     "people per m\xc2\xb2 " JOX_DENSITY_BY ", mean over time"},
+    {"density-greatest", JOX_DANGER_DENSITY, true, "Greatest density " JOX_DENSITY_BY,
+     "people per m\xc2\xb2 " JOX_DENSITY_BY ", greatest of all times"},
     {"load-greatest", JOX_DANGER_LOAD, true, "Greatest load of people and walls",
      "load from one side, N, held for 1 s"},
     {"pressure-greatest", JOX_DANGER_PRESSURE, true, "Greatest crowd pressure",

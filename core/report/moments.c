@@ -21,7 +21,7 @@ static void name_moment(const JoxSubject *s, int kind, char title[128], char whe
         snprintf(title, 128, "At the start%s",
                  same_time(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
     else if (kind == JOX_MOMENT_DENSEST)
-        snprintf(title, 128, "Greatest density");
+        snprintf(title, 128, "Greatest density " JOX_DENSITY_BY);
     else if (kind == JOX_MOMENT_HALF)
         snprintf(title, 128, "Half have left");
     else if (s->inside == 0)
@@ -86,7 +86,7 @@ static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
     p.grid = s->grid;
     p.field = m->field;
     p.floor = JOX_SHOW_DENSITY;
-    p.field_legend = "people per m\xc2\xb2";
+    p.field_legend = "people per m\xc2\xb2 " JOX_DENSITY_BY;
     p.floor_most = jox_maps_scale_end((double)s->grid->most); /* one scale for all of them */
     const bool good = jox_maps_put(s, &p, file, error);
     jox_free(walls.rings);

@@ -24,7 +24,8 @@ static void add_congestion(JoxPageFigures *f, const JoxDanger *danger) {
     double area = 0.0;
     for (uint32_t r = 0; r < found.count; r++)
         area += found.regions[r].area;
-    jox_page_add(f, "s", found.longest, "longest time that a place was above %g per m\xc2\xb2",
+    jox_page_add(f, "s", found.longest,
+                 "longest time that a place was above %g per m\xc2\xb2 " JOX_DENSITY_BY,
                  (double)JOX_CONGESTION_DENSITY);
     jox_page_add(f, "", found.known ? found.count : NAN, "regions of significant congestion");
     jox_page_add(f, "m2", found.known ? area : NAN, "area of significant congestion");
@@ -73,9 +74,13 @@ static void put_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
 void jox_page_definitions(FILE *out, const JoxDanger *danger) {
     char text[1024];
     jox_html_paragraph(
-        out, "Density is people per m2: each person is spread by a Gaussian of R = 1 m over the "
-             "floor within the walls, which let nothing through. Its greatest value is that of any "
-             "place; who is over a limit is told by the density where they stand.");
+        out,
+        "Density is people per m2: each person is spread by a Gaussian of R = 1 m over the "
+        "floor within the walls, which let nothing through. Its greatest value is that of any "
+        "place; who is over a limit is told by the density where they stand. It is a mean over "
+        "some 3 m2. Voronoi density is one over the area of a person's Voronoi cell, which is "
+        "cut off at 1 m and ends at walls, as individual densities of PedPy are: the room of "
+        "one person, which scatters more, and reads higher in a dense crowd.");
     snprintf(
         text, sizeof text,
         "Crowd pressure is the mean density about a place times the variance over time of the "

@@ -47,9 +47,11 @@ static void put_areas(FILE *out, const JoxDanger *danger) {
 static void put_levels(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Levels of service by area and time");
     jox_html_paragraph(
-        out, "Of queues: by the area that each person has, 1 / density where they stand. An area "
-             "is at the level of the mean density about the people in it; the maps of density have "
-             "the same levels on their scales.");
+        out,
+        "Of queues: by the area that each person has, 1 / density where they stand " JOX_DENSITY_BY
+        ". An area "
+        "is at the level of the mean density about the people in it; the maps of density have "
+        "the same levels on their scales.");
     jox_html_figure(out, s->folder, "levels",
                     "Above: how many people were at each level. Below: the level of each area.",
                     true);
@@ -78,7 +80,8 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
     char text[400];
     jox_html_heading(out, "Congestion");
     snprintf(text, sizeof text,
-             "Regions in which the density was above %g per m\xc2\xb2, in all for longer than %.0f "
+             "Regions in which the density " JOX_DENSITY_BY
+             " was above %g per m\xc2\xb2, in all for longer than %.0f "
              "%% of %s, %.1f s. The time is that at the place of a region where it lasted longest; "
              "first and last are of all the region.",
              (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE,
@@ -125,7 +128,7 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         out,
         "What walls leave of a line is measured, of a line of gates all of them. Of the ten "
         "seconds "
-        "before each moment; nothing is known of the first ten. Density is "
+        "before each moment; nothing is known of the first ten. Density " JOX_DENSITY_BY " is "
         "that of the people within 2 m of the line on the side that most come from; those "
         "who wait are the people in sight of an opening's middle within 10 m there; the growth of "
         "the queue is by how many they became more in a second, inflow less outflow. Levels are "

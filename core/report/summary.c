@@ -80,7 +80,9 @@ static double seconds_over(const JoxDanger *d, int limit) {
 
 /* What people did with a measure: "stood in a density of 5 per m2 or more". */
 static const char *verb_of(JoxDangerMeasure measure) {
-    return (int)measure < (int)JOX_DANGER_FIRST_BORNE ? "stood in a" : "bore a";
+    const bool borne =
+        measure >= (int)JOX_DANGER_FIRST_BORNE && measure <= (int)JOX_DANGER_LAST_BORNE;
+    return borne ? "bore a" : "stood in a";
 }
 
 static void say_limit(const JoxSubject *s, int l, JoxText *out) {
@@ -98,30 +100,59 @@ static void say_limit(const JoxSubject *s, int l, JoxText *out) {
 }
 
 /* The greatest of a measure, and its limits up to the first that nobody passed. */
-static void put_measure(FILE *out, const JoxSubject *s, JoxDangerMeasure measure,
-                        const char *lead) {
+static void say_measure(const JoxSubject *s, JoxDangerMeasure measure, JoxText *out) {
     const JoxDangerMost most = jox_danger_most(s->danger, measure);
-    JoxText text = {0};
     char value[32];
     snprintf(value, sizeof value, measure == JOX_DANGER_LOAD ? "%.0f N" : "%.3g per m\xc2\xb2",
              most.value);
-    jox_text_printf(&text, "The greatest %s was %s", jox_danger_titles[measure], value);
+    jox_text_printf(out, "The greatest %s was %s", jox_danger_titles[measure], value);
     if (isfinite(most.time)) {
-        jox_text_printf(&text, ", at %.1f s at ", most.time);
-        jox_where(s, most.at, &text);
+        jox_text_printf(out, ", at %.1f s at ", most.time);
+        jox_where(s, most.at, out);
     }
-    jox_text_add(&text, ".");
+    jox_text_add(out, ".");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         if (jox_danger_limits[l].measure != measure)
             continue;
         if (jox_danger_count(s->danger, l).people == 0) {
-            jox_text_printf(&text, " Nobody %s %s or more.", verb_of(measure),
+            jox_text_printf(out, " Nobody %s %s or more.", verb_of(measure),
                             jox_danger_limits[l].title);
             break;
         }
-        say_limit(s, l, &text);
+        say_limit(s, l, out);
     }
-    put(out, lead, &text);
+}
+
+/* By the Gaussian and by the room that single people have: they differ. */
+static void put_density(FILE *out, const JoxSubject *s) {
+    const JoxDangerMost most = jox_danger_most(s->danger, JOX_DANGER_VORONOI);
+    JoxText text = {0}, people = {0};
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        if (jox_danger_limits[l].measure != JOX_DANGER_VORONOI)
+            continue;
+        jox_text_add(&people, people.length ? ", " : "; ");
+        jox_text_noun(&people, jox_danger_count(s->danger, l).people, "person|people");
+        jox_text_printf(&people, " had %g or more", jox_danger_limits[l].value);
+    }
+    say_measure(s, JOX_DANGER_DENSITY, &text);
+    jox_text_add(&text, " ");
+    if (isfinite(most.value))
+        jox_text_printf(&text, "The greatest %s was %.3g per m\xc2\xb2, at %.1f s%s.",
+                        jox_danger_titles[JOX_DANGER_VORONOI], most.value, most.time, people.data);
+    else
+        jox_text_printf(&text,
+                        "Voronoi densities were not measured: nobody stood in %g per m\xc2\xb2.",
+                        (double)JOX_VORONOI_LEAST);
+    put(out, "Where it was dense.", &text);
+    jox_text_free(&people);
+}
+
+static void put_load(FILE *out, const JoxSubject *s) {
+    JoxText text = {0};
+    if (!jox_danger_reads(s->danger, JOX_DANGER_LOAD))
+        return;
+    say_measure(s, JOX_DANGER_LOAD, &text);
+    put(out, "What people bore.", &text);
 }
 
 static void put_pressure(FILE *out, const JoxSubject *s) {
@@ -155,17 +186,20 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
     if (!found.known)
         jox_text_printf(&text, "Not judged: only %.1f s were measured.", found.time);
     else if (found.count == 0 && found.longest > 0.0)
-        jox_text_printf(&text,
-                        "None that is significant: no place was above %g per m\xc2\xb2 for longer "
-                        "than %.0f %% of the %.1f s %s; at most for %.1f s, at ",
-                        (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
-                        time, found.longest);
+        jox_text_printf(
+            &text,
+            "None that is significant: no place was above %g per m\xc2\xb2 " JOX_DENSITY_BY
+            " for longer "
+            "than %.0f %% of the %.1f s %s; at most for %.1f s, at ",
+            (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time, time,
+            found.longest);
     else if (found.count == 0)
-        jox_text_printf(&text, "None: no place was above %g per m\xc2\xb2.",
+        jox_text_printf(&text, "None: no place was above %g per m\xc2\xb2 " JOX_DENSITY_BY ".",
                         (double)JOX_CONGESTION_DENSITY);
     else
         jox_text_printf(&text,
-                        "Significant: %s above %g per m\xc2\xb2 for longer than %.0f %% of the "
+                        "Significant: %s above %g per m\xc2\xb2 " JOX_DENSITY_BY
+                        " for longer than %.0f %% of the "
                         "%.1f s %s.",
                         found.count == 1 ? "a region was" : "regions were",
                         (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
@@ -267,19 +301,20 @@ static void put_levels(FILE *out, const JoxSubject *s) {
     if (!(all > 0.0))
         return;
     crowded = d->level_s[JOX_LEVELS - 2] + d->level_s[JOX_LEVELS - 1];
-    jox_text_printf(&text,
-                    "Of all the time that people spent here, %.1f %% was at Fruin's levels E "
-                    "and F for queues (more than %.1f people per m\xc2\xb2).",
-                    100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
+    jox_text_printf(
+        &text,
+        "Of all the time that people spent here, %.1f %% was at Fruin's levels E "
+        "and F for queues (more than %.1f people per m\xc2\xb2) by the density where they "
+        "stood " JOX_DENSITY_BY ".",
+        100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
     say_areas(d, &text);
     put(out, "Levels of service.", &text);
 }
 
 void jox_summary_crowd(FILE *out, const JoxSubject *s) {
     put_leaving(out, s);
-    put_measure(out, s, JOX_DANGER_DENSITY, "Where it was dense.");
-    if (jox_danger_reads(s->danger, JOX_DANGER_LOAD))
-        put_measure(out, s, JOX_DANGER_LOAD, "What people bore.");
+    put_density(out, s);
+    put_load(out, s);
     put_pressure(out, s);
     put_congestion(out, s);
     put_lines(out, s);

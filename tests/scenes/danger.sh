@@ -96,7 +96,8 @@ jam=$(grep -o '"congestion": {.*' "$work/jam.json")
 grep -q '"cleared": true, "regions": 1,' <<<"$jam"; verdict "50 people before a door of 1 m: one region of congestion" $?
 between "it lasts, s" "$(sed 's/.*"where": \[{"seconds": \([^,]*\).*/\1/' <<<"$jam")" 8 14
 between "it lies before the door, m" "$(sed 's/.*"where": .*"x": \([^,]*\), "y".*/\1/' <<<"$jam")" 6 8
-grep -q '<b>Congestion\.</b> Significant: a region was above 4 per m.* m from the line exit' "$work/jam/index.html"; verdict "the page says where" $?
+grep -q '<b>Congestion\.</b> Significant: a region was above 4 per m.* (Gaussian, R = 1 m) .* m from the line exit' "$work/jam/index.html"; verdict "the page says where" $?
+grep -q 'stood in a density of 7 per m² (Gaussian, R = 1 m) or more. The greatest Voronoi density of a person (cell within 1 m) was' "$work/jam/index.html"; verdict "it says by what densities are measured, and gives both" $?
 [ "$(wc -l <"$work/jam/danger-congestion.csv")" = 2 ]; verdict "and so does the table" $?
 grep -q '"queue_growth_max": 0,' "$work/jam.json"; verdict "though its queue never grew after ten seconds" $?
 "$JOSTLE" run scenes/corridor.yaml --for 15 --quiet --data "$work/free" --summary "$work/free.json" >/dev/null 2>&1
@@ -118,7 +119,7 @@ alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
 for table in danger.csv danger-map.csv; do
     alike "a crush: crowd pressure of $table is that of the summary" "$(in_json pressure_max "$work/shaken.json")" "$(greatest 'pressure_max [1/s2]' "$work/shaken/$table")" 1e-6
 done
-for measure in density:1/m2:density pressure:1/s2:"crowd pressure" compression:N/m:compression load:N:"load from one side"; do
+for measure in density:1/m2:"density (Gaussian, R = 1 m)" pressure:1/s2:"crowd pressure" compression:N/m:compression load:N:"load from one side"; do
     IFS=: read -r name unit title <<<"$measure"
     said=$(in_json "${name}_max" "$work/door.danger")
     alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
@@ -131,7 +132,7 @@ done
 alike "the greatest density of a run, and of its recording" "$(figure density_max <"$work/rooms.json")" "$(in_json density_max "$work/again.json")" 0.01
 alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
 alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
-for limit in density_5:"density of 5 per m²" density_7:"density of 7 per m²" pressure_002:"crowd pressure of 0.02 per s²" load_623:"load of 623 N" load_1112:"load of 1112 N" load_6227:"load of 6227 N" dose_1:"dose of load of 1"; do
+for limit in density_5:"density of 5 per m² (Gaussian, R = 1 m)" density_7:"density of 7 per m² (Gaussian, R = 1 m)" voronoi_5:"Voronoi density of 5 per m²" voronoi_7:"Voronoi density of 7 per m²" pressure_002:"crowd pressure of 0.02 per s²" load_623:"load of 623 N" load_1112:"load of 1112 N" load_6227:"load of 6227 N" dose_1:"dose of load of 1"; do
     IFS=: read -r limit title <<<"$limit"
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
     line=$(grep "^$limit," "$work/door/danger-limits.csv")

@@ -21,7 +21,7 @@ half, last, most = values("danger.leaving_s.p50"), values("danger.last_left_s"),
 worst = max(last, key=lambda seed: last[seed])
 assert "Half of those who left had done so by %s s" % said(statistics.median(half.values())) in text
 assert re.search(r"the last by %s s \([^()]*; at most %s, seed %d\)" % (re.escape(said(statistics.median(last.values()))), re.escape(said(last[worst])), worst), text), text[:3000]
-assert "The greatest density of any place and time was %s per m\u00b2" % said(statistics.median(most.values())) in text
+assert "The greatest density (Gaussian, R = 1 m) of any place and time was %s per m\u00b2" % said(statistics.median(most.values())) in text
 cleared = len([v for v in values("danger.inside").values() if v == 0])
 assert ("Yes, in all runs" if cleared == 3 else "in %d of 3 runs" % cleared) in text, cleared
 inside = {}

@@ -59,7 +59,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
                   double value, double duration) {
     JoxV2 at = {frame->x[i], frame->y[i]};
     JoxDangerPerson *person = &d->people[frame->key[i]];
-    if ((int)measure >= (int)JOX_DANGER_FIRST_BORNE)
+    if (measure > JOX_DANGER_PRESSURE) /* else by the field */
         keep_greatest(d, measure, value, frame->time, at, frame->key[i]);
     if (!(value >= d->least[measure]))
         return;
@@ -75,7 +75,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
             count->first_at = at;
         }
         count->people += !(person->over >> l & 1);
-        person->over |= (uint8_t)(1 << l);
+        person->over |= (uint16_t)(1 << l);
     }
 }
 
@@ -168,6 +168,15 @@ static void chart(JoxDanger *d, const JoxFrame *frame) {
     d->samples++;
 }
 
+/* The greatest Voronoi density of a sample; NAN where nobody's was measured. */
+static float most_room(const JoxDanger *d, uint32_t count) {
+    float most = NAN;
+    for (uint32_t i = 0; i < count; i++)
+        if (!(d->room[i] <= most))
+            most = isnan(d->room[i]) ? most : d->room[i];
+    return most;
+}
+
 /* The sample's line of danger.csv. */
 static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
@@ -188,11 +197,15 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
         const float values[JOX_DANGER_MEASURES] = {inside ? d->local->grid->now[cell] : 0.0f,
                                                    inside ? jox_local_pressure(d->local, cell)
                                                           : NAN,
-                                                   p->compression, p->load, (float)p->dose};
+                                                   p->compression,
+                                                   p->load,
+                                                   (float)p->dose,
+                                                   d->room[i]};
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             row->over[l] +=
                 (double)values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
     }
+    row->most[JOX_DANGER_VORONOI] = most_room(d, frame->count);
     row->left = exits ? (uint32_t)exits->left : 0;
     for (uint32_t e = 0; exits && e < exits->count && e < JOX_DANGER_EXITS; e++) {
         if (e >= d->exit_count)
@@ -205,7 +218,7 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
    greatest of the lines and of the cells are so the greatest of all. */
 static void keep_most(JoxDanger *d, const JoxFrame *frame) {
     JoxDangerRow *row = &d->rows[d->row_count - 1];
-    for (int m = JOX_DANGER_FIRST_BORNE; m < JOX_DANGER_MEASURES && frame->count; m++)
+    for (int m = JOX_DANGER_FIRST_BORNE; m <= JOX_DANGER_LAST_BORNE && frame->count; m++)
         row->most[m] = jox_maxf(row->most[m], 0.0f); /* of those who bear nothing */
     for (uint32_t k = 0; k < d->bearing_count; k++) {
         const uint32_t i = d->bearing[k];
@@ -213,7 +226,7 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
         const JoxDangerPerson *p = &d->people[frame->key[i]];
         const float values[] = {p->compression, p->load, (float)p->dose};
         const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
-        for (int m = JOX_DANGER_FIRST_BORNE; m < JOX_DANGER_MEASURES; m++) {
+        for (int m = JOX_DANGER_FIRST_BORNE; m <= JOX_DANGER_LAST_BORNE; m++) {
             const float value = values[m - JOX_DANGER_FIRST_BORNE];
             row->most[m] = jox_maxf(row->most[m], value);
             if (inside && m < JOX_DANGER_MAPPED)
@@ -229,6 +242,14 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
         row->most[JOX_DANGER_LOAD] = row->most[JOX_DANGER_DOSE] = NAN;
 }
 
+/* The room that each person of a sample has. */
+static void measure_room(JoxDanger *d, const JoxFrame *frame) {
+    const JoxDensityCrowd crowd = {
+        .count = frame->count, .x = frame->x, .y = frame->y, .period = frame->period};
+    jox_voronoi_people(&d->voronoi, &crowd, frame->walls, jox_density_walls_hash(d->local->grid),
+                       d->here, d->room);
+}
+
 /* Every sample of the fields: who stands where they are over a limit. */
 static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     if (isnan(d->last_sample))
@@ -236,12 +257,18 @@ static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
     d->last_sample = frame->time;
     JOX_RESERVE(d->here, d->here_capacity, frame->count);
+    JOX_RESERVE(d->room, d->room_capacity, frame->count);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
         d->here[i] = inside ? d->local->grid->now[cell] : NAN;
-        if (!inside)
+    }
+    measure_room(d, frame);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        size_t cell;
+        if (!jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell))
             continue;
+        judge(d, frame, i, JOX_DANGER_VORONOI, (double)d->room[i], duration);
         d->level_s[jox_level_of_queue((double)d->here[i])] += duration;
         judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->here[i], duration);
         judge(d, frame, i, JOX_DANGER_PRESSURE, (double)jox_local_pressure(d->local, cell),
@@ -345,7 +372,8 @@ void jox_danger_free(JoxDanger *d) {
         return;
     if (d->owns_local)
         jox_local_free(d->local);
-    void *arrays[] = {d->measured, d->stood, d->people, d->rows, d->here, d->bears, d->bearing};
+    void *arrays[] = {d->measured, d->stood, d->people, d->rows,
+                      d->here,     d->room,  d->bears,  d->bearing};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
@@ -355,6 +383,7 @@ void jox_danger_free(JoxDanger *d) {
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
     jox_congestion_free(&d->congestion);
+    jox_voronoi_people_free(&d->voronoi);
     jox_danger_lines_free(&d->lines);
     jox_danger_areas_free(&d->areas);
     jox_leaving_free(&d->leaving);

@@ -1,6 +1,7 @@
 /* Where people are squeezed, over the frames of a run or of a recording:
 
    - density: people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
+   - Voronoi density: one over the area that a person has, within 1 m (fields/voronoi_people.h)
    - pressure: crowd pressure, 1/s2 (fields/pressure.h), where it was measured
    - compression: sum of the contact forces' magnitudes on a person over the girth, N/m
    - load: the greatest push that a person bears from any one direction, N: over directions d, the
@@ -33,6 +34,7 @@ typedef enum JoxDangerMeasure {
     JOX_DANGER_LOAD,
     JOX_DANGER_MAPPED, /* those before are drawn on maps */
     JOX_DANGER_DOSE = JOX_DANGER_MAPPED,
+    JOX_DANGER_VORONOI, /* of each person, as density is at samples */
     JOX_DANGER_MEASURES
 } JoxDangerMeasure;
 extern const char *const jox_danger_names[JOX_DANGER_MEASURES];  /* "density", ... */
@@ -48,7 +50,7 @@ typedef struct JoxDangerLimit {
     const char *what;   /* what is known of it */
     const char *source; /* who says so */
 } JoxDangerLimit;
-enum { JOX_DANGER_LIMITS = 7 };
+enum { JOX_DANGER_LIMITS = 9 };
 extern const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS];
 /* The least limit of a measure; NAN without one. */
 double jox_danger_least(JoxDangerMeasure measure);
@@ -98,8 +100,8 @@ JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
 /* Minutes from a first time until the last frame; NAN of NAN. */
 double jox_danger_since(const JoxDanger *danger, double first);
 JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Whether there was anything to read it from: compression and load are in our own recordings alone,
-   crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
+/* Whether it is known who is over its limits: compression and load are in our own recordings alone,
+   crowd pressure takes ten seconds. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Adds "density_max": ..., "limits": {...}, "levels": {...}, "congestion": {...}, "areas": {...},
    "lines": {...}, "walls": {...}, "leaving_s": {...}; null where it was not read. */

@@ -8,11 +8,14 @@
 #include "record/danger/leaving.h"
 #include "record/danger/lines.h"
 #include "record/danger/walls.h"
+#include "record/fields/voronoi_people.h"
 #include "record/local.h"
 
 enum {
-    JOX_DANGER_EXITS = JOX_LEAVING_EXITS,           /* that have a column of their own over time */
-    JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION /* from here on: of each person, every frame */
+    JOX_DANGER_EXITS = JOX_LEAVING_EXITS, /* that have a column of their own over time */
+    /* What people bear: of each person, every frame. */
+    JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION,
+    JOX_DANGER_LAST_BORNE = JOX_DANGER_DOSE
 };
 /* N: loads after which death is estimated within 300 s and 15 s. */
 #define JOX_DOSE_LOW 1112.0
@@ -27,7 +30,7 @@ typedef struct JoxDangerPerson {
     float most;                        /* N: greatest load */
     double most_time;
     JoxV2 most_at;
-    uint8_t over; /* bits of the limits that were ever passed */
+    uint16_t over; /* bits of the limits that were ever passed */
 } JoxDangerPerson;
 
 /* One line of danger.csv: a sample, and what was borne until the next. */
@@ -67,8 +70,11 @@ struct JoxDanger {
     JoxLeaving leaving;
     JoxDangerWalls walls;
     double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
-    float *here;                /* by person of a sample: density; NAN outside of the area */
-    uint32_t here_capacity;
+    /* By person of a sample: density, by the Gaussian (NAN outside of the area) and by Voronoi
+       cells (NAN where that was not measured). */
+    float *here, *room;
+    uint32_t here_capacity, room_capacity;
+    JoxVoronoiPeople voronoi;
 
     double begun, last_frame, last_sample; /* s */
     JoxDangerCount counts[JOX_DANGER_LIMITS];

@@ -20,9 +20,10 @@
 #include "geom/walls.h"
 #include "simd/isa.h"
 
-#define JOX_DENSITY_KERNEL 0.70710678f /* m: R / sqrt 2, the Gaussian's standard deviation */
-#define JOX_DENSITY_CELL 0.2f          /* m */
-enum { JOX_DENSITY_FIELDS = 3 };       /* that can be spread at once */
+#define JOX_DENSITY_KERNEL 0.70710678f       /* m: R / sqrt 2, the Gaussian's standard deviation */
+#define JOX_DENSITY_BY "(Gaussian, R = 1 m)" /* how people are told of it */
+#define JOX_DENSITY_CELL 0.2f                /* m */
+enum { JOX_DENSITY_FIELDS = 3 };             /* that can be spread at once */
 
 typedef struct JoxDensityFloor JoxDensityFloor; /* where the walls let people through */
 
@@ -79,6 +80,8 @@ typedef struct JoxDensityCrowd {
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
 /* The walls as they stand now; NULL for none. Cheap where nothing has changed. */
 void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
+/* Another number where these are others; 0: none. */
+uint64_t jox_density_walls_hash(const JoxDensity *density);
 /* A sample. `out`: columns times rows values for each of the fields, the sums of weights per m2. */
 void jox_density_sample(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
                         float *const *out);

@@ -345,6 +345,10 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
     jox_density_solids_free(solids);
 }
 
+uint64_t jox_density_walls_hash(const JoxDensity *d) {
+    return d->floor ? d->floor->hash : 0;
+}
+
 void jox_density_free_floor(JoxDensityFloor *f) {
     if (!f)
         return;

@@ -16,14 +16,24 @@ void jox_cell_begin(JoxCell *cell, double cutoff) {
     }
 }
 
+/* As many corners as there are: most cells have six of 256. */
+static void copy_cell(JoxCell *to, const JoxCell *from) {
+    to->count = from->count;
+    for (uint32_t c = 0; c < from->count; c++) {
+        to->x[c] = from->x[c];
+        to->y[c] = from->y[c];
+    }
+}
+
 void jox_cell_cut(JoxCell *cell, double x, double y) {
     double half = 0.5 * (x * x + y * y);
-    JoxCell kept = {.count = 0};
+    JoxCell kept; /* 4 KB: set as far as it is used */
     bool cuts = false;
     if (half == 0.0)
         return;
     for (uint32_t c = 0; c < cell->count && !cuts; c++)
         cuts = cell->x[c] * x + cell->y[c] * y > half;
+    kept.count = 0;
     for (uint32_t c = 0; cuts && c < cell->count; c++) {
         uint32_t n = c + 1 < cell->count ? c + 1 : 0;
         double here = cell->x[c] * x + cell->y[c] * y - half;
@@ -42,17 +52,15 @@ void jox_cell_cut(JoxCell *cell, double x, double y) {
     }
     if (!cuts)
         return;
-    cell->count = kept.count;
-    for (uint32_t c = 0; c < kept.count; c++) {
-        cell->x[c] = kept.x[c];
-        cell->y[c] = kept.y[c];
-    }
+    copy_cell(cell, &kept);
 }
 
 double jox_cell_reach2(const JoxCell *cell) {
     double most = 0.0;
-    for (uint32_t c = 0; c < cell->count; c++)
-        most = fmax(most, cell->x[c] * cell->x[c] + cell->y[c] * cell->y[c]);
+    for (uint32_t c = 0; c < cell->count; c++) {
+        const double away2 = cell->x[c] * cell->x[c] + cell->y[c] * cell->y[c];
+        most = away2 > most ? away2 : most;
+    }
     return most;
 }
 
@@ -136,11 +144,12 @@ void jox_sites_sort(JoxSites *s, double cutoff) {
         s->low = jox_v2(jox_minf(s->low.x, s->points[i].x), jox_minf(s->low.y, s->points[i].y));
         high = jox_v2(jox_maxf(high.x, s->points[i].x), jox_maxf(high.y, s->points[i].y));
     }
+    jox_cell_begin(&s->whole, cutoff);
     s->columns = s->rows = 1;
-    s->bin = cutoff;
+    s->bin = 0.5 * cutoff;
     if (s->count) {
         double wide = (double)high.x - s->low.x, tall = (double)high.y - s->low.y;
-        s->bin = fmax(cutoff, sqrt((wide + 1.0) * (tall + 1.0) / MOST_BINS));
+        s->bin = fmax(s->bin, sqrt((wide + 1.0) * (tall + 1.0) / MOST_BINS));
         s->columns = (uint32_t)(wide / s->bin) + 1;
         s->rows = (uint32_t)(tall / s->bin) + 1;
     }
@@ -193,7 +202,7 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
 }
 
 void jox_sites_cell(const JoxSites *s, uint32_t site, double cutoff, JoxCell *out) {
-    jox_cell_begin(out, cutoff);
+    copy_cell(out, &s->whole);
     for (int ring = 0; ring <= 2 || (ring - 1) * s->bin < 2.0 * cutoff; ring++) {
         /* Those `ring` bins away are at least ring - 1 bins off. */
         double away = (ring - 1) * s->bin;

@@ -45,7 +45,8 @@ typedef struct JoxSites {
     uint32_t *who; /* the caller's number of each */
     uint32_t count, capacity, who_capacity;
     JoxV2 low;
-    double bin; /* m */
+    double bin;    /* m */
+    JoxCell whole; /* of somebody alone */
     uint32_t columns, rows;
     uint32_t *first, first_capacity; /* of each bin in `order`; one more at the end */
     uint32_t *order, order_capacity;

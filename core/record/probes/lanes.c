@@ -91,7 +91,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "order_last", "order of the lanes at the end", "",
                    l->count ? l->items[l->count - 1].order : NAN);
     jox_figure_add(out, "random", "order that chance alone would give", "", random / n);
-    jox_figure_add(out, "density", "density, mean", "1/m2", density / n);
+    jox_figure_add(out, "density", "density by counting, mean", "1/m2", density / n);
     jox_figure_add(out, "speed", "speed, mean", "m/s", speed / n);
 }
 

@@ -162,7 +162,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     for (size_t c = 0; c < cells_of(m->local->grid); c++)
         pressure = fmax(pressure, m->measured[c] ? m->pressure[c] / m->measured[c] : NAN);
     jox_figure_add(out, "samples", "samples", "", m->samples);
-    jox_figure_add(out, "density_max", "greatest density", "1/m2",
+    jox_figure_add(out, "density_max", "greatest density by the Gaussian of `kernel`", "1/m2",
                    m->samples ? m->density_most : NAN);
     jox_figure_add(out, "density_max_x", "where that was, x", "m",
                    m->samples ? m->density_at.x : NAN);
@@ -170,7 +170,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    m->samples ? m->density_at.y : NAN);
     jox_figure_add(out, "density_max_time", "when that was", "s",
                    m->samples ? m->density_time : NAN);
-    jox_figure_add(out, "density_mean_max", "greatest mean density of a place", "1/m2",
+    jox_figure_add(out, "density_mean_max", "greatest mean density of a place, likewise", "1/m2",
                    density / n);
     jox_figure_add(out, "speed", "speed, mean", "m/s",
                    m->people ? m->speed_sum / (double)m->people : NAN);

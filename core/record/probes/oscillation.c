@@ -256,7 +256,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     const double area = windows_of(o) * def->window * def->window, none = peak ? 1.0 : NAN;
     jox_figure_add(out, "intervals", "intervals measured", "", o->intervals);
     jox_figure_add(out, "windows", "windows", "", windows_of(o));
-    jox_figure_add(out, "density", "density, mean", "1/m2",
+    jox_figure_add(out, "density", "density by counting, mean", "1/m2",
                    frames > 0.0 ? people / frames / area : NAN);
     jox_figure_add(out, "speed", "speed, root mean square", "m/s",
                    filled > 0.0 ? sqrt(square / filled) : NAN);

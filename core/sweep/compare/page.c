@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "picture/html.h"
 #include "picture/plot.h"
+#include "record/fields/density.h"
 #include "sweep/compare/compare.h"
 
 /* Four digits are enough, and no powers of ten. */
@@ -323,9 +324,9 @@ static void put_pictures(FILE *out, const JoxComparison *c) {
     }
     jox_html_panels_end(out);
     jox_html_heading(out, "Plans");
-    jox_html_paragraph(out,
-                       "The greatest density that each place had at any time until the end, as "
-                       "a mean over the runs; one scale for all.");
+    jox_html_paragraph(out, "The greatest density " JOX_DENSITY_BY
+                            " that each place had at any time until the end, as "
+                            "a mean over the runs; one scale for all.");
     jox_compare_plan_figures(out, c);
 }
 

@@ -88,10 +88,10 @@ static bool draw(const JoxComparison *c, uint32_t s, double most, JoxText *why) 
             &(JoxMapField){.file = file,
                            .title = side->name,
                            .when = when,
-                           .legend =
-                               side->runs > 1
-                                   ? "people per m\xc2\xb2, greatest of all times, mean of runs"
-                                   : "people per m\xc2\xb2, greatest of all times",
+                           .legend = side->runs > 1 ? "people per m\xc2\xb2 " JOX_DENSITY_BY
+                                                      ", greatest of all times, mean of runs"
+                                                    : "people per m\xc2\xb2 " JOX_DENSITY_BY
+                                                      ", greatest of all times",
                            .show = JOX_SHOW_DENSITY,
                            .values = side->fields[JOX_FIELD_GREATEST].values,
                            .most = most},

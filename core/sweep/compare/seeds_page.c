@@ -29,20 +29,20 @@ static void put_row(FILE *out, const char *title, const JoxSpread *s, const char
 static void put_figures(FILE *out, const JoxSide *side) {
     static const struct {
         const char *path, *title, *unit;
-    } ROWS[] = {
-        {"danger.leaving_s.first", "the first left", "s"},
-        {"danger.leaving_s.p25", "25 % had left", "s"},
-        {"danger.leaving_s.p50", "half had left", "s"},
-        {"danger.leaving_s.p75", "75 % had left", "s"},
-        {"danger.leaving_s.p95", "95 % had left", "s"},
-        {"danger.last_left_s", "the last left", "s"},
-        {"danger.clearance_s", "nobody inside from then on", "s"},
-        {"danger.left", "people who left", ""},
-        {"danger.inside", "people inside at the end", ""},
-        {"density_max", "greatest density", "1/m2"},
-        {"danger.limits.density_5.person_s", "time of all people over 5 per m\xc2\xb2", "s"},
-        {"danger.load_max", "greatest load from one side", "N"},
-        {"stood_longest.s", "longest that anybody stood who wanted to get on", "s"}};
+    } ROWS[] = {{"danger.leaving_s.first", "the first left", "s"},
+                {"danger.leaving_s.p25", "25 % had left", "s"},
+                {"danger.leaving_s.p50", "half had left", "s"},
+                {"danger.leaving_s.p75", "75 % had left", "s"},
+                {"danger.leaving_s.p95", "95 % had left", "s"},
+                {"danger.last_left_s", "the last left", "s"},
+                {"danger.clearance_s", "nobody inside from then on", "s"},
+                {"danger.left", "people who left", ""},
+                {"danger.inside", "people inside at the end", ""},
+                {"density_max", "greatest density " JOX_DENSITY_BY, "1/m2"},
+                {"danger.limits.density_5.person_s",
+                 "time of all people over 5 per m\xc2\xb2 " JOX_DENSITY_BY, "s"},
+                {"danger.load_max", "greatest load from one side", "N"},
+                {"stood_longest.s", "longest that anybody stood who wanted to get on", "s"}};
     jox_html_table(out, "figure|>mean|>least|>5 %|>median|>95 %|>greatest|>runs");
     for (size_t r = 0; r < sizeof ROWS / sizeof *ROWS; r++) {
         const JoxSpread s = jox_spread_of(side, ROWS[r].path);
@@ -116,7 +116,7 @@ static void put_levels(FILE *out, const JoxSide *side) {
         return;
     jox_html_heading(out, "Levels of service");
     jox_html_paragraph(out, "Of queues: by the area that each person has, 1 / density where they "
-                            "stand; time of all people together.");
+                            "stand " JOX_DENSITY_BY "; time of all people together.");
     jox_html_table(
         out, "level|>each has, from|>person-seconds (5 to 95 %)|>share of the means|people in such "
              "a queue");
@@ -160,7 +160,8 @@ static void put_runs(FILE *out, const JoxSide *side) {
     jox_html_heading(out, "Each run");
     jox_html_table(out,
                    ">seed|>left|>inside at the end|>half had left, s|>the last left, s|>greatest "
-                   "density, per m\xc2\xb2|>person-seconds over 5 per m\xc2\xb2|state hash");
+                   "density " JOX_DENSITY_BY
+                   ", per m\xc2\xb2|>person-seconds over 5 per m\xc2\xb2|state hash");
     for (uint32_t a = 0, r = 0; a < side->all_count; a++) {
         const JoxSideRun *run = &side->all[a];
         jox_html_row(out);

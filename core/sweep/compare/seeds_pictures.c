@@ -16,9 +16,10 @@ enum { WIDE = 1300, STRIP = 270 };
 /* What is drawn first, if it is there; those of exits follow. */
 static const struct {
     const char *curve, *title, *unit;
-} STRIPS[] = {{"people inside", "People inside", "people"},
-              {"greatest density", "Greatest density anywhere", "people per m\xc2\xb2"},
-              {"mean speed", "Mean speed of all who are inside", "m/s"}};
+} STRIPS[] = {
+    {"people inside", "People inside", "people"},
+    {"greatest density", "Greatest density anywhere " JOX_DENSITY_BY, "people per m\xc2\xb2"},
+    {"mean speed", "Mean speed of all who are inside", "m/s"}};
 enum { STRIP_COUNT = sizeof STRIPS / sizeof *STRIPS };
 static const char EXIT[] = "left by ";
 
@@ -136,14 +137,14 @@ static const struct {
     const char *file, *title, *legend;
     JoxSideFieldKind kind;
     bool density;
-} MAPS[] = {{"density", "Mean density", "people per m\xc2\xb2, mean over time and runs",
-             JOX_FIELD_MEAN, true},
-            {"density-greatest", "Greatest density, mean of the runs",
+} MAPS[] = {{"density", "Mean density " JOX_DENSITY_BY,
+             "people per m\xc2\xb2, mean over time and runs", JOX_FIELD_MEAN, true},
+            {"density-greatest", "Greatest density " JOX_DENSITY_BY ", mean of the runs",
              "people per m\xc2\xb2, greatest of all times, mean of the runs", JOX_FIELD_GREATEST,
              true},
-            {"density-worst", "Greatest density, worst of the runs",
+            {"density-worst", "Greatest density " JOX_DENSITY_BY ", worst of the runs",
              "people per m\xc2\xb2, greatest of all times and runs", JOX_FIELD_WORST, true},
-            {"density-often", "Where it is 5 per m\xc2\xb2 or more",
+            {"density-often", "Where it is 5 per m\xc2\xb2 or more " JOX_DENSITY_BY,
              "% of the runs in which it ever was that dense here", JOX_FIELD_OFTEN, false}};
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 

@@ -157,11 +157,12 @@ static void put_measures(FILE *out, const JoxSide *side, const JoxSideDrawn *dra
     const JoxSpread pressure = jox_spread_of(side, "danger.pressure_max");
     JoxText text = {0};
     if (density.runs) {
-        jox_text_add(&text, "The greatest density of any place and time was ");
+        jox_text_add(&text, "The greatest density " JOX_DENSITY_BY " of any place and time was ");
         jox_spread_say(&density, "1/m2", false, &text);
         jox_text_add(&text, ".");
         say_where(side, drawn, &text);
         say_limits(side, JOX_DANGER_DENSITY, &text);
+        say_limits(side, JOX_DANGER_VORONOI, &text);
         put(out, "Where it was dense.", &text);
     }
     if (load.runs) {

@@ -70,7 +70,7 @@ export class ChartsPage {
             states: new Chart({ title: "People in each state", unit: "agents" }),
             flows: new Chart({ title: "Passed through lines", unit: "agents" }),
             speed: new Chart({ title: "Mean speed", unit: "m/s" }),
-            dense: new Chart({ title: "Greatest density", unit: "1/m²" }),
+            dense: new Chart({ title: "Greatest density at each moment (Gaussian)", unit: "1/m²" }),
             failures: new Chart({ title: "Programs without a solution", unit: "%" }),
             stages: new Chart({ title: "Time of a step", unit: "ns per agent" }),
         };

@@ -39,7 +39,7 @@ export class ScenePage {
     take(status) {
         const dense = status.density_max, level = SERVICE.find(([, up]) => dense < up)?.[0];
         const rows = { "time": clock(status.time), "people": figure(status.agents), "mean speed": `${figure(status.mean_speed)} m/s` };
-        if (Number.isFinite(dense)) rows["greatest density"] = `${figure(dense)} per m², level of service ${level}`;
+        if (Number.isFinite(dense)) rows["greatest density now"] = `${figure(dense)} per m² (Gaussian, R = ${figure(status.density_r)} m), level of service ${level}`;
         if (status.bodies) rows["bodies"] = figure(status.bodies);
         this.show(this.figures, rows);
         this.showHints(status.hints ?? []);
