@@ -281,6 +281,13 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t machine, int32_t st
 uint32_t jox_machines_name(JoxMachineRun *run, const char *name);
 /* The agent calls out a name (by number). */
 void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name);
+/* In a crowd of so many at most, agents see all others within perception, not their neighbours
+   alone: a game's opponents, not a pilgrimage. */
+enum { JOX_SMALL_CROWD = 64 };
+/* Agents that an agent sees, no wall between them, nearest first; of equal distance, the lesser id.
+   Returns how many. */
+uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
+                           uint32_t seen[JOX_SMALL_CROWD]);
 /* Everybody hears the name (by number) in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 /* The place that somebody goes to by a field in the state they are in and to which no way leads,

@@ -104,11 +104,55 @@ bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i
     return !jox_is_hidden(run, from, jox_add(from, jox_offset(a, i, j)), false);
 }
 
-uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t target) {
+/* Adds those whom the neighbours of agent i lack, in a small crowd: all within perception, by
+   distance, then id. */
+static uint32_t add_others(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                           uint32_t *found, uint32_t count) {
+    const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
-    const JoxTarget *wanted = &jox_machine_of(run, i)->targets[target];
-    uint32_t count = 0;
-    for (uint32_t k = 0; k < n->count[i]; k++)
-        count += jox_is_wanted(run, wanted, i, n->index[jox_neighbour_at(n, i, k)]);
+    const float reach = jox_param(a, JOX_PARAM_perception, i);
+    const uint32_t first = count;
+    float away[JOX_SMALL_CROWD];
+    for (uint32_t j = 0; a->count <= JOX_SMALL_CROWD && j < a->count; j++) {
+        const float d2 = jox_length2(jox_offset(a, i, j));
+        bool known = j == i;
+        for (uint32_t k = 0; k < n->count[i] && !known; k++)
+            known = n->index[jox_neighbour_at(n, i, k)] == j;
+        if (known || d2 > reach * reach || !jox_is_wanted(run, target, i, j))
+            continue;
+        uint32_t at = count++;
+        for (; at > first &&
+               (away[at - 1] > d2 || (away[at - 1] == d2 && a->id[found[at - 1]] > a->id[j]));
+             at--) {
+            away[at] = away[at - 1];
+            found[at] = found[at - 1];
+        }
+        away[at] = d2;
+        found[at] = j;
+    }
     return count;
+}
+
+/* Agents that agent i sees and a target asks for, nearest first; returns how many. */
+static uint32_t find_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                            uint32_t found[JOX_SMALL_CROWD]) {
+    const JoxNeighbours *n = run->neighbours;
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        const uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        if (jox_is_wanted(run, target, i, j))
+            found[count++] = j;
+    }
+    return add_others(run, target, i, found, count);
+}
+
+uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
+                           uint32_t seen[JOX_SMALL_CROWD]) {
+    const JoxTarget anyone = {.kind = JOX_TARGET_ANYONE};
+    return find_wanted(run, &anyone, agent, seen);
+}
+
+uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    uint32_t found[JOX_SMALL_CROWD];
+    return find_wanted(run, &jox_machine_of(run, i)->targets[target], i, found);
 }

@@ -75,10 +75,8 @@ static JoxSpot object_spot(const JoxObject *o, int32_t row) {
                      .agent = JOX_NO_INDEX};
 }
 
-/* Neighbours come nearest first. Few neighbours are kept, so beyond them all agents are looked at
-   where the crowd is small enough for that to be cheap: a game's opponents, not a pilgrimage. */
-enum { SMALL_CROWD = 64 };
-
+/* The first of those that jox_machines_seen would find, for one target: neighbours, nearest first,
+   then all within perception where the crowd is small. */
 static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
@@ -89,7 +87,7 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
     }
     uint32_t best = JOX_NO_INDEX;
     float reach = jox_param(a, JOX_PARAM_perception, i), least = reach * reach;
-    for (uint32_t j = 0; a->count <= SMALL_CROWD && j < a->count; j++) {
+    for (uint32_t j = 0; a->count <= JOX_SMALL_CROWD && j < a->count; j++) {
         float d2 = jox_length2(jox_offset(a, i, j));
         if (j == i || d2 > least || !jox_is_wanted(run, target, i, j))
             continue;

@@ -152,7 +152,7 @@ function Target:where(name, ...) end
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
 ---@field goal string can be set
----@field neighbours jostle.Me[] views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
+---@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` finds one of: nearest first, within perception, with no wall between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
 ---@field signal fun(name: string) calls out: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 
@@ -264,7 +264,7 @@ function queued(a1) end
 ---@return jostle.Number
 function distance(a1) end
 
---- `neighbours(tag)`: neighbours seen, with no wall between, that bear a tag, or are "anyone", "teammates", "opponents"; the words with a colon say which of them
+--- `neighbours(tag)`: agents seen, with no wall between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the words with a colon say which of them
 ---@param a1 string
 ---@return jostle.Number
 function neighbours(a1) end

@@ -144,13 +144,15 @@ static int view_newindex(lua_State *L) {
 
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
     JOX_ASSERT(script->machine);
-    const JoxNeighbours *n = script->owner->machines->neighbours;
+    uint32_t seen[JOX_SMALL_CROWD];
     if (!script->machine->views) /* nothing was kept of the others before the step */
         return luaL_error(L, "write me.neighbours as such, not by a name that is put together");
-    lua_createtable(L, n->count[i], 0);
-    for (uint32_t k = 0; k < n->count[i]; k++) {
+    const uint32_t count = jox_machines_seen(script->owner->machines, i, seen);
+    jox_vm_charge(L, 20 * (count + 1));
+    lua_createtable(L, (int)count, 0);
+    for (uint32_t k = 0; k < count; k++) {
         View *view = lua_newuserdatauv(L, sizeof *view, 0);
-        *view = (View){script->vm.run, n->index[jox_neighbour_at(n, i, k)]};
+        *view = (View){script->vm.run, seen[k]};
         luaL_setmetatable(L, VIEW);
         lua_rawseti(L, -2, k + 1);
     }

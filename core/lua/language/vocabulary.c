@@ -61,8 +61,9 @@ const JoxWord jox_words[] = {
     {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
      "to the target, 0 in a place; infinite where there is none", "distance \"post\""},
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",
-     "neighbours seen, with no wall between, that bear a tag, or are \"anyone\", \"teammates\", "
-     "\"opponents\"; the words with a colon say which of them", "neighbours \"people\""},
+     "agents seen, with no wall between, that bear a tag, or are \"anyone\", \"teammates\", "
+     "\"opponents\": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; "
+     "the words with a colon say which of them", "neighbours \"people\""},
     {"theirs", "ts", NUMBER, JOX_OP_THEIRS, 0, "theirs(target, name)", "",
      "what another remembers by a name that its machine makes `public`, true as 1; 0 where there is "
      "nobody, or nothing of the name", "theirs(nearest \"people\", \"laps\")"},
@@ -265,7 +266,7 @@ const JoxMeKey jox_me_keys[] = {
     {"state", "text", "", "name of its state; nil of a neighbour without a machine"},
     {"machine", "text", "", "name of its machine; nil of a neighbour without one"},
     {"goal", "name of a place", "", "can be set"},
-    {"neighbours", "list", "", "views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
+    {"neighbours", "list", "", "views of the agents that `nearest \"anyone\"` finds one of: nearest first, within perception, with no wall between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
     {"signal", "function(name)", "", "calls out: me.signal(\"alarm\")"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
