@@ -17,11 +17,25 @@
 
 enum { MOST_GROUPS = 12 }; /* that the summary names */
 
+static void add_demand(JoxPageFigures *f, const JoScene *scene) {
+    f->group = "Who came in by sources";
+    for (uint32_t s = 0; s < scene->spec->source_count; s++) {
+        const JoxDemand demand = jox_run_demand(scene, s);
+        JoxText name = {0};
+        jox_source_name(scene->world, s, &name);
+        jox_page_add(f, "", demand.due, "people who were due at %.100s", name.data);
+        jox_page_add(f, "", demand.came, "people who came in at %.100s", name.data);
+        jox_page_add(f, "", demand.waiting, "people who waited for room there at the end");
+        jox_text_free(&name);
+    }
+}
+
 /* The figures, in an order that two runs of a scene share. */
 static JoxPageFigures collect(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     JoxPageFigures f = {0};
     jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
+    add_demand(&f, scene);
     jox_page_add_danger(&f, jox_run_danger(scene));
     const JoxRegions *regions = jox_run_regions(scene);
     f.group = "Regions";
@@ -98,7 +112,7 @@ static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, co
 static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
-    JoxText text = {0};
+    JoxText text = {0}, demand = {0};
     jox_text_printf(&text, "The scene %s (%s): ", subject->title, spec->path);
     jox_text_noun(&text, world->state.agents.next_id, "person|people");
     for (uint32_t g = 0; g < spec->group_count && spec->group_count > 1 && g < MOST_GROUPS; g++) {
@@ -120,6 +134,10 @@ static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) 
     if (spec->about && *spec->about) /* its first sentence: others speak of the live page */
         jox_text_printf(&text, " %.*s", (int)(strcspn(spec->about, ".") + 1), spec->about);
     jox_html_statement(out, "What was run.", text.data);
+    jox_run_say_demand(scene, &demand);
+    if (demand.length)
+        jox_html_statement(out, "Who did not come.", demand.data + 1);
+    jox_text_free(&demand);
     jox_text_free(&text);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/quote.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -109,13 +110,32 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
                           &scene->world->model.all_walls, low, high, title, why);
 }
 
-/* The files of probes and of danger; with a title, their pictures too. */
+/* Who came in by sources, where there are some: danger-sources.csv. */
+static bool write_sources(const char *folder, const JoScene *scene, JoxText *why) {
+    const uint32_t count = scene->spec->source_count;
+    FILE *out = count ? jox_plot_open(folder, "danger-sources.csv", why) : NULL;
+    if (!out)
+        return count == 0;
+    fputs("source,due,came,waiting\n", out);
+    for (uint32_t s = 0; s < count; s++) {
+        const JoxDemand demand = jox_run_demand(scene, s);
+        JoxText name = {0};
+        jox_source_name(scene->world, s, &name);
+        jox_quote_put(out, jox_quote_csv, name.data);
+        fprintf(out, ",%.0f,%.0f,%.0f\n", demand.due, demand.came, demand.waiting);
+        jox_text_free(&name);
+    }
+    return jox_plot_close(out, "danger-sources.csv", why);
+}
+
+/* The files of probes, of danger and of sources; with a title, their pictures too. */
 static bool write_files(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
     const JoxProbe *probe;
     bool good = true;
     for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
         good = jox_probe_write(probe, r->folder, &scene->world->model.all_walls, title, why);
-    return good && jox_danger_write(jox_run_danger(scene), r->folder, title, why);
+    return good && jox_danger_write(jox_run_danger(scene), r->folder, title, why) &&
+           write_sources(r->folder, scene, why);
 }
 
 static bool write_data(void *self, JoScene *scene, JoError *error) {

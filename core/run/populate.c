@@ -43,8 +43,8 @@ static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGr
 
 void jox_run_set_schedule(JoScene *scene, bool anew) {
     const JoxSceneSpec *spec = scene->spec;
-    jox_world_set_population(scene->world, spec->groups, spec->group_count, spec->sources,
-                             spec->source_count, anew);
+    jox_world_set_groups(scene->world, spec->groups, spec->group_count);
+    jox_world_set_sources(scene->world, spec->sources, spec->source_count, anew);
     jox_world_set_sinks(scene->world, spec->sinks, spec->sink_count);
     jox_world_set_events(scene->world, spec->events, spec->event_count);
 }

@@ -47,6 +47,7 @@ static void take_places(Rescene *r) {
     }
     if (moved) {
         jox_routes_renew(world->state.routes);
+        jox_entrances_renew(&world->scratch.entrances);
         note(&r->done, "places");
     }
 }
@@ -168,6 +169,16 @@ static bool take_sources(Rescene *r) {
     return true;
 }
 
+/* Tells of sources that lie in walls now. */
+static void check_sources(const Rescene *r) {
+    JoxDiagnostics blocked = {0};
+    if (!jox_scene_differs(r->old, r->new, "sources") &&
+        !jox_scene_differs(r->old, r->new, "places") && !jox_scene_differs(r->old, r->new, "walls"))
+        return;
+    jox_run_check_sources(r->scene, &blocked);
+    jox_run_report(r->scene->message, r->scene->message_context, &blocked, NULL);
+}
+
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     Rescene r = {.scene = scene, .old = scene->spec, .new = *spec};
     struct timespec t;
@@ -204,6 +215,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         r.new->duration = r.old->duration;
         jox_run_set_schedule(scene, sources);
         jox_run_name_events(scene, NULL);
+        check_sources(&r);
     }
     jox_text_free(&r.done);
     jox_text_free(&r.later);

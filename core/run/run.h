@@ -115,6 +115,8 @@ bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnosti
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of speeds and pushes for which the step is too long. */
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* source_checks.c: sources at which walls keep some or all from coming in. */
+void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* Moves people out of walls and of each other before the first step, and says how many of which
    groups and how far. */
 void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics);
@@ -232,6 +234,15 @@ void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
 /* Adds ,"probes": {...} to a summary. */
 void jox_run_add_probes(const JoScene *scene, JoxJson *json);
+/* results/demand.c: people who were due by a source so far, who of them came, and who did not for
+   want of room; adds ,"sources": {...} to a summary, where there are some; the sentences of the
+   last lines, of sources at which somebody waits. */
+typedef struct JoxDemand {
+    double due, came, waiting;
+} JoxDemand;
+JoxDemand jox_run_demand(const JoScene *scene, uint32_t source);
+void jox_run_add_demand(const JoScene *scene, JoxJson *json);
+void jox_run_say_demand(const JoScene *scene, JoxText *out);
 /* tally.c: a tally now, NAN where nobody has what is taken; adds ,"tally": {...} to a summary; the
    sentence of the last lines; warns of names that no behaviour has. */
 double jox_run_tally(const JoScene *scene, const JoxTally *tally);

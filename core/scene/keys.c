@@ -35,7 +35,7 @@
     "plan|density|density-greatest|load-greatest|pressure-greatest|snapshot-1|snapshot-2|"         \
     "snapshot-3|snapshot-4|leaving|levels|paths|regions|walls|spread|seeds|danger|danger-map|"     \
     "danger-limits|danger-people|danger-levels|danger-areas|danger-leaving|danger-lines|"          \
-    "danger-walls"
+    "danger-walls|danger-sources"
 
 /* In the order of JoLost. */
 #define LOST "end|remove|stop"
@@ -292,7 +292,7 @@ static const JoxKey KEYS[] = {
     {"source", "keep", WHOLE, "", 0, 1000000, "0", TO(JoxAgentSource, keep),
      .meaning = "tops the group up to this number, once a second"},
     {"source", "from", NUMBER, "s", 0, 1e9, "0", TO(JoxAgentSource, from), .meaning = "nobody comes before"},
-    {"source", "until", NUMBER, "s", 0, 1e9, "1e9", TO(JoxAgentSource, until), .meaning = "nobody comes from then on"},
+    {"source", "until", NUMBER, "s", 0, 1e9, "1e9", TO(JoxAgentSource, until), .meaning = "nobody comes from then on, neither those who wait"},
     {"source", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxAgentSource, memory, memory_count), .of = "draw*",
      .meaning = "in place of what the group gives under the same name"},
 
@@ -430,7 +430,7 @@ static const JoxOwner OWNERS[] = {
      "walk by the walking law. Who has done the last step stays, unless it is an `exit`. The states that people are in are called after "
      "the steps, as `3 Queue at gate_1`; `jostle run SCENE --trace 0` shows them.",
      .size = sizeof(JoxJourneyStep), .place_at = AT(JoxJourneyStep, position), .finish = jox_finish_step},
-    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait.",
+    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait, and the last lines of a run, `sources` of its summary and its report say how many were due, came, and wait. Where walls cut the place, people come in on its greatest part alone.",
      .size = sizeof(JoxAgentSource), .place_at = AT(JoxAgentSource, position),
      .finish = jox_finish_source},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out.",

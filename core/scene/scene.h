@@ -17,6 +17,7 @@
 #include "world/exits.h"
 #include "world/population.h"
 #include "world/probe.h"
+#include "world/sources.h"
 
 typedef struct JoxSceneRegion {
     char *name;

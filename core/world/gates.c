@@ -157,6 +157,7 @@ void jox_world_raise_walls(JoWorld *world) {
         return;
     jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
     JOX_ASSERT(world->scratch.walls.count <= world->model.all_walls.count);
+    jox_entrances_renew(&world->scratch.entrances);
     jox_nav_set_walls(world->scratch.nav, &world->scratch.walls);
     jox_forces_set_walls(world->scratch.forces, &world->scratch.walls);
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);

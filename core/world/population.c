@@ -11,7 +11,6 @@
 #include "world/world.h"
 
 static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
-enum { AT_ONCE = 256 };                   /* agents that one source makes in a step at most */
 
 uint32_t jox_world_machine(const JoWorld *world, const char *path) {
     const JoxMachineSet *set = &world->model.machines;
@@ -146,8 +145,8 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     return population->party_team[number];
 }
 
-static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
-                      uint32_t memory_count) {
+uint32_t jox_world_spawn_with(JoWorld *world, uint32_t number, JoxV2 at,
+                              const JoxGroupValue *memory, uint32_t memory_count) {
     const JoxGroup *group = &world->model.groups[number];
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->state.agents;
@@ -178,168 +177,7 @@ static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupV
 uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at) {
     const JoxGroup *of = &world->model.groups[group];
     JOX_ASSERT(group < world->model.group_count);
-    return spawn(world, group, at, of->memory, of->memory_count);
-}
-
-/* ---- sources ---- */
-
-/* A point of a place, drawn for a source. */
-static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, uint32_t source, uint32_t n) {
-    JoxV2 low = place->centre, high = place->centre;
-    if (place->kind != JOX_PLACE_POINT)
-        jox_bounds(place->points, place->count, &low, &high);
-    for (uint32_t attempt = 0; attempt < 64; attempt++) {
-        uint32_t sub = (n * 64 + attempt) * 2;
-        double u =
-            jox_random_unit(world->model.def.seed, source, world->state.tick, JOX_DRAW_SOURCE, sub);
-        double v = jox_random_unit(world->model.def.seed, source, world->state.tick,
-                                   JOX_DRAW_SOURCE, sub + 1);
-        if (place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE)
-            return jox_add(place->points[0],
-                           jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
-        JoxV2 p = {low.x + (high.x - low.x) * (float)u, low.y + (high.y - low.y) * (float)v};
-        if (place->kind == JOX_PLACE_POINT) {
-            double angle = 6.283185307179586 * u, r = place->radius * sqrt(v);
-            return (JoxV2){place->centre.x + (float)(r * jox_cos(angle)),
-                           place->centre.y + (float)(r * jox_sin(angle))};
-        }
-        if (jox_polygon_contains(place->points, place->count, p))
-            return p;
-    }
-    return place->centre;
-}
-
-/* What a source fills, and how much of it people cover. */
-typedef struct Room {
-    const JoxPlace *place;
-    bool round; /* a point, or a polygon as small as one: a circle about the centre */
-    float reach;
-    double area, covered; /* m2 */
-} Room;
-
-/* Lines are as wide as people who stand on them. */
-static const float BESIDE = 0.5f; /* m */
-static const double FULL = 0.75;  /* share of a place that people cover who leave no spots free */
-static const double PI = 3.141592653589793;
-
-static bool is_in_room(const Room *room, JoxV2 p) {
-    const JoxPlace *place = room->place;
-    if (room->round)
-        return jox_length2(jox_sub(p, place->centre)) < room->reach * room->reach;
-    if (place->kind == JOX_PLACE_POLYGON)
-        return jox_polygon_contains(place->points, place->count, p);
-    const JoxV2 nearest = jox_segment_nearest(place->points[0], place->points[1], p);
-    return jox_length2(jox_sub(p, nearest)) < room->reach * room->reach;
-}
-
-static void take_room(Room *room, const JoxAgents *a, uint32_t i) {
-    const double radius = jox_param(a, JOX_PARAM_radius, i);
-    room->covered += PI * radius * radius;
-}
-
-/* The room at a place, with all who are there. */
-static Room room_at(const JoxPlace *place, const JoxAgents *a) {
-    Room room = {.place = place, .reach = BESIDE};
-    if (place->kind == JOX_PLACE_POINT)
-        room.reach = jox_maxf(place->radius, BESIDE);
-    else if (place->kind == JOX_PLACE_POLYGON)
-        room.area = fabs(jox_polygon_area(place->points, place->count));
-    else
-        room.area = 2.0 * BESIDE * jox_length(jox_sub(place->points[1], place->points[0]));
-    const double circle = PI * room.reach * room.reach;
-    room.round = room.area < circle;
-    room.area = room.round ? circle : room.area;
-    for (uint32_t i = 0; i < a->count; i++)
-        if (is_in_room(&room, jox_v2(a->x[i], a->y[i])))
-            take_room(&room, a, i);
-    return room;
-}
-
-/* Area below a curve from its beginning to a time: how many have come by it. */
-static double below_curve(const JoxAgentSource *source, double time) {
-    double sum = 0.0;
-    for (uint32_t k = 0; k + 1 < source->curve_count; k++) {
-        const double *a = source->curve + 2 * k, *b = a + 2;
-        const double end = time < b[0] ? time : b[0];
-        if (end <= a[0])
-            break;
-        const double rate = a[1] + (b[1] - a[1]) * (end - a[0]) / (b[0] - a[0]);
-        sum += 0.5 * (a[1] + rate) * (end - a[0]);
-    }
-    return sum;
-}
-
-/* How many a source has been due to make by a time. */
-static double due_until(const JoxAgentSource *source, double time) {
-    static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded steps */
-    const double since = time - source->from;
-    double due = source->rate * since;
-    if (source->every > 0.0)
-        due += source->people * (floor((since + NEARLY) / source->every) + 1.0);
-    for (uint32_t t = 0; t < source->time_count; t++)
-        due += source->times[t] <= time + NEARLY ? source->people : 0;
-    return floor(due + below_curve(source, time) + NEARLY);
-}
-
-/* How many agents a source is due to make now. A kept number is topped up once a second. */
-static uint32_t due_now(JoWorld *world, uint32_t s) {
-    const JoxAgentSource *source = &world->model.sources[s];
-    double time = (double)world->state.tick * world->model.def.dt;
-    if (time < source->from || time >= source->until)
-        return 0;
-    double due = due_until(source, time) - world->state.population.made[s];
-    uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
-    if (source->keep > 0 && world->state.tick % second == 0) {
-        uint32_t present = 0;
-        for (uint32_t i = 0; i < world->state.agents.count; i++)
-            present += world->state.agents.group[i] == source->like;
-        due += present < source->keep ? source->keep - present : 0;
-    }
-    return due <= 0.0 ? 0 : due > AT_ONCE ? AT_ONCE : (uint32_t)due;
-}
-
-/* By which member of a set the n-th of a step comes in; 0 where the source's place is no set. */
-static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint32_t n) {
-    if (doors == 1)
-        return 0;
-    const double u = jox_random_unit(world->model.def.seed, s, world->state.tick, JOX_DRAW_DOOR, n);
-    return (uint32_t)(u * doors);
-}
-
-/* Of those who are due, who comes in by one of the doors while it has room: how many. */
-static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t number,
-                          uint32_t due) {
-    const JoxAgentSource *source = &world->model.sources[s];
-    const JoxGroup *group = &world->model.groups[source->like];
-    const JoxPlace *place = &world->model.places[source->place];
-    const JoxPlace *door =
-        place->kind == JOX_PLACE_SET ? &world->model.places[place->members[number]] : place;
-    Room room = room_at(door, &world->state.agents);
-    uint32_t made = 0;
-    for (uint32_t n = 0; n < due && room.covered < FULL * room.area; n++) {
-        if (pick_door(world, s, doors, n) != number)
-            continue;
-        const uint32_t i = spawn(world, source->like, draw_point(world, door, s, n),
-                                 source->memory_count ? source->memory : group->memory,
-                                 source->memory_count ? source->memory_count : group->memory_count);
-        take_room(&room, &world->state.agents, i);
-        made++;
-    }
-    return made;
-}
-
-void jox_world_sources(JoWorld *world) {
-    for (uint32_t s = 0; s < world->model.source_count; s++) {
-        const JoxAgentSource *source = &world->model.sources[s];
-        const JoxPlace *place = &world->model.places[source->place];
-        const uint32_t doors = place->kind == JOX_PLACE_SET ? place->member_count : 1;
-        const uint32_t due = due_now(world, s);
-        uint32_t made = 0;
-        for (uint32_t door = 0; due > 0 && door < doors; door++)
-            made += fill_door(world, s, doors, door, due);
-        if (source->rate > 0 || source->people > 0 || source->curve_count > 0)
-            world->state.population.made[s] += made;
-    }
+    return jox_world_spawn_with(world, group, at, of->memory, of->memory_count);
 }
 
 /* ---- starts ---- */
@@ -407,7 +245,9 @@ void jox_world_starts(JoWorld *world) {
         if (p->entered[s] || !is_free(&world->state.agents, start->at))
             continue;
         const JoxGroup *group = &model->groups[start->group];
-        set_going(world, spawn(world, start->group, start->at, group->memory, group->memory_count),
+        set_going(world,
+                  jox_world_spawn_with(world, start->group, start->at, group->memory,
+                                       group->memory_count),
                   start->velocity);
         p->entered[s] = 1;
     }
@@ -417,28 +257,16 @@ void jox_world_starts(JoWorld *world) {
 
 /* ---- model and state ---- */
 
-void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t group_count,
-                              const JoxAgentSource *sources, uint32_t source_count, bool anew) {
+void jox_world_set_groups(JoWorld *world, const JoxGroup *groups, uint32_t count) {
     JoxWorldModel *model = &world->model;
     JoxPopulation *p = &world->state.population;
-    const double time = (double)world->state.tick * world->model.def.dt;
-    JOX_ASSERT(!model->groups || group_count == model->group_count);
-    JOX_ASSERT(anew || !model->sources || source_count == model->source_count);
+    JOX_ASSERT(!model->groups || count == model->group_count);
     if (!p->party_left) {
-        p->party_left = jox_alloc((size_t)group_count + 1, sizeof *p->party_left);
-        p->party_team = jox_alloc((size_t)group_count + 1, sizeof *p->party_team);
+        p->party_left = jox_alloc((size_t)count + 1, sizeof *p->party_left);
+        p->party_team = jox_alloc((size_t)count + 1, sizeof *p->party_team);
     }
-    if (anew) {
-        jox_free(p->made);
-        p->made = jox_alloc((size_t)source_count + 1, sizeof *p->made);
-    }
-    for (uint32_t s = 0; anew && s < source_count; s++)
-        if (time > sources[s].from)
-            p->made[s] = due_until(&sources[s], time);
     model->groups = groups;
-    model->group_count = group_count;
-    model->sources = sources;
-    model->source_count = source_count;
+    model->group_count = count;
 }
 
 void jox_world_populate(JoWorld *world) {
@@ -449,8 +277,7 @@ void jox_world_populate(JoWorld *world) {
     jox_agents_reserve(&world->state.agents, total);
     for (uint32_t g = 0; g < p->group_count; g++)
         for (uint32_t i = 0; i < p->groups[g].count; i++) {
-            uint32_t agent = spawn(world, g, p->groups[g].positions[i], p->groups[g].memory,
-                                   p->groups[g].memory_count);
+            uint32_t agent = jox_world_spawn(world, g, p->groups[g].positions[i]);
             if (p->groups[g].starts)
                 set_going(world, agent, p->groups[g].starts[i].velocity);
         }
@@ -486,7 +313,6 @@ static void list_points(JoWorld *world, JoxSections *s) {
 void jox_population_sections(JoWorld *world, JoxSections *s) {
     JoxPopulation *p = &world->state.population;
     jox_sections_module(s, "population");
-    jox_section(s, "made", p->made, sizeof *p->made, world->model.source_count);
     jox_section(s, "party_left", p->party_left, sizeof *p->party_left, world->model.group_count);
     jox_section(s, "party_team", p->party_team, sizeof *p->party_team, world->model.group_count);
     JOX_SECTION(s, "next_party", p->next_party);

@@ -85,25 +85,8 @@ typedef struct JoxGroup {
     uint32_t journey_count;
 } JoxGroup;
 
-typedef struct JoxAgentSource {
-    uint32_t place;
-    double rate;     /* agents a second; 0: none by rate */
-    double every;    /* s from one time to the next, the first being `from`; 0: no */
-    double *times;   /* s, others */
-    double *curve;   /* times, s, each with a rate, 1/s: straight between them, 0 beyond */
-    uint32_t people; /* at each of the times */
-    uint32_t time_count, curve_count;
-    uint32_t keep;         /* tops the group up to so many; 0: no */
-    uint32_t like;         /* index of the group that they belong to */
-    JoxGroupValue *memory; /* in place of the group's, where given */
-    uint32_t memory_count;
-    double from, until; /* s; until INFINITY unless given */
-    JoxPosition position;
-} JoxAgentSource;
-
 /* State. Zero-initialised is nobody. */
 typedef struct JoxPopulation {
-    double *made;         /* per source: agents so far by rate */
     uint32_t *party_left; /* per group: places left in the party that fills up, */
     uint32_t *party_team; /* and its team */
     uint32_t next_party;
@@ -111,24 +94,22 @@ typedef struct JoxPopulation {
     uint32_t all_until; /* before this start all are */
 } JoxPopulation;
 
-/* Groups and sources of a world, in place of those before; they stay the caller's, and have to stay
-   until they are replaced. The groups must be as many as before, if there were some. Sources go on
-   with the counts that they have, or, `anew`, as if they had given so far what they are due. */
-void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t group_count,
-                              const JoxAgentSource *sources, uint32_t source_count, bool anew);
+/* Groups of a world, in place of those before; they stay the caller's, and have to stay until they
+   are replaced. They must be as many as before, if there were some. */
+void jox_world_set_groups(JoWorld *world, const JoxGroup *groups, uint32_t count);
 /* Makes the agents of all groups that stand there at the start. */
 void jox_world_populate(JoWorld *world);
 /* Makes one more of a group, at a point, m. Returns its index. */
 uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at);
-/* Before a step: makes the agents that sources are due. Where a place is full, they wait until
-   there is room. */
-void jox_world_sources(JoWorld *world);
+/* The same; values of memory in place of the group's. */
+uint32_t jox_world_spawn_with(JoWorld *world, uint32_t group, JoxV2 at, const JoxGroupValue *memory,
+                              uint32_t memory_count);
 /* Before a step: brings in whose start has come. Who would stand in another waits until that one
    has gone on; those behind do not wait for it. */
 void jox_world_starts(JoWorld *world);
 /* Index of the machine that was loaded from a path; 0 where there is none. */
 uint32_t jox_world_machine(const JoWorld *world, const char *path);
-/* Lists counts, parties, who has come in and the places of single agents as state. */
+/* Lists parties, who has come in and the places of single agents as state. */
 void jox_population_sections(JoWorld *world, JoxSections *sections);
 
 #endif

@@ -82,6 +82,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     list_def(&w->model.def, s);
     JOX_SECTION(s, "tick", w->state.tick);
     list_walls(w, s);
+    jox_sources_sections(w, s);
     jox_population_sections(w, s);
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);

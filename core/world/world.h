@@ -25,6 +25,7 @@
 #include "world/inspected.h"
 #include "world/population.h"
 #include "world/routes.h"
+#include "world/sources.h"
 #include "world/stages.h"
 #include "world/statistics.h"
 
@@ -80,6 +81,7 @@ typedef struct JoxWorldState {
     JoxBodies *bodies;
     JoxDrags drags;
     JoxPopulation population;
+    JoxSourceState sources;
     uint32_t walls_version; /* counts the changes of the walls */
     JoxMadeWall *made;      /* walls that were added to those of the model, in order */
     uint32_t made_count;
@@ -102,7 +104,8 @@ typedef struct JoxWorldScratch {
     JoxStageMemory memory; /* of nav and forces */
     JoxNav *nav;
     JoxForces *forces;
-    JoxWalls walls;     /* those that stand */
+    JoxWalls walls; /* those that stand */
+    JoxEntrances entrances;
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
     JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */

@@ -125,6 +125,39 @@ for fill in random hex grid; do
     scene "groups: {g: {behaviour: stander.lua, count: 1, fill: $fill, in: corridor}}"
     says "one agent fits into a corridor, fill: $fill" 0 '"agents": 1' "$program" run scene.yaml --steps 1 --quiet --summary -
 done
+# Sources in walls are told of, and who was due and did not come is counted.
+sourced() { # WALL MORE
+    scene "groups: {g: {behaviour: stander.lua, count: 0}}
+walls: [$1]
+sources:
+  - {at: yard, like: g, $2}"
+}
+sourced '{solid: [[-1, -1], [21, -1], [21, 21], [-1, 21]]}' 'rate: 1'
+for command in check "run --quiet"; do
+    says "a source in a solid is an error, as ${command%% *} says" 3 "scene.yaml:9:5: nobody of 'g' can come in at 'yard'" "$program" $command scene.yaml
+done
+sourced '{solid: [[-1, -1], [21, -1], [21, 21], [-1, 21]], name: cover}' 'rate: 1, until: 3'
+says "  not where it may be opened" 0 "nothing wrong" "$program" check scene.yaml
+told() { # NAME TEXT: within the last lines, which are wrapped
+    tr -s '\n ' '  ' <"$work/out" | grep -qF -- "$2"; verdict "$1" $?
+}
+says "  and is run" 0 "nobody left" "$program" run scene.yaml --for 4
+told "  with last lines that say that nobody came" "0 of 3 people due came: source 'yard' (scene.yaml:9) lies in walls."
+sourced '{line: [[5, -9], [5, 29]]}' 'rate: 1'
+says "a source across a wall is a warning" 0 "scene.yaml:9:5: warning: 24 % of 'yard' lies in a wall or beyond one" "$program" check scene.yaml
+sourced '{line: [[0, -9], [0, 29]]}' 'rate: 1'
+says "  not one beside it" 0 "nothing wrong" "$program" check scene.yaml
+printf 'POLYGON ((-9 -9, 19 -9, 19 29, -9 29, -9 -9))\n' >"$yard/hall.wkt"
+sourced '{file: hall.wkt}' 'rate: 1'
+says "one that leaves the walkable area is" 0 "5 % of 'yard' lies outside the walkable area" "$program" check scene.yaml
+printf 'POLYGON ((-9 -9, -2 -9, -2 29, -9 29, -9 -9))\n' >"$yard/hall.wkt"
+says "  and an error where nobody can come" 3 "nobody of 'g' can come in at 'yard': it lies outside the walkable area" "$program" check scene.yaml
+sourced '' 'rate: 900, until: 5'
+says "demand that is not met lets a run go on" 0 "nobody left" "$program" run scene.yaml --for 6 --no-half-step --report "$work/demand" --summary "$work/demand.json"
+told "  and is told" " of 4,500 people due came: source 'yard' (scene.yaml:9) was full."
+came=$(sed -n 's/.*"yard": {"due": 4500, "came": \([0-9]*\), "waiting": \([0-9]*\)}.*/\1 \2/p' "$work/demand.json")
+[ "${came% *}" -gt 1000 ] && [ $((${came% *} + ${came#* })) = 4500 ]; verdict "  and counted: $came" $?
+[ "$(tail -1 "$work/demand/danger-sources.csv")" = "yard,4500,${came% *},${came#* }" ] && grep -q "people who were due at yard" "$work/demand/index.html"; verdict "  in the report, too" $?
 
 # ---- memory that runs out ----
 # LIMIT COMMAND...: with so many KiB of address space; 127 is the loader's, which has no libraries then

@@ -114,9 +114,9 @@ static void counts_of_sources_are_hashed(void **state) {
     step(scene, 40);
     JoxPopulation *p = &scene->world->state.population;
     const uint64_t before = jo_world_hash(scene->world);
-    p->made[0] += 1.0;
+    scene->world->state.sources.made[0] += 1.0;
     assert_true(jo_world_hash(scene->world) != before);
-    p->made[0] -= 1.0;
+    scene->world->state.sources.made[0] -= 1.0;
     p->party_left[0]++;
     assert_true(jo_world_hash(scene->world) != before);
     p->party_left[0]--;

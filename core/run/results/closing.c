@@ -128,6 +128,7 @@ char *jo_scene_closing(const JoScene *scene) {
                     jo_world_time(scene->world));
     say_people(scene, &text);
     say_states(scene, &text);
+    jox_run_say_demand(scene, &text);
     say_events(scene, &text);
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);

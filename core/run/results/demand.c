@@ -1,0 +1,64 @@
+/* Who was due by sources and did not come: in the last lines of a run and in its figures. */
+#include "base/format/noun.h"
+#include "run/run.h"
+
+enum { MOST_TOLD = 5 }; /* sources that are named */
+
+JoxDemand jox_run_demand(const JoScene *scene, uint32_t source) {
+    const double waiting = jox_source_waiting(scene->world, source),
+                 came = (double)scene->world->state.sources.figures[source].came;
+    return (JoxDemand){.due = came + waiting, .came = came, .waiting = waiting};
+}
+
+void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
+    if (scene->spec->source_count == 0)
+        return;
+    jox_json_object(json, "sources");
+    for (uint32_t s = 0; s < scene->spec->source_count; s++) {
+        const JoxDemand demand = jox_run_demand(scene, s);
+        JoxText name = {0};
+        jox_source_name(scene->world, s, &name);
+        jox_json_object(json, name.data);
+        jox_json_number(json, "due", demand.due);
+        jox_json_number(json, "came", demand.came);
+        jox_json_number(json, "waiting", demand.waiting);
+        jox_json_end(json);
+        jox_text_free(&name);
+    }
+    jox_json_end(json);
+}
+
+/* Whether walls leave somebody room to come in at one of a source's places. */
+static bool has_floor(const JoScene *scene, uint32_t source) {
+    for (uint32_t d = 0; d < jox_source_doors(scene->world, source); d++)
+        if (jox_world_entrance(scene->world, jox_source_door(scene->world, source, d))->area > 0.0)
+            return true;
+    return false;
+}
+
+void jox_run_say_demand(const JoScene *scene, JoxText *out) {
+    uint32_t told = 0, more = 0;
+    for (uint32_t s = 0; s < scene->spec->source_count; s++) {
+        const JoxDemand demand = jox_run_demand(scene, s);
+        const JoxPosition at = scene->spec->sources[s].position;
+        char came[JOX_NOUN], due[JOX_NOUN];
+        if (demand.waiting <= 0.0)
+            continue;
+        if (told == MOST_TOLD) {
+            more++;
+            continue;
+        }
+        told++;
+        jox_text_printf(out, " %s of %s due came: source '",
+                        jox_number_text(came, (uint64_t)demand.came),
+                        jox_noun(due, (uint64_t)demand.due, "person|people"));
+        jox_source_name(scene->world, s, out);
+        jox_text_printf(out, "' (%.200s:%d) %s.", at.file, at.line,
+                        has_floor(scene, s) ? "was full" : "lies in walls");
+    }
+    if (more > 0) {
+        jox_text_add(out, " So it is with ");
+        jox_text_noun(out, more, "other source");
+        jox_text_add(out, ".");
+    }
+}

@@ -1,0 +1,281 @@
+#include "world/sources.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "base/number/elementary.h"
+#include "geom/polygon.h"
+#include "world/world.h"
+
+enum { AT_ONCE = 256 };          /* agents that one source makes in a step at most */
+enum { ATTEMPTS = 64 };          /* points that are drawn for an agent at most */
+static const double FULL = 0.75; /* share of a floor that people cover who leave no spots free */
+static const double PI = 3.141592653589793;
+static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded steps */
+
+/* ---- entrances ---- */
+
+uint32_t jox_source_doors(const JoWorld *world, uint32_t source) {
+    const JoxPlace *place = &world->model.places[world->model.sources[source].place];
+    return place->kind == JOX_PLACE_SET ? place->member_count : 1;
+}
+
+uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number) {
+    const uint32_t of = world->model.sources[source].place;
+    const JoxPlace *place = &world->model.places[of];
+    return place->kind == JOX_PLACE_SET ? (uint32_t)place->members[number] : of;
+}
+
+void jox_entrances_renew(JoxEntrances *entrances) {
+    for (uint32_t p = 0; p < entrances->count; p++)
+        if (entrances->items[p]) {
+            jox_entrance_free(entrances->items[p]);
+            jox_free(entrances->items[p]);
+        }
+    jox_free(entrances->items);
+    jox_wall_grid_free(&entrances->grid);
+    *entrances = (JoxEntrances){0};
+}
+
+const JoxEntrance *jox_world_entrance(JoWorld *world, uint32_t place) {
+    JoxEntrances *e = &world->scratch.entrances;
+    jox_world_raise_walls(world);
+    JOX_ASSERT(place < world->model.scene_places);
+    if (!e->items) {
+        e->count = world->model.scene_places;
+        e->items = jox_alloc(e->count, sizeof *e->items);
+        e->grid.walls = &world->scratch.walls;
+    }
+    if (!e->items[place]) {
+        e->items[place] = jox_alloc(1, sizeof *e->items[place]);
+        jox_entrance_make(e->items[place], &e->grid, &world->model.places[place]);
+    }
+    return e->items[place];
+}
+
+/* ---- where people come in ---- */
+
+/* A point of a place, drawn for a source, on the floor of its entrance. */
+static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEntrance *entrance,
+                        uint32_t source, uint32_t n) {
+    JoxV2 low = place->centre, high = place->centre, p = place->centre;
+    double u = 0.0;
+    if (place->kind != JOX_PLACE_POINT)
+        jox_bounds(place->points, place->count, &low, &high);
+    for (uint32_t attempt = 0; attempt < ATTEMPTS; attempt++) {
+        const uint32_t sub = (n * ATTEMPTS + attempt) * 2;
+        const uint64_t seed = world->model.def.seed, tick = world->state.tick;
+        u = jox_random_unit(seed, source, tick, JOX_DRAW_SOURCE, sub);
+        const double v = jox_random_unit(seed, source, tick, JOX_DRAW_SOURCE, sub + 1);
+        if (place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE) {
+            p = jox_add(place->points[0],
+                        jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
+        } else if (place->kind == JOX_PLACE_POINT) {
+            const double angle = 6.283185307179586 * u, r = place->radius * sqrt(v);
+            p = (JoxV2){place->centre.x + (float)(r * jox_cos(angle)),
+                        place->centre.y + (float)(r * jox_sin(angle))};
+        } else {
+            p = (JoxV2){low.x + (high.x - low.x) * (float)u, low.y + (high.y - low.y) * (float)v};
+            if (!jox_polygon_contains(place->points, place->count, p))
+                continue;
+        }
+        if (jox_entrance_is_open(entrance, p))
+            return p;
+    }
+    return entrance->cut ? jox_entrance_pick(entrance, u) : place->centre;
+}
+
+/* m2 that somebody covers. */
+static double cover_of(const JoxAgents *a, uint32_t i) {
+    const double radius = jox_param(a, JOX_PARAM_radius, i);
+    return PI * radius * radius;
+}
+
+/* m2 that people cover of a floor. */
+static double covered(const JoxEntrance *entrance, const JoxAgents *a) {
+    double sum = 0.0;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (jox_entrance_holds(entrance, jox_v2(a->x[i], a->y[i])))
+            sum += cover_of(a, i);
+    return sum;
+}
+
+/* By which member of a set the n-th of a step comes in; 0 where the source's place is no set. */
+static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint32_t n) {
+    if (doors == 1)
+        return 0;
+    const double u = jox_random_unit(world->model.def.seed, s, world->state.tick, JOX_DRAW_DOOR, n);
+    return (uint32_t)(u * doors);
+}
+
+/* Of those who are due, who comes in by one of the doors while it has room: how many. */
+static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t number,
+                          uint32_t due) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    const JoxGroup *group = &world->model.groups[source->like];
+    const uint32_t door = jox_source_door(world, s, number);
+    const JoxEntrance *entrance = jox_world_entrance(world, door);
+    double sum = covered(entrance, &world->state.agents);
+    uint32_t made = 0;
+    for (uint32_t n = 0; n < due && sum < FULL * entrance->area; n++) {
+        if (pick_door(world, s, doors, n) != number)
+            continue;
+        const JoxV2 at = draw_point(world, &world->model.places[door], entrance, s, n);
+        const bool own = source->memory_count > 0;
+        const uint32_t i =
+            jox_world_spawn_with(world, source->like, at, own ? source->memory : group->memory,
+                                 own ? source->memory_count : group->memory_count);
+        sum += cover_of(&world->state.agents, i);
+        made++;
+    }
+    return made;
+}
+
+/* ---- how many are due ---- */
+
+/* Area below a curve from its beginning to a time: how many have come by it. */
+static double below_curve(const JoxAgentSource *source, double time) {
+    double sum = 0.0;
+    for (uint32_t k = 0; k + 1 < source->curve_count; k++) {
+        const double *a = source->curve + 2 * k, *b = a + 2;
+        const double end = time < b[0] ? time : b[0];
+        if (end <= a[0])
+            break;
+        const double rate = a[1] + (b[1] - a[1]) * (end - a[0]) / (b[0] - a[0]);
+        sum += 0.5 * (a[1] + rate) * (end - a[0]);
+    }
+    return sum;
+}
+
+/* How many a source has been due to make by a time, at any step: who comes by rate or curve up to
+   its end, and at times before its end. */
+static double due_until(const JoxAgentSource *source, double time) {
+    const double end = time < source->until ? time : source->until;
+    const double since = end - source->from;
+    if (time < source->from)
+        return 0.0;
+    double due = floor(source->rate * since + below_curve(source, end) + NEARLY);
+    for (uint32_t t = 0; t < source->time_count; t++)
+        if (source->times[t] <= time + NEARLY && source->times[t] < source->until)
+            due += source->people;
+    if (source->every > 0.0) {
+        const double last = floor((since + NEARLY) / source->every);
+        const bool at_end = source->from + last * source->every >= source->until - NEARLY;
+        due += source->people * (last + (at_end ? 0.0 : 1.0));
+    }
+    return due;
+}
+
+/* Whether a source makes people in the step that begins at a time. It ends with the first step that
+   begins at its end or later, in which those come who were due since the step before. */
+static bool is_at_work(const JoWorld *world, const JoxAgentSource *source, double time) {
+    return time >= source->from && time < source->until + world->model.def.dt - NEARLY;
+}
+
+/* How many of a kept number are missing. They are counted once a second. */
+static uint32_t count_missing(const JoWorld *world, const JoxAgentSource *source, double time) {
+    const JoxAgents *a = &world->state.agents;
+    const uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
+    uint32_t present = 0;
+    if (source->keep == 0 || world->state.tick % second != 0 || time >= source->until)
+        return 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        present += a->group[i] == source->like;
+    return present < source->keep ? source->keep - present : 0;
+}
+
+static void run_source(JoWorld *world, uint32_t s) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    JoxSourceFigures *figures = &world->state.sources.figures[s];
+    double *made = &world->state.sources.made[s];
+    const double time = (double)world->state.tick * world->model.def.dt;
+    if (!is_at_work(world, source, time))
+        return;
+    figures->due = due_until(source, time);
+    const double scheduled = figures->due > *made ? figures->due - *made : 0.0;
+    const uint32_t missing = count_missing(world, source, time);
+    const double all = scheduled + missing;
+    const uint32_t due = all > AT_ONCE ? AT_ONCE : (uint32_t)all,
+                   doors = jox_source_doors(world, s);
+    uint32_t came = 0;
+    for (uint32_t door = 0; due > 0 && door < doors; door++)
+        came += fill_door(world, s, doors, door, due);
+    const double of_schedule = came < scheduled ? came : scheduled;
+    *made += of_schedule;
+    figures->came += came;
+    if (missing > 0 || figures->kept > 0)
+        figures->kept = missing - (uint64_t)(came - of_schedule);
+    JOX_ASSERT(*made <= figures->due || came == 0);
+}
+
+void jox_world_sources(JoWorld *world) {
+    for (uint32_t s = 0; s < world->model.source_count; s++)
+        run_source(world, s);
+}
+
+double jox_source_waiting(const JoWorld *world, uint32_t s) {
+    const JoxSourceFigures *figures = &world->state.sources.figures[s];
+    const double late = figures->due - world->state.sources.made[s];
+    return (late > 0.0 ? late : 0.0) + (double)figures->kept;
+}
+
+/* ---- model and state ---- */
+
+void jox_source_name(const JoWorld *world, uint32_t s, JoxText *out) {
+    const JoxWorldModel *m = &world->model;
+    uint32_t shared = 0, twins = 0;
+    for (uint32_t o = 0; o < m->source_count; o++) {
+        const bool same = m->sources[o].place == m->sources[s].place;
+        shared += same;
+        twins += same && m->sources[o].like == m->sources[s].like && o < s;
+    }
+    jox_text_printf(out, "%.100s", m->places[m->sources[s].place].name);
+    if (shared > 1)
+        jox_text_printf(out, " %.100s", m->groups[m->sources[s].like].name);
+    if (twins > 0)
+        jox_text_printf(out, " %u", twins + 1);
+}
+
+void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32_t count,
+                           bool anew) {
+    JoxWorldModel *model = &world->model;
+    JoxSourceState *state = &world->state.sources;
+    const double time = (double)world->state.tick * model->def.dt;
+    JOX_ASSERT(anew || !model->sources || count == model->source_count);
+    if (anew) {
+        double *made = jox_alloc((size_t)count + 1, sizeof *made);
+        JoxSourceFigures *figures = jox_alloc((size_t)count + 1, sizeof *figures);
+        for (uint32_t s = 0; s < count; s++) {
+            const JoxAgentSource *before = s < model->source_count ? &model->sources[s] : NULL;
+            figures[s].due = made[s] = due_until(&sources[s], time);
+            if (!before || before->place != sources[s].place || before->like != sources[s].like)
+                continue;
+            const double late = state->figures[s].due - state->made[s];
+            made[s] -= late < 0.0 ? 0.0 : late < made[s] ? late : made[s];
+            figures[s].came = state->figures[s].came;
+        }
+        jox_free(state->made);
+        jox_free(state->figures);
+        *state = (JoxSourceState){.made = made, .figures = figures};
+    }
+    model->sources = sources;
+    model->source_count = count;
+    jox_entrances_renew(&world->scratch.entrances);
+}
+
+void jox_sources_free(JoWorld *world) {
+    jox_entrances_renew(&world->scratch.entrances);
+    jox_free(world->state.sources.made);
+    jox_free(world->state.sources.figures);
+}
+
+void jox_sources_sections(JoWorld *world, JoxSections *s) {
+    JoxSourceState *state = &world->state.sources;
+    jox_sections_module(s, "sources");
+    jox_section(s, "made", state->made, sizeof *state->made, world->model.source_count);
+    jox_sections_unhashed(s, true);
+    jox_section(s, "figures", state->figures, sizeof *state->figures, world->model.source_count);
+    jox_sections_unhashed(s, false);
+}
