@@ -28,31 +28,9 @@ uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number)
     return place->kind == JOX_PLACE_SET ? (uint32_t)place->members[number] : of;
 }
 
-void jox_entrances_renew(JoxEntrances *entrances) {
-    for (uint32_t p = 0; p < entrances->count; p++)
-        if (entrances->items[p]) {
-            jox_entrance_free(entrances->items[p]);
-            jox_free(entrances->items[p]);
-        }
-    jox_free(entrances->items);
-    jox_wall_grid_free(&entrances->grid);
-    *entrances = (JoxEntrances){0};
-}
-
-const JoxEntrance *jox_world_entrance(JoWorld *world, uint32_t place) {
-    JoxEntrances *e = &world->scratch.entrances;
-    jox_world_raise_walls(world);
-    JOX_ASSERT(place < world->model.scene_places);
-    if (!e->items) {
-        e->count = world->model.scene_places;
-        e->items = jox_alloc(e->count, sizeof *e->items);
-        e->grid.walls = &world->scratch.walls;
-    }
-    if (!e->items[place]) {
-        e->items[place] = jox_alloc(1, sizeof *e->items[place]);
-        jox_entrance_make(e->items[place], &e->grid, &world->model.places[place]);
-    }
-    return e->items[place];
+const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number) {
+    return jox_entrances_get(&world->scratch.entrances, &world->scratch.walls, world->model.places,
+                             world->model.scene_places, jox_source_door(world, source, number));
 }
 
 /* ---- where people come in ---- */
@@ -116,7 +94,7 @@ static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t n
     const JoxAgentSource *source = &world->model.sources[s];
     const JoxGroup *group = &world->model.groups[source->like];
     const uint32_t door = jox_source_door(world, s, number);
-    const JoxEntrance *entrance = jox_world_entrance(world, door);
+    const JoxEntrance *entrance = jox_source_entrance(world, s, number);
     double sum = covered(entrance, &world->state.agents);
     uint32_t made = 0;
     for (uint32_t n = 0; n < due && sum < FULL * entrance->area; n++) {
@@ -211,6 +189,8 @@ static void run_source(JoWorld *world, uint32_t s) {
 }
 
 void jox_world_sources(JoWorld *world) {
+    if (world->model.source_count > 0)
+        jox_world_raise_walls(world);
     for (uint32_t s = 0; s < world->model.source_count; s++)
         run_source(world, s);
 }
@@ -263,12 +243,6 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
     model->sources = sources;
     model->source_count = count;
     jox_entrances_renew(&world->scratch.entrances);
-}
-
-void jox_sources_free(JoWorld *world) {
-    jox_entrances_renew(&world->scratch.entrances);
-    jox_free(world->state.sources.made);
-    jox_free(world->state.sources.figures);
 }
 
 void jox_sources_sections(JoWorld *world, JoxSections *s) {

@@ -4,7 +4,7 @@
 
 #include "base/format/diag.h"
 #include "base/sections.h"
-#include "geom/entrance.h"
+#include "world/entrances.h"
 
 typedef struct JoWorld JoWorld;
 typedef struct JoxGroupValue JoxGroupValue;
@@ -40,13 +40,6 @@ typedef struct JoxSourceState {
     JoxSourceFigures *figures; /* no step reads them */
 } JoxSourceState;
 
-/* What follows from the model and the walls that stand. */
-typedef struct JoxEntrances {
-    JoxEntrance **items; /* by place of the scene; NULL: not asked for yet */
-    uint32_t count;
-    JoxWallGrid grid;
-} JoxEntrances;
-
 /* Sources of a world, in place of those before; they stay the caller's, and have to stay until they
    are replaced. They go on with the counts that they have, or, `anew`, as if they had given so far
    what they are due; but those whom a source of the same place and group kept waiting still wait.
@@ -56,15 +49,12 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
 /* Before a step: makes the agents that sources are due. Where a place is full, they wait until
    there is room; whoever waits when a source ends does not come. */
 void jox_world_sources(JoWorld *world);
-/* The entrance of a place that is no set, by the walls that stand. */
-const JoxEntrance *jox_world_entrance(JoWorld *world, uint32_t place);
-/* Places moved, or other walls stand: entrances are made anew when they are next asked for. */
-void jox_entrances_renew(JoxEntrances *entrances);
-void jox_sources_free(JoWorld *world);
 
 /* How many members a source's place has, 1 where it is no set; and one of them. */
 uint32_t jox_source_doors(const JoWorld *world, uint32_t source);
 uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number);
+/* The entrance of one of them, by the walls that stand. */
+const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number);
 /* People who were due when people last came in, and did not come for want of room. */
 double jox_source_waiting(const JoWorld *world, uint32_t source);
 /* Appends the name of a source: that of its place; where others share it, with its group. */

@@ -12,7 +12,7 @@
 #include "world/drag.h"
 #include "world/happened/happened.h"
 #include "world/inspected.h"
-#include "world/routes.h"
+#include "world/routes/routes.h"
 #include "world/statistics.h"
 
 /* A step longer than people plan ahead is done in equal substeps; think and observe run once. */

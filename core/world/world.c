@@ -81,7 +81,9 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.discs.discs);
     jox_free(world->scratch.discs.agents);
     free_places(world);
-    jox_sources_free(world);
+    jox_entrances_renew(&world->scratch.entrances);
+    jox_free(world->state.sources.made);
+    jox_free(world->state.sources.figures);
     jox_free(world->state.population.party_left);
     jox_free(world->state.population.party_team);
     jox_free(world->state.population.entered);

@@ -24,7 +24,7 @@
 #include "world/input/input.h"
 #include "world/inspected.h"
 #include "world/population.h"
-#include "world/routes.h"
+#include "world/routes/routes.h"
 #include "world/sources.h"
 #include "world/stages.h"
 #include "world/statistics.h"

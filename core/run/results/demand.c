@@ -31,7 +31,7 @@ void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
 /* Whether walls leave somebody room to come in at one of a source's places. */
 static bool has_floor(const JoScene *scene, uint32_t source) {
     for (uint32_t d = 0; d < jox_source_doors(scene->world, source); d++)
-        if (jox_world_entrance(scene->world, jox_source_door(scene->world, source, d))->area > 0.0)
+        if (jox_source_entrance(scene->world, source, d)->area > 0.0)
             return true;
     return false;
 }

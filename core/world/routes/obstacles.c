@@ -1,4 +1,4 @@
-#include "world/obstacles.h"
+#include "world/routes/obstacles.h"
 
 #include <math.h>
 

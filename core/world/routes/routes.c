@@ -1,4 +1,4 @@
-#include "world/routes.h"
+#include "world/routes/routes.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "task/worker.h"
-#include "world/obstacles.h"
+#include "world/routes/obstacles.h"
 
 enum { MOST_FIELDS = 64 };
 /* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
