@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "cli/bench.h"
@@ -95,11 +96,11 @@ static const CliOption OPTIONS[] = {
      "the widest that the machine runs", .kind = CLI_READ, .read = read_isas},
     {"json", NULL, "one array of objects instead of the table", CLI_TO(Bench, json)},
     {"csv", "FILE", "append a line for each scene and instruction set to a table of such lines",
-     CLI_TO(Bench, csv)},
+     CLI_TO(Bench, csv), .writes = "csv txt"},
     {"commit", "NAME", "what those lines call the version that is timed", "the version",
      CLI_TO(Bench, given.commit)},
     {"plot", "DIR", "draw DIR/bench.svg: the scenes as bars, those named scale-... as a curve",
-     CLI_TO(Bench, plot)},
+     CLI_TO(Bench, plot), .writes = "folder"},
     CLI_TRUSTED_OPTION(Bench),
 };
 
@@ -138,7 +139,7 @@ static int measure(const Bench *bench, const Named *named, BenchCase *c) {
         return status == JO_OK ? JO_OK : cli_failed(&cli_bench, &error, false);
     }
     JoSceneDef def = jo_default_scene_def();
-    def.path = named ? named->path : c->name;
+    def.path = c->path;
     def.threads = bench->given.threads;
     def.isa = c->isa;
     if (named) {
@@ -172,6 +173,34 @@ static const Named *find(const char *name) {
     return NULL;
 }
 
+/* The file of each name, or NULL of many worlds; false with a message where there is none. */
+static bool find_paths(const char *const *names, size_t count, const char **paths) {
+    const char *all[NAMED_COUNT];
+    char hint[JOX_HINT];
+    for (size_t k = 0; k < NAMED_COUNT; k++)
+        all[k] = NAMED[k].name;
+    for (size_t n = 0; n < count; n++) {
+        const Named *named = find(names[n]);
+        paths[n] = named ? named->path : names[n];
+        if (named && !named->path)
+            continue;
+        if (named && access(paths[n], F_OK) != 0) { /* away from the sources: what came with it */
+            char stem[64];
+            const char *file = jox_path_name(paths[n]);
+            snprintf(stem, sizeof stem, "%.*s", (int)jox_path_stem(file), file);
+            paths[n] = cli_scene(&cli_bench, stem, NULL);
+        } else if (!named && access(paths[n], F_OK) != 0 && !cli_is_scene(names[n]) &&
+                   jox_did_you_mean(names[n], all, NAMED_COUNT, hint)) {
+            return cli_unknown(&cli_bench, "scene", names[n], all, NAMED_COUNT) == JO_OK;
+        } else if (!named) {
+            paths[n] = cli_scene(&cli_bench, names[n], NULL);
+        }
+        if (!paths[n])
+            return false;
+    }
+    return true;
+}
+
 /* The cases as they were asked for, once they are all measured. */
 static int finish(const Bench *bench, const BenchCase *cases, size_t count) {
     if (bench->json) {
@@ -189,12 +218,14 @@ static int finish(const Bench *bench, const BenchCase *cases, size_t count) {
 }
 
 /* All cases, round by round; the table shows each when its last round is over. */
-static int bench_all(Bench *bench, const char *const *names, size_t count) {
+static int bench_all(Bench *bench, const char *const *names, const char *const *paths,
+                     size_t count) {
     const size_t total = count * bench->isa_count;
     BenchCase *cases = jox_alloc(total, sizeof *cases);
     int status = JO_OK;
     for (size_t k = 0; k < total; k++)
         cases[k] = (BenchCase){.name = names[k / bench->isa_count],
+                               .path = paths[k / bench->isa_count],
                                .isa = bench->isas[k % bench->isa_count]};
     if (!bench->json)
         bench_header();
@@ -212,13 +243,10 @@ static int bench_all(Bench *bench, const char *const *names, size_t count) {
     return status;
 }
 
-static void confine(const Bench *bench, const char *const *names, size_t count) {
+static void confine(const Bench *bench, const char *const *paths, size_t count) {
     CliReach reach = {.programs = bench->plot != NULL}; /* gnuplot draws */
-    for (size_t n = 0; n < count; n++) {
-        const Named *named = find(names[n]);
-        if (!named || named->path)
-            cli_reach_scene(&reach, named ? named->path : names[n]);
-    }
+    for (size_t n = 0; n < count; n++)
+        cli_reach_scene(&reach, paths[n]);
     cli_reach_output(&reach, bench->csv);
     cli_reach_output(&reach, bench->plot);
     cli_reach_folder(&reach, "/proc/cpuinfo"); /* names the processor */
@@ -239,8 +267,13 @@ static int run(int argc, char **argv) {
     if (status == CLI_GO_ON) {
         const char *const *asked = names.count ? names.items : marked;
         const size_t count = names.count ? names.count : marked_count;
-        confine(&bench, asked, count);
-        status = bench_all(&bench, asked, count);
+        const char **paths = jox_alloc(count, sizeof *paths);
+        status = JO_INPUT;
+        if (find_paths(asked, count, paths)) {
+            confine(&bench, paths, count);
+            status = bench_all(&bench, asked, paths, count);
+        }
+        jox_free(paths);
     }
     cli_free(&cli_bench, &bench, &names);
     return status;

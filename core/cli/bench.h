@@ -20,6 +20,7 @@ typedef struct BenchGiven {
 /* A scene with an instruction set, and what was measured of it in each round. */
 typedef struct BenchCase {
     const char *name; /* of the scene, or its path */
+    const char *path; /* its file; NULL of many worlds */
     JoIsa isa;
     JoStats last; /* of the last round: agents, bodies */
     uint64_t measured;

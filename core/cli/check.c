@@ -39,7 +39,9 @@ static int run(int argc, char **argv) {
         fputs(text ? text : "", stdout); /* main says where that fails */
         jo_free(text);
     } else if (status == CLI_GO_ON) {
-        status = check(&paths, options.json, options.trusted);
+        status = options.json || cli_scenes(&cli_check, &paths)
+                     ? check(&paths, options.json, options.trusted)
+                     : JO_INPUT;
     }
     cli_free(&cli_check, &options, &paths);
     return status;

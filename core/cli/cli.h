@@ -56,8 +56,9 @@ typedef struct CliOption {
     const char *help;     /* NULL: another spelling, which the help leaves out */
     const char *standard; /* default, as the help says it; NULL: none is said */
     CliKind kind;
-    bool only_equals; /* a value is given by '=' or not at all, as in --view=8730 */
-    size_t at, given; /* of the member, and 1 + that of a bool: whether it was given; 0: none */
+    const char *writes; /* "folder", or endings of the file that it names, the usual one first */
+    bool only_equals;   /* a value is given by '=' or not at all, as in --view=8730 */
+    size_t at, given;   /* of the member, and 1 + that of a bool: whether it was given; 0: none */
     double least, greatest; /* of numbers; both 0: any */
     /* Of CLI_READ: stores a value in the command's options; false with what is wrong in `why`. */
     bool (*read)(void *options, const char *text, char why[160]);
@@ -126,14 +127,13 @@ extern int cli_output_errno;
    serving ends, by cli_signal. */
 void cli_print_address(void *context, const char *address);
 
-/* Finishes a run whose steps went well (`ok`) or ended with an error, which it prints; returns the
-   exit status. */
-int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
-
-/* Files and folders of a run that its last lines name; NULL: none such. */
+/* Files and folders that a run wrote, and its last lines name; NULL: none such. */
 typedef struct CliRunFiles {
     const char *report, *data, *record, *log, *checkpoints, *summary;
 } CliRunFiles;
+/* Finishes a run whose steps went well (`ok`) or ended with an error, which it prints; takes out of
+   its files what could not be finished; returns the exit status. */
+int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error, CliRunFiles *files);
 /* What each plain Lua function of the run's behaviours cost, to stderr. */
 void cli_profile(const JoScene *scene);
 /* The last lines of a run: what it comes to, and where its files are. */
@@ -162,6 +162,13 @@ bool cli_troubled(const CliCommand *command, const JoScene *scene);
 
 /* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */
 int cli_misused(const CliCommand *command, const char *why);
+/* Says that there is no such thing, as "page 'behavior'", and which of the names may be meant;
+   returns JO_USAGE. */
+int cli_unknown(const CliCommand *command, const char *what, const char *given,
+                const char *const *names, size_t count);
+/* Whether a path that an option names to be written does not end as another kind of file does, as
+   x.html for a folder or x.csv for JSON; what is there already is judged later. */
+bool cli_ending_fits(const CliOption *option, const char *path, char why[200]);
 /* Whether a file can be written, found out before an hour of simulation; JO_FAILED with a message.
  */
 int cli_writable(const CliCommand *command, const char *path);
@@ -243,8 +250,18 @@ const JoVetter *cli_keeper_vetter(const CliKeeper *keeper);
 void cli_keeper_end(CliKeeper *keeper);
 
 /* The file of a scene: what is given, or, of a name alone such as "office", the first there is of
-   NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle. To be freed. */
-char *cli_scene(const char *given);
+   NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle; or scenes/NAME.yaml of
+   one of the `mods` named, which may be NULL. Holds until cli_free. NULL with a message, and what
+   may be meant, where there is no such file or there are several. */
+const char *cli_scene(const CliCommand *command, const char *given, const CliList *mods);
+/* The same of each in the list that is no file and no folder. */
+bool cli_scenes(const CliCommand *command, CliList *list);
+void cli_scenes_free(void);
+/* Whether there is such a scene by its name alone. */
+bool cli_is_scene(const char *name);
+/* Whether there is such a file or folder, or recording; else says what may be meant. */
+bool cli_is_there(const CliCommand *command, const char *given);
+bool cli_recording(const CliCommand *command, const char *given);
 /* Some of those that came with Jostle, a line each. */
 void cli_list_scenes(FILE *out);
 

@@ -1,6 +1,7 @@
 /* The last lines of a run. */
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/format/noun.h"
 #include "cli/cli.h"
@@ -30,7 +31,7 @@ void cli_closing(const JoScene *scene, const CliRunFiles *files) {
     jox_text_add(&text, closing);
     const char *before = " Files: ";
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
-        if (!all[k].path || strcmp(all[k].path, "-") == 0)
+        if (!all[k].path || strcmp(all[k].path, "-") == 0 || access(all[k].path, F_OK) != 0)
             continue;
         jox_text_printf(&text, "%s%s %s%s", before, all[k].what, all[k].path, all[k].more);
         before = ", ";

@@ -37,11 +37,11 @@ static const CliOption OPTIONS[] = {
     {"out", "DIR",
      "a page, index.html, with curves, plans and all figures; and files that keep the runs of "
      "scenes",
-     CLI_TO(Compare, def.out)},
+     CLI_TO(Compare, def.out), .writes = "folder"},
     {"json", "FILE",
      "write every figure of every side as JSON; '-' is standard output, in place "
      "of the table",
-     CLI_TO(Compare, json)},
+     CLI_TO(Compare, json), .writes = "json txt"},
     {"base", "SIDE", "what the others are compared with: a number from 1, a name or a file",
      "the first", CLI_TO(Compare, def.base)},
     {"label", "NAME",
@@ -142,7 +142,9 @@ static int run_scene(Compare *compare, const char *given, char **out) {
     JoSweepDef sweep = jo_default_sweep_def();
     JoSweepCounts counts;
     JoError error = {0};
-    char *path = cli_scene(given);
+    const char *path = cli_scene(&cli_compare, given, NULL);
+    if (!path)
+        return JO_INPUT;
     const char *file = jox_path_name(path);
     JoxText keeps = {0};
     jox_text_printf(&keeps, "%s/%.*s.sqlite", compare->def.out, (int)jox_path_stem(file), file);
@@ -164,7 +166,6 @@ static int run_scene(Compare *compare, const char *given, char **out) {
         jox_overlay_use(before);
     jox_overlay_free(&compare->files);
     *out = keeps.data;
-    jox_free(path);
     return good ? JO_OK : cli_failed(&cli_compare, &error, false);
 }
 
@@ -256,6 +257,11 @@ static int compare(Compare *c, const CliList *plain) {
     return cli_signal ? cli_interrupted(JO_OK) : status;
 }
 
+/* The scene whose probes measure recordings. */
+static bool find_plan(Compare *c) {
+    return !c->scene || (c->scene = cli_scene(&cli_compare, c->scene, NULL));
+}
+
 static int run(int argc, char **argv) {
     Compare c = {.def = jo_default_compare_def(), .confidence = 95, .seeds = 10};
     CliList plain = {0};
@@ -265,7 +271,7 @@ static int run(int argc, char **argv) {
         c.def.resamples = (uint32_t)c.resamples;
         c.def.labels = (const char *const *)c.labels.items;
         c.def.label_count = c.labels.count;
-        status = compare(&c, &plain);
+        status = find_plan(&c) ? compare(&c, &plain) : JO_INPUT;
     }
     for (size_t s = 0; s < c.count; s++) {
         jox_free(c.sides[s]);

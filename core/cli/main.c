@@ -6,6 +6,7 @@
 #include "base/confine.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/text.h"
 #include "cli/cli.h"
 
 static void print_help(FILE *out) {
@@ -40,6 +41,23 @@ static int run(const CliCommand *command, int argc, char **argv) {
     return status;
 }
 
+/* Of a word that is no command. */
+static int say_unknown(const char *word) {
+    const char *names[64];
+    char hint[JOX_HINT];
+    size_t count = 0;
+    for (size_t c = 0; c < cli_command_count && count < sizeof names / sizeof *names; c++)
+        names[count++] = cli_commands[c]->name;
+    const char *near = jox_did_you_mean(word, names, count, hint);
+    if (cli_is_scene(word))
+        fprintf(stderr, "jostle: '%s' is a scene, no command: jostle run %s\n", word, word);
+    else
+        fprintf(stderr, "jostle: unknown command '%s'%s%s\nTry 'jostle --help'.\n", word,
+                near ? ". " : "", near ? near : "");
+    cli_scenes_free();
+    return JO_USAGE;
+}
+
 int main(int argc, char **argv) {
     /* What commands compute themselves, they compute as the library does. */
     jox_numeric_use(jox_numeric_plain());
@@ -67,7 +85,5 @@ int main(int argc, char **argv) {
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))
             return end(run(cli_commands[c], argc - 1, argv + 1));
-    fprintf(stderr, "jostle: unknown command '%s'\n\n", word);
-    print_help(stderr);
-    return JO_USAGE;
+    return say_unknown(word);
 }

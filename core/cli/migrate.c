@@ -38,7 +38,7 @@ static int run(int argc, char **argv) {
     CliList paths = {0};
     int status = cli_parse(&cli_migrate, argc, argv, &options, &paths);
     if (status == CLI_GO_ON)
-        status = migrate(&paths, &options);
+        status = cli_scenes(&cli_migrate, &paths) ? migrate(&paths, &options) : JO_INPUT;
     cli_free(&cli_migrate, &options, &paths);
     return status;
 }

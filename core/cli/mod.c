@@ -198,40 +198,83 @@ static int check(const char *const *folders, size_t count) {
     return errors ? JO_INPUT : JO_OK;
 }
 
+/* What a verb takes after itself: so many words, of which the last may be a scene. */
+typedef struct Verb {
+    const char *name, *takes;
+    size_t least, most; /* most 0: any number */
+    bool scene;
+} Verb;
+
+static const Verb VERBS[] = {{"list", "[SCENE]", 0, 1, true},
+                             {"enable", "NAME|DIR [SCENE]", 1, 2, true},
+                             {"disable", "NAME|DIR [SCENE]", 1, 2, true},
+                             {"why", "PATH SCENE", 2, 2, true},
+                             {"check", "DIR...", 1, 0, false}};
+enum { VERB_COUNT = sizeof VERBS / sizeof *VERBS };
+
+/* The verb of the arguments; NULL with a message where there is none, or what it takes is not
+   there. */
+static const Verb *find_verb(const CliList *plain) {
+    const char *names[VERB_COUNT];
+    const size_t given = plain->count - 1;
+    char why[160];
+    for (size_t v = 0; v < VERB_COUNT; v++) {
+        names[v] = VERBS[v].name;
+        if (strcmp(plain->items[0], names[v]) != 0)
+            continue;
+        if (given >= VERBS[v].least && (given <= VERBS[v].most || VERBS[v].most == 0))
+            return &VERBS[v];
+        snprintf(why, sizeof why, "%s takes %s, not %zu argument%s", names[v], VERBS[v].takes,
+                 given, given == 1 ? "" : "s");
+        cli_misused(&cli_mod, why);
+        return NULL;
+    }
+    cli_unknown(&cli_mod, "verb", plain->items[0], names, VERB_COUNT);
+    return NULL;
+}
+
+/* Gives up what the verb does not need. */
+static void confine(const Mods *options, const Verb *verb, const CliList *plain) {
+    CliReach reach = {CLI_READING};
+    cli_reach_def(&reach, &options->def);
+    for (size_t p = 1; p < plain->count && !strcmp(verb->name, "check"); p++)
+        cli_reach_scene(&reach, plain->items[p]);
+    if (verb->least == 1 && verb->scene) { /* that turns one on or off */
+        cli_reach_folder(&reach, plain->items[1]);
+        cli_reach_settings(&reach);
+    }
+    cli_confine_work(&reach, options->trusted);
+}
+
+static int run_verb(Mods *options, const CliList *plain) {
+    const Verb *verb = find_verb(plain);
+    if (!verb)
+        return JO_USAGE;
+    const char *name = verb->name, *first = plain->count > 1 ? plain->items[1] : NULL;
+    if ((options->has_agent || options->has_at) &&
+        (strcmp(name, "why") != 0 || !options->has_agent))
+        return cli_misused(&cli_mod, "--at goes with --agent, and that with why");
+    options->def.mods = options->mods.items;
+    options->def.mod_count = options->mods.count;
+    if (verb->scene && verb->most == plain->count - 1) {
+        options->def.path = cli_scene(&cli_mod, plain->items[plain->count - 1], NULL);
+        if (!options->def.path)
+            return JO_INPUT;
+    }
+    confine(options, verb, plain);
+    return !strcmp(name, "list")      ? list(&options->def)
+           : !strcmp(name, "check")   ? check(plain->items + 1, plain->count - 1)
+           : strcmp(name, "why") != 0 ? enable(&options->def, first, !strcmp(name, "enable"))
+           : options->has_agent       ? why_now(options, first)
+                                      : why(&options->def, first);
+}
+
 static int run(int argc, char **argv) {
     Mods options = {.def = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_mod, argc, argv, &options, &plain);
-    if (status == CLI_GO_ON) {
-        const char *verb = plain.items[0];
-        options.def.mods = options.mods.items;
-        options.def.mod_count = options.mods.count;
-        const bool on = !strcmp(verb, "enable"), turns = on || !strcmp(verb, "disable");
-        options.def.path = plain.count > (turns ? 2 : 1) ? plain.items[plain.count - 1] : NULL;
-        CliReach reach = {CLI_READING};
-        cli_reach_def(&reach, &options.def);
-        for (size_t p = 1; p < plain.count && !strcmp(verb, "check"); p++)
-            cli_reach_scene(&reach, plain.items[p]);
-        if (turns && plain.count > 1) {
-            cli_reach_folder(&reach, plain.items[1]);
-            cli_reach_settings(&reach);
-        }
-        cli_confine_work(&reach, options.trusted);
-        if (!strcmp(verb, "list") && plain.count <= 2)
-            status = list(&options.def);
-        else if (options.has_agent || options.has_at)
-            status = !strcmp(verb, "why") && plain.count == 3 && options.has_agent
-                         ? why_now(&options, plain.items[1])
-                         : cli_misused(&cli_mod, "--at goes with --agent, and that with why");
-        else if (!strcmp(verb, "why") && plain.count == 3)
-            status = why(&options.def, plain.items[1]);
-        else if (turns && (plain.count == 2 || plain.count == 3))
-            status = enable(&options.def, plain.items[1], on);
-        else if (!strcmp(verb, "check") && plain.count > 1)
-            status = check(plain.items + 1, plain.count - 1);
-        else
-            status = cli_misused(&cli_mod, "what shall be done?");
-    }
+    if (status == CLI_GO_ON)
+        status = run_verb(&options, &plain);
     cli_free(&cli_mod, &options, &plain);
     return status;
 }
@@ -258,6 +301,6 @@ const CliCommand cli_mod = {
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "verb",
     .least = 1,
-    .none_said = "what shall be done?",
+    .none_said = "list, enable, disable, why or check?",
     .run = run,
 };

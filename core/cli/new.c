@@ -177,6 +177,7 @@ static int new_mod(const char *parent, const char *name) {
 }
 
 static int make(const char *kind, const char *name) {
+    static const char *const KINDS[] = {"behaviour", "scene", "mod"};
     const char *behaviours = is_folder("behaviours") ? "behaviours/" : "";
     const char *scenes = is_folder("scenes") ? "scenes/" : "";
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
@@ -188,7 +189,7 @@ static int make(const char *kind, const char *name) {
         return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
     if (!strcmp(kind, "mod"))
         return new_mod(*scenes ? "scenes/mods" : "mods", name);
-    return cli_misused(&cli_new, "a behaviour, a scene or a mod can be made");
+    return cli_unknown(&cli_new, "kind", kind, KINDS, sizeof KINDS / sizeof *KINDS);
 }
 
 static int run(int argc, char **argv) {

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/text.h"
 #include "cli/cli.h"
@@ -21,6 +19,21 @@ typedef struct Reading {
 int cli_misused(const CliCommand *command, const char *why) {
     fprintf(stderr, "jostle %s: %s\nTry 'jostle %s --help'.\n", command->name, why, command->name);
     return JO_USAGE;
+}
+
+int cli_unknown(const CliCommand *command, const char *what, const char *given,
+                const char *const *names, size_t count) {
+    char why[400], hint[JOX_HINT];
+    const char *near = jox_did_you_mean(given, names, count, hint);
+    JoxText all = {0};
+    for (size_t n = 0; n < count && !near; n++)
+        jox_text_printf(&all, "%s%s", n ? ", " : "; there are ", names[n]);
+    snprintf(why, sizeof why, "there is no %s '%.60s'%s%.260s", what, given, near ? ". " : "",
+             near       ? near
+             : all.data ? all.data
+                        : "");
+    jox_text_free(&all);
+    return cli_misused(command, why);
 }
 
 static int misused(const CliCommand *command, const CliOption *option, const char *why) {
@@ -104,7 +117,7 @@ static int read_whole(const Reading *r, const CliOption *o, const char *text) {
 }
 
 static int store(const Reading *r, const CliOption *o, const char *text) {
-    char why[160];
+    char why[200];
     bool yes = true;
     switch (o->kind) {
     case CLI_FLAG:
@@ -113,6 +126,8 @@ static int store(const Reading *r, const CliOption *o, const char *text) {
     case CLI_TEXT:
         if (!*text)
             return misused(r->command, o, "needs a value, not ''");
+        if (o->writes && !cli_ending_fits(o, text, why))
+            return misused(r->command, o, why);
         memcpy(r->options + o->at, &text, sizeof text);
         return CLI_GO_ON;
     case CLI_LIST:
@@ -192,6 +207,7 @@ void cli_free(const CliCommand *command, void *options, CliList *plain) {
         }
     free(plain->items);
     *plain = (CliList){0};
+    cli_scenes_free();
 }
 
 bool cli_unit(double *metres, const char *text, char why[160]) {
@@ -210,73 +226,12 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]) {
     return known;
 }
 
-static int not_written(const CliCommand *command, const char *path, const char *why) {
-    fprintf(stderr, "jostle %s: cannot write '%s': %s\n", command->name, path, why);
-    return JO_FAILED;
-}
-
-int cli_writable(const CliCommand *command, const char *path) {
-    struct stat info;
-    char folder[4096];
-    const char *slash = strrchr(path, '/');
-    if (!strcmp(path, "-"))
-        return JO_OK;
-    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
-        return not_written(command, path, strerror(EISDIR));
-    snprintf(folder, sizeof folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
-    const bool there = access(path, F_OK) == 0;
-    return access(there ? path : folder, W_OK) == 0 ? JO_OK
-                                                    : not_written(command, path, strerror(errno));
-}
-
-/* Whether two paths lead to one file; of files that are to be made, whether they are written alike.
- */
-static bool is_same(const char *a, const char *b) {
-    struct stat one, other;
-    const bool first = stat(a, &one) == 0, second = stat(b, &other) == 0;
-    if (first && second)
-        return S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
-    return !first && !second && strcmp(a, b) == 0;
-}
-
-static int not_apart(const CliCommand *command, const char *path, const char *why) {
-    fprintf(stderr, "jostle %s: '%s' %s; write to another file\n", command->name, path, why);
-    return JO_USAGE;
-}
-
-int cli_apart(const CliCommand *command, const char *const *outputs, size_t output_count,
-              const char *const *inputs, size_t input_count, const JoxOverlay *files) {
-    static const char READ[] = "is read for this, and would be replaced";
-    for (size_t o = 0; o < output_count; o++) {
-        const char *path = outputs[o];
-        if (!path || !strcmp(path, "-"))
-            continue;
-        for (size_t i = 0; i < input_count; i++)
-            if (inputs[i] && is_same(path, inputs[i]))
-                return not_apart(command, path, READ);
-        for (size_t f = 0; files && f < files->count; f++)
-            if (is_same(path, files->files[f].path))
-                return not_apart(command, path, READ);
-        for (size_t b = 0; b < o; b++)
-            if (outputs[b] && is_same(path, outputs[b]))
-                return not_apart(command, path, "is to be written twice");
-    }
-    return JO_OK;
-}
-
-int cli_write(const CliCommand *command, const char *path, const char *text) {
-    JoError error = {0};
-    if (!strcmp(path, "-")) {
-        cli_output_is_data();
-        fputs(text, stdout); /* main says where that fails */
-        return JO_OK;
-    }
-    return jo_write(path, text, &error) ? JO_OK : not_written(command, path, error.text);
-}
-
-int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error) {
+int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
+            CliRunFiles *files) {
     JoError ending = {0};
     const bool ended = jo_scene_finish(scene, &ending); /* what was recorded until then is kept */
+    if (!ended)
+        files->data = NULL;
     if (ok && !ended)
         *error = ending;
     return ok && ended ? JO_OK : cli_failed(command, error, false);

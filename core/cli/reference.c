@@ -12,14 +12,14 @@ typedef struct Reference {
 
 static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Reference, def), CLI_TRUSTED_OPTION(Reference)};
 
-/* Whether the help lists it. */
+static const char *const PAGES[] = {"behaviours", "scenes",       "lua-ls",     "luacheck", "mods",
+                                    "inputs",     "scene-schema", "mod-schema", "manual"};
+enum { PAGE_COUNT = sizeof PAGES / sizeof *PAGES };
+
 static bool is_page(const char *what) {
-    const size_t length = strlen(what);
-    for (const char *line = cli_reference.about; line; line = strchr(line, '\n')) {
-        line += strspn(line, " \n");
-        if (!strncmp(line, what, length) && line[length] == ' ')
+    for (size_t p = 0; p < PAGE_COUNT; p++)
+        if (!strcmp(PAGES[p], what))
             return true;
-    }
     return false;
 }
 
@@ -43,11 +43,8 @@ static int print_reference(Reference *options, const char *what, const char *sce
         jox_memory_error(&error);
         return cli_failed(&cli_reference, &error, false);
     }
-    if (!text) {
-        char why[120];
-        snprintf(why, sizeof why, "there is no '%.60s'", what);
-        return cli_misused(&cli_reference, why);
-    }
+    if (!text)
+        return cli_unknown(&cli_reference, "page", what, PAGES, PAGE_COUNT);
     fputs(text, stdout);
     jo_free(text);
     return JO_OK;
@@ -59,8 +56,10 @@ static int run(int argc, char **argv) {
     int status = cli_parse(&cli_reference, argc, argv, &options, &plain);
     if (status == CLI_GO_ON) {
         const char *what = plain.count ? plain.items[0] : "behaviours";
-        const char *scene = plain.count > 1 ? plain.items[1] : NULL;
-        status = strcmp(what, "mods") != 0 && (scene || options.mods.count)
+        const char *given = plain.count > 1 ? plain.items[1] : NULL;
+        const char *scene = given ? cli_scene(&cli_reference, given, NULL) : NULL;
+        status = given && !scene ? JO_INPUT
+                 : strcmp(what, "mods") != 0 && (scene || options.mods.count)
                      ? cli_misused(&cli_reference, "a scene and --mod go with 'mods' alone")
                      : print_reference(&options, what, scene);
     }

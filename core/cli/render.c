@@ -59,7 +59,8 @@ static bool read_unit(void *options, const char *text, char why[160]) {
 static const CliOption OPTIONS[] = {
     {"out", "FILE",
      "FILE.svg or FILE.png: one picture. FILE.mp4, .mkv or .webm: a video, by the program ffmpeg, "
-     "without which its frames stay in FILE-frames. A folder: frame-000001.png, ...",
+     "without which its frames stay in FILE-frames. A folder, which has no ending or ends with "
+     "'/': frame-000001.png, ...",
      "NAME.png here, and NAME-frames with --from, --until or --fps", CLI_TO(Wanted, def.out)},
     {"at", "T", "time of the picture, s", "the beginning", CLI_TO(Wanted, def.at),
      CLI_RANGE(-1e9, 1e9)},
@@ -164,15 +165,17 @@ static int draw(Wanted *w) {
     return cli_failed(&cli_render, &error, *error.file != 0);
 }
 
+static bool find_plan(Wanted *w) {
+    return !w->def.plan || (w->def.plan = cli_scene(&cli_render, w->def.plan, NULL));
+}
+
 static int run(int argc, char **argv) {
     Wanted wanted = {.def = jo_default_render_def(), .scene = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_render, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
-        char *path = cli_scene(plain.items[0]);
-        wanted.path = path;
-        status = draw(&wanted);
-        jox_free(path);
+        wanted.path = cli_scene(&cli_render, plain.items[0], NULL);
+        status = wanted.path && find_plan(&wanted) ? draw(&wanted) : JO_INPUT;
     }
     cli_free(&cli_render, &wanted, &plain);
     return status;

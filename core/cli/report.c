@@ -18,9 +18,9 @@ static const CliOption OPTIONS[] = {
     {"out", "DIR",
      "a page, index.html; CSV files and pictures, NAME.csv, NAME.png and NAME.svg, of each probe "
      "and of danger: density, crowd pressure and, in recordings of `jostle run`, loads",
-     CLI_TO(Wanted, def.directory)},
+     CLI_TO(Wanted, def.directory), .writes = "folder"},
     {"summary", "FILE", "write the figures as JSON; '-' is standard output",
-     CLI_TO(Wanted, summary)},
+     CLI_TO(Wanted, summary), .writes = "json txt"},
     {"fps", "N", "frames a second, where the recording does not say", CLI_TO(Wanted, def.fps),
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
@@ -58,13 +58,18 @@ static int measure(const Wanted *wanted) {
     return status;
 }
 
+static bool find_inputs(Wanted *w) {
+    return cli_recording(&cli_report, w->def.recording) &&
+           (!w->def.scene || (w->def.scene = cli_scene(&cli_report, w->def.scene, NULL)));
+}
+
 static int run(int argc, char **argv) {
     Wanted wanted = {.def = jo_default_report_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_report, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
         wanted.def.recording = plain.items[0];
-        status = measure(&wanted);
+        status = find_inputs(&wanted) ? measure(&wanted) : JO_INPUT;
     }
     cli_free(&cli_report, &wanted, &plain);
     return status;

@@ -23,7 +23,7 @@ static const CliOption OPTIONS[] = {
     {"jobs", "N", "processes at once", "one for each processor", CLI_TO(Reproduce, def.jobs),
      CLI_RANGE(1, 256)},
     {"out", "DIR", "for runs, pictures and index.html", "build/out/reproduce",
-     CLI_TO(Reproduce, def.out)},
+     CLI_TO(Reproduce, def.out), .writes = "folder"},
     {"claims", "DIR", "folder of claim files", "scenes/claims", CLI_TO(Reproduce, def.folder)},
     {"fresh", NULL, "do all runs anew", CLI_TO(Reproduce, def.fresh)},
     {"list", NULL, "name the claims, run nothing", CLI_TO(Reproduce, def.list)},

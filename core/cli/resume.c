@@ -28,7 +28,7 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Resume, def.threads), CLI_RANGE(1, 64)},
     CLI_ISA_OPTION(read_isa),
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
-     CLI_TO(Resume, summary)},
+     CLI_TO(Resume, summary), .writes = "json txt"},
     {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
      CLI_TO(Resume, quiet)},
     {"trusted", NULL,
@@ -85,34 +85,39 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
               (!folder || !every ||
                jo_scene_checkpoint(scene, folder, strtod(every, NULL), note, &error));
     const bool begun = ok;
+    CliRunFiles files = {.data = data, .record = record, .log = log, .checkpoints = folder};
     cli_catch_signals(true);
-    if (!resume->quiet) {
+    if (!resume->quiet && begun) {
         fprintf(stderr, "resumed at %g s\n", jo_world_time(jo_scene_world(scene)));
         jo_scene_show_progress(scene, (double)until * dt);
     }
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
         ok = jo_scene_step(scene, &error);
-    int status = cli_end(&cli_resume, scene, ok, &error);
-    if (status == JO_OK && report)
+    int status = cli_end(&cli_resume, scene, ok, &error, &files);
+    if (status == JO_OK && report) {
         status = cli_report_page(&cli_resume, &(CliReportPage){.folder = report,
                                                                .def = &resume->def,
                                                                .scene = scene,
                                                                .steps = until,
                                                                .no_half = no_half != NULL,
                                                                .quiet = resume->quiet});
+        files.report = status == JO_OK ? report : NULL;
+    }
     if (!begun && !resume->trusted)
         fputs("jostle resume: if it was written neither beside its checkpoints nor below the "
               "working folder, it goes on there with --trusted\n",
               stderr);
+    char *summary = begun && resume->summary ? jo_scene_summary(scene) : NULL;
+    if (summary) {
+        const int written = cli_write(&cli_resume, resume->summary, summary);
+        files.summary = written == JO_OK ? resume->summary : NULL;
+        status = status ? status : written;
+    }
+    jo_free(summary);
     if (cli_troubled(&cli_resume, scene) && status == JO_OK)
         status = JO_FAILED;
     if (begun && !resume->quiet)
-        cli_closing(scene, &(CliRunFiles){.report = report,
-                                          .data = data,
-                                          .record = record,
-                                          .log = log,
-                                          .checkpoints = folder,
-                                          .summary = resume->summary});
+        cli_closing(scene, &files);
     char *const taken[] = {record, log, steps, every, folder, report, data, no_half};
     for (size_t t = 0; t < sizeof taken / sizeof *taken; t++)
         jox_free(taken[t]);
@@ -130,12 +135,6 @@ static int resume_file(Resume *resume, const char *path) {
     if (!scene)
         return cli_failed(&cli_resume, &error, false);
     int status = go_on(resume, scene, note);
-    char *summary = resume->summary ? jo_scene_summary(scene) : NULL;
-    if (summary) {
-        const int written = cli_write(&cli_resume, resume->summary, summary);
-        status = status ? status : written;
-    }
-    jo_free(summary);
     jo_free(note);
     jo_scene_free(scene);
     return cli_interrupted(status);

@@ -39,8 +39,10 @@ static const CliOption OPTIONS[] = {
      "as a list, what is no statistic of a run: the seed, the step, coordinates",
      CLI_TO(Run, seeds), CLI_RANGE(1, 1000)},
     CLI_ISA_OPTION(read_isa),
-    {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log)},
-    {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record)},
+    {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log),
+     .writes = "log txt"},
+    {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record),
+     .writes = "sqlite sqlite3 db db3"},
     {"record-every", "S",
      "a frame of --record each S seconds, which are rounded to whole steps; what people bear is "
      "its mean since the frame before",
@@ -50,7 +52,7 @@ static const CliOption OPTIONS[] = {
      "file, for `jostle resume`: to latest.checkpoint, and the one before to before.checkpoint. "
      "With bodies the state is exact, and saved, at each 128th step",
      CLI_TO(Run, every), CLI_RANGE(0.001, 1e7)},
-    {"checkpoint-dir", "DIR", "folder for checkpoints", CLI_TO(Run, folder)},
+    {"checkpoint-dir", "DIR", "folder for checkpoints", CLI_TO(Run, folder), .writes = "folder"},
     {"report", "DIR",
      "write a page to hand on or print, pictures and tables into DIR (index.html): a summary in "
      "sentences, a plan, who left when, who was over which published limit, maps and moments, "
@@ -59,19 +61,19 @@ static const CliOption OPTIONS[] = {
      "sentences, curves with bands, maps of the mean and the worst, and each run with its hash; "
      "the runs are kept in DIR/runs.sqlite, with which the same command goes on, or makes a page "
      "of more seeds",
-     CLI_TO(Run, report)},
+     CLI_TO(Run, report), .writes = "folder"},
     {"no-half-step", NULL, "do not run once more", CLI_TO(Run, no_half)},
     {"data", "DIR",
      "write the CSV files of the scene's probes and of danger, and no pictures; with --seeds those "
      "of each seed into DIR/seed-N",
-     CLI_TO(Run, data)},
+     CLI_TO(Run, data), .writes = "folder"},
     {"summary", "FILE",
      "write the run's figures as JSON; '-' is standard output. \"density_max\" is the greatest "
      "density of any place and time, people per m2 by a Gaussian of R = 1 m within the walls, "
      "sampled every 0.5 s, as in all maps and tables; \"clearance_s\" is when the last of all "
      "left, "
      "null while anybody is inside",
-     CLI_TO(Run, summary)},
+     CLI_TO(Run, summary), .writes = "json txt"},
     {"profile-lua", NULL, "list what each plain Lua function costs, by state",
      CLI_TO(Run, profile)},
     {"trusted", NULL,
@@ -158,33 +160,25 @@ static bool can_summarize(const Run *run) {
     return !run->summary || cli_writable(&cli_run, run->summary) == JO_OK;
 }
 
-/* Loads and simulates once; *summary receives JSON when asked for. */
-static int simulate(Run *run, char **summary) {
-    JoError error = {0};
-    JoScene *scene = load(run, &error);
-    if (!scene)
-        return complain(&error, true);
-    cli_catch_signals(true);
-    const uint64_t steps = last_step(run, scene);
-    jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
-    bool ok = (!run->record || jo_scene_record(scene, run->record, run->record_every, &error)) &&
-              (!run->report || jo_scene_report(scene, run->report, &error)) &&
-              (!run->data || jo_scene_data(scene, run->data, &error)) &&
-              (!run->log || jo_scene_log_input(scene, run->log, &error)) &&
-              (!run->watch || jo_scene_watch(scene, &error)) &&
-              (!run->folder || write_checkpoints(run, scene, steps, &error));
-    if (ok && !can_summarize(run)) { /* in a folder that a report has made, too */
-        jo_scene_free(scene);
-        return JO_FAILED;
-    }
-    if (run->has_trace)
-        jo_scene_trace(scene, (uint32_t)run->trace);
-    if (!run->quiet)
-        jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
-    for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
-        ok = jo_scene_step(scene, &error);
-    int status = cli_end(&cli_run, scene, ok, &error);
-    if (status == JO_OK && run->report)
+/* Begins what is written while it runs; `files` are those that could be. */
+static bool begin_files(const Run *run, JoScene *scene, uint64_t steps, CliRunFiles *files,
+                        JoError *error) {
+    const bool begun =
+        (!run->record || (jo_scene_record(scene, run->record, run->record_every, error) &&
+                          (files->record = run->record))) &&
+        (!run->report || jo_scene_report(scene, run->report, error)) &&
+        (!run->data || (jo_scene_data(scene, run->data, error) && (files->data = run->data))) &&
+        (!run->log || (jo_scene_log_input(scene, run->log, error) && (files->log = run->log))) &&
+        (!run->watch || jo_scene_watch(scene, error));
+    if (!begun || !run->folder)
+        return begun;
+    files->checkpoints = run->folder;
+    return write_checkpoints(run, scene, steps, error);
+}
+
+/* The page and the summary of a run that ended with a status; returns that of all. */
+static int write_results(Run *run, JoScene *scene, uint64_t steps, int status, CliRunFiles *files) {
+    if (status == JO_OK && run->report) {
         status = cli_report_page(&cli_run, &(CliReportPage){.folder = run->report,
                                                             .def = &run->def,
                                                             .files = &run->files,
@@ -192,16 +186,46 @@ static int simulate(Run *run, char **summary) {
                                                             .steps = steps,
                                                             .no_half = run->no_half,
                                                             .quiet = run->quiet});
-    if (run->summary)
-        *summary = jo_scene_summary(scene);
+        files->report = status == JO_OK ? run->report : NULL;
+    }
+    char *summary = run->summary ? jo_scene_summary(scene) : NULL;
+    if (summary) {
+        const int written = cli_write(&cli_run, run->summary, summary);
+        files->summary = written == JO_OK ? run->summary : NULL;
+        status = status ? status : written;
+    }
+    jo_free(summary);
+    return status;
+}
+
+/* Loads and simulates once. */
+static int simulate(Run *run) {
+    JoError error = {0};
+    CliRunFiles files = {0};
+    JoScene *scene = load(run, &error);
+    if (!scene)
+        return complain(&error, true);
+    cli_catch_signals(true);
+    const uint64_t steps = last_step(run, scene);
+    jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
+    bool ok = begin_files(run, scene, steps, &files, &error);
+    const bool begun = ok;
+    if (ok && !can_summarize(run)) { /* in a folder that a report has made, too */
+        jo_scene_free(scene);
+        return JO_FAILED;
+    }
+    if (run->has_trace)
+        jo_scene_trace(scene, (uint32_t)run->trace);
+    if (!run->quiet && ok)
+        jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
+    for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
+        ok = jo_scene_step(scene, &error);
+    int status = cli_end(&cli_run, scene, ok, &error, &files);
+    if (begun)
+        status = write_results(run, scene, steps, status, &files);
     run->troubled |= cli_troubled(&cli_run, scene);
-    if (!run->quiet && !run->seeds)
-        cli_closing(scene, &(CliRunFiles){.report = run->report,
-                                          .data = run->data,
-                                          .record = run->record,
-                                          .log = run->log,
-                                          .checkpoints = run->folder,
-                                          .summary = run->summary});
+    if (!run->quiet && begun)
+        cli_closing(scene, &files);
     if (run->profile)
         cli_profile(scene);
     jo_scene_free(scene);
@@ -323,7 +347,7 @@ static int begin(Run *run) {
     cli_catch_signals(run->view);
     status = run->view    ? show(run, &summary)
              : run->seeds ? simulate_seeds(run, &summary)
-                          : simulate(run, &summary);
+                          : simulate(run);
     if (summary && (run->summary || run->seeds)) {
         int written = cli_write(&cli_run, run->summary ? run->summary : "-", summary);
         status = status ? status : written;
@@ -337,22 +361,20 @@ static int run_scene(int argc, char **argv) {
     Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
     run.live.wait = 5.0;
     CliList plain = {0};
-    char *path = NULL;
     int status = cli_parse(&cli_run, argc, argv, &run, &plain);
     if (status == CLI_GO_ON) {
         const char *why = misuse(&run);
-        run.def.path = path = cli_scene(plain.items[0]);
+        run.def.path = why ? NULL : cli_scene(&cli_run, plain.items[0], NULL);
         run.def.overrides = run.sets.items;
         run.def.override_count = run.sets.count;
         run.def.mods = run.mods.items;
         run.def.mod_count = run.mods.count;
         run.def.resumable = run.folder != NULL;
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
-        status = why ? cli_misused(&cli_run, why) : begin(&run);
+        status = why ? cli_misused(&cli_run, why) : !run.def.path ? JO_INPUT : begin(&run);
     }
     cli_keeper_end(run.keeper);
     jox_overlay_free(&run.files);
-    jox_free(path);
     cli_free(&cli_run, &run, &plain);
     return status;
 }

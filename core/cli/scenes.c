@@ -1,7 +1,11 @@
-/* Scenes by their names alone, and those worth seeing first. */
+/* Scenes by their names alone: where they lie, and what was meant where there is none. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/overlay.h"
 #include "base/text.h"
@@ -20,24 +24,186 @@ static const struct {
     {"running-through", "a runner pushes through a standing crowd"},
 };
 
-char *cli_scene(const char *given) {
-    static const char *const PLACES[] = {"%s.yaml", "scenes/%s.yaml",
-                                         JOX_DATADIR "/scenes/%s.yaml"};
-    const bool is_name = *given && strcspn(given, "/.") == strlen(given);
-    for (size_t p = 0; is_name && !jox_is_file(given) && p < sizeof PLACES / sizeof *PLACES; p++) {
-        JoxText path = {0};
-        const size_t before = strcspn(PLACES[p], "%");
-        jox_text_printf(&path, "%.*s%s%s", (int)before, PLACES[p], given, PLACES[p] + before + 2);
-        if (jox_is_file(path.data))
-            return path.data;
-        jox_text_free(&path);
+/* Folders of scenes, and of each mod that may have some, by name, in place of its %s. */
+static const char *const PLACES[] = {".", "scenes", JOX_DATADIR "/scenes"};
+static const char *const MOD_PLACES[] = {"mods", "scenes/mods", JOX_DATADIR "/scenes/mods"};
+
+/* Paths that cli_scene returned, until cli_scenes_free. */
+static CliPaths kept;
+
+static const char *keep(char *path) {
+    JOX_RESERVE(kept.items, kept.capacity, kept.count + 1);
+    kept.items[kept.count++] = path;
+    return path;
+}
+
+void cli_scenes_free(void) {
+    for (size_t k = 0; k < kept.count; k++)
+        jox_free(kept.items[k]);
+    jox_free(kept.items);
+    kept = (CliPaths){0};
+}
+
+/* Whether it is no path, but may name a scene. */
+static bool is_name(const char *given) {
+    return *given && strcspn(given, "/.") == strlen(given);
+}
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static const char *join(const char *folder, const char *name, const char *ending) {
+    JoxText path = {0};
+    const bool here = !strcmp(folder, ".");
+    jox_text_printf(&path, "%s%s%s%s", here ? "" : folder, here ? "" : "/", name, ending);
+    return keep(path.data);
+}
+
+/* The folder of a mod that was named, or NULL. */
+static const char *find_mod(const char *mod) {
+    const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
+    if (is_folder(mod))
+        return mod;
+    if (strchr(mod, '/'))
+        return NULL;
+    for (size_t p = 0; p < sizeof MOD_PLACES / sizeof *MOD_PLACES; p++) {
+        const char *folder = join(MOD_PLACES[p], mod, "");
+        if (is_folder(folder))
+            return folder;
     }
-    if (is_name && !jox_is_file(given))
-        fprintf(stderr,
-                "jostle: no scene '%s' lies here or in scenes/, or came with Jostle; `jostle` "
-                "lists some that did\n",
-                given);
-    return jox_strdup(given);
+    JoxText path = {0};
+    jox_text_printf(&path, "%s%s/jostle/mods/%s",
+                    home && *home ? home
+                    : user        ? user
+                                  : "",
+                    home && *home ? "" : "/.local/share", mod);
+    return is_folder(keep(path.data)) ? path.data : NULL;
+}
+
+/* Where a name was found: the first place of ours, and each mod's. */
+typedef struct Found {
+    const char *paths[1 + 64];
+    size_t count;
+} Found;
+
+static void add_found(Found *found, const char *folder, const char *name) {
+    const char *path = join(folder, name, ".yaml");
+    if (jox_is_file(path) && found->count < sizeof found->paths / sizeof *found->paths)
+        found->paths[found->count++] = path;
+}
+
+/* Looks for a name, or of "MOD:NAME" in that mod alone. */
+static Found find_scene(const char *given, const CliList *mods) {
+    Found found = {0};
+    const char *colon = strchr(given, ':'), *name = colon ? colon + 1 : given;
+    for (size_t p = 0; !colon && !found.count && p < sizeof PLACES / sizeof *PLACES; p++)
+        add_found(&found, PLACES[p], name);
+    for (size_t m = 0; mods && m < mods->count; m++) {
+        const char *folder = find_mod(mods->items[m]);
+        const char *last = folder ? strrchr(folder, '/') : NULL;
+        last = last ? last + 1 : folder;
+        if (folder && (!colon || (strlen(last) == (size_t)(colon - given) &&
+                                  !strncmp(last, given, strlen(last)))))
+            add_found(&found, join(folder, "scenes", ""), name);
+    }
+    return found;
+}
+
+/* A folder's files are what could have been meant: without ".yaml" where that is set. */
+static void add_names(CliPaths *names, const char *folder, bool scenes) {
+    char **all = jox_folder_names(folder, false);
+    for (char **name = all; name && *name; name++) {
+        const size_t n = strlen(*name);
+        const bool yaml = n > 5 && !strcmp(*name + n - 5, ".yaml");
+        if (scenes && !yaml)
+            continue;
+        JOX_RESERVE(names->items, names->capacity, names->count + 1);
+        names->items[names->count++] = jox_strndup(*name, scenes ? n - 5 : n);
+    }
+    jox_free(all);
+}
+
+/* Says what a name or path that is not there could have meant, or, of a name, where others are. */
+static void say_missing(const CliCommand *command, const char *given, bool scene,
+                        const CliList *mods) {
+    CliPaths names = {0};
+    const size_t before = jox_path_folder(given);
+    JoxText folder = {0};
+    jox_text_append(&folder, given, before);
+    for (size_t p = 0; scene && p < sizeof PLACES / sizeof *PLACES; p++)
+        add_names(&names, PLACES[p], true);
+    for (size_t m = 0; scene && mods && m < mods->count; m++)
+        if (find_mod(mods->items[m]))
+            add_names(&names, join(find_mod(mods->items[m]), "scenes", ""), true);
+    if (!scene)
+        add_names(&names, before ? folder.data : ".", false);
+    const char *near =
+        jox_suggest(jox_path_name(given), (const char *const *)names.items, names.count);
+    fprintf(stderr,
+            scene ? "jostle %s: there is no scene '%s' here, in scenes/ or among those that came "
+                    "with Jostle"
+                  : "jostle %s: '%s' cannot be read: there is no such file",
+            command->name, given);
+    if (near)
+        fprintf(stderr, ". Did you mean '%.*s%s'?\n", (int)before, given, near);
+    else
+        fputs(scene ? "; `jostle` lists some that did\n" : "\n", stderr);
+    for (size_t n = 0; n < names.count; n++)
+        jox_free(names.items[n]);
+    jox_free(names.items);
+    jox_text_free(&folder);
+}
+
+static void say_ambiguous(const CliCommand *command, const char *given, const Found *found) {
+    fprintf(stderr,
+            "jostle %s: there are several scenes '%s'; give the path of one:", command->name,
+            given);
+    for (size_t f = 0; f < found->count; f++)
+        fprintf(stderr, "%s %s", f ? " or" : "", found->paths[f]);
+    fputs("\n", stderr);
+}
+
+const char *cli_scene(const CliCommand *command, const char *given, const CliList *mods) {
+    if (jox_is_file(given) || (!is_name(given) && access(given, F_OK) == 0))
+        return given;
+    const Found found = is_name(given) ? find_scene(given, mods) : (Found){0};
+    if (found.count == 1)
+        return found.paths[0];
+    if (found.count)
+        say_ambiguous(command, given, &found);
+    else
+        say_missing(command, given, is_name(given), mods);
+    return NULL;
+}
+
+bool cli_scenes(const CliCommand *command, CliList *list) {
+    for (size_t n = 0; n < list->count; n++)
+        if (access(list->items[n], F_OK) != 0 && (list->count == 1 || is_name(list->items[n])) &&
+            !(list->items[n] = cli_scene(command, list->items[n], NULL)))
+            return false;
+    return true;
+}
+
+bool cli_is_there(const CliCommand *command, const char *given) {
+    const bool there = access(given, F_OK) == 0;
+    if (!there)
+        say_missing(command, given, false, NULL);
+    return there;
+}
+
+bool cli_recording(const CliCommand *command, const char *given) {
+    if (access(given, F_OK) == 0 || !is_name(given) || !find_scene(given, NULL).count)
+        return cli_is_there(command, given);
+    fprintf(stderr,
+            "jostle %s: '%s' is a scene, no recording: `jostle run %s --record FILE` makes one\n",
+            command->name, given, given);
+    return false;
+}
+
+bool cli_is_scene(const char *given) {
+    return is_name(given) && find_scene(given, NULL).count > 0;
 }
 
 void cli_list_scenes(FILE *out) {

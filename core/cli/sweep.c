@@ -35,9 +35,9 @@ static const CliOption OPTIONS[] = {
      "SQLite file for figures, curves, fields, hashes and inputs of all runs. A run that is there "
      "is not done again, so that a sweep that was interrupted goes on, and one of more seeds or "
      "values does what is new. Other inputs are refused",
-     CLI_TO(Sweep, def.out)},
+     CLI_TO(Sweep, def.out), .writes = "sqlite sqlite3 db db3"},
     {"csv", "FILE", "write a table of all runs in --out; '-' is standard output",
-     CLI_TO(Sweep, csv)},
+     CLI_TO(Sweep, csv), .writes = "csv txt"},
     {"jobs", "N", "processes at once", "one for each processor that it may use",
      CLI_TO(Sweep, def.jobs), CLI_RANGE(1, 1000)},
     {"again", NULL, "do runs that failed once more", CLI_TO(Sweep, def.again)},
@@ -208,7 +208,7 @@ static const char *misuse(const Sweep *sweep, const CliList *plain) {
 static int run(int argc, char **argv) {
     Sweep sweep = {.def = jo_default_sweep_def(), .seeds = 1};
     CliList plain = {0};
-    char *path = NULL;
+    const char *path = NULL;
     int status = cli_parse(&cli_sweep, argc, argv, &sweep, &plain);
     if (status == CLI_GO_ON) {
         const char *why = misuse(&sweep, &plain);
@@ -218,17 +218,17 @@ static int run(int argc, char **argv) {
         sweep.def.scene.mod_count = sweep.mods.count;
         sweep.def.seeds = (uint32_t)sweep.seeds;
         sweep.def.only = (uint32_t)sweep.only;
-        if (!sweep.merge)
-            sweep.def.scene.path = path = cli_scene(plain.items[0]);
+        if (!sweep.merge && !why)
+            sweep.def.scene.path = path = cli_scene(&cli_sweep, plain.items[0], NULL);
         const char *outputs[] = {sweep.def.out, sweep.csv}, *inputs[] = {path};
-        status = why ? cli_misused(&cli_sweep, why)
+        status = why                     ? cli_misused(&cli_sweep, why)
+                 : !path && !sweep.merge ? JO_INPUT
                  : cli_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
                  : sweep.merge ? merge(&sweep, &plain)
                  : sweep.list  ? list(&sweep)
                                : run_all(&sweep);
     }
     jox_overlay_free(&sweep.files);
-    jox_free(path);
     cli_free(&cli_sweep, &sweep, &plain);
     return status;
 }

@@ -68,6 +68,11 @@ static int run(int argc, char **argv) {
     CliList paths = {0};
     int status = cli_parse(&cli_test, argc, argv, &options, &paths);
     if (status == CLI_GO_ON) {
+        for (size_t p = 0; p < paths.count && !options.json; p++)
+            if (!cli_is_there(&cli_test, paths.items[p]))
+                status = JO_INPUT;
+    }
+    if (status == CLI_GO_ON) {
         const char *usual = usual_place();
         confine(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.trusted);
         size_t passed = 0, failed = 0;

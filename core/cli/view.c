@@ -35,14 +35,21 @@ static void confine(const View *view) {
     cli_confine_work(&reach, view->trusted);
 }
 
+static bool find_inputs(View *v) {
+    return cli_recording(&cli_view, v->def.recording) &&
+           (!v->def.scene || (v->def.scene = cli_scene(&cli_view, v->def.scene, NULL)));
+}
+
 static int run(int argc, char **argv) {
     View view = {.def = jo_default_view_recording_def()};
     CliList plain = {0};
     JoError error = {0};
     int status = cli_parse(&cli_view, argc, argv, &view, &plain);
+    view.def.recording = plain.count ? plain.items[0] : NULL;
+    if (status == CLI_GO_ON && !find_inputs(&view))
+        status = JO_INPUT;
     if (status == CLI_GO_ON) {
         cli_catch_signals(true);
-        view.def.recording = plain.items[0];
         view.def.stop = &cli_signal;
         view.def.opened = cli_print_address;
         confine(&view);

@@ -5,10 +5,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
@@ -17,7 +20,7 @@
 enum { RENDER_COOKIE = 0x4a4f524e, LEAST_SIDE = 320, MOST_SIDE = 8192, MOST_FRAMES = 999999 };
 static const double MOST_FPS = 30.0; /* unless asked for */
 
-typedef enum Kind { SVG, PNG, VIDEO, FRAMES } Kind;
+typedef enum Kind { SVG, PNG, VIDEO, FRAMES, NONE } Kind;
 
 typedef struct Job {
     JoxRender render;
@@ -50,20 +53,44 @@ static void say(const JoRenderDef *def, const char *format, const char *what) {
     jox_run_message(def->message, def->message_context, text);
 }
 
-static bool ends(const char *text, const char *end) {
-    size_t n = strlen(text), m = strlen(end);
-    return n > m && strcmp(text + n - m, end) == 0;
+static const struct {
+    const char *ending;
+    Kind kind;
+} ENDINGS[] = {{".png", PNG}, {".svg", SVG}, {".mp4", VIDEO}, {".mkv", VIDEO}, {".webm", VIDEO}};
+enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
+
+/* By the ending; a folder is one that is there, that ends with '/' or "-frames", or whose name has
+   no ending. */
+static Kind kind_of(const char *out) {
+    struct stat info;
+    const char *name = jox_path_name(out), *dot = strrchr(name, '.');
+    if (!dot || dot == name || strcmp(dot, "..") == 0 || strstr(dot, "-frames") ||
+        (stat(out, &info) == 0 && S_ISDIR(info.st_mode)))
+        return FRAMES;
+    for (size_t e = 0; e < ENDING_COUNT; e++)
+        if (strcasecmp(dot, ENDINGS[e].ending) == 0)
+            return ENDINGS[e].kind;
+    return NONE;
 }
 
-static Kind kind_of(const char *out) {
-    return ends(out, ".svg")                                              ? SVG
-           : ends(out, ".png")                                            ? PNG
-           : ends(out, ".mp4") || ends(out, ".mkv") || ends(out, ".webm") ? VIDEO
-                                                                          : FRAMES;
+/* JO_USAGE for a file of an ending that there is not. */
+static bool refuse_ending(const char *out, JoError *error) {
+    const char *endings[ENDING_COUNT], *dot = strrchr(out, '.');
+    char hint[JOX_HINT];
+    for (size_t e = 0; e < ENDING_COUNT; e++)
+        endings[e] = ENDINGS[e].ending;
+    const char *near = jox_did_you_mean(dot, endings, ENDING_COUNT, hint);
+    jox_error(error, JO_USAGE,
+              "--out: there are no pictures '%.20s'. %s%sOne is .svg or .png, a video .mp4, .mkv "
+              "or .webm; a folder of frames ends with '/'",
+              dot, near ? near : "", near ? " " : "");
+    return false;
 }
 
 /* Whether the def makes sense; else JO_USAGE with the way out. */
 static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
+    if (kind == NONE)
+        return refuse_ending(def->out, error);
     bool series = kind == VIDEO || kind == FRAMES;
     const double *a = def->area;
     const char *why =

@@ -84,12 +84,42 @@ static int by_id(const void *left, const void *right, const void *context) {
     return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
 }
 
+/* Says which claim may be meant: by its id, by its file, or as one of several. */
+static void say_no_claim(const char *asked, char *const *files, size_t count, const JoxText *ids,
+                         const char *folder, JoxDiagnostics *diagnostics) {
+    static const char *const GROUPS[] = {"paper", "real", "rimea",    "imo",
+                                         "nist",  "iso",  "standards"};
+    enum { GROUP_COUNT = sizeof GROUPS / sizeof *GROUPS };
+    char hint[JOX_HINT];
+    char **names = jox_alloc(2 * count + GROUP_COUNT, sizeof *names);
+    size_t n = 0;
+    for (size_t f = 0; f < count; f++) {
+        const char *file = jox_path_name(files[f]);
+        names[n++] = jox_strndup(file, jox_path_stem(file));
+    }
+    for (const char *id = ids->data; id && *id; id += strcspn(id, " ") + 1)
+        if (n < 2 * count)
+            names[n++] = jox_strndup(id, strcspn(id, " "));
+    for (size_t g = 0; g < GROUP_COUNT; g++)
+        names[n++] = jox_strdup(GROUPS[g]);
+    const char *near = jox_did_you_mean(asked, (const char *const *)names, n, hint);
+    jox_diag_error(diagnostics, ((JoxPosition){folder, 0, 0, 0}), "no-claim",
+                   near ? near : "jostle reproduce --list names all", "there is no claim '%.100s'",
+                   asked);
+    for (size_t k = 0; k < n; k++)
+        jox_free(names[k]);
+    jox_free(names);
+}
+
 static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
+    JoxText ids = {0};
     size_t count, capacity = 0;
     char **files = list_files(all->def->folder, &count);
     for (size_t f = 0; f < count; f++) {
         JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
         bool wanted = claim && is_wanted(all->def, claim);
+        if (claim)
+            jox_text_printf(&ids, "%s ", claim->id);
         if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
             jox_text_printf(&all->left_out, "%s%s", all->left_out.length ? ", " : "", claim->id);
             wanted = false;
@@ -101,9 +131,7 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
         } else {
             jox_claim_free(claim);
         }
-        jox_free(files[f]);
     }
-    jox_free(files);
     if (all->outcome_count)
         jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id, NULL, NULL);
     if (count == 0)
@@ -116,10 +144,12 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
         for (uint32_t o = 0; o < all->outcome_count; o++)
             found |= is_wanted(&one, all->outcomes[o].claim);
         if (!found)
-            jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claim",
-                           "jostle reproduce --list names all", "there is no claim '%.100s'",
-                           all->def->claims[c]);
+            say_no_claim(all->def->claims[c], files, count, &ids, all->def->folder, diagnostics);
     }
+    for (size_t f = 0; f < count; f++)
+        jox_free(files[f]);
+    jox_free(files);
+    jox_text_free(&ids);
 }
 
 /* ---- runs ---- */

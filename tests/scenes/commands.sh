@@ -12,8 +12,37 @@ expect "missing scene" 3 "no-such.yaml" "$JOSTLE" run no-such.yaml
 for name in $("$JOSTLE" --help | sed -n 's/^  jostle run \([^ ]*\) .*/\1/p'); do
     expect "a scene by its name from anywhere: $name" 0 "\"steps\": 1," env -C "$work" "$PWD/$JOSTLE" run "$name" --steps 1 --quiet --summary -
 done
-expect "a name that is no scene's" 3 "\`jostle\` lists some" env -C "$work" "$PWD/$JOSTLE" run offfice
+expect "a name that is no scene's" 3 "Did you mean 'office'" env -C "$work" "$PWD/$JOSTLE" run offfice
 expect "a picture of a scene by its name" 0 "circle.svg" env -C "$work" "$PWD/$JOSTLE" render circle --out circle.svg
+expect "a command that is misspelt" 2 "jostle: unknown command 'runn'. Did you mean 'run'?" "$JOSTLE" runn
+expect "a scene in place of a command" 2 "jostle run office" "$JOSTLE" office
+for command in "run ofice" "render ofice" "sweep ofice --set duration=1 --out $work/no.sqlite" "compare ofice --out $work/no" "bench ofice" "check ofice" \
+    "migrate ofice" "mod list ofice" "mod why a.b ofice" "reference mods ofice" "run scenes/ofice.yaml" "check scenes/ofice.yaml"; do
+    expect "one message of a scene that is misspelt: $command" 3 "office" "$JOSTLE" $command
+    [ "$(grep -c . "$work/out")" = 1 ] || grep -q '^Try' "$work/out" && grep -q "Did you mean '\(scenes/\)*office\(.yaml\)*'?" "$work/out"; verdict "  with what may be meant" $?
+done
+for command in "check circle" "mod list circle" "mod why step circle" "bench circle --steps 1 --warm-up 0" "reference mods circle" "migrate circle --check"; do
+    expect "a scene by its name: $command" 0 "" env -C "$work" "$PWD/$JOSTLE" $command
+done
+expect "bench: a name that is misspelt" 3 "Did you mean 'running-through'?" "$JOSTLE" bench runing-through
+expect "mod: a verb that is misspelt" 2 "there is no verb 'lst'. Did you mean 'list'?" "$JOSTLE" mod lst
+expect "  what it takes" 2 "why takes PATH SCENE, not 1 argument" "$JOSTLE" mod why a.b
+expect "  a mod that is misspelt" 3 "there is no mod 'ruogh' here. Did you mean 'rough'?" "$JOSTLE" mod enable ruogh
+expect "reproduce: a claim that is misspelt" 3 "Did you mean 'paper'?" "$JOSTLE" reproduce papr --list
+expect "reference: a page that is misspelt" 2 "Did you mean 'behaviours'?" "$JOSTLE" reference behavior
+expect "new: a kind that there is not" 2 "there are behaviour, scene, mod" "$JOSTLE" new thing x
+expect "test: a path that is misspelt" 3 "Did you mean 'behaviours/tawaf.lua'?" "$JOSTLE" test behaviours/tawf.lua
+expect "a range for one number" 3 "this must be one number, not '60..90'. Several, one run each, are for \`jostle sweep\`, with commas: PATH=60,70,80,90" \
+    "$JOSTLE" run circle --set groups.crossing.count=60..90
+expect "  in a sweep, too" 3 "with commas: PATH=60,70,80,90" "$JOSTLE" sweep circle --set groups.crossing.count=60-90 --out "$work/no.sqlite"
+# What cannot be written is not named as a file of the run, and endings say what is written.
+expect "a recording that cannot be begun" 1 "cannot record" "$JOSTLE" run circle --for 1 --record /nonexist/x
+! grep -q "Files" "$work/out"; verdict "  is no file of the run" $?
+expect "files are named where they are written" 0 "" "$JOSTLE" run circle --for 1 --record "$work/files.sqlite" --summary "$work/files.json"
+grep -qF "Files: recording $work/files.sqlite, figures $work/files.json." <(tr '\n' ' ' <"$work/out"); verdict "  all of them" $?
+for wrong in "--report x.html" "--data x.csv" "--checkpoint 1 --checkpoint-dir x.sqlite" "--summary x.csv" "--record x.csv" "--log-input x.json"; do
+    expect "the ending of another kind of file: $wrong" 2 "looks like" "$JOSTLE" run circle --for 1 $wrong
+done
 expect "bad override" 3 "Did you mean 'crossing'" "$JOSTLE" run scenes/circle.yaml --set groups.crosing.count=3
 expect "negative mass" 3 "mass must be" "$JOSTLE" run scenes/running-through.yaml --set groups.runner.set.mass=-5
 expect "0 agents" 3 "0 agents" "$JOSTLE" run scenes/circle.yaml --set groups.crossing.count=0
@@ -26,7 +55,7 @@ expect "  with the condition's words and their values" 0 "when after(own.alarm 5
 expect "  as it is written" 0 " > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 2 --for 30
 expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
-expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants
+expect "reference: what?" 2 "there is no page 'plants'; there are behaviours, scenes" "$JOSTLE" reference plants
 cat >"$work/flow.yaml" <<'END'
 jostle: 1
 duration: 3
@@ -48,7 +77,8 @@ expect "view: missing recording" 3 "cannot be read" "$JOSTLE" view no-such.sqlit
 printf 'SQLite format 3\0%512s' x >"$work/no.sqlite"
 expect "view: no recording at all" 3 "is not a database" "$JOSTLE" view "$work/no.sqlite"
 expect "view: a scene is no recording" 3 "scenes/circle.yaml" "$JOSTLE" view scenes/circle.yaml
-expect "view: missing scene" 3 "no-such.yaml" "$JOSTLE" view no-such.sqlite --scene no-such.yaml
+"$JOSTLE" run circle --for 1 --quiet --record "$work/circle.sqlite"
+expect "view: missing scene" 3 "no-such.yaml" "$JOSTLE" view "$work/circle.sqlite" --scene no-such.yaml
 expect "view: bad option" 2 "Did you mean --scene" "$JOSTLE" view x.sqlite --scen y
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" bench scale-1k --isa scalar,sse2 --rounds 3 --steps 3 --warm-up 1 --json >"$work/bench.json" 2>/dev/null

@@ -134,7 +134,7 @@ sqlite3 unsorted.sqlite "CREATE TABLE metadata(key TEXT, value TEXT); INSERT INT
 says "a long recording without an index is put in order" 0 "" "$program" report unsorted.sqlite --summary sorted.json
 says "a recording is drawn" 0 "" "$program" render r.sqlite --out new/one.svg --quiet
 says "a scene is drawn" 0 "" "$program" render scenes/s.yaml --at 1 --out two.svg --quiet
-says "a mod is listed" 0 "" "$program" mod list scenes/s.yaml
+says "a mod is listed, with what is wrong with it" 3 "this mod lacks" "$program" mod list scenes/s.yaml
 
 # ---- a behaviour that is never read to its end, as its scene lifts the limits ----
 echo 'while true do end' >behaviours/endless.lua

@@ -74,7 +74,7 @@ printf 'x = "\0"' >"$work/zero_test.lua"
 refuse zero ": cannot load"
 ln -s deep_test.lua "$work/link_test.lua"
 refuse link ": cannot load"
-refuse absent ": cannot load"
+refuse absent "' cannot be read: there is no such file"
 rm "$work/link_test.lua"
 # One file that cannot be run does not hide the others.
 "$JOSTLE" test "$work/syntax_test.lua" $self/passes_test.lua "$work/deep_test.lua" >"$work/log" 2>&1

@@ -69,7 +69,7 @@ mod alpha "" stander.lua 'return patch "stander" { defaults = { radius = 0.25 } 
 # What lies in a folder of mods is off until a person turns it on, and again when it changes.
 same_hash "a mod that merely lies there is not taken" "$plain" "$(off 2>/dev/null | figure hash)"
 says "but listed" 0 "off: alpha 1.0" "$program" mod list "$tree/scenes/yard.yaml"
-says "a mod that is not there is not turned on" 3 "there is no mod 'alpa' here; give its folder" "$program" mod enable alpa "$tree/scenes/yard.yaml"
+says "a mod that is not there is not turned on" 3 "there is no mod 'alpa' here. Did you mean 'alpha'?" "$program" mod enable alpa "$tree/scenes/yard.yaml"
 says "a person turns it on, by its name" 0 "mod alpha is on" bash -c 'cd "$tree" && "$program" mod enable alpha'
 says "then it is taken, and said" 0 "mods: alpha 1.0" bash -c off
 says "and listed as on" 0 "scenes/mods/alpha; on)" "$program" mod list "$tree/scenes/yard.yaml"
@@ -252,5 +252,5 @@ mkdir -p "$work/new/deep/scenes"
 says "a scene in scenes/ finds its behaviour" 0 '"Go"' bash -c "cd $work/new/deep && $program new scene hall && $program run scenes/hall.yaml --for 2 --quiet --summary -"
 says "nothing is overwritten" 1 "is there already" bash -c "cd $work/new && $program new behaviour shy"
 says "a bad name" 2 "lower-case letters" "$JOSTLE" new scene ../up
-says "what is new?" 2 "a behaviour, a scene or a mod" "$JOSTLE" new world x
+says "what is new?" 2 "there is no kind 'world'; there are behaviour, scene, mod" "$JOSTLE" new world x
 exit 0

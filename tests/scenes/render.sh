@@ -102,6 +102,12 @@ expect "no such recording" 3 "cannot be read" "$JOSTLE" render "$work/nowhere.sq
 expect "a scene with mistakes" 3 "bad.yaml:2:1" sh -c "printf 'jostle: 1\nwals: []\n' >$work/bad.yaml; $JOSTLE render $work/bad.yaml --out $work/x.svg"
 expect "where nothing can be written" 1 "cannot write '/proc/none/x.svg'" "$JOSTLE" render scenes/circle.yaml --out /proc/none/x.svg
 expect "before the beginning" 3 "before the scene begins" "$JOSTLE" render scenes/circle.yaml --at -1 --out "$work/x.svg"
+for ending in jpg JPEG pdf gif mov; do
+    expect "a picture .$ending is refused" 2 "there are no pictures '.$ending'" "$JOSTLE" render scenes/circle.yaml --out "$work/x.$ending"
+    [ ! -e "$work/x.$ending" ]; verdict "  and no folder is made" $?
+done
+expect "  with one that there is" 2 "Did you mean '.png'?" "$JOSTLE" render scenes/circle.yaml --out "$work/x.jpg"
+expect "a recording's scene by its name" 0 "named.svg" env -C "$work" "$(realpath "$JOSTLE")" render run.sqlite --scene dodgeball --at 1 --out named.svg
 expect "a size that is none" 2 "as 1280x720, not '12'" "$JOSTLE" render scenes/circle.yaml --size 12
 expect "a size too small" 2 "from 320 to 8192" "$JOSTLE" render scenes/circle.yaml --size 10x10
 expect "an area that is none" 2 "X0 < X1" "$JOSTLE" render scenes/circle.yaml --area 1,0,0,1

@@ -115,6 +115,23 @@ static bool turn(const char *scene, const char *mod, bool on, bool *found, JoErr
     return good;
 }
 
+/* The mod that may be meant, of those that a scene of each path (or NULL) would find. */
+static const char *find_near(const char *const places[3], const char *mod, char hint[JOX_HINT]) {
+    const char *near = NULL;
+    for (int p = 0; p < 3 && !near; p++) {
+        const JoSceneDef def = {.path = places[p], .named_mods_only = true};
+        const char *names[JOX_MOST_MODS];
+        JoxDiagnostics problems = {0};
+        JoxMods *mods = jox_run_find_mods(&def, 0, &problems);
+        for (uint32_t m = 0; m < mods->found_count; m++)
+            names[m] = mods->found[m].name;
+        near = jox_did_you_mean(mod, names, mods->found_count, hint);
+        jox_mods_free(mods);
+        jox_diag_free(&problems);
+    }
+    return near;
+}
+
 bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error) {
     JOX_REQUIRE(def && jox_run_is_whole(def) && mod, false);
     /* Without a scene: the user's mods, then those of scenes here. */
@@ -127,9 +144,9 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
             return true;
         else if (found || error->code != JO_OK)
             return false;
-    jox_error(error, JO_INPUT,
-              "there is no mod '%.100s' here; give its folder, or its name and the scene that it "
-              "lies beside",
-              mod);
+    char hint[JOX_HINT];
+    const char *near = find_near(places, mod, hint);
+    jox_error(error, JO_INPUT, "there is no mod '%.100s' here%s%s", mod, near ? ". " : "",
+              near ? near : "; give its folder, or its name and the scene that it lies beside");
     return false;
 }

@@ -1,4 +1,5 @@
 /* Numbers, points, names and distributions of a scene. */
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,6 +58,13 @@ bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *u
         }
     }
     JoxText hint = {0};
+    if (strchr(",:.", *end) || (*end == '-' && isdigit((unsigned char)end[1]))) {
+        jox_scene_error(reader, node, "bad-type",
+                        "Several, one run each, are for `jostle sweep`, with commas: "
+                        "PATH=60,70,80,90",
+                        "this must be one number, not '%.60s'", node->text);
+        return false;
+    }
     for (size_t i = 0; i < count; i++)
         jox_text_printf(&hint, "%s%s", i ? ", " : "Units here: ", names[i]);
     jox_scene_error(reader, node, "bad-unit", hint.data,
