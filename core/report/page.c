@@ -38,7 +38,10 @@ static JoxPageFigures collect(const JoScene *scene) {
     add_demand(&f, scene);
     jox_page_add_danger(&f, jox_run_danger(scene));
     const JoxRegions *regions = jox_run_regions(scene);
-    f.group = "Regions";
+    char group[64] = "Regions";
+    if (scene->spec->heatmap_from > 0.0)
+        snprintf(group, sizeof group, "Regions (from %.6g s on)", scene->spec->heatmap_from);
+    f.group = group;
     for (uint32_t r = 0; regions && r < regions->count; r++)
         jox_page_add(&f, "m/s",
                      regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,

@@ -4,11 +4,17 @@
 #include "report/page_parts.h"
 
 static void put_probe(FILE *out, const char *folder, const JoxProbe *probe) {
-    char caption[128], stem[JOX_PROBE_STEM];
-    snprintf(caption, sizeof caption, "Probe %.60s: %.40s", jox_probe_def(probe)->name,
-             jox_probe_kind_name(probe));
+    char stem[JOX_PROBE_STEM];
+    JoxText caption = {0}, window = {0};
+    jox_text_printf(&caption, "Probe %.60s: %.40s", jox_probe_def(probe)->name,
+                    jox_probe_kind_name(probe));
+    jox_probe_window(probe, &window);
+    if (window.length)
+        jox_text_printf(&caption, ", %s", window.data);
     jox_probe_stem(probe, stem);
-    jox_html_figure(out, folder, stem, caption, false);
+    jox_html_figure(out, folder, stem, caption.data, false);
+    jox_text_free(&caption);
+    jox_text_free(&window);
 }
 
 void jox_page_crowd(FILE *out, const JoxSubject *s) {

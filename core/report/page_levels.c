@@ -126,7 +126,10 @@ static void put_lines(FILE *out, const JoxSubject *s) {
     }
     jox_html_paragraph(
         out,
-        "What walls leave of a line is measured, of a line of gates all of them. Of the ten "
+        "What walls leave of a line is measured, of a line of gates all of them. Crossings are "
+        "counted from the beginning on, either way, also those of people who step back; the probe "
+        "of a line counts in its own time, one way, and less those who step back. The rest is of "
+        "the ten "
         "seconds "
         "before each moment; nothing is known of the first ten. Density " JOX_DENSITY_BY " is "
         "that of the people within 2 m of the line on the side that most come from; those "
@@ -135,8 +138,9 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         "Fruin's for walkways, by flow, but E or F where the area before the line is that of E "
         "or F, since a small flow may mean that nobody can move; the seconds are those at A / "
         "B / C / D / E / F.");
-    jox_html_table(out, "line|>clear width|>passed, back|>greatest flow|worst level|>seconds at "
-                        "levels|>stop-and-go|first|>greatest growth of the queue|>when");
+    jox_html_table(
+        out, "line|>clear width|>crossed forward, back|>greatest flow|worst level|>seconds at "
+             "levels|>stop-and-go|first|>greatest growth of the queue|>when");
     for (uint32_t l = 0; l < lines->count; l++) {
         const JoxDangerLine *line = &lines->items[l];
         const bool known = line->worst >= 0;

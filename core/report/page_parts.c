@@ -51,13 +51,18 @@ void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t insid
 
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     JoxFigures figures = jox_probe_figures(probe);
-    char group[96];
-    snprintf(group, sizeof group, "Probe %.60s", jox_probe_def(probe)->name);
-    f->group = group;
+    JoxText group = {0}, window = {0};
+    jox_text_printf(&group, "Probe %.60s", jox_probe_def(probe)->name);
+    jox_probe_window(probe, &window);
+    if (window.length)
+        jox_text_printf(&group, " (%s)", window.data);
+    f->group = group.data;
     for (uint32_t i = 0; i < figures.count; i++)
         jox_page_add(f, figures.items[i].unit, figures.items[i].value, "%s",
                      figures.items[i].title);
     f->group = NULL;
+    jox_text_free(&group);
+    jox_text_free(&window);
 }
 
 void jox_page_figures(FILE *out, const JoxPageFigures *f, const char *heads,

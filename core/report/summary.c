@@ -1,6 +1,7 @@
 /* The first section of a report: what happened, in sentences. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/format/noun.h"
 #include "picture/html.h"
@@ -224,6 +225,23 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
     jox_congestion_found_free(&found);
 }
 
+/* How its probe counts a line, where that comes to another number. */
+static void say_probe_of(const JoxSubject *s, const JoxDangerLine *line, JoxText *out) {
+    for (uint32_t p = 0; p < s->probe_count; p++) {
+        const JoxProbeDef *def = jox_probe_def(s->probes[p]);
+        const uint32_t passages = jox_probe_passages(s->probes[p]);
+        JoxText window = {0};
+        if (def->kind != JOX_PROBE_FLOW || strcmp(def->name, line->name) != 0 ||
+            passages == line->forward + line->back)
+            continue;
+        jox_probe_window(s->probes[p], &window);
+        jox_text_printf(out, " (its probe has %u: %s%sone way, less those who step back)", passages,
+                        window.length ? window.data : "", window.length ? ", " : "");
+        jox_text_free(&window);
+        return;
+    }
+}
+
 /* What passed lines, and where it stopped and went. */
 static void put_lines(FILE *out, const JoxSubject *s) {
     const JoxDangerLines *lines = &s->danger->lines;
@@ -240,7 +258,9 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         if (line->width < 0.9 * given)
             jox_text_printf(&text, ": what walls leave of its %.2f m", given);
         jox_text_add(&text, "): ");
-        jox_text_noun(&text, (uint64_t)line->forward + line->back, "passage");
+        jox_text_noun(&text, (uint64_t)line->forward + line->back, "crossing");
+        jox_text_printf(&text, " either way from %.4g s on", s->danger->congestion.begun);
+        say_probe_of(s, line, &text);
         jox_text_printf(&text, ", at most %.2f per m and s", line->flow_most);
         if (line->stop_and_go.seconds > 0.0)
             jox_text_printf(&text, ", stop-and-go for %.1f s from %.1f s on",

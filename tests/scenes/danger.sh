@@ -89,7 +89,7 @@ door='  room: {polygon: [[0.3, 0.3], [7.7, 0.3], [7.7, 4.7], [0.3, 4.7]]}'
 {
     printf 'jostle: 1\nduration: 60\nplaces:\n%s\n  outside: {polygon: [[11, 0], [12, 0], [12, 5], [11, 5]]}\n' "$door"
     printf 'walls: [{line: [[8, 2], [8, 0], [0, 0], [0, 5], [8, 5], [8, 3]]}]\n'
-    printf 'groups: {people: {behaviour: walker.lua, count: 50, in: room, set: {goal: outside}}}\nprobes: {exit: {flow: [[8, 3], [8, 2]]}}\n'
+    printf 'groups: {people: {behaviour: walker.lua, count: 50, in: room, set: {goal: outside}}}\nprobes: {exit: {flow: [[8, 3], [8, 2]], from: 10}}\n'
 } >"$work/jam.yaml"
 "$JOSTLE" run "$work/jam.yaml" --quiet --no-half-step --report "$work/jam" --summary "$work/jam.json" >/dev/null 2>&1
 jam=$(grep -o '"congestion": {.*' "$work/jam.json")
@@ -99,6 +99,7 @@ between "it lies before the door, m" "$(sed 's/.*"where": .*"x": \([^,]*\), "y".
 grep -q '<b>Congestion\.</b> Significant: a region was above 4 per m.* (Gaussian, R = 1 m) .* m from the line exit' "$work/jam/index.html"; verdict "the page says where" $?
 grep -q 'stood in a density of 7 per m² (Gaussian, R = 1 m) or more. The greatest Voronoi density of a person (cell within 1 m) was' "$work/jam/index.html"; verdict "it says by what densities are measured, and gives both" $?
 [ "$(wc -l <"$work/jam/danger-congestion.csv")" = 2 ]; verdict "and so does the table" $?
+grep -q 'exit (1.00 m wide): 50 crossings either way from 0 s on (its probe has [0-9]*: from 10 s on, one way' "$work/jam/index.html" && grep -q '"from": 10, "until": null' "$work/jam.json" && grep -q '"from_s": 0, "forward": 50' "$work/jam.json"; verdict "two counts of one line say from when on they are" $?
 grep -q '"queue_growth_max": 0,' "$work/jam.json"; verdict "though its queue never grew after ten seconds" $?
 "$JOSTLE" run scenes/corridor.yaml --for 15 --quiet --data "$work/free" --summary "$work/free.json" >/dev/null 2>&1
 grep -q '"cleared": false, "regions": 0, "area": 0, "longest_s": 0,' "$work/free.json"; verdict "people who walk freely: no congestion" $?

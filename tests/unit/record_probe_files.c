@@ -78,9 +78,10 @@ static void a_summary_is_json(void **state) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_probe_json(p, &json, NULL);
-    assert_string_equal(out.data,
-                        "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
-                        "\"p95\": null, \"least\": null, \"greatest\": null}");
+    assert_string_equal(
+        out.data,
+        "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
+        "\"p95\": null, \"least\": null, \"greatest\": null, \"from\": 0, \"until\": null}");
     jox_text_free(&out);
     jox_probe_free(p);
 }

@@ -141,6 +141,6 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
     jox_leaving_json(&d->leaving, json);
     jox_congestion_json(&d->congestion, d->local->grid, json);
     jox_danger_areas_json(&d->areas, json);
-    jox_danger_lines_json(&d->lines, d->last_frame, json);
+    jox_danger_lines_json(&d->lines, d->congestion.begun, d->last_frame, json);
     jox_danger_walls_json(&d->walls, d->last_frame, json);
 }

@@ -240,10 +240,11 @@ static void add_spell(JoxJson *json, const char *name, const JoxDangerSpell *spe
     jox_json_end(json);
 }
 
-static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
+static void add_line(const JoxDangerLine *line, double begun, double end, JoxJson *json) {
     const bool known = line->worst >= 0;
     jox_json_object(json, line->name);
     jox_json_number(json, "width", line->width);
+    jox_json_number(json, "from_s", begun);
     jox_json_whole(json, "forward", line->forward);
     jox_json_whole(json, "back", line->back);
     jox_json_number(json, "flow_max", line->flow_most);
@@ -262,14 +263,14 @@ static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
     jox_json_end(json);
 }
 
-void jox_danger_lines_json(const JoxDangerLines *lines, double end, JoxJson *json) {
+void jox_danger_lines_json(const JoxDangerLines *lines, double begun, double end, JoxJson *json) {
     if (lines->count == 0) {
         jox_json_null(json, "lines");
         return;
     }
     jox_json_object(json, "lines");
     for (uint32_t l = 0; l < lines->count; l++)
-        add_line(&lines->items[l], end, json);
+        add_line(&lines->items[l], begun, end, json);
     jox_json_end(json);
 }
 

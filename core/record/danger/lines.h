@@ -81,8 +81,8 @@ void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame);
    is measured. */
 void jox_danger_lines_sample(JoxDangerLines *lines, const JoxFrame *frame, const float *density,
                              double duration);
-/* Adds "lines": {...}; null without any. `end`: of what was measured, s. */
-void jox_danger_lines_json(const JoxDangerLines *lines, double end, JoxJson *json);
+/* Adds "lines": {...}; null without any. What was measured began and ended then, s. */
+void jox_danger_lines_json(const JoxDangerLines *lines, double begun, double end, JoxJson *json);
 void jox_danger_lines_sections(JoxDangerLines *lines, JoxSections *sections);
 void jox_danger_lines_free(JoxDangerLines *lines);
 

@@ -160,14 +160,14 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     for (size_t i = 1; i < count; i++)
         lapses[i - 1] = times[i] - times[i - 1];
     size_t gaps = count ? count - 1 : 0;
-    jox_figure_add(out, "passages", "passages", "", (double)count);
+    jox_figure_add(out, "passages", "passages, less those taken back", "", (double)count);
     jox_figure_add(out, "forward", "passages from its right to its left", "", f->forward);
     jox_figure_add(out, "back", "passages from its left to its right", "", f->back);
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);
     jox_figure_add(out, "flow_all", "flow from the first to the last passage", "1/s",
                    count >= 2 ? rate(times, 0, count - 1) : NAN);
-    jox_figure_add(out, "specific_flow", "flow per metre of the width", "1/(m s)",
-                   f->width > 0.0 ? flow / f->width : NAN);
+    jox_figure_add(out, "specific_flow", "flow over the middle 60 % per metre of the opening",
+                   "1/(m s)", f->width > 0.0 ? flow / f->width : NAN);
     jox_figure_add(out, "lapse_median", "median time between passages", "s",
                    jox_quantile(lapses, gaps, 0.5));
     jox_figure_add(out, "lapse_max", "longest time between passages", "s",

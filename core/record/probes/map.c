@@ -183,7 +183,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    pressed ? m->pressure_time : NAN);
     jox_figure_add(out, "pressure_mean_max", "greatest mean crowd pressure of a place", "1/s2",
                    pressure);
-    jox_figure_add(out, "compression_max", "greatest compression", "N/m",
+    jox_figure_add(out, "compression_max", "greatest compression of any moment", "N/m",
                    m->has_compression ? m->compression_greatest : NAN);
 }
 

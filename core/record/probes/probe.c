@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/format/noun.h"
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
@@ -120,11 +121,25 @@ uint32_t jox_probe_against(const JoxProbe *p) {
     return p->def.kind == JOX_PROBE_FLOW ? jox_flow_against(p->state) : 0;
 }
 
+void jox_probe_window(const JoxProbe *p, JoxText *out) {
+    const double from = fmax(p->def.from, 0.0);
+    if (isfinite(p->def.until))
+        jox_text_printf(out, "from %.6g to %.6g s", from, p->def.until);
+    else if (from > 0.0)
+        jox_text_printf(out, "from %.6g s on", from);
+    if (p->def.group_count && out->length)
+        jox_text_add(out, ", ");
+    if (p->def.group_count)
+        jox_text_noun(out, p->def.group_count, "group|groups");
+}
+
 void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     JoxFigures figures = jox_probe_figures(p);
     jox_json_object(json, key);
     for (uint32_t f = 0; f < figures.count; f++)
         jox_json_number(json, figures.items[f].name, figures.items[f].value);
+    jox_json_number(json, "from", p->def.from);
+    jox_json_number(json, "until", p->def.until);
     jox_json_end(json);
 }
 

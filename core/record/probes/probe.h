@@ -39,7 +39,10 @@ JoxFigures jox_probe_figures(const JoxProbe *probe);
 uint32_t jox_probe_passages(const JoxProbe *probe);
 /* Of a flow that nobody has passed along its direction: how often it was crossed against it. */
 uint32_t jox_probe_against(const JoxProbe *probe);
-/* Adds {"flow": 1.15, ...}. */
+/* Appends when and whom it measures, where that is not everybody all the time: "from 80 s on",
+   "from 10 to 60 s, one group". */
+void jox_probe_window(const JoxProbe *probe, JoxText *out);
+/* Adds {"flow": 1.15, ..., "from": 80, "until": null}; until is null without an end. */
 void jox_probe_json(const JoxProbe *probe, JoxJson *json, const char *key);
 /* Writes the table: a first line with names and units in brackets, then rows. */
 void jox_probe_csv(const JoxProbe *probe, FILE *out);

@@ -95,6 +95,7 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
     const JoxRegions *regions = jox_run_regions(scene);
     if (!regions)
         return;
+    jox_json_number(json, "regions_from_s", scene->spec->heatmap_from);
     jox_json_object(json, "regions");
     for (uint32_t r = 0; r < regions->count; r++)
         jox_json_number(json, regions->items[r].name, jox_region_speed(&regions->items[r]));

@@ -68,7 +68,7 @@ export class ChartsPage {
         this.last = null; // status
         this.charts = {
             states: new Chart({ title: "People in each state", unit: "agents" }),
-            flows: new Chart({ title: "Passed through lines", unit: "agents" }),
+            flows: new Chart({ title: "Passed through lines, as their probes count", unit: "agents" }),
             speed: new Chart({ title: "Mean speed", unit: "m/s" }),
             dense: new Chart({ title: "Greatest density at each moment (Gaussian)", unit: "1/m²" }),
             failures: new Chart({ title: "Programs without a solution", unit: "%" }),
