@@ -91,6 +91,9 @@ struct JoxRow {
     JoxV3 felt;                  /* scratch: impulses of people in this step, N s */
     bool held;                   /* by an agent */
     uint32_t holder;
+    bool placed; /* scratch: held where its carrier put it for this step, at `carried`, m, with the
+                    velocity `carried_along`, m/s */
+    JoxV3 carried, carried_along;
     /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
        m, and rows of its rotation), and whether people could reach it there. */
     bool shown, shown_in_band;
@@ -206,6 +209,9 @@ static inline bool jox_finite(const btVector3 &v) {
 
 /* Before a body is added: makes Bullet's world, with the walls, if it is not there yet. */
 void jox_bodies_ensure(JoxBodies *bodies);
+/* bullet_place.cc, after a step: what is carried is where it was put, whatever Bullet made of it.
+ */
+void jox_bodies_keep_carried(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
 /* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or
    puts them back. */

@@ -12,17 +12,33 @@ bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
     return true;
 }
 
+static void put_into_hand(JoxRow *r) {
+    btTransform at = r->body->getWorldTransform();
+    at.setOrigin(jox_bt(r->carried));
+    r->body->setWorldTransform(at);
+    r->body->setInterpolationWorldTransform(at);
+    r->body->setLinearVelocity(jox_bt(r->carried_along));
+    r->body->setAngularVelocity(btVector3(0, 0, 0));
+}
+
 void jox_bodies_carry(JoxBodies *b, uint32_t row, JoxV3 centre, JoxV3 velocity) {
     JoxRow *r = jox_row_of(b, row);
     if (!r || !r->held || !jox_finite(jox_bt(centre)) || !jox_finite(jox_bt(velocity)))
         return;
-    btTransform at = r->body->getWorldTransform();
-    at.setOrigin(jox_bt(centre));
-    r->body->setWorldTransform(at);
-    r->body->setInterpolationWorldTransform(at);
+    r->placed = true;
+    r->carried = centre;
+    r->carried_along = velocity;
+    put_into_hand(r);
     r->body->activate(true);
-    r->body->setLinearVelocity(jox_bt(velocity));
-    r->body->setAngularVelocity(btVector3(0, 0, 0));
+}
+
+void jox_bodies_keep_carried(JoxBodies *b) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (r->held && r->placed)
+            put_into_hand(r);
+        r->placed = false;
+    }
 }
 
 void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {

@@ -177,6 +177,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     }
     if (driven)
         jox_bodies_driven(b);
+    jox_bodies_keep_carried(b);
     if (b->bonded)
         jox_bodies_break(b, dt);
     JOX_CHECK(jox_bodies_check(b));
@@ -201,6 +202,8 @@ static void write_sphere(const JoxRow *r, JoxObject *o) {
     float apart = (centre - r->body->getWorldTransform().getOrigin()).length();
     o->disc = away + sphere->radius;
     o->sphere = apart + sphere->radius;
+    o->below = o->position.z - (centre.z() - sphere->radius);
+    o->above = centre.z() + sphere->radius - o->position.z;
     o->low = jox_maxf(centre.z() - sphere->radius, JOX_BAND_LOW);
     o->high = jox_minf(centre.z() + sphere->radius, JOX_BAND_HIGH);
     o->round = jox_footprint_sphere(o->position.z, sphere->radius);
@@ -242,6 +245,8 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     }
     o->disc = sqrtf(reach2);
     o->sphere = sqrtf(sphere2);
+    o->below = o->position.z - b->footprint.low;
+    o->above = b->footprint.high - o->position.z;
     jox_footprint_end(&b->footprint, o);
     o->round = o->disc;
     if (r->shape.part_count == 1 && first->kind == JOX_SHAPE_CYLINDER &&

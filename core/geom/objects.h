@@ -37,7 +37,8 @@ typedef struct JoxObject {
     JoxV2 footprint[JOX_FOOTPRINT_POINTS];
     uint32_t footprint_count;
     float round;
-    float low, high; /* heights that the footprint covers within the band, m */
+    float low, high;    /* heights that the footprint covers within the band, m */
+    float below, above; /* m: of its lowest and highest point, from position.z */
     float restitution, friction;
     float most_force; /* N: of one that is kinematic and moves, what it presses with; 0: no limit */
 } JoxObject;

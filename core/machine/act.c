@@ -110,7 +110,8 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     if (ball.object < 0 || run->tick < a->kick_ready[i] || jox_spot_gap(run, i, &ball) >= 0.05f)
         return;
     const JoxObject *object = &run->objects->rows[ball.object];
-    if (!object->moves || !object->in_band || object->held)
+    if (!object->moves || !object->in_band || object->held ||
+        jox_is_hidden(run, jox_v2(a->x[i], a->y[i]), jox_v2(ball.x, ball.y), true))
         return;
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
@@ -132,9 +133,8 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
-static const float REACH = 0.6f;       /* m: the gap over which a body is picked up */
-static const float CATCHABLE = 8.0f;   /* m/s: what is faster is not caught */
-static const float HAND_HEIGHT = 1.2f; /* m: where thrown bodies leave, and arrive */
+static const float REACH = 0.6f;     /* m: the gap over which a body is picked up */
+static const float CATCHABLE = 8.0f; /* m/s: what is faster is not caught */
 
 static void add_grip(JoxMachineRun *run, JoxGrip grip) {
     for (uint32_t g = 0; g < run->grip_count; g++)
@@ -142,6 +142,15 @@ static void add_grip(JoxMachineRun *run, JoxGrip grip) {
             return; /* who has the lower id was first */
     JOX_RESERVE(run->grips, run->grip_capacity, run->grip_count + 1);
     run->grips[run->grip_count++] = grip;
+}
+
+/* Whether no wall, nor a body that stands fast, keeps an agent's hands from a body. */
+static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *body) {
+    const JoxV2 from = {run->agents->x[i], run->agents->y[i]}, to = {body->x, body->y};
+    JoxHands *hands = &run->scratch->hands;
+    jox_hands_look(hands, run->walls, run->objects, (uint32_t)body->object, from,
+                   jox_length(jox_sub(to, from)));
+    return jox_hands_reach(hands, from, to);
 }
 
 static void take(JoxMachineRun *run, const JoxState *state, uint32_t i) {
@@ -152,7 +161,7 @@ static void take(JoxMachineRun *run, const JoxState *state, uint32_t i) {
     const JoxObject *object = &run->objects->rows[spot.object];
     JoxV2 relative = {spot.vx - a->vx[i], spot.vy - a->vy[i]};
     if (object->moves && !object->held && jox_spot_gap(run, i, &spot) < REACH && spot.z < 2.0f &&
-        jox_length(relative) < CATCHABLE)
+        jox_length(relative) < CATCHABLE && hands_reach(run, i, &spot))
         add_grip(run,
                  (JoxGrip){.object = (uint32_t)spot.object, .agent_id = a->id[i], .takes = true});
 }
@@ -171,7 +180,7 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
         return;
     float flight = distance / level;
     /* A place lies on the ground, somebody is hit at the height of the hand. */
-    float drop = at.place >= 0 ? HAND_HEIGHT : 0.0f;
+    float drop = at.place >= 0 ? JOX_HAND_HEIGHT : 0.0f;
     float rise = 0.5f * (float)run->gravity * flight - drop / flight;
     way = jox_scale(way, level / distance);
     add_grip(run, (JoxGrip){.object = (uint32_t)row,

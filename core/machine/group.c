@@ -61,6 +61,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->spare);
     jox_free(s->heard);
     jox_free(s->everywhere);
+    jox_hands_free(&s->hands);
     jox_free(s->place_people);
     jox_free(s->place_queue);
     jox_free(s->marks);

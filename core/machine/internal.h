@@ -2,6 +2,7 @@
 #ifndef JOX_MACHINE_INTERNAL_H
 #define JOX_MACHINE_INTERNAL_H
 
+#include "geom/hands.h"
 #include "machine/run.h"
 
 enum { JOX_BATCH = 256 };
@@ -48,6 +49,7 @@ typedef struct JoxMachineScratch {
     uint32_t *everywhere; /* names called out to everybody in the last step */
     uint32_t everywhere_count;
     size_t heard_capacity, everywhere_capacity;
+    JoxHands hands;  /* what is in the way of who picks something up */
     uint64_t *marks; /* a bit per id */
     uint32_t mark_capacity;
     uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */

@@ -115,10 +115,9 @@ void jox_stage_move(const JoxMoveStage *s) {
 void jox_stage_bodies(const JoxBodyStage *s) {
     if (jox_bodies_count(s->bodies) == 0)
         return;
-    if (s->substep->first) {
+    if (s->substep->first)
         jox_bodies_count_impulses(s->bodies);
-        jox_bodies_carried(s);
-    }
+    jox_bodies_carried(s);
     jox_bodies_dragged(s);
     if (!s->statistics->bonds.touched)
         jox_bonds_note_touch(s);

@@ -7,6 +7,7 @@
 #include "agents/neighbours.h"
 #include "body/body.h"
 #include "force/force.h"
+#include "geom/hands.h"
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "world/drag.h"
@@ -122,6 +123,7 @@ typedef struct JoxBodyStage {
     const JoxMachineRun *machines; /* kicks, and what is picked up and thrown */
     JoxForces *forces_of;          /* whose impulses on bodies are sorted */
     JoxDiscList *discs;
+    JoxHands *hands;   /* scratch */
     JoxAgents *agents; /* velocity, force, compression, contacts of those who are hit */
     JoxBodies *bodies;
     JoxDrags *drags;

@@ -124,6 +124,7 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
                                      .machines = &w->machines,
                                      .forces_of = w->scratch.forces,
                                      .discs = &w->scratch.discs,
+                                     .hands = &w->scratch.hands,
                                      .agents = &w->state.agents,
                                      .bodies = w->state.bodies,
                                      .drags = &w->state.drags,

@@ -80,6 +80,7 @@ static void free_world(JoWorld *world) {
     jox_happened_free(&world->scratch.happened);
     jox_free(world->scratch.discs.discs);
     jox_free(world->scratch.discs.agents);
+    jox_hands_free(&world->scratch.hands);
     free_places(world);
     jox_entrances_renew(&world->scratch.entrances);
     jox_free(world->state.sources.made);

@@ -113,6 +113,7 @@ typedef struct JoxWorldScratch {
     JoxSubstep substep; /* what all substeps have in common, of one of this length */
     JoxGone gone;       /* who left in the last step */
     JoxDiscList discs;
+    JoxHands hands;
     JoxHappened happened; /* for programs that ask */
     struct {
         uint32_t *ids;

@@ -95,11 +95,11 @@ function Target:where(name, ...) end
 ---@field ignore? string|string[] does not avoid those
 ---@field face? string|jostle.Target|jostle.Number looks at; else where it walks
 ---@field approach? string|jostle.Target|jostle.Number a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on
----@field kick? table kicks a body that it touches
----@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
+---@field kick? table kicks a body that it touches, with no wall between
+---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s, where hands reach it and there is room to hold it; it is carried in front, its middle at 1.2 m, nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and falls where there is none. Hands reach over what is lower than the lowest point of what they hold
 ---@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; who is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? number the greatest force with which it holds on; else 300, N
----@field throw? table throws the body that it carries
+---@field throw? table throws the body that it carries, from its own side of walls
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
 ---@field set? table on entering, memory = number, condition or true/false; team = name of a team of the scene; tags = tag or list of tags, in place of those borne

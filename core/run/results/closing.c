@@ -64,6 +64,7 @@ static void say_events(const JoScene *scene, JoxText *out) {
     } events[] = {{s->hits, "hit by a body|hits by bodies"},
                   {s->kicks, "kick"},
                   {s->throws, "throw"},
+                  {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
                   {s->people_lost, "person was lost|people were lost"},
                   {s->bodies_lost, "body was lost|bodies were lost"},
                   {jox_lua_failures(scene->lua),

@@ -63,6 +63,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"kicks", s->kicks},
                   {"throws", s->throws},
                   {"pickups", s->pickups},
+                  {"dropped", s->dropped},
                   {"hits", s->hits},
                   {"spawned", s->spawned},
                   {"removed", s->removed},

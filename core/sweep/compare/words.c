@@ -84,6 +84,7 @@ static const struct {
     {"events.throws", "throws", "", false},
     {"events.kicks", "kicks", "", false},
     {"events.pickups", "bodies taken up", "", false},
+    {"events.dropped", "bodies dropped for want of room", "", false},
     {"events.transitions", "changes of state", "", false},
     {"events.opened", "gates opened", "", false},
     {"events.closed", "gates closed", "", false},
