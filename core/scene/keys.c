@@ -281,7 +281,8 @@ static const JoxKey KEYS[] = {
 
     {"source", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSource, place, place), .meaning = "place where agents appear; of a set each at one of its members"},
     {"source", "like", TEXT, "", 0, 0, "!", READ_TO(jox_key_group, JoxAgentSource, like, like), .meaning = "group that they belong to"},
-    {"source", "rate", NUMBER, "1/s", 0, 1000, "0", TO(JoxAgentSource, rate), .meaning = "agents a second"},
+    {"source", "rate", NUMBER, "1/s", 0, 1000, "0", TO(JoxAgentSource, rate), .meaning = "agents a second, on average"},
+    {"source", "even", BOOL, "", 0, 0, "false", TO(JoxAgentSource, even), .meaning = "by `rate` and `curve` agents come evenly, as many for each seed; else at times that the seed draws"},
     {"source", "people", WHOLE, "", 0, 100000, "0", TO(JoxAgentSource, people),
      .meaning = "agents at once, at each of the times that `every` and `times` give; 1 where it is not given"},
     {"source", "every", NUMBER, "s", 0.01, 1e6, "", TO(JoxAgentSource, every), .meaning = "from one such time to the next, beginning with `from`"},
@@ -430,7 +431,7 @@ static const JoxOwner OWNERS[] = {
      "walk by the walking law. Who has done the last step stays, unless it is an `exit`. The states that people are in are called after "
      "the steps, as `3 Queue at gate_1`; `jostle run SCENE --trace 0` shows them.",
      .size = sizeof(JoxJourneyStep), .place_at = AT(JoxJourneyStep, position), .finish = jox_finish_step},
-    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait, and the last lines of a run, `sources` of its summary and its report say how many were due, came, and wait. Where walls cut the place, people come in on its greatest part alone.",
+    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait, and the last lines of a run, `sources` of its summary and its report say how many were due, came, and wait. Where walls cut the place, people come in on its greatest part alone.\n\nBy `rate` and `curve` people arrive independently of each other: their times are a Poisson process that the seed draws, the same at any `step`; the number who come varies from seed to seed by about the root of its mean. `even: true` makes them come evenly instead, as an experiment lets people in. What `every`, `times`, `people` and `keep` say is exact.",
      .size = sizeof(JoxAgentSource), .place_at = AT(JoxAgentSource, position),
      .finish = jox_finish_source},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out.",

@@ -91,7 +91,9 @@ static const char *population_fault(const JoWorld *w) {
     for (uint32_t s = 0; s < w->model.start_count; s++)
         JOX_MUST(p->entered[s] <= 1);
     for (uint32_t s = 0; s < w->model.source_count; s++)
-        JOX_MUST(w->state.sources.made[s] >= 0.0 && w->state.sources.made[s] < 1e9);
+        JOX_MUST(w->state.sources.made[s] >= 0.0 && w->state.sources.made[s] < 1e9 &&
+                 w->state.sources.arrivals[s].next >= 0.0 &&
+                 w->state.sources.arrivals[s].next < 1e12);
     for (uint32_t g = 0; g < w->model.group_count; g++) {
         if (p->party_left[g] == 0)
             continue;

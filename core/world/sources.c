@@ -127,23 +127,56 @@ static double below_curve(const JoxAgentSource *source, double time) {
     return sum;
 }
 
-/* How many a source has been due to make by a time, at any step: who comes by rate or curve up to
-   its end, and at times before its end. */
-static double due_until(const JoxAgentSource *source, double time) {
-    const double end = time < source->until ? time : source->until;
-    const double since = end - source->from;
-    if (time < source->from)
-        return 0.0;
-    double due = floor(source->rate * since + below_curve(source, end) + NEARLY);
+/* How many a source has been due to make at its times by a time: those from its beginning on and
+   before its end. */
+static double count_scheduled(const JoxAgentSource *source, double time) {
+    double due = 0.0;
     for (uint32_t t = 0; t < source->time_count; t++)
-        if (source->times[t] <= time + NEARLY && source->times[t] < source->until)
+        if (source->times[t] <= time + NEARLY && source->times[t] >= source->from &&
+            source->times[t] < source->until)
             due += source->people;
     if (source->every > 0.0) {
-        const double last = floor((since + NEARLY) / source->every);
+        const double end = time < source->until ? time : source->until,
+                     last = floor((end - source->from + NEARLY) / source->every);
         const bool at_end = source->from + last * source->every >= source->until - NEARLY;
         due += source->people * (last + (at_end ? 0.0 : 1.0));
     }
     return due;
+}
+
+/* How many are expected by rate and curve from a source's beginning to a time, or to its end. */
+static double count_expected(const JoxAgentSource *source, double time) {
+    const double end = time < source->until ? time : source->until;
+    return source->rate * (end - source->from) + below_curve(source, end) -
+           below_curve(source, source->from);
+}
+
+/* People expected between two arrivals of a source, the number-th and the one after it. */
+static double draw_gap(const JoWorld *world, uint32_t s, uint64_t number) {
+    return -jox_log(1.0 - jox_random_unit(world->model.def.seed, s, number, JOX_DRAW_ARRIVAL, 0));
+}
+
+/* How many a source has been due to make by a time, at any step. */
+static double count_due(const JoWorld *world, const JoxAgentSource *source, uint32_t s,
+                        JoxArrivals *arrivals, double time) {
+    if (time < source->from)
+        return 0.0;
+    const double expected = count_expected(source, time), exact = count_scheduled(source, time);
+    if (source->even)
+        return exact + floor(expected + NEARLY);
+    while (arrivals->next <= expected)
+        arrivals->next += draw_gap(world, s, ++arrivals->count);
+    return exact + (double)arrivals->count;
+}
+
+/* The arrivals of a source that is there from a time on: before it as many as were expected. */
+static JoxArrivals begin_arrivals(const JoWorld *world, const JoxAgentSource *source, uint32_t s,
+                                  double time) {
+    if (source->even)
+        return (JoxArrivals){0};
+    const double before = time < source->from ? 0.0 : count_expected(source, time);
+    const uint64_t count = (uint64_t)before;
+    return (JoxArrivals){.next = before + draw_gap(world, s, count), .count = count};
 }
 
 /* Whether a source makes people in the step that begins at a time. It ends with the first step that
@@ -171,7 +204,7 @@ static void run_source(JoWorld *world, uint32_t s) {
     const double time = (double)world->state.tick * world->model.def.dt;
     if (!is_at_work(world, source, time))
         return;
-    figures->due = due_until(source, time);
+    figures->due = count_due(world, source, s, &world->state.sources.arrivals[s], time);
     const double scheduled = figures->due > *made ? figures->due - *made : 0.0;
     const uint32_t missing = count_missing(world, source, time);
     const double all = scheduled + missing;
@@ -225,20 +258,24 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
     const double time = (double)world->state.tick * model->def.dt;
     JOX_ASSERT(anew || !model->sources || count == model->source_count);
     if (anew) {
+        JoxArrivals *arrivals = jox_alloc((size_t)count + 1, sizeof *arrivals);
         double *made = jox_alloc((size_t)count + 1, sizeof *made);
         JoxSourceFigures *figures = jox_alloc((size_t)count + 1, sizeof *figures);
         for (uint32_t s = 0; s < count; s++) {
             const JoxAgentSource *before = s < model->source_count ? &model->sources[s] : NULL;
-            figures[s].due = made[s] = due_until(&sources[s], time);
+            arrivals[s] = begin_arrivals(world, &sources[s], s, time);
+            figures[s].due = made[s] =
+                time > sources[s].from ? count_due(world, &sources[s], s, &arrivals[s], time) : 0.0;
             if (!before || before->place != sources[s].place || before->like != sources[s].like)
                 continue;
             const double late = state->figures[s].due - state->made[s];
             made[s] -= late < 0.0 ? 0.0 : late < made[s] ? late : made[s];
             figures[s].came = state->figures[s].came;
         }
+        jox_free(state->arrivals);
         jox_free(state->made);
         jox_free(state->figures);
-        *state = (JoxSourceState){.made = made, .figures = figures};
+        *state = (JoxSourceState){arrivals, made, figures};
     }
     model->sources = sources;
     model->source_count = count;
@@ -248,6 +285,7 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
 void jox_sources_sections(JoWorld *world, JoxSections *s) {
     JoxSourceState *state = &world->state.sources;
     jox_sections_module(s, "sources");
+    jox_section(s, "arrivals", state->arrivals, sizeof *state->arrivals, world->model.source_count);
     jox_section(s, "made", state->made, sizeof *state->made, world->model.source_count);
     jox_sections_unhashed(s, true);
     jox_section(s, "figures", state->figures, sizeof *state->figures, world->model.source_count);

@@ -17,6 +17,7 @@ typedef struct JoxAgentSource {
     double *curve;   /* times, s, each with a rate, 1/s: straight between them, 0 beyond */
     uint32_t people; /* at each of the times */
     uint32_t time_count, curve_count;
+    bool even;             /* by rate and curve people come evenly; else as a Poisson process */
     uint32_t keep;         /* tops the group up to so many; 0: no */
     uint32_t like;         /* index of the group that they belong to */
     JoxGroupValue *memory; /* in place of the group's, where given */
@@ -33,8 +34,16 @@ typedef struct JoxSourceFigures {
         kept; /* people who are missing from a kept number and did not come in when last counted */
 } JoxSourceFigures;
 
+/* Arrivals of one source by rate and curve, as a Poisson process that its seed draws: times of
+   arrival are in people that were expected by then, so that they do not depend on the step. */
+typedef struct JoxArrivals {
+    double next;    /* people expected until the next one arrives */
+    uint64_t count; /* people who have arrived */
+} JoxArrivals;
+
 /* State, by source. Zero-initialised is none. */
 typedef struct JoxSourceState {
+    JoxArrivals *arrivals;
     double *made; /* people due by rate, curve and times who came in, or were due before the source
                      was there */
     JoxSourceFigures *figures; /* no step reads them */

@@ -83,6 +83,7 @@ static void free_world(JoWorld *world) {
     jox_hands_free(&world->scratch.hands);
     free_places(world);
     jox_entrances_renew(&world->scratch.entrances);
+    jox_free(world->state.sources.arrivals);
     jox_free(world->state.sources.made);
     jox_free(world->state.sources.figures);
     jox_free(world->state.population.party_left);

@@ -117,7 +117,7 @@ sources: [{at: yard, like: g, rate: 5}]'
 says "a source cannot be like a group bound for its antipode" 3 "scene.yaml:7:28: group 'g' sets goal: antipode" "$program" run scene.yaml --for 2 --quiet
 says "  and the check says so too" 3 "scene.yaml:7:28: group 'g' sets goal: antipode" "$program" check scene.yaml
 scene 'groups: {g: {behaviour: stander.lua, count: 0}}
-sources: [{at: yard, like: g, rate: 5}]'
+sources: [{at: yard, like: g, rate: 5, even: true}]'
 says "a group may begin empty where a source fills it" 0 '"agents": 5' "$program" run scene.yaml --steps 21 --quiet --summary -
 scene 'groups: {g: {behaviour: stander.lua, count: 0, in: yard}}'
 says "  but not otherwise" 3 "where a source is like it" "$program" run scene.yaml --steps 1 --quiet
@@ -136,7 +136,7 @@ sourced '{solid: [[-1, -1], [21, -1], [21, 21], [-1, 21]]}' 'rate: 1'
 for command in check "run --quiet"; do
     says "a source in a solid is an error, as ${command%% *} says" 3 "scene.yaml:9:5: nobody of 'g' can come in at 'yard'" "$program" $command scene.yaml
 done
-sourced '{solid: [[-1, -1], [21, -1], [21, 21], [-1, 21]], name: cover}' 'rate: 1, until: 3'
+sourced '{solid: [[-1, -1], [21, -1], [21, 21], [-1, 21]], name: cover}' 'rate: 1, even: true, until: 3'
 says "  not where it may be opened" 0 "nothing wrong" "$program" check scene.yaml
 told() { # NAME TEXT: within the last lines, which are wrapped
     tr -s '\n ' '  ' <"$work/out" | grep -qF -- "$2"; verdict "$1" $?
@@ -152,7 +152,7 @@ sourced '{file: hall.wkt}' 'rate: 1'
 says "one that leaves the walkable area is" 0 "5 % of 'yard' lies outside the walkable area" "$program" check scene.yaml
 printf 'POLYGON ((-9 -9, -2 -9, -2 29, -9 29, -9 -9))\n' >"$yard/hall.wkt"
 says "  and an error where nobody can come" 3 "nobody of 'g' can come in at 'yard': it lies outside the walkable area" "$program" check scene.yaml
-sourced '' 'rate: 900, until: 5'
+sourced '' 'rate: 900, even: true, until: 5'
 says "demand that is not met lets a run go on" 0 "nobody left" "$program" run scene.yaml --for 6 --no-half-step --report "$work/demand" --summary "$work/demand.json"
 told "  and is told" " of 4,500 people due came: source 'yard' (scene.yaml:9) was full."
 came=$(sed -n 's/.*"yard": {"due": 4500, "came": \([0-9]*\), "waiting": \([0-9]*\)}.*/\1 \2/p' "$work/demand.json")

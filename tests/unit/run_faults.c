@@ -192,7 +192,8 @@ static void each_of_three_hundred_sources_counts_for_itself(void **state) {
                         s / 20 * 5);
     jox_text_add(&text, "groups: {people: {behaviour: own.lua, count: 0}}\nsources:\n");
     for (int s = 0; s < SOURCES; s++)
-        jox_text_printf(&text, "  - {at: p%d, like: people, rate: %d}\n", s, s == 44 ? 5 : 1);
+        jox_text_printf(&text, "  - {at: p%d, like: people, rate: %d, even: true}\n", s,
+                        s == 44 ? 5 : 1);
     JoScene *scene = load_own(text.data, HEAD "\"A\", states = { A = { steer = hold } } }\n");
     jox_text_free(&text);
     assert_int_equal(jo_world_agent_count(scene->world), 0);

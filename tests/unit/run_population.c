@@ -117,6 +117,10 @@ static void counts_of_sources_are_hashed(void **state) {
     scene->world->state.sources.made[0] += 1.0;
     assert_true(jo_world_hash(scene->world) != before);
     scene->world->state.sources.made[0] -= 1.0;
+    scene->world->state.sources.arrivals[0].next += 0.5;
+    assert_true(jo_world_hash(scene->world) != before);
+    scene->world->state.sources.arrivals[0].next -= 0.5;
+    assert_true(jo_world_hash(scene->world) == before);
     p->party_left[0]++;
     assert_true(jo_world_hash(scene->world) != before);
     p->party_left[0]--;

@@ -1,4 +1,4 @@
-/* Sources: on which side of walls people come in, and how many of those who are due do. */
+/* Sources: on which side of walls people come in, how many of those who are due do, and when. */
 #include "unit/run_acted.h"
 
 #define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
@@ -45,7 +45,7 @@ static const Side SIDES[] = {
      {3, -9},
      {19, 9}},
     {"a circle as small as a point",
-     SOURCE(FENCE, "point: [0.1, 0], radius: 0.01", ", rate: 2"),
+     SOURCE(FENCE, "point: [0.1, 0], radius: 0.01", ", rate: 2, even: true"),
      {0, -9},
      {9, 9}},
     {"people who are kept",
@@ -79,7 +79,7 @@ static void sources_heed_gates_as_they_stand(void **state) {
     JoScene *scene =
         load_own(SOURCE("{line: [[1, -30], [1, 30]], name: fence, open: true}, "
                         "{solid: [[-4, -4], [4, -4], [4, 4], [-4, 4]], name: block, open: true}",
-                        "polygon: [[-2, -2], [2, -2], [2, 2], [-2, 2]]", ", rate: 2"),
+                        "polygon: [[-2, -2], [2, -2], [2, 2], [-2, 2]]", ", rate: 2, even: true"),
                  STANDER);
     const JoxAgents *a = &scene->world->state.agents;
     does(scene, "close fence");
@@ -105,7 +105,7 @@ static void sources_heed_gates_as_they_stand(void **state) {
 
 static void demand_that_is_not_met_is_counted(void **state) {
     (void)state;
-    JoScene *scene = load_own(SOURCE("", YARD, ", rate: 20, until: 10"), STANDER);
+    JoScene *scene = load_own(SOURCE("", YARD, ", rate: 20, even: true, until: 10"), STANDER);
     JoxDemand demand;
     step(scene, 21); /* the last begins at 1 s */
     demand = jox_run_demand(scene, 0);
@@ -126,8 +126,9 @@ static void demand_that_is_not_met_is_counted(void **state) {
     assert_int_equal(demand.waiting, 50 - scene->world->state.agents.count);
     jo_scene_free(scene);
 
-    scene = load_own(SOURCE("", "polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]", ", rate: 3, until: 9"),
-                     STANDER);
+    scene = load_own(
+        SOURCE("", "polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]", ", rate: 3, even: true, until: 9"),
+        STANDER);
     step(scene, 240); /* 12 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 27);
@@ -141,18 +142,113 @@ static void people_due_do_not_depend_on_the_step(void **state) {
     (void)state;
     static const char *const STEPS[] = {"step=0.01", "step=0.07", "step=0.1"};
     write_file("own.lua", STANDER);
-    write_file(
-        "scene.yaml",
-        SOURCE("", "polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]",
-               ", rate: 7, every: 2, people: 3, from: 1, until: 11, curve: [[0, 2], [20, 2]]"));
+    write_file("scene.yaml", SOURCE("", "polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]",
+                                    ", rate: 7, even: true, every: 2, people: 3, from: 1, until: "
+                                    "11, curve: [[0, 2], [20, 2]]"));
     for (int n = 0; n < 3; n++) {
         char path[300];
         snprintf(path, sizeof path, "%s/scene.yaml", folder);
         JoScene *scene = load(path, &STEPS[n], 1);
         while (jo_world_time(scene->world) < 12.0)
             step(scene, 1);
-        assert_int_equal(jox_run_demand(scene, 0).came, 70 + 22 + 15);
+        assert_int_equal(jox_run_demand(scene, 0).came, 70 + 20 + 15);
         jo_scene_free(scene);
+    }
+}
+
+/* ---- arrivals ---- */
+
+enum { STREAMS = 64, SEEDS = 40, TOTALS = STREAMS * SEEDS };
+
+/* How many arrive in the first and in the second 6 s at sources that a gate shuts, so that nobody
+   comes in: people are counted where they wait. */
+static void count_arrivals(const char *source, uint64_t seed, const char *length,
+                           int half[2][STREAMS]) {
+    char path[300], by_seed[40];
+    snprintf(by_seed, sizeof by_seed, "seed=%d", (int)seed);
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    const char *set[] = {by_seed, length};
+    JoxText text = {0};
+    jox_text_add(&text, "jostle: 1\nplaces: {door: {point: [0, 0], radius: 1}}\n"
+                        "walls: [{solid: [[-3, -3], [3, -3], [3, 3], [-3, 3]], name: cover}]\n"
+                        "groups: {people: {behaviour: own.lua, count: 0}}\nsources:\n");
+    for (int s = 0; s < STREAMS; s++)
+        jox_text_printf(&text, "  - {at: door, like: people, until: 12, %s}\n", source);
+    write_file("own.lua", STANDER);
+    write_file("scene.yaml", text.data);
+    jox_text_free(&text);
+    JoScene *scene = load(path, set, 2);
+    const int steps = (int)(6.0 / jo_scene_stats(scene).dt + 0.5);
+    for (int h = 0; h < 2; h++) {
+        step(scene, h == 0 ? steps + 1 : steps);
+        for (uint32_t s = 0; s < STREAMS; s++)
+            half[h][s] = (int)jox_run_demand(scene, s).due - (h ? half[0][s] : 0);
+    }
+    assert_int_equal(scene->world->state.agents.count, 0);
+    jo_scene_free(scene);
+}
+
+typedef struct Moments {
+    double mean, variance, covariance; /* of totals; of the halves with each other */
+} Moments;
+
+static Moments measure_arrivals(const char *source) {
+    double sum = 0.0, squares = 0.0, first = 0.0, second = 0.0, products = 0.0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        int half[2][STREAMS];
+        count_arrivals(source, seed, "step=0.1", half);
+        for (int s = 0; s < STREAMS; s++) {
+            const double a = half[0][s], b = half[1][s];
+            sum += a + b;
+            squares += (a + b) * (a + b);
+            first += a, second += b, products += a * b;
+        }
+    }
+    const double mean = sum / TOTALS;
+    return (Moments){mean, squares / TOTALS - mean * mean,
+                     products / TOTALS - first / TOTALS * (second / TOTALS)};
+}
+
+/* Bands of five standard errors: a Poisson total has the variance m of its mean, its mean an error
+   of sqrt(m / n), its variance one of m sqrt((2 + 1 / m) / n), the covariance one of m / 2 / sqrt
+   n. */
+static void arrivals_are_a_poisson_process(void **state) {
+    (void)state;
+    static const char *const SOURCES[] = {"rate: 2.5", "curve: [[0, 0], [6, 5], [12, 0]]",
+                                          "rate: 1, curve: [[0, 1.5], [12, 1.5]]"};
+    const double m = 30.0, n = TOTALS;
+    for (int k = 0; k < 3; k++) {
+        const Moments is = measure_arrivals(SOURCES[k]);
+        if (fabs(is.mean - m) > 5 * sqrt(m / n) ||
+            fabs(is.variance - m) > 5 * m * sqrt((2 + 1 / m) / n) ||
+            fabs(is.covariance) > 5 * m / 2 / sqrt(n))
+            fail_msg("%s: mean %g, variance %g, covariance %g", SOURCES[k], is.mean, is.variance,
+                     is.covariance);
+    }
+    const Moments even = measure_arrivals("rate: 2.5, even: true");
+    assert_true(even.mean == m && even.variance == 0.0);
+}
+
+static void arrivals_do_not_depend_on_the_step(void **state) {
+    (void)state;
+    int coarse[2][STREAMS], fine[2][STREAMS];
+    count_arrivals("rate: 2.5", 7, "step=0.1", coarse);
+    count_arrivals("rate: 2.5", 7, "step=0.01", fine);
+    assert_memory_equal(coarse, fine, sizeof fine);
+    count_arrivals("rate: 2.5", 8, "step=0.1", coarse);
+    assert_memory_not_equal(coarse, fine, sizeof fine);
+}
+
+/* Those who come at times that are given, and at once, are as many for each seed. */
+static void timetables_are_exact(void **state) {
+    (void)state;
+    int half[2][STREAMS];
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        count_arrivals("every: 3, people: 4, times: [1, 7.5, 12]", seed, "step=0.1", half);
+        for (int s = 0; s < STREAMS; s++) {
+            assert_int_equal(half[0][s], 4 * 3 + 4); /* at 0, 3, 6 and 1 s */
+            assert_int_equal(half[1][s], 4 + 4);     /* at 9 and 7.5 s, not at 12 */
+        }
     }
 }
 
@@ -160,6 +256,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_comes_in_beyond_a_wall),
                                        cmocka_unit_test(sources_heed_gates_as_they_stand),
                                        cmocka_unit_test(demand_that_is_not_met_is_counted),
-                                       cmocka_unit_test(people_due_do_not_depend_on_the_step)};
+                                       cmocka_unit_test(people_due_do_not_depend_on_the_step),
+                                       cmocka_unit_test(arrivals_are_a_poisson_process),
+                                       cmocka_unit_test(arrivals_do_not_depend_on_the_step),
+                                       cmocka_unit_test(timetables_are_exact)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

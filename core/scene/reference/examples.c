@@ -216,7 +216,7 @@ const JoxExample jox_scene_examples[] = {
      "groups: {pilgrims: {count: 300}}\n"
      "sources:\n"
      "  - {at: arrivals, like: pilgrims, keep: 300, memory: {laps: 0}}\n"
-     "  - {at: gate_1, like: pilgrims, rate: 2, from: 10, until: 5 min}\n"},
+     "  - {at: gate_1, like: pilgrims, rate: 2, even: true, from: 10, until: 5 min}\n"},
     {"sink", OPENING
      "places: {exit: {point: [12, 2], radius: 1}}\n"
      "groups: {guests: {behaviour: stander.lua, at: [[6, 2], [12, 2]]}}\n"
