@@ -40,26 +40,17 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
     }
 }
 
-/* Number of a team of the scene: that of the first group in it, plus 1; 0 with an error. */
-static uint16_t find_team(JoxBuild *b, const char *path, const char *name) {
-    const JoxScope *scope = b->script->scope;
-    const char *names[256];
-    size_t count = 0;
-    for (uint32_t g = 0; g < scope->group_count; g++) {
-        if (!scope->groups[g].team)
-            continue;
-        if (strcmp(scope->groups[g].team, name) == 0)
-            return (uint16_t)(g + 1);
-        if (count < 256)
-            names[count++] = scope->groups[g].team;
-    }
-    char hint[JOX_HINT];
-    const char *near = jox_did_you_mean(name, names, count, hint);
-    if (scope->complete)
-        jox_build_error(b, jox_read_at(b, path), "unknown-team",
-                        near ? near : "A group of the scene gives it: team: red",
-                        "no group of the scene has the team '%.60s'", name);
-    return 0;
+/* Number of a team, which the scene need not have; 0 with an error. */
+static uint16_t read_team(JoxBuild *b, const char *path, const char *name) {
+    const int32_t number =
+        strlen(name) > 60 ? -1
+                          : jox_script_belonging(b->script, name, true, true, jox_read_at(b, path));
+    if (number < 0 && b->script->scope->complete)
+        jox_build_error(b, jox_read_at(b, path), "too-many-teams", NULL,
+                        "states set at most %d teams that no group has, with names of at most 60 "
+                        "bytes",
+                        JOX_MOST_SET_TEAMS);
+    return number < 0 ? 0 : (uint16_t)number;
 }
 
 /* set = { team = ..., tags = ... }, unless these are names of memory. */
@@ -70,7 +61,7 @@ static void read_belonging(JoxBuild *b, int table, const char *path, JoxActions 
     const int type = jox_read_field(L, table, "team");
     if (jox_read_memory(b, "team") < 0 && type == LUA_TSTRING) {
         actions->sets_team = true;
-        actions->team = find_team(b, part, lua_tostring(L, -1));
+        actions->team = read_team(b, part, lua_tostring(L, -1));
     } else if (jox_read_memory(b, "team") < 0 && type != LUA_TNIL) {
         jox_build_error(b, jox_read_at(b, part), "bad-value", "Example: set = { team = \"red\" }",
                         "team is the name of a team");
@@ -80,7 +71,7 @@ static void read_belonging(JoxBuild *b, int table, const char *path, JoxActions 
         return;
     actions->sets_tags = jox_read_field(L, table, "tags") != LUA_TNIL;
     lua_settop(L, table);
-    actions->tags = jox_read_tags(b, table, path, "tags");
+    actions->tags = jox_read_tags(b, table, path, "tags", true);
 }
 
 static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {

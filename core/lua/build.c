@@ -232,6 +232,10 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     jox_read_counts(&build, table, "", -1);
     jox_read_public(&build, table);
     check_renamed(&build);
+    m->belongings = script->belongings;
+    m->belonging_count = script->belonging_count;
+    script->belongings = NULL;
+    script->belonging_count = 0;
     if (script->diagnostics->errors == errors)
         jox_lint(&build);
 }

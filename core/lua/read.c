@@ -231,26 +231,24 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
 }
 
 /* Adds the bit of the tag on the stack. */
-static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
+static void add_tag(JoxBuild *b, const char *path, bool is_set, uint64_t *mask) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_gettop(L) > 0);
-    const JoxScope *scope = b->script->scope;
-    const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-    for (uint32_t i = 0; name && i < scope->tag_count; i++)
-        if (strcmp(scope->tags[i], name) == 0) {
-            *mask |= (uint64_t)1 << i;
-            return;
-        }
-    if (!name || scope->complete) {
-        char hint[JOX_HINT];
-        jox_build_error(b, jox_read_at(b, path), "unknown-tag",
-                        name ? jox_did_you_mean(name, scope->tags, scope->tag_count, hint) : NULL,
-                        name ? "nothing in the scene bears the tag '%s'" : "tags are names%s",
-                        name ? name : "");
+    if (lua_type(L, -1) != LUA_TSTRING || lua_rawlen(L, -1) > 60) {
+        jox_build_error(b, jox_read_at(b, path), "bad-value", NULL,
+                        "tags are names of at most 60 bytes");
+        return;
     }
+    const int32_t bit =
+        jox_script_belonging(b->script, lua_tostring(L, -1), false, is_set, jox_read_at(b, path));
+    if (bit >= 0)
+        *mask |= (uint64_t)1 << bit;
+    else if (b->script->scope->complete)
+        jox_build_error(b, jox_read_at(b, path), "too-many-tags", NULL,
+                        "a scene has at most 64 different tags, with those that states set");
 }
 
-uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key) {
+uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key, bool is_set) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(index > 0 && lua_istable(L, index));
     char full[256];
@@ -259,12 +257,12 @@ uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key
     int type = jox_read_field(L, index, key);
     if (type == LUA_TTABLE) {
         for (lua_Integer i = 1; lua_rawgeti(L, -1, i) != LUA_TNIL; i++) {
-            add_tag(b, full, &mask);
+            add_tag(b, full, is_set, &mask);
             lua_pop(L, 1);
         }
         lua_pop(L, 1);
     } else if (type != LUA_TNIL) {
-        add_tag(b, full, &mask);
+        add_tag(b, full, is_set, &mask);
     }
     lua_pop(L, 1);
     return mask;

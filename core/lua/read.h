@@ -75,8 +75,8 @@ JoxValue jox_read_parameter(JoxBuild *build, const char *path, const JoxParamete
 int32_t jox_read_condition(JoxBuild *build, const char *path, int32_t *hook);
 /* A target named by a key, or -1. */
 int16_t jox_read_target(JoxBuild *build, int index, const char *path, const char *key);
-/* The bits of a tag or a list of tags. */
-uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key);
+/* The bits of a tag or a list of tags, which agents get (`is_set`) or are asked for. */
+uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key, bool is_set);
 /* Fills a state, whose name is set, from the table at `index`. */
 void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number);
 

@@ -287,8 +287,8 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_toward = jox_read_target(b, index, path, "push_toward");
     state->face = jox_read_target(b, index, path, "face");
     state->approach = jox_read_target(b, index, path, "approach");
-    state->ignore = jox_read_tags(b, index, path, "ignore");
-    state->push_only = jox_read_tags(b, index, path, "push_only");
+    state->ignore = jox_read_tags(b, index, path, "ignore", false);
+    state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");
     state->on_exit = jox_read_hook(b, index, path, "on_exit");
     read_transitions(b, index, path, state);

@@ -96,6 +96,9 @@ void jox_machine_free(JoxMachine *m) {
     for (uint32_t n = 0; n < m->name_count; n++)
         jox_free(m->names[n].text);
     jox_free(m->names);
+    for (uint32_t n = 0; n < m->belonging_count; n++)
+        jox_free(m->belongings[n].name);
+    jox_free(m->belongings);
     jox_free(m->states);
     jox_free(m->expressions);
     jox_free(m->targets);

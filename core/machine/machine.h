@@ -299,6 +299,20 @@ typedef struct JoxName {
     uint32_t source;                  /* number of its file among the machine's files */
 } JoxName;
 
+/* A tag or team that a machine names. Those that the scene has keep their number; another gets one
+   when the machine is put into a run, until when `number` is what it was compiled with. */
+typedef struct JoxBelonging {
+    char *name;
+    bool is_team;
+    bool is_set, is_asked; /* a state gives it to its agents; a target or a parameter asks for it */
+    uint16_t number;       /* bit of the tag; number of the team */
+    int32_t line, column, end_column; /* where it was first written; 0 unknown */
+    uint32_t source;                  /* number of its file among the machine's files */
+} JoxBelonging;
+
+/* Numbers of teams that no group has, and states set. */
+enum { JOX_MOST_SET_TEAMS = 64, JOX_FIRST_SET_TEAM = 65536 - JOX_MOST_SET_TEAMS };
+
 typedef struct JoxMachine {
     char *name, *path;
     uint32_t version;
@@ -320,6 +334,8 @@ typedef struct JoxMachine {
     uint32_t counter_count;
     JoxName *names;
     uint32_t name_count;
+    JoxBelonging *belongings; /* tags and teams that it names */
+    uint32_t belonging_count;
     struct JoxRenamed {
         char *from, *to;
     } * renamed; /* states, own values and memory of older versions */
@@ -330,6 +346,9 @@ typedef struct JoxMachine {
     int32_t vm;    /* which Lua state owns the hooks; -1 none */
 } JoxMachine;
 
+/* Gives tags and teams other numbers: numbers[n] is that of belongings[n]. Of a machine that does
+   not run yet. */
+void jox_machine_renumber(JoxMachine *machine, const uint16_t *numbers);
 /* A state, and a transition, that do nothing yet: every index is -1. The names are taken over. */
 JoxState jox_state_blank(char *name);
 JoxTransition jox_transition_blank(char *id);

@@ -36,7 +36,10 @@ int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagno
     const char *made = jox_run_made(scene->spec, path);
     JoxMachine *machine = jox_lua_load_text(scene->lua, path, made, made ? strlen(made) : 0,
                                             &scene->scope, diagnostics);
-    return machine ? (int32_t)jox_machines_add(machines, machine) : -1;
+    if (!machine)
+        return -1;
+    jox_run_number_belongings(scene, machine);
+    return (int32_t)jox_machines_add(machines, machine);
 }
 
 /* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
@@ -82,6 +85,17 @@ bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnosti
     return good;
 }
 
+/* Shows the line of an error that is in a behaviour's file. */
+static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
+    for (uint32_t f = 0; f < count; f++) {
+        size_t length;
+        char *text = jox_read_file(files[f].path, 1 << 20, &length);
+        if (text)
+            jox_diag_attach_source(diagnostics, files[f].path, text, length);
+        jox_free(text);
+    }
+}
+
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
     JoxMachineRun *machines = &scene->world->machines;
@@ -99,7 +113,18 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
         }
     for (uint32_t m = 0; m < machines->set->count; m++) /* grows while it goes on */
         good &= jox_run_link(scene, machines->set->built[m], diagnostics);
-    return good;
+    for (uint32_t m = 0; good && m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->built[m];
+        const size_t before = diagnostics->count;
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
+        jox_run_check_belongings(scene, machine, files, count,
+                                 (const JoxMachine *const *)machines->set->built,
+                                 machines->set->count, diagnostics);
+        if (diagnostics->count > before)
+            attach(files, count, diagnostics);
+    }
+    return good && diagnostics->errors == 0;
 }
 
 static bool is_signalled(const JoxMachineRun *machines, const char *text) {
@@ -174,17 +199,6 @@ static bool given(const JoScene *scene, const JoxMachine *machine, const char *n
                     return true;
         }
     return !runs; /* something else becomes it, and brings its own values */
-}
-
-/* Shows the line of an error that is in a behaviour's file. */
-static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
-    for (uint32_t f = 0; f < count; f++) {
-        size_t length;
-        char *text = jox_read_file(files[f].path, 1 << 20, &length);
-        if (text)
-            jox_diag_attach_source(diagnostics, files[f].path, text, length);
-        jox_free(text);
-    }
 }
 
 /* Whether an event of the scene gives the signal. */

@@ -68,14 +68,13 @@ static void add_places(JoScene *scene) {
                             spec->groups[g].team ? jox_strdup(spec->groups[g].team) : NULL};
     scene->scope = (JoxScope){.places = places,
                               .place_count = spec->place_count,
-                              .tags = (const char *const *)scene->world->model.tags,
-                              .tag_count = scene->world->model.tag_count,
                               .groups = scene->scope_groups,
                               .group_count = spec->group_count,
                               .walls = &scene->world->model.all_walls,
                               .complete = true,
                               .mods = scene->mods->items,
                               .mod_count = scene->mods->count};
+    jox_run_refresh_names(scene);
 }
 
 /* Reads the log and, since it tells what files were when it began, reads those through it. */
@@ -151,6 +150,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     const JoxLuaLimits limits = script_limits(spec);
     scene->lua = jox_lua_create(&limits);
     jox_lua_attach(scene->lua, &scene->world->machines, complain, scene); /* loading may print */
+    jox_run_take_names(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);
     if (!jox_run_load_machines(scene, diagnostics))

@@ -226,6 +226,28 @@ bool jo_scene_try(JoScene *scene, const JoVetting *what) {
     return true;
 }
 
+/* Tags that the new versions ask for, against all machines as they will be. */
+static void check_belongings(JoScene *scene, JoxBatch *batch) {
+    const JoxMachineSet *set = &scene->world->model.machines;
+    const JoxMachine *machines[2 * JOX_MOST_MACHINES];
+    uint32_t count = 0;
+    for (uint32_t m = 0; m < set->count; m++) {
+        bool changes = false;
+        for (uint32_t c = 0; c < batch->count; c++)
+            changes |= !batch->changes[c].added && batch->changes[c].index == m;
+        if (!changes)
+            machines[count++] = set->items[m];
+    }
+    for (uint32_t c = 0; c < batch->count; c++)
+        machines[count++] = jox_loaded_machine(batch->changes[c].loaded);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        uint32_t file_count;
+        const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &file_count);
+        jox_run_check_belongings(scene, jox_loaded_machine(batch->changes[c].loaded), files,
+                                 file_count, machines, count, &batch->diagnostics);
+    }
+}
+
 /* The next parts whose files have changed, loaded; NULL where there are none. */
 JoxBatch *jox_batch_prepare(JoxReload *r) {
     JoScene *scene = r->scene;
@@ -244,6 +266,8 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
         load_vetted(r, batch);
     else
         load_parts(r, batch);
+    if (!batch->failed)
+        check_belongings(scene, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)

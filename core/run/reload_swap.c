@@ -54,6 +54,7 @@ static void link_batch(JoScene *scene, JoxBatch *batch) {
             continue;
         JoxMachine *machine = jox_loaded_machine(change->loaded);
         jox_lua_adopt(scene->lua, change->loaded);
+        jox_run_number_belongings(scene, machine);
         change->index = jox_machines_add(machines, machine);
         jox_run_tell_replaced(scene, change->index);
     }
@@ -100,6 +101,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         double begun = jox_clock_wall();
         jox_machines_people(machines, change->index, before);
         JoxMachine *next = jox_loaded_machine(change->loaded);
+        jox_run_number_belongings(scene, next);
         JoxMachine *old = jox_machines_replace(machines, change->index, change->replacement);
         give_new(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);

@@ -111,6 +111,21 @@ const char *jox_run_made(const JoxSceneSpec *spec, const char *path);
 int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
 /* Finds the machines that states of machine become; false with diagnostics. */
 bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);
+/* belonging.c: has behaviours that are loaded from here on know the tags and teams of the world. */
+void jox_run_refresh_names(JoScene *scene);
+/* Gives a machine that is put in the numbers of its tags and teams in the scene. */
+void jox_run_number_belongings(JoScene *scene, JoxMachine *machine);
+/* Whether the tags that a machine, of these files, asks for are borne in the scene or set by one of
+   `machines`, which it is among. */
+void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
+                              const JoxLuaFile *files, uint32_t file_count,
+                              const JoxMachine *const *machines, uint32_t count,
+                              JoxDiagnostics *diagnostics);
+/* Lists tags and teams in the order of their numbers, and gives those that an overlay lists at
+   jox_run_names_path the same again. */
+extern const char jox_run_names_path[];
+void jox_run_list_names(const JoScene *scene, JoxText *out);
+void jox_run_take_names(JoScene *scene);
 /* populate.c: checks what groups set, and makes the agents that stand there at the start. */
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of speeds and pushes for which the step is too long. */

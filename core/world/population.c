@@ -137,7 +137,8 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
         return team_number(world, group->team);
     if (population->party_left[number] == 0) {
         uint32_t first = model->group_count + 1; /* teams of groups come before */
-        population->party_team[number] = (first + population->next_party++ % (65535 - first));
+        population->party_team[number] =
+            (first + population->next_party++ % (JOX_FIRST_SET_TEAM - first));
         population->party_left[number] = group->party;
     }
     JOX_ASSERT(population->party_team[number] > model->group_count);

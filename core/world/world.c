@@ -95,6 +95,8 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.lost.ids);
     for (uint32_t i = 0; i < world->model.tag_count; i++)
         jox_free(world->model.tags[i]);
+    for (uint32_t i = 0; i < world->model.set_team_count; i++)
+        jox_free(world->model.set_teams[i]);
     jox_pool_free(world->scratch.pool);
     jox_free(world);
 }
@@ -116,6 +118,17 @@ void jo_world_free(JoWorld *world) {
     JoxHeap *heap = world->heap;
     free_guarded(world); /* does nothing where memory ran out: the heap releases all of it */
     jox_heap_free(heap);
+}
+
+int jox_world_set_team(JoWorld *world, const char *name) {
+    JoxWorldModel *model = &world->model;
+    for (uint32_t i = 0; i < model->set_team_count; i++)
+        if (strcmp(model->set_teams[i], name) == 0)
+            return JOX_FIRST_SET_TEAM + (int)i;
+    if (model->set_team_count == JOX_MOST_SET_TEAMS)
+        return -1;
+    model->set_teams[model->set_team_count] = jox_strdup(name);
+    return JOX_FIRST_SET_TEAM + (int)model->set_team_count++;
 }
 
 int jox_world_tag(JoWorld *world, const char *name) {

@@ -55,6 +55,8 @@ typedef struct JoxWorldModel {
     uint32_t group_count, source_count, sink_count, event_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
+    char *set_teams[JOX_MOST_SET_TEAMS]; /* of no group: number minus JOX_FIRST_SET_TEAM -> name */
+    uint32_t set_team_count;
     JoxMachineSet machines;
     bool
         reinserts_bodies; /* at each JOX_BODIES_REINSERT_STEPS-th step: then a state with bodies can
@@ -144,6 +146,8 @@ JoWorld *jox_world_create(const JoWorldDef *def);
 void jox_world_set_timed(JoWorld *world, bool timed);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
 int jox_world_tag(JoWorld *world, const char *name);
+/* Number of a team that states set and no group has, added if new; -1 when all are taken. */
+int jox_world_set_team(JoWorld *world, const char *name);
 /* The constants of the walking law, before the first step; until then they are its defaults. */
 void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
 /* Takes the places over, once, before agents are spawned. The array has room for `capacity` of

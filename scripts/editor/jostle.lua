@@ -102,7 +102,7 @@ function Target:where(name, ...) end
 ---@field throw? table throws the body that it carries, from its own side of walls
 ---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
----@field set? table on entering, memory = number, condition or true/false; team = name of a team of the scene; tags = tag or list of tags, in place of those borne
+---@field set? table on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, in place of what it had: of the scene, or new ones
 ---@field counts? table memory that counts while in this state
 ---@field on_enter? fun(me: jostle.Me) called on entering
 ---@field on_exit? fun(me: jostle.Me) called on leaving

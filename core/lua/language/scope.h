@@ -25,6 +25,9 @@ typedef struct JoxScope {
     uint32_t tag_count;
     const JoxScopeGroup *groups; /* the index is the group's number */
     uint32_t group_count;
+    const char *const
+        *set_teams; /* that no group has, and states set, in the order of their numbers */
+    uint32_t set_team_count;
     const JoxWalls *walls; /* those with names are gates */
     bool complete;
     const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */

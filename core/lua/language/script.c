@@ -40,6 +40,9 @@ void jox_script_free(JoxScript *script) {
         jox_free(script->hooks[h].complaint);
     }
     jox_free(script->facts);
+    for (uint32_t n = 0; n < script->belonging_count; n++)
+        jox_free(script->belongings[n].name);
+    jox_free(script->belongings);
     jox_free(script->misuses);
     jox_free(script->required);
     jox_free(script->nodes);

@@ -166,6 +166,9 @@ typedef struct JoxScript {
     JoxDiagnostics *diagnostics; /* while loading */
     const JoxMod *mod;           /* whose file is running; NULL: the script's own */
     JoxPatchChanges changes;     /* that mods made */
+    JoxBelonging *belongings;    /* tags and teams that were named; go to the machine */
+    uint32_t belonging_count;
+    size_t belonging_capacity;
     JoxCallFact *facts;
     uint32_t fact_count;
     size_t fact_capacity;
@@ -229,6 +232,12 @@ JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text
                            JoxPosition from);
 /* Puts the table on top of the stack, popped, in the place of the words that a file can use. */
 void jox_script_set_words(lua_State *L);
+
+/* Number of a tag (its bit) or team that is set or asked for, written at a place: the scene's, or
+   where it has none of the name a new one. -1 where there are too many, or the scene is not known.
+ */
+int32_t jox_script_belonging(JoxScript *script, const char *name, bool is_team, bool is_set,
+                             JoxPosition at);
 
 uint8_t jox_kind_of(lua_State *L, int index);
 /* Keeps what a call that is told of, or its return, says of its function. */

@@ -230,7 +230,7 @@ const JoxTableKey jox_table_keys[] = {
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "calls out on entering, and every so often with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
-    {"state", "set", "table", "", "on entering, memory = number, condition or true/false; team = name of a team of the scene; tags = tag or list of tags, in place of those borne",
+    {"state", "set", "table", "", "on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, in place of what it had: of the scene, or new ones",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while in this state", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called on entering", "on_enter = function(me) me.laps = 1 end", 0, 0},

@@ -58,7 +58,6 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
                      {"anyone", JOX_TARGET_ANYONE}};
     JoxScript *script = jox_script_of(L);
     const JoxScope *scope = script->scope;
-    char hint[JOX_HINT];
     if (lua_type(L, index) != LUA_TSTRING) {
         jox_word_error(L, word, "bad-argument", "Example: nearest \"ball\"",
                        "argument %d of %s must be a tag, not %s", index, word,
@@ -73,14 +72,14 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
             kind = RELATIONS[r].kind;
             arg = 0;
         }
-    for (uint32_t i = 0; kind == JOX_TARGET_NEAREST && i < scope->tag_count; i++)
-        if (strcmp(scope->tags[i], name) == 0)
-            arg = (int32_t)i;
-    if (arg == JOX_UNKNOWN_TAG && scope->complete) {
-        jox_word_error(L, name, "unknown-tag",
-                       jox_did_you_mean(name, scope->tags, scope->tag_count, hint),
-                       "nothing in the scene bears the tag '%s'", name);
-        return NULL;
+    if (kind == JOX_TARGET_NEAREST) {
+        arg = jox_script_belonging(script, name, false, false, jox_word_position(L, name));
+        if (arg < 0 && scope->complete) {
+            jox_word_error(L, name, "too-many-tags", NULL,
+                           "a scene has at most 64 different tags, with those that states set");
+            return NULL;
+        }
+        arg = arg < 0 ? JOX_UNKNOWN_TAG : arg;
     }
     JoxNode *node = jox_node_push(L, JOX_NODE_TARGET);
     node->target_kind = kind;

@@ -42,6 +42,15 @@ static void add_files(JoxText *out, const JoScene *scene) {
     jox_overlay_free(&all);
 }
 
+/* The numbers of tags and teams, which follow from all versions of the behaviours that ran. */
+static void add_names(JoxText *out, const JoScene *scene) {
+    JoxText piece = {0};
+    jox_text_append(&piece, jox_run_names_path, strlen(jox_run_names_path) + 1);
+    jox_run_list_names(scene, &piece);
+    jox_pieces_add(out, JOX_PIECE_FILE, piece.data, piece.length);
+    jox_text_free(&piece);
+}
+
 static void add_listeners(JoxText *out, const JoScene *scene) {
     JoxText piece = {0};
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
@@ -135,6 +144,8 @@ static bool frame(void *self, JoScene *scene, JoError *error) {
         add_def(&out, scene);
         add_text(&out, JOX_PIECE_NOTE, c->note);
         add_files(&out, scene);
+        add_names(&out,
+                  scene); /* after the files: one of an earlier checkpoint may be among them */
         jox_pieces_add(&out, JOX_PIECE_STATE, state.data, state.length);
         add_listeners(&out, scene);
         jox_pieces_end(&out);
