@@ -108,8 +108,13 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
    two sides; INFINITY without. */
 float jox_nav_sight(const JoxAgents *agents);
 
-/* Share of the wanted speed by which ties go to the right. */
+/* Shares of the preferred velocity of an agent that stands before others: at first it wants that
+   much more to its right. Where it has not moved for some seconds, up to JOX_ASIDE_RIGHT in
+   addition, and up to JOX_ASIDE_BACK less of its way: symmetric crowds lock in an arch that all
+   agents have to leave by different angles. */
 #define JOX_RIGHT_SHARE 0.25f
+#define JOX_ASIDE_RIGHT 1.0f
+#define JOX_ASIDE_BACK 1.2f
 
 /* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
    `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the

@@ -3,6 +3,7 @@
 #ifndef JOX_NAV_KERNELS_H
 #define JOX_NAV_KERNELS_H
 
+#include "base/number/random.h"
 #include "nav/internal.h"
 #include "simd/isa.h"
 
@@ -43,9 +44,27 @@ typedef struct JoxSolve {
     const JoxObjects *objects;       /* NULL: none */
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
     float planning_time;             /* s */
-    bool plans;    /* else those who want to get on go on with what they planned */
-    float *clear2; /* nav's, m2: no wall hides who is nearer; NULL: it is not known */
+    bool plans;              /* else those who want to get on go on with what they planned */
+    float *clear2;           /* nav's, m2: no wall hides who is nearer; NULL: it is not known */
+    uint64_t stream, moment; /* random stream and moment of the draws for turning aside */
 } JoxSolve;
+
+/* How far an agent that stands before others turns aside, 0 to 1. Zero for the first second
+   without moving JOX_STILL_REACH, then drawn anew each second from a range that widens for four
+   seconds more. Always zero as printed. */
+static inline float jox_turn_aside(const JoxSolve *s, uint32_t i) {
+    const float stood = 0.25f * (s->agents->still[i] - 1.0f);
+    if (!(stood > 0.0f) || s->nav->literal)
+        return 0.0f;
+    const uint64_t bits = jox_random_of(s->stream, s->agents->id[i], 0, s->moment);
+    return jox_minf(stood, 1.0f) * (float)jox_random_share(bits);
+}
+/* The preferred velocity of an agent that stands before others, turned aside by jox_turn_aside. */
+static inline JoxV2 jox_wish_aside(JoxV2 wanted, float turn) {
+    const float right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
+    const float on = 1.0f - JOX_ASIDE_BACK * turn;
+    return jox_v2(on * wanted.x + right * wanted.y, on * wanted.y - right * wanted.x);
+}
 
 /* How many half-planes of each kind an agent has, in their order, which is that of
    JoxConstraintKind. */

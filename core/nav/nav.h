@@ -52,13 +52,20 @@ const float *jox_nav_clear2(const JoxNav *nav);
    `time`: simulated, s; `interval`: since people planned last, s. */
 void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, uint64_t seed,
                   double time, double interval, bool plans, JoxPool *pool);
+/* When agents plan, and for when. */
+typedef struct JoxPlanTime {
+    uint64_t seed;        /* of random numbers */
+    double time;          /* s, simulated */
+    double planning_time; /* s from `time`: when the planned velocity is to be reached */
+    bool plans;           /* false: agents that want to get on keep their plans */
+} JoxPlanTime;
 /* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
    there is none that meets all half-planes. What agents touch is solved by its contact planes,
    which are hard as walls are, where `touched` has them. Returns how many agents had a hard
    half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
-                       double planning_time, bool plans, JoxPool *pool);
+                       const JoxPlanTime *planning, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,
@@ -86,11 +93,11 @@ typedef struct JoxPlan {
     JoxV2 chosen; /* m/s */
     bool failed;  /* no velocity meets all of them */
 } JoxPlan;
-/* Looks for the agent's neighbours anew, and solves for it alone, from what it prefers; what it
-   touches and is pressed by are those of the last step, after which this may be called until the
-   next one. Changes nothing. */
+/* Looks for the agent's neighbours anew, and solves for it alone, whether or not `planning` says
+   that agents plan, from what it prefers; what it touches and is pressed by are those of the last
+   step, after which this may be called until the next one. Changes nothing. */
 void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
-                  const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+                  const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
                   JoxPlan *out);
 /* move: velocity = forced + (next - forced) * response, the position goes by the mean of that
    approach over the step, forced + (next - forced) * on_the_way, weak projection of overlaps (of

@@ -89,19 +89,26 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
     return most;
 }
 
+/* Agents turn aside by another angle each second. */
+static uint64_t moment_aside(double time) {
+    return jox_random_moment((uint64_t)time, JOX_DRAW_ASIDE);
+}
+
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
-                       double planning_time, bool plans, JoxPool *pool) {
+                       const JoxPlanTime *planning, JoxPool *pool) {
     JoxSolve solve = {.nav = nav,
                       .agents = agents,
                       .neighbours = neighbours,
                       .objects = objects,
                       .touched = in_force(touched),
-                      .planning_time = (float)planning_time,
-                      .plans = plans,
-                      .clear2 = nav->grid.walls ? nav->clear2 : NULL};
+                      .planning_time = (float)planning->planning_time,
+                      .plans = planning->plans,
+                      .clear2 = nav->grid.walls ? nav->clear2 : NULL,
+                      .stream = jox_random_stream(planning->seed),
+                      .moment = moment_aside(planning->time)};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
+        jox_wall_grid_fit(&nav->grid, wall_reach(agents, solve.planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     if (solve.clear2)
@@ -194,7 +201,7 @@ static JoxV2 wish_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts 
         const bool head_on = along < 0.0f && aside < -tie * along;
         kept_off |= along < planes[k].offset && (!gets_on || head_on);
     }
-    return kept_off ? jox_v2(w.x + JOX_RIGHT_SHARE * w.y, w.y - JOX_RIGHT_SHARE * w.x) : w;
+    return kept_off ? jox_wish_aside(w, gets_on ? 0.0f : jox_turn_aside(s, i)) : w;
 }
 
 /* Solves for one agent, whose columns stay as they are. */
@@ -215,7 +222,7 @@ static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
 }
 
 void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
-                  const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+                  const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
                   JoxPlan *out) {
     JoxNeighbours neighbours = {0};
     Touched *own = in_force(touched) ? jox_alloc(1, sizeof *own) : NULL;
@@ -228,8 +235,10 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
                             .neighbours = &neighbours,
                             .objects = objects,
                             .touched = own ? &own->all : NULL,
-                            .planning_time = (float)planning_time,
-                            .plans = true};
+                            .planning_time = (float)planning->planning_time,
+                            .plans = true,
+                            .stream = jox_random_stream(planning->seed),
+                            .moment = moment_aside(planning->time)};
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {

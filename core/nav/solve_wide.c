@@ -24,9 +24,21 @@ static uint32_t kept_off(const JoxPacket *p, JoxVector wanted, JoxMask gets_on) 
     return jm_bits(kept);
 }
 
-/* What agents want. Who has come to a stand before others wants to go somewhat more to the right,
-   or two who meet head-on would stand for ever; and so does who pushes somebody straight ahead, or
-   would push them along for ever. Who walks by the law has chosen already. */
+/* How far each of `lanes` turns aside, 0 to 1; 0 in the others. */
+static JoxFloats turns_aside(const JoxPacket *p, uint32_t lanes) {
+    float turn[JOX_WIDTH] = {0.0f};
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        turn[lane] = jox_turn_aside(p->s, p->first + lane);
+    }
+    return jf_load(turn);
+}
+
+/* The velocities that agents want. An agent that stands before others wants to go more to its
+   right, by an angle of its own once it has stood for a second: two that meet head-on, and any
+   number that meet in one point, would else stand for ever. An agent that pushes somebody straight
+   ahead wants to go somewhat to its right too, or it would push them along for ever. Walkers have
+   chosen already. */
 static JoxVector wish(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const uint32_t i = p->first;
@@ -40,10 +52,13 @@ static JoxVector wish(const JoxPacket *p) {
     uint32_t aside = p->lanes & ~jm_bits(jm_or(jm_without(gets_on, pushes), stands));
     if (aside)
         aside &= kept_off(p, w, gets_on);
-    const JoxFloats share = jf_set(JOX_RIGHT_SHARE);
-    const JoxVector right = {jf_sub(w.x, jf_mul(jf_neg(w.y), share)),
-                             jf_sub(w.y, jf_mul(w.x, share))};
-    w = jv_select(jm_of_bits(aside), right, w);
+    if (aside) {
+        const JoxFloats turn = turns_aside(p, aside & ~jm_bits(gets_on));
+        const JoxFloats right = jf_set(JOX_RIGHT_SHARE) + jf_set(JOX_ASIDE_RIGHT) * turn;
+        const JoxFloats on = jf_set(1.0f) - jf_set(JOX_ASIDE_BACK) * turn;
+        const JoxVector turned = {on * w.x + right * w.y, on * w.y - right * w.x};
+        w = jv_select(jm_of_bits(aside), turned, w);
+    }
     if (p->walkers)
         w = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, i), w);
     return w;

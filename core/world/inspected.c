@@ -53,9 +53,11 @@ static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
     JoxPlan *plan = jox_alloc(1, sizeof *plan);
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
     jox_objects_lay(&w->scratch.objects);
+    const JoxPlanTime planning = {.seed = w->model.def.seed,
+                                  .time = (double)w->state.tick * w->model.def.dt,
+                                  .planning_time = w->scratch.substep.planning_time};
     jox_nav_plan(w->scratch.nav, a, &w->scratch.objects,
-                 jox_force_contact_planes(w->scratch.forces), w->scratch.substep.planning_time, i,
-                 plan);
+                 jox_force_contact_planes(w->scratch.forces), &planning, i, plan);
     memcpy(seen->planes, plan->planes, plan->count * sizeof *plan->planes);
     seen->plane_count = plan->count;
     seen->chosen = plan->chosen;

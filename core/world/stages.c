@@ -94,9 +94,13 @@ void jox_stage_solve(const JoxSolveStage *s) {
     s->statistics->contact_passes += totals.passes;
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;
-    s->statistics->walls_relaxed += jox_nav_solve(
-        s->nav, s->agents, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
-        s->substep->planning_time, s->substep->plans, s->pool);
+    const JoxPlanTime planning = {.seed = s->seed,
+                                  .time = s->substep->end - s->substep->dt,
+                                  .planning_time = s->substep->planning_time,
+                                  .plans = s->substep->plans};
+    s->statistics->walls_relaxed +=
+        jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
+                      jox_force_contact_planes(s->forces_of), &planning, s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
                        jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }

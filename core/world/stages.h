@@ -84,6 +84,7 @@ void jox_stage_push(const JoxPushStage *stage);
 
 typedef struct JoxSolveStage {
     const JoxSubstep *substep;
+    uint64_t seed;
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;

@@ -93,6 +93,7 @@ static void push(JoWorld *w, const JoxSubstep *substep) {
 
 static void solve(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_solve(&(JoxSolveStage){.substep = substep,
+                                     .seed = w->model.def.seed,
                                      .pool = w->scratch.pool,
                                      .neighbours = &w->scratch.neighbours,
                                      .objects = &w->scratch.objects,

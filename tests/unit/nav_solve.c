@@ -70,6 +70,7 @@ static void add(Crowd *c, uint32_t k, bool mixed) {
         a->vx[i] = a->vy[i] = 0.25f;
     a->walk_x[i] = 0.7f * wants.x;
     a->walk_y[i] = 0.7f * wants.y;
+    a->still[i] = draw(c, 0.0, 8.0);
     jox_param_set(a, JOX_PARAM_radius, i, c->number % 3 == 1 ? 0.22f : draw(c, 0.15, 0.3));
     jox_param_set(a, JOX_PARAM_push, i, chance(c, 0.5) ? 100.0f : 0.0f);
     a->tags[i] = chance(c, 0.5);
@@ -151,7 +152,7 @@ static void end(Crowd *c) {
     jox_free(c->touched.planes);
 }
 
-/* Somewhat to the right of what is preferred, for who has come to a stand before others or pushes
+/* The preferred velocity, turned to the right for an agent that stands before others or pushes
    somebody straight ahead. */
 static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
     const JoxAgents *a = s->agents;
@@ -165,7 +166,7 @@ static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uin
         float against = -jox_dot(others[k].normal, wanted);
         bool head_on = against > 0.0f && fabsf(jox_det(others[k].normal, wanted)) < 0.02f * against;
         if (-against < others[k].offset && (!gets_on || head_on))
-            return jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
+            return jox_wish_aside(wanted, gets_on ? 0.0f : jox_turn_aside(s, i));
     }
     return wanted;
 }
@@ -178,14 +179,22 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
     begin(&c, isa, number);
     JoxAgents *a = &c.agents;
     const JoxContactPlanes *touched = c.touched.agents ? &c.touched : NULL;
-    uint32_t relaxed = jox_nav_solve(c.nav, a, &c.neighbours, NULL, &c.touched, 0.05, plans, NULL);
+    const JoxPlanTime planning = {6, 2.5, 0.05, plans};
+    uint32_t relaxed = jox_nav_solve(c.nav, a, &c.neighbours, NULL, &c.touched, &planning, NULL);
     memcpy(next_x, a->next_x, a->count * sizeof *next_x);
     memcpy(next_y, a->next_y, a->count * sizeof *next_y);
     memcpy(failed, a->failed, a->count);
     memset(a->next_x, 0, a->count * sizeof *next_x);
     memset(a->next_y, 0, a->count * sizeof *next_y);
     memset(a->failed, 0, a->count);
-    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans, NULL};
+    const JoxSolve s = {.nav = c.nav,
+                        .agents = a,
+                        .neighbours = &c.neighbours,
+                        .touched = touched,
+                        .planning_time = 0.05f,
+                        .plans = plans,
+                        .stream = jox_random_stream(6),
+                        .moment = jox_random_moment(2, JOX_DRAW_ASIDE)};
     uint32_t failures = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];

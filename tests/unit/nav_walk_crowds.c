@@ -103,7 +103,8 @@ static void plan(Crowd *c, JoxPool *pool, bool walks) {
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, pool);
     if (walks)
         jox_nav_walk(c->nav, &c->agents, &c->neighbours, 3, 1.7, 0.05, true, pool);
-    jox_nav_solve(c->nav, &c->agents, &c->neighbours, NULL, NULL, 0.05, true, pool);
+    jox_nav_solve(c->nav, &c->agents, &c->neighbours, NULL, NULL,
+                  &(JoxPlanTime){3, 1.7, 0.05, true}, pool);
 }
 
 /* How many want another velocity in the frame than outside of it: rounding decides between

@@ -52,7 +52,7 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         a->speed_limit[i] = jox_maxf(jox_param(a, JOX_PARAM_max_speed, i), speed);
         a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }
-    jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, dt, true, pool);
+    jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, &(JoxPlanTime){1, 0.0, dt, true}, pool);
     jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, 1.0, pool);
     f->tick++;
 }
