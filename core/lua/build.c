@@ -191,12 +191,15 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     lua_State *L = script->vm.L;
     JoxBuild build = {.script = script, .source = source};
     JoxNode *node = jox_node_get(L, -1);
+    jox_misuse_find(&build);
     if (!node || node->kind != JOX_NODE_MACHINE) {
         if (!node || node->kind != JOX_NODE_ERROR)
-            jox_diag_error(script->diagnostics, ((JoxPosition){source->path, 0, 0, 0}),
-                           "no-machine", "End the file with: return machine { ... }",
-                           "a behaviour must return one machine, not %s",
-                           node ? "a value" : lua_typename(L, lua_type(L, -1)));
+            jox_diag_error(
+                script->diagnostics, ((JoxPosition){source->path, 0, 0, 0}), "no-machine",
+                lua_istable(L, -1) ? "A plain table is no machine: return machine { ... }"
+                                   : "End the file with: return machine { ... }",
+                "a behaviour must return one machine, not %s",
+                node ? "a value" : lua_typename(L, lua_type(L, -1)));
         return;
     }
     size_t errors = script->diagnostics->errors;
@@ -211,7 +214,6 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
     }
-    jox_misuse_find(&build);
     read_renamed(&build, table); /* first: what follows may be an old name */
     const char *known[16];
     jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),

@@ -45,10 +45,97 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     jo_scene_free(scene);
 }
 
+/* Whether a text requires a module: by a name in quotes. */
+static bool requires(const char *text, const char *module) {
+    const size_t n = strlen(module);
+    for (const char *at = text; (at = strstr(at, "require"));) {
+        at += strlen("require");
+        at += strspn(at, " (");
+        if ((*at == '"' || *at == '\'') && !strncmp(at + 1, module, n) && at[n + 1] == *at)
+            return true;
+    }
+    return false;
+}
+
+static bool is_required_in(const char *folder, const char *module, const char *but) {
+    char **names = jox_folder_names(folder, false);
+    bool found = false;
+    for (char **name = names; name && *name && !found; name++) {
+        char path[2048];
+        size_t length;
+        snprintf(path, sizeof path, "%s/%s", folder, *name);
+        char *text = ends_with(*name, ".lua") && strcmp(path, but) != 0
+                         ? jox_read_file(path, (size_t)1 << 20, &length)
+                         : NULL;
+        found = text && requires(text, module);
+        jox_free(text);
+    }
+    jox_free(names);
+    return found;
+}
+
+/* Whether a file beside this one, or in the folder above, requires it. */
+static bool is_required(const char *path) {
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *folder_name;
+    char folder[1024], above[1100], module[600];
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) : 1, slash ? path : ".");
+    snprintf(module, sizeof module, "%.*s", (int)(strlen(base) - strlen(".lua")), base);
+    if (is_required_in(folder, module, path))
+        return true;
+    folder_name = strrchr(folder, '/') ? strrchr(folder, '/') + 1 : folder;
+    snprintf(above, sizeof above, "%s/..", folder);
+    snprintf(module, sizeof module, "%.200s/%.*s", folder_name,
+             (int)(strlen(base) - strlen(".lua")), base);
+    return is_required_in(above, module, path);
+}
+
+/* A file that returns no machine is no error where it is for others to require: it returns
+   functions, or a table that is no machine's, or another file requires it. That is noted instead.
+ */
+static void note_library(const char *path, JoxDiagnostics *own) {
+    static const JoxScope ANY = {0};
+    size_t lacks = 0;
+    while (lacks < own->count && strcmp(own->items[lacks].code, "no-machine") != 0)
+        lacks++;
+    if (lacks == own->count)
+        return;
+    JoxLua *lua = jox_lua_create(NULL);
+    JoxDiagnostics unread = {0};
+    uint32_t count;
+    char *about;
+    JoxLuaExport *exports = jox_lua_exports(lua, path, &ANY, &count, &about, &unread);
+    const bool single = count == 1 && !*exports[0].name;
+    bool library = !single || strcmp(exports[0].kind, "function") == 0 ||
+                   (strcmp(exports[0].kind, "nil") != 0 && is_required(path));
+    for (uint32_t e = 0; e < count; e++) /* a machine's table that nobody made a machine of */
+        library &= strcmp(exports[e].name, "states") != 0;
+    library &= unread.errors == 0;
+    if (library) {
+        char names[JOX_NOUN];
+        JoxText text = {0};
+        JoxDiagnostic *d = &own->items[lacks];
+        jox_text_printf(&text, "no machine, but a library of %s for other files to require",
+                        jox_noun(names, single ? 1 : count, "value"));
+        jox_free(d->message);
+        jox_free(d->hint);
+        d->severity = JOX_SEVERITY_NOTE;
+        d->code = "library";
+        d->message = text.data;
+        d->hint = NULL;
+        own->errors--;
+        own->kept_errors--;
+    }
+    jox_lua_exports_free(exports, count);
+    jox_free(about);
+    jox_diag_free(&unread);
+    jox_lua_free(lua);
+}
+
 static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnostics *all) {
     JoxLua *lua = jox_lua_create(NULL);
     JoxDiagnostics own = {0};
     jox_machine_free(jox_lua_load(lua, path, scope, &own));
+    note_library(path, &own);
     jox_diag_move(all, &own);
     jox_lua_free(lua);
 }
@@ -66,6 +153,15 @@ static bool is_claim(const char *path) {
     bool claim = at && (at == text || at[-1] == '\n');
     jox_free(text);
     return claim;
+}
+
+/* Definitions of words for editors: nothing that runs. */
+static bool is_definition(const char *path) {
+    size_t length;
+    char *text = jox_read_file(path, (size_t)1 << 20, &length);
+    const bool definition = text && strncmp(text, "---@meta", 8) == 0;
+    jox_free(text);
+    return definition;
 }
 
 static void check_claim(const char *path, JoxDiagnostics *all) {
@@ -105,23 +201,6 @@ static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatc
         return true;
     snprintf(path, 1024, "%s/%s/%.200s.%s", JOX_DATADIR, kind, patch->target, end);
     return is_file(path);
-}
-
-/* Whether a mod's file loads and is for others to require: it returns no machine. */
-static bool is_library(const char *path) {
-    static const JoxScope ANY = {0};
-    JoxLua *lua = jox_lua_create(NULL);
-    JoxDiagnostics unread = {0};
-    uint32_t count;
-    char *about;
-    JoxLuaExport *exports = jox_lua_exports(lua, path, &ANY, &count, &about, &unread);
-    const bool library =
-        unread.errors == 0 && !(count == 1 && strcmp(exports[0].kind, "a machine") == 0);
-    jox_lua_exports_free(exports, count);
-    jox_free(about);
-    jox_diag_free(&unread);
-    jox_lua_free(lua);
-    return library;
 }
 
 /* What a mod's patches make of the files that they change. */
@@ -174,7 +253,7 @@ static void check_file(const char *path, bool named, const char *mod, JoxDiagnos
     } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
         if (is_claim(path))
             check_claim(path, own);
-        else if (!mod || !is_library(path))
+        else if (!is_definition(path))
             check_behaviour(path, NULL, own);
     } else if (named && !ends_with(path, ".lua")) {
         jox_diag_error(own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,

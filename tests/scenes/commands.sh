@@ -49,6 +49,23 @@ expect "0 agents" 3 "0 agents" "$JOSTLE" run scenes/circle.yaml --set groups.cro
 expect "unwritable recording" 1 "cannot record" "$JOSTLE" run scenes/running-through.yaml --quiet --record /proc/x/y
 expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.yaml --quiet --report /proc/x/y
 expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
+mkdir -p "$work/parts/deep"
+cat >"$work/parts/user.lua" <<'END'
+local busy, calm = require("busy"), require "deep/calm"
+return machine { name = "user", start = "A", states = { A = { steer = hold, { to = "B", when = busy.near("post") & calm } },
+  B = { steer = hold } } }
+END
+echo 'return { near = function(place) return near(place, 2) end }' >"$work/parts/busy.lua"
+echo 'return ~stuck(2)' >"$work/parts/deep/calm.lua"
+expect "a library is no behaviour that lacks its machine" 0 "busy.lua: note: no machine, but a library of 1 value" "$JOSTLE" check "$work/parts"
+expect "  nor is a value that another file requires" 0 "deep/calm.lua: note: no machine, but a library" "$JOSTLE" check "$work/parts"
+echo 'return { near = function(place) return near(place, 2) and lasted end }' >"$work/parts/busy.lua"
+expect "  what is wrong in it is told" 3 "busy.lua:1:55: 'and' decides" "$JOSTLE" check "$work/parts"
+echo 'local m = machine { name = "m", start = "A", states = { A = { steer = hold } } }' >"$work/parts/busy.lua"
+expect "  and a machine that is not returned" 3 "must return one machine, not nil" "$JOSTLE" check "$work/parts"
+echo 'return { name = "m", start = "A", states = { A = { steer = hold } } }' >"$work/parts/busy.lua"
+expect "  or is a plain table" 3 "A plain table is no machine" "$JOSTLE" check "$work/parts"
+rm -r "$work/parts"
 expect "notes are counted" 0 "nothing wrong, " "$JOSTLE" check scenes/opening-300.yaml
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "  with the condition's words and their values" 0 "when after(own.alarm 5) is true" "$JOSTLE" run scenes/evacuation.yaml --quiet --trace 9 --for 6
