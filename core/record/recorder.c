@@ -171,14 +171,13 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
 /* Waits until there is something to write. What has been written is not left uncommitted for longer
    than frames that follow each other are: a run may pause, or be killed while it does. */
 static void wait_for_frames(JoxRecorder *r) {
-    struct timespec until;
     while (r->count == 0 && !r->ending) {
         if (r->failed || sqlite3_get_autocommit(r->db->sqlite)) {
             pthread_cond_wait(&r->filled, &r->lock);
             continue;
         }
-        clock_gettime(CLOCK_REALTIME, &until);
-        until.tv_sec += (time_t)COMMITTED;
+        const double then = jox_clock_date() + COMMITTED;
+        const struct timespec until = {(time_t)then, (long)((then - floor(then)) * 1e9)};
         if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0 &&
             !r->lent &&
             !sqlite3_get_autocommit(r->db->sqlite)) /* nobody else has committed meanwhile */

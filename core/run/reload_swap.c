@@ -1,7 +1,6 @@
 /* The swapping half of a reload, between two steps. */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/format/noun.h"
 #include "base/mem.h"
@@ -14,12 +13,6 @@ static void print_census(const JoxMachine *machine, const uint32_t *people, JoxT
         if (people[s])
             jox_text_printf(out, "  %s %s", machine->states[s].name,
                             jox_number_text(number, people[s]));
-}
-
-static double real_time(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_REALTIME, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
 /* Says why a batch is not taken, and which versions go on. */
@@ -115,7 +108,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
                         jo_world_time(scene->world));
         if (batch->written > 0.0)
             jox_text_printf(&text, " (saved %.0f ms ago, swapped in %.2f ms)",
-                            (real_time() - batch->written) * 1e3, took * 1e3);
+                            (jox_clock_date() - batch->written) * 1e3, took * 1e3);
         jox_text_add(&text, "\n before:");
         print_census(old, before, &text);
         jox_text_add(&text, "\n after: ");

@@ -1,7 +1,6 @@
 /* A scene's own files were edited: what can change while it runs does, the rest is named. */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/mem.h"
 #include "run/run.h"
@@ -181,7 +180,6 @@ static void check_sources(const Rescene *r) {
 
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     Rescene r = {.scene = scene, .old = scene->spec, .new = *spec};
-    struct timespec t;
     double begun = jox_clock_wall();
     take_places(&r);
     bool sources = false;
@@ -197,8 +195,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     if (jox_scene_differs(r.old, r.new, "tally"))
         note(groups ? &r.done : &r.later, "tally");
     jox_scene_later(r.old, r.new, &r.later);
-    clock_gettime(CLOCK_REALTIME, &t);
-    double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
+    const double age = jox_clock_date() - written;
     char ago[40] = "";
     if (written > 0.0)
         snprintf(ago, sizeof ago, "saved %.0f ms ago, ", age * 1e3);

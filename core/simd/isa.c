@@ -46,7 +46,7 @@ const char *jox_isa_name(JoIsa isa) {
     for (int k = 0; k < COUNT; k++)
         if (ALL[k].isa == isa)
             return ALL[k].name;
-    return "widest";
+    return isa == JO_ISA_WIDEST ? "widest" : "unknown";
 }
 
 JoIsa jox_isa_named(const char *name) {

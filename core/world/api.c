@@ -37,6 +37,20 @@ static bool within(const char *field, const char *unit, double value, double lea
     return false;
 }
 
+/* False, with an error that lists the values, if `value` is none of an enumeration from 0 on. */
+static bool is_one_of(const char *field, uint32_t value, uint32_t count, const char *values,
+                      JoError *error) {
+    if (value < count)
+        return true;
+    jox_error(error, JO_INPUT, "%s must be one of %s, not %d", field, values, (int)value);
+    return false;
+}
+
+static bool is_lost(const char *field, JoLost lost, JoError *error) {
+    return is_one_of(field, lost, JO_LOST_STOP + 1, "JO_LOST_END, JO_LOST_REMOVE, JO_LOST_STOP",
+                     error);
+}
+
 JoWorldDef jo_default_world_def(void) {
     return (JoWorldDef){.dt = 0.05,
                         .seed = 1,
@@ -79,7 +93,8 @@ JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
     if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
         !within("threads", "threads", def->threads, 0, 64, error) ||
         !within("gravity", "m/s2", def->gravity, -100, 100, error) ||
-        !isa_runs(def->isa, NULL, error))
+        !is_lost("lost_people", def->lost_people, error) ||
+        !is_lost("lost_bodies", def->lost_bodies, error) || !isa_runs(def->isa, NULL, error))
         return NULL;
     JoxHeap *heap = jox_heap_create();
     if (!heap) {
@@ -100,7 +115,7 @@ static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, 
     if (world->state.tick > 0 || count < least || count > 100000) {
         jox_error(error, JO_INPUT,
                   world->state.tick > 0 ? "walls cannot be added after the first step"
-                                        : "a wall needs at least %zu points",
+                                        : "a wall has %zu to 100,000 points",
                   least);
         return NULL;
     }
@@ -281,7 +296,10 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     static const JoxShapeKind KINDS[] = {[JO_SPHERE] = JOX_SHAPE_SPHERE,
                                          [JO_BOX] = JOX_SHAPE_BOX,
                                          [JO_CYLINDER] = JOX_SHAPE_CYLINDER};
-    JOX_REQUIRE(def->shape <= JO_CYLINDER, (JoBody){0});
+    if (!is_one_of("shape", def->shape, JO_CYLINDER + 1, "JO_SPHERE, JO_BOX, JO_CYLINDER", error) ||
+        !is_one_of("path.end", def->path.points ? def->path.end : JO_PATH_STAY, JO_PATH_ROUND + 1,
+                   "JO_PATH_STAY, JO_PATH_BACK, JO_PATH_ROUND", error))
+        return (JoBody){0};
     JOX_GUARD (world->heap, error)
         return (JoBody){0};
     JoxBodyDef body = jox_body_def();

@@ -174,3 +174,11 @@ for limit in 40000 50000 60000 70000 80000 90000 100000 110000 130000; do
 done
 [ $failures -ge 2 ] && [ -z "$wrong" ]
 verdict "little memory: 'out of memory' and status 1 ($failures times${wrong:+, but$wrong})" $?
+
+# ---- clocks that cannot be read ----
+case $B in *san*) ;; *)
+    ${CC:-gcc} -shared -fPIC -O1 -o "$work/clock.so" tests/faults/clock.c
+    same_hash "a run without any clock is the same" "$(hash_of "$program" scenes/catch.yaml --for 2)" \
+        "$(LD_PRELOAD=$work/clock.so hash_of "$program" scenes/catch.yaml --for 2 --record "$work/clock.sqlite")"
+    [ "$(sqlite3 "$work/clock.sqlite" 'SELECT max(frame) FROM trajectory_data')" = 20 ]; verdict "  and its recording whole" $? ;;
+esac

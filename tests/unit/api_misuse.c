@@ -1,5 +1,6 @@
 /* Misuse of the public interface: null and stale handles, defs made by hand, numbers out of range.
    Each must answer harmlessly and be reported. */
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -114,6 +115,52 @@ static void numbers_out_of_range_are_refused_by_name(void **state) {
     zero.dt = 0.0;
     assert_null(jo_world_create(&zero, NULL));
     assert_int_equal(jo_world_agent_count(*state), 0);
+}
+
+static void ignore(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+static void enumerations_out_of_range_are_refused_by_name(void **state) {
+    const int wrong[] = {3, 99, -1, INT_MAX, INT_MIN};
+    for (int i = 0; i < 5; i++) {
+        JoError error = {0};
+        JoWorldDef world = jo_default_world_def();
+        world.lost_people = (JoLost)wrong[i];
+        assert_null(jo_world_create(&world, &error));
+        assert_int_equal(error.code, JO_INPUT);
+        assert_non_null(strstr(error.text, "lost_people must be one of JO_LOST_END, "));
+        world = jo_default_world_def();
+        world.lost_bodies = (JoLost)wrong[i];
+        assert_null(jo_world_create(&world, &error));
+        assert_non_null(strstr(error.text, "lost_bodies must be one of JO_LOST_END, "));
+        world = jo_default_world_def();
+        world.isa = (JoIsa)(wrong[i] == 3 ? 6 : wrong[i]);
+        assert_null(jo_world_create(&world, &error));
+        assert_non_null(strstr(error.text, "does not run 'unknown'; it runs scalar"));
+        assert_string_equal(jo_isa_name(world.isa), "unknown");
+        JoSceneDef scene = jo_default_scene_def();
+        scene.path = "no/such/scene.yaml";
+        scene.message = ignore;
+        scene.isa = world.isa;
+        assert_null(jo_scene_load(&scene, &error));
+        assert_int_equal(error.code, JO_INPUT);
+        JoBodyDef body = jo_default_body_def();
+        body.shape = (JoShape)wrong[i];
+        assert_true(jo_world_add_body(*state, &body, &error).generation == 0);
+        assert_non_null(strstr(error.text, "shape must be one of JO_SPHERE, "));
+        body = jo_default_body_def();
+        body.kinematic = true;
+        body.path = (JoPath){.points = (double[]){1, 1, 1}, .count = 1, .end = (JoPathEnd)wrong[i]};
+        assert_true(jo_world_add_body(*state, &body, &error).generation == 0);
+        assert_non_null(strstr(error.text, "path.end must be one of JO_PATH_STAY, "));
+    }
+    assert_int_equal(reports, 0);
+    const double from[] = {0, 0}, to[] = {1, 0};
+    assert_false(jo_world_cast(*state, from, to, 0, JO_CAST_ALL + 1).hit);
+    assert_false(jo_world_cast(*state, from, to, 0, UINT32_MAX).hit);
+    assert_int_equal(reports, 2);
 }
 
 /* A double may be finite and yet no finite float. */
@@ -361,6 +408,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(null_worlds_are_reported_and_harmless, set_up, tear_down),
         cmocka_unit_test_setup_teardown(defs_must_come_from_their_default, set_up, tear_down),
         cmocka_unit_test_setup_teardown(numbers_out_of_range_are_refused_by_name, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(enumerations_out_of_range_are_refused_by_name, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(huge_velocities_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_stale_handle_stays_stale, set_up, tear_down),

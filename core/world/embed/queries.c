@@ -193,6 +193,7 @@ static void meet_walls(const JoWorld *world, Sweep *s) {
 JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to[2], double radius,
                      uint32_t kinds) {
     JOX_REQUIRE(world && from && to && radius >= 0.0 && radius <= 100.0, (JoCast){0});
+    JOX_REQUIRE((kinds & ~(uint32_t)JO_CAST_ALL) == 0, (JoCast){0});
     for (int k = 0; k < 2; k++)
         JOX_REQUIRE(fabs(from[k]) <= 1e4 && fabs(to[k]) <= 1e4, (JoCast){0});
     const JoxAgents *a = &world->state.agents;
