@@ -84,7 +84,7 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
     if (path && !text)
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
                        "cannot read the input log '%s': %s", path, jox_file_why(errno));
-    if (text)
+    if (text && jox_diag_check_text(diagnostics, path, text, length))
         jox_input_parse(&scene->input, path, text, length, diagnostics);
     if (text) {
         jox_run_before(&scene->overlay, &scene->input);

@@ -69,6 +69,9 @@ static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
     file->text = memcpy(jox_arena_take(r->arena, length + 1, 1), data, length);
     file->length = length;
     jox_free(data);
+    const bool says_encoding = file->text[strspn(file->text, " \t\r\n")] == '<'; /* XML may */
+    if (!says_encoding && !jox_diag_check_text(r->diagnostics, path, file->text, length))
+        return false;
     return jox_wall_file_read(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
 }
 

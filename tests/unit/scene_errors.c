@@ -19,6 +19,16 @@ static const struct Case {
     const char *text, *code, *hint;
 } CASES[] = {
     {"@seeed: 3\n" GROUP, "unknown-key", "Did you mean 'seed'?"},
+    /* Texts that C would cut, and bytes that are no characters. */
+    {"title: @\"a\\0b\"\n" GROUP, "bad-text", "Take \\0 or"},
+    {"title: @\"a\\x00b\"\n" GROUP, "bad-text", "Take \\0 or"},
+    {"title: x\n@\"se\\0ed\": 3\n" GROUP, "bad-text", "Take \\0 or"},
+    {"title: [1, @\"\\u0000\"]\n" GROUP, "bad-text", "Take \\0 or"},
+    {"title: x\n# K\xc3\xa4se, gr\xc3\xbc\xc3\x9f@\xe9\n" GROUP, "bad-text", "Latin-1"},
+    {"title: @\xff\n" GROUP, "bad-text", "Save the file as UTF-8"},
+    {"title: \xc3\xa4@\xed\xa0\x80\n" GROUP, "bad-text", "Save the file as UTF-8"},
+    {"title: x\ntitel: \xc3\xa4@\x01\n" GROUP, "bad-yaml", "Take it out"},
+    {"title: x\n" GROUP "# @\xc3", "bad-text", "Save the file as UTF-8"},
     {"forces: {enabled: true, @mood: literal}\n" GROUP, "unknown-key", "Did you mean 'mode'?"},
     {"step: @fast\n" GROUP, "bad-type", "Numbers are in SI units"},
     {"step: @[1]\n" GROUP, "bad-type", NULL},
@@ -316,7 +326,7 @@ static void every_error_has_its_place_and_its_way_out(void **state) {
         char *at = strchr(text, '@');
         int line = 1, column = 1;
         for (char *k = text; k < at; k++) {
-            column = *k == '\n' ? 1 : column + 1;
+            column = *k == '\n' ? 1 : column + ((*k & 0xc0) != 0x80); /* characters */
             line += *k == '\n';
         }
         memmove(at, at + 1, strlen(at));

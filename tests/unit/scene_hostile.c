@@ -64,7 +64,7 @@ static void ten_megabytes_of_garbage(void **state) {
     for (int i = 0; i < LARGE; i++)
         text[i] = (char)roll(256);
     text[LARGE] = text[LARGE + 1] = 0;
-    load(text, LARGE, "bad-yaml");
+    load(text, LARGE, "bad-text");
     for (int i = 0; i < LARGE; i++)
         text[i] = (char)(32 + roll(95));
     load(text, LARGE, "bad-yaml");

@@ -10,6 +10,17 @@
 
 enum { KEPT = 20, SOURCE_SHOWN = 200 };
 
+JoxPosition jox_position_in(const char *file, const char *text, size_t offset) {
+    JoxPosition at = {file, 1, 1, 0};
+    for (const char *c = text; c < text + offset; c++) {
+        const bool goes_on = ((unsigned char)*c & 0xc0) == 0x80; /* a character of UTF-8 */
+        at.column = *c == '\n' ? 1 : at.column + !goes_on;
+        at.line += *c == '\n';
+    }
+    at.end_column = at.column + 1;
+    return at;
+}
+
 bool jox_diag_has_room(const JoxDiagnostics *d, JoxSeverity severity) {
     bool error = severity == JOX_SEVERITY_ERROR;
     return (error ? d->kept_errors : d->count - d->kept_errors) < (d->limit ? d->limit : KEPT);
@@ -65,6 +76,29 @@ void jox_diag_renamed(JoxDiagnostics *d, JoxPosition position, const char *was, 
         return;
     d->items[before].was = jox_strdup(was);
     d->items[before].now = jox_strdup(now);
+}
+
+bool jox_diag_check_text(JoxDiagnostics *d, const char *file, const char *text, size_t length) {
+    const unsigned char *bytes = (const unsigned char *)text;
+    size_t at = 0, step;
+    while (at < length && text[at] && (step = jox_utf8_length(text + at)))
+        at += step;
+    if (at >= length)
+        return true;
+    const JoxPosition position = jox_position_in(file, text, at);
+    const bool wide = length >= 2 && bytes[0] + bytes[1] == 0xff + 0xfe && bytes[0] >= 0xfe;
+    if (wide)
+        jox_diag_error(d, position, "bad-text", "Save it as UTF-8", "this file is UTF-16");
+    else if (!text[at])
+        jox_diag_error(d, position, "bad-text", "Take it out, and save the file as UTF-8",
+                       "a text has no zero byte");
+    else
+        jox_diag_error(d, position, "bad-text",
+                       "Save the file as UTF-8: editors often call other encodings Latin-1, "
+                       "ISO-8859 or Windows-1252",
+                       "the byte 0x%02X is not UTF-8", bytes[at]);
+    jox_diag_attach_source(d, file, text, length);
+    return false;
 }
 
 void jox_diag_attach_source(JoxDiagnostics *d, const char *file, const char *text, size_t length) {

@@ -36,6 +36,9 @@ typedef struct JoxDiagnostics {
     size_t limit; /* 0: 20 */
 } JoxDiagnostics;
 
+/* Where byte `offset` of a text stands; columns count characters. */
+JoxPosition jox_position_in(const char *file, const char *text, size_t offset);
+
 /* Whether one more would be kept; if not, nobody need look for its hint. */
 bool jox_diag_has_room(const JoxDiagnostics *diagnostics, JoxSeverity severity);
 
@@ -55,6 +58,10 @@ void jox_diag_renamed(JoxDiagnostics *diagnostics, JoxPosition position, const c
 #define jox_diag_note(diagnostics, position, code, ...)                                            \
     jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, position, code, NULL, NULL, NULL, __VA_ARGS__)
 
+/* Checks that a text, behind whose end a zero stands, is UTF-8 without a zero byte; false with an
+   error at the first byte that is not. */
+bool jox_diag_check_text(JoxDiagnostics *diagnostics, const char *file, const char *text,
+                         size_t length);
 /* Sets `source` of every diagnostic of `file` that lacks it, from the file's text. */
 void jox_diag_attach_source(JoxDiagnostics *diagnostics, const char *file, const char *text,
                             size_t length);

@@ -12,6 +12,50 @@
 #include "base/overlay.h"
 #include "lua/vm/vm.h"
 
+/* Whether a text in quotes has an escape for a zero byte; where is in *offset. */
+static bool has_zero_escape(const JoxToken *t, uint32_t *offset) {
+    for (uint32_t k = 0; k + 1 < t->length; k++) {
+        if (t->text[k] != '\\')
+            continue;
+        const char *escape = t->text + k + 1;
+        const size_t left = t->length - k - 1;
+        size_t digits = 0;
+        *offset = k++;
+        if (*escape == '0') {
+            while (digits < left && digits < 3 && escape[digits] == '0')
+                digits++;
+            if (digits == 3 || digits == left || escape[digits] < '0' || escape[digits] > '9')
+                return true;
+        } else if (*escape == 'x' && left >= 3 && escape[1] == '0' && escape[2] == '0') {
+            return true;
+        } else if (*escape == 'u' && left >= 3 && escape[1] == '{') {
+            for (digits = 2; digits < left && escape[digits] == '0';)
+                digits++;
+            if (digits > 2 && digits < left && escape[digits] == '}')
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Refuses texts with a zero byte, at which C would cut them: with string.char and string.format,
+   which make none, no text of a behaviour has one. */
+static bool refuse_zeros(const JoxSource *source, JoxDiagnostics *diagnostics) {
+    uint32_t offset;
+    for (size_t i = 0; i < source->token_count; i++) {
+        const JoxToken *t = &source->tokens[i];
+        const bool quoted = t->kind == JOX_TOKEN_STRING && strchr("\"'", t->text[-1]);
+        if (!quoted || !has_zero_escape(t, &offset))
+            continue;
+        jox_diag_error(
+            diagnostics,
+            jox_position_in(source->path, source->text, (size_t)(t->text - source->text) + offset),
+            "bad-text", "Take the escape out", "a text has no zero byte");
+        return true;
+    }
+    return false;
+}
+
 /* Refuses a file that names _ENV: assigning it would change what every other name means. */
 static bool refuse_env(const JoxSource *source, JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < source->token_count; i++) {
@@ -47,12 +91,14 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
         wrong = large;
     else if (text && length > 0 && text[0] == '\x1b')
         wrong = "this is compiled Lua; only source is loaded";
-    else if (text && memchr(text, 0, length))
-        wrong = "the file contains a zero byte";
     if (wrong) {
         jox_free(text);
         jox_diag_error(diagnostics, from.file ? from : ((JoxPosition){path, 0, 0, 0}),
                        "unreadable-file", NULL, "cannot load '%s': %s", path, wrong);
+        return NULL;
+    }
+    if (!jox_diag_check_text(diagnostics, path, text, length)) {
+        jox_free(text);
         return NULL;
     }
     memset(text, ' ', jox_text_mark(text, length));
@@ -65,7 +111,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     JOX_ASSERT(vm->source_count == vm->file_count);
     *source = (JoxSource){.path = jox_strdup(path), .text = text, .length = length};
     jox_source_scan(source);
-    return refuse_env(source, diagnostics) ? NULL : source;
+    return refuse_env(source, diagnostics) || refuse_zeros(source, diagnostics) ? NULL : source;
 }
 
 void jox_vm_tried(JoxVm *vm, const char *path) {

@@ -49,7 +49,7 @@ static int string_char(lua_State *L) {
     jox_scratch_open(&out, L, (size_t)count);
     for (int i = 1; i <= count; i++) {
         lua_Integer code = luaL_checkinteger(L, i);
-        luaL_argcheck(L, code >= 0 && code <= 255, i, "a byte is from 0 to 255");
+        luaL_argcheck(L, code >= 1 && code <= 255, i, "a byte of a text is from 1 to 255");
         jox_scratch_add(&out, &(char){(char)code}, 1);
     }
     jox_scratch_push(&out);
@@ -232,7 +232,8 @@ static int string_format(lua_State *L) {
             lua_pop(L, 1);
         } else if (spec.kind == 'c') {
             lua_Integer code = luaL_checkinteger(L, argument);
-            luaL_argcheck(L, code >= 0 && code <= 255, argument, "a byte is from 0 to 255");
+            luaL_argcheck(L, code >= 1 && code <= 255, argument,
+                          "a byte of a text is from 1 to 255");
             pad(&out, &spec, &(char){(char)code}, 1);
         } else {
             format_number(&out, &spec, argument);

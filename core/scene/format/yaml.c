@@ -255,12 +255,24 @@ static bool next_event(Parse *p, yaml_event_t *event) {
         jox_out_of_memory(0);
     yaml_mark_t at = p->parser.problem_mark;
     JoxPosition position = {p->path, (int)at.line + 1, (int)at.column + 1, (int)at.column + 2};
-    if (is_tabbed(p, at.line))
+    if (p->parser.error == YAML_READER_ERROR) /* a character that YAML has not, by its offset */
+        fail(p, jox_position_in(p->path, p->text, p->parser.problem_offset), "bad-yaml",
+             p->parser.problem, "Take it out");
+    else if (is_tabbed(p, at.line))
         fail(p, position, "tab", "this line is indented by a tab", "Indent by spaces");
     else
         fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
              "Check indentation and quotes");
     return false;
+}
+
+/* The text of a scalar; NULL with an error where it has a zero byte, as of "\\0". */
+static char *scalar_text(Parse *p, const yaml_event_t *event, JoxPosition at) {
+    const char *text = (const char *)event->data.scalar.value;
+    if (strlen(text) == event->data.scalar.length)
+        return jox_arena_text(p->arena, text);
+    fail(p, at, "bad-text", "a text has no zero byte", "Take \\0 or \\x00 out");
+    return NULL;
 }
 
 static uint64_t tree_size(const JoxYaml *node, int depth) {
@@ -306,9 +318,9 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
             yaml_event_delete(event);
             break;
         }
-        char *key = jox_arena_text(p->arena, (const char *)event->data.scalar.value);
+        char *key = scalar_text(p, event, at);
         yaml_event_delete(event);
-        if (!next_event(p, event))
+        if (!key || !next_event(p, event))
             break;
         JoxYaml *value = parse_node(p, event, depth + 1);
         if (!value)
@@ -349,7 +361,7 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
         node->position = at;
         if (event->type == YAML_SCALAR_EVENT) {
             node->kind = JOX_YAML_SCALAR;
-            node->text = jox_arena_text(p->arena, (const char *)event->data.scalar.value);
+            node->text = scalar_text(p, event, at);
             node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
             remember(p, event->data.scalar.anchor, node);
         } else if (event->type == YAML_SEQUENCE_START_EVENT) {
@@ -486,7 +498,9 @@ static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t
     parse->diagnostics = diagnostics;
     parse->path = file->path;
     parse->role = files->role;
-    JoxYaml *root = parse_text(parse, file->text, length);
+    JoxYaml *root = NULL;
+    if (jox_diag_check_text(diagnostics, file->path, file->text, length))
+        root = parse_text(parse, file->text, length);
     jox_free(parse);
     if (root)
         include(arena, root, file->path, files, diagnostics);

@@ -347,7 +347,11 @@ bool jox_wall_file_read_xml(const char *path, const char *text, size_t length,
     if (!parsed && XML_GetErrorCode(g.parser) == XML_ERROR_NO_MEMORY)
         jox_out_of_memory(0);
     if (!parsed)
-        wrong(&g, NULL, "this is no XML: %s", XML_ErrorString(XML_GetErrorCode(g.parser)));
+        wrong(&g,
+              XML_GetErrorCode(g.parser) == XML_ERROR_INVALID_TOKEN
+                  ? "A file that is not UTF-8 names its encoding in its first line"
+                  : NULL,
+              "this is no XML: %s", XML_ErrorString(XML_GetErrorCode(g.parser)));
     else if (!g.any)
         wrong(&g, "<geometry><rooms><room><subroom><polygon>...",
               "there are no walls in this plan%s", "");
