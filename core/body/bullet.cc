@@ -81,9 +81,8 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
         jox_bodies_raise_walls(b);
 }
 
-void jox_bodies_drop(JoxBodies *b, uint32_t row) {
-    JoxRow *r = &b->rows[row];
-    b->world->remove(r->body);
+/* Frees what a row holds; its body has left Bullet's world. */
+static void empty_row(JoxBodies *b, JoxRow *r) {
     delete r->body;
     jox_body_shape_free(&r->shape);
     jox_free(r->name);
@@ -95,6 +94,11 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     r->live = false;
     r->name = nullptr;
     r->body = nullptr;
+}
+
+void jox_bodies_drop(JoxBodies *b, uint32_t row) {
+    b->world->remove(b->rows[row].body);
+    empty_row(b, &b->rows[row]);
     uint32_t k = 0;
     while (b->order[k] != row) {
         k++;
@@ -108,16 +112,17 @@ void jox_bodies_free(JoxBodies *b) {
     if (!b)
         return;
     jox_let_go(b);
-    while (b->live)
-        jox_bodies_drop(b, b->order[b->live - 1]);
     if (b->world) {
+        b->world->release_predictions();
+        jox_bodies_remove_pairs(b);
         jox_bodies_drop_walls(b);
         if (b->ground)
             jox_static_drop(b, b->ground);
-        JOX_ASSERT(b->world->getNumCollisionObjects() == 0);
         JOX_ASSERT(b->dispatcher->getNumManifolds() == 0);
         delete b->ground_shape;
-        delete b->world;
+        delete b->world; /* takes all bodies out, each of which would search the list of them */
+        for (uint32_t k = 0; k < b->live; k++)
+            empty_row(b, &b->rows[b->order[k]]);
         delete b->solver;
         unmake(b->broadphase);
         unmake(b->dispatcher);
@@ -162,7 +167,7 @@ static const char *wrong(const JoxBodyDef *d) {
 }
 
 static uint32_t free_row(JoxBodies *b) {
-    for (uint32_t i = 0; i < b->count; i++)
+    for (uint32_t i = 0; i < b->count && b->live < b->count; i++)
         if (!b->rows[i].live)
             return i;
     jox_reserve(b->rows, b->capacity, b->count + 1);

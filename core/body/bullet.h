@@ -127,6 +127,7 @@ bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 struct JoxBulletWorld : btDiscreteDynamicsWorld {
     using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
     void remove(btRigidBody *body);
+    void release_predictions(); /* of all bodies, which then are in no contact that is foreseen */
     void performDiscreteCollisionDetection() override;
 
   protected:
@@ -213,6 +214,8 @@ void jox_bodies_ensure(JoxBodies *bodies);
  */
 void jox_bodies_keep_carried(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
+/* bullet_image.cc: before many bodies leave Bullet's world. */
+void jox_bodies_remove_pairs(JoxBodies *bodies);
 /* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or
    puts them back. */
 void jox_bodies_guard_begin(JoxBodies *bodies);

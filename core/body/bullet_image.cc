@@ -7,7 +7,7 @@
 /* ---- re-insertion ---- */
 
 /* In one pass; as each object is removed Bullet would search all pairs for its own. */
-static void remove_pairs(JoxBodies *b) {
+void jox_bodies_remove_pairs(JoxBodies *b) {
     btOverlappingPairCache *pairs = b->broadphase->getOverlappingPairCache();
     for (int n = pairs->getNumOverlappingPairs(); n > 0; n = pairs->getNumOverlappingPairs()) {
         const btBroadphasePair &last = pairs->getOverlappingPairArray()[n - 1];
@@ -20,7 +20,7 @@ void jox_bodies_reinsert(JoxBodies *b) {
         return;
     if (!b->restored)
         b->kept_count = jox_bodies_note_contacts(b, b->kept, b->kept_capacity);
-    remove_pairs(b);
+    jox_bodies_remove_pairs(b);
     for (uint32_t k = b->live; k > 0; k--)
         b->world->removeRigidBody(b->rows[b->order[k - 1]].body);
     for (uint32_t n = b->wall_count; n > 0; n--)

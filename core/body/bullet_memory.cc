@@ -125,6 +125,12 @@ bool jox_bodies_are_heaped(const JoxBodies *b, JoxText *error) {
     return true;
 }
 
+void JoxBulletWorld::release_predictions() {
+    for (int m = 0; m < m_predictiveManifolds.size(); m++)
+        getDispatcher()->releaseManifold(m_predictiveManifolds[m]);
+    m_predictiveManifolds.clear();
+}
+
 void JoxBulletWorld::remove(btRigidBody *body) {
     for (int m = m_predictiveManifolds.size() - 1; m >= 0; m--) {
         btPersistentManifold *manifold = m_predictiveManifolds[m];

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/cli.h"
 
@@ -84,18 +85,17 @@ static const char PATCH[] =
     "  },\n"
     "}\n";
 
+static int fail_to_write(const char *path, int why) {
+    fprintf(stderr, "jostle new: cannot write '%s': %s\n", path,
+            why == EEXIST ? "it is there already, as a file, a folder or a link" : strerror(why));
+    return JO_FAILED;
+}
+
 /* Writes text with every NAME (and BEHAVIOUR, FILE) put in; says so. */
 static int write_file(const char *path, const char *text, const char *name, const char *behaviour) {
-    struct stat info;
-    if (stat(path, &info) == 0) {
-        fprintf(stderr, "jostle new: '%s' is there already\n", path);
-        return JO_FAILED;
-    }
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        fprintf(stderr, "jostle new: cannot write '%s': %s\n", path, strerror(errno));
-        return JO_FAILED;
-    }
+    FILE *file = fopen(path, "wx"); /* also no link, wherever it leads */
+    if (!file)
+        return fail_to_write(path, errno);
     const struct {
         const char *word, *by;
     } WORDS[] = {{"NAME", name}, {"BEHAVIOUR", behaviour}, {"FILE", path}};
@@ -110,8 +110,12 @@ static int write_file(const char *path, const char *text, const char *name, cons
             fputc(*text++, file);
         text += used;
     }
-    if (fclose(file) != 0)
-        return JO_FAILED;
+    const bool good = !ferror(file);
+    if (fclose(file) != 0 || !good) {
+        const int why = errno;
+        unlink(path);
+        return fail_to_write(path, why);
+    }
     printf("wrote %s\n", path);
     return JO_OK;
 }

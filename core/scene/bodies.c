@@ -7,7 +7,10 @@
 #include "base/number/elementary.h"
 #include "scene/internal.h"
 
-enum { MOST_COPIES = 4096 };        /* of a body, and blocks of one */
+enum {
+    MOST_COPIES = 4096,  /* of a body, and blocks of one */
+    MOST_PIECES = 200000 /* bodies of a scene, their blocks and their parts */
+};
 static const double CLOSEST = 0.01; /* m between copies along an axis */
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
@@ -169,6 +172,26 @@ static void move_path(const JoxReader *r, JoxBodyPath *path, const uint32_t cell
     path->points = points;
 }
 
+/* Whether the bodies of the scene, each with its blocks or the parts of its compound, are few
+   enough with the copies of one more: they take some 10 us and 1 KB each. An error at the first
+   that is too much. */
+static bool are_few(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *load) {
+    const JoxShape *shape = &load->body.def.shape;
+    const double before = r->load->pieces;
+    const double each = shape->kind == JOX_SHAPE_BLOCKS
+                            ? (double)shape->count[0] * shape->count[1] * shape->count[2]
+                            : fmax(shape->part_count, 1.0);
+    r->load->pieces += load->copies[0] * load->copies[1] * load->copies[2] * each;
+    if (r->load->pieces <= MOST_PIECES)
+        return true;
+    if (before <= MOST_PIECES)
+        jox_scene_error(r, map, "too-many-bodies", "Take fewer copies, or larger blocks",
+                        "from this body on, the bodies of the scene with their parts and blocks "
+                        "are more than %d",
+                        MOST_PIECES);
+    return false;
+}
+
 /* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
 static void add_copies(const JoxReader *r, const JoxLoadBody *load, uint32_t *room) {
     JoxSceneSpec *scene = r->load->scene;
@@ -214,7 +237,7 @@ void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, 
             set_mass(r, list->items[i], &body);
             set_motion(r, list->items[i], &body.body.def);
         }
-        if (is_lattice(r, list->items[i], &body))
+        if (is_lattice(r, list->items[i], &body) && are_few(r, list->items[i], &body))
             add_copies(r, &body, &room);
     }
 }

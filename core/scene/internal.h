@@ -17,6 +17,7 @@ typedef struct JoxLoad {
     bool walls_wrong;    /* some could not be read: their names are not known */
     /* Of what is being read, until it is whole. */
     double block_mass; /* kg, of the blocks of a body; NAN: not given */
+    double pieces;     /* bodies so far, their blocks and their parts */
     struct JoxLoadFill {
         uint32_t *in, *outside; /* places to fill, and to keep out of */
         uint32_t in_count, outside_count;

@@ -190,7 +190,7 @@ static const JoxKey KEYS[] = {
     {"body", "damping", NUMBER, "", 0, 1, "0", TO(JoxLoadBody, body.def.damping),
      .meaning = "share of the velocity lost in a second"},
     {"body", "repeat", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "repeat",
-     .meaning = "the same body many times, on a lattice"},
+     .meaning = "the same body many times, on a lattice; all bodies of a scene with their blocks and parts are 200,000 at most"},
     {"body", "tags", NAMES, "", 0, 0, "", READ_TO(jox_key_tags, JoxLoadBody, body.tags, body.tag_count), .meaning = "what behaviours know it by"},
     {"repeat", "count", POINT3, "", 1, 4096, "!", READ(jox_key_copies), .meaning = "how many along x, y and z; 4096 in all at most"},
     {"repeat", "step", POINT3, "m", -FAR, FAR, "!", TO(JoxLoadBody, distance), .meaning = "from one to the next along x, y and z"},

@@ -251,6 +251,10 @@ says "the mod's scene runs with it" 0 '"calm 1.0.0"' bash -c "cd $work/new && $p
 mkdir -p "$work/new/deep/scenes"
 says "a scene in scenes/ finds its behaviour" 0 '"Go"' bash -c "cd $work/new/deep && $program new scene hall && $program run scenes/hall.yaml --for 2 --quiet --summary -"
 says "nothing is overwritten" 1 "is there already" bash -c "cd $work/new && $program new behaviour shy"
+ln -s ../leads-nowhere.lua "$work/new/odd.lua"; ln -s ../leads-nowhere.yaml "$work/new/strange.yaml"
+says "nor is a link that leads nowhere followed" 1 "or a link" bash -c "cd $work/new && $program new behaviour odd"
+says "  of a scene, either" 1 "or a link" bash -c "cd $work/new && $program new scene strange"
+[ ! -e "$work/leads-nowhere.lua" ] && [ ! -e "$work/leads-nowhere.yaml" ]; verdict "  and nothing is written there" $?
 says "a bad name" 2 "lower-case letters" "$JOSTLE" new scene ../up
 says "what is new?" 2 "there is no kind 'world'; there are behaviour, scene, mod" "$JOSTLE" new world x
 exit 0

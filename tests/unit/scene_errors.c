@@ -312,6 +312,14 @@ static const struct Case {
     {"events: [{at: 1, signal: go, lasts: @1}]\n" GROUP, "bad-event", NULL},
     {CRATE "events: [{at: 1, every: 2, push: crate, force: [9, 0], lasts: @3}]\n" GROUP,
      "bad-event", NULL},
+    {"bodies: [{shape: {sphere: {radius: 1}}, at: [0, 0, 0], repeat: {count: [64, 64, 1], step: "
+     "[3, 3, "
+     "3]}}, @{shape: {blocks: {size: [1, 1, 1], count: [9, 9, 9], bond: 9, block_mass: 1}}, at: "
+     "[0, 0, "
+     "0], repeat: {count: [64, 64, 1], step: [9, 9, 9]}}, {shape: {sphere: {radius: 1}}, at: [0, "
+     "0, "
+     "9]}]\n" GROUP,
+     "too-many-bodies", "fewer copies"},
     /* of a wall that could not be read, its name is not missed too */
     {"walls: [{line: @[[0, 0]], name: gate}]\nevents: [{at: 1, open: gate}]\n" GROUP, "bad-type",
      NULL},
