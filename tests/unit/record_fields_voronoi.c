@@ -151,9 +151,39 @@ static void who_is_behind_a_wall_is_no_neighbour(void **state) {
     jox_sites_free(&sites);
 }
 
+/* People in one place, and people denser than they can stand, are found through fewer neighbours:
+   their cells are what all others leave of them. */
+static void crowded_cells_are_what_all_others_leave(void **state) {
+    (void)state;
+    enum { HEAP = 3000, APART = 40 };
+    const double cutoff = 1.0, sizes[] = {0.0, 1e-4, 0.3, 3.0};
+    for (int k = 0; k < 4; k++) {
+        JoxSites sites = {0};
+        for (uint32_t i = 0; i < HEAP + APART; i++) {
+            const double size = i < HEAP ? sizes[k] : 6.0;
+            jox_sites_add(
+                &sites, jox_v2((float)(size * drawn(2 * i + 1)), (float)(size * drawn(2 * i + 2))),
+                i);
+        }
+        jox_sites_sort(&sites, cutoff);
+        assert_true(k > 0 || sites.first[sites.columns * sites.rows] == APART + 1); /* distinct */
+        for (uint32_t i = 0; i < HEAP + APART; i += i < HEAP ? 97 : 1) {
+            JoxCell cell, wanted;
+            jox_cell_begin(&wanted, cutoff);
+            for (uint32_t o = 0; o < HEAP + APART; o++)
+                jox_cell_cut(&wanted, (double)sites.points[o].x - sites.points[i].x,
+                             (double)sites.points[o].y - sites.points[i].y);
+            jox_sites_cell(&sites, i, cutoff, &cell);
+            assert_near(jox_cell_area(&cell), jox_cell_area(&wanted), 1e-9);
+        }
+        jox_sites_free(&sites);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lattice_has_known_cells), cmocka_unit_test(cells_are_what_is_nearest),
+        cmocka_unit_test(crowded_cells_are_what_all_others_leave),
         cmocka_unit_test(walls_end_cells), cmocka_unit_test(who_is_behind_a_wall_is_no_neighbour)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

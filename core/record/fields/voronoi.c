@@ -1,12 +1,14 @@
 #include "record/fields/voronoi.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "geom/polygon.h"
 
 static const double TURN = 6.283185307179586;
-enum { MOST_BINS = 1 << 20 };
+enum { MOST_BINS = 1 << 20, CROWDED = 200 /* sites in a bin */ };
 
 void jox_cell_begin(JoxCell *cell, double cutoff) {
     cell->count = JOX_CELL_CORNERS;
@@ -25,12 +27,12 @@ static void copy_cell(JoxCell *to, const JoxCell *from) {
     }
 }
 
-void jox_cell_cut(JoxCell *cell, double x, double y) {
+bool jox_cell_cut(JoxCell *cell, double x, double y) {
     double half = 0.5 * (x * x + y * y);
     JoxCell kept; /* 4 KB: set as far as it is used */
     bool cuts = false;
     if (half == 0.0)
-        return;
+        return false;
     for (uint32_t c = 0; c < cell->count && !cuts; c++)
         cuts = cell->x[c] * x + cell->y[c] * y > half;
     kept.count = 0;
@@ -51,8 +53,9 @@ void jox_cell_cut(JoxCell *cell, double x, double y) {
         }
     }
     if (!cuts)
-        return;
+        return false;
     copy_cell(cell, &kept);
+    return true;
 }
 
 double jox_cell_reach2(const JoxCell *cell) {
@@ -137,36 +140,81 @@ static uint32_t bin_of(const JoxSites *s, JoxV2 p) {
     return row_of(s, p.y) * s->columns + column_of(s, p.x);
 }
 
+/* Counts the sites of each bin, but for those that `again` marks, in the place behind it; returns
+   the most. */
+static uint32_t fill_bins(JoxSites *s, double wide, double tall, bool again) {
+    uint32_t most = 0;
+    s->columns = (uint32_t)(wide / s->bin) + 1;
+    s->rows = (uint32_t)(tall / s->bin) + 1;
+    const uint32_t bins = s->columns * s->rows;
+    JOX_RESERVE(s->first, s->first_capacity, bins + 1);
+    memset(s->first, 0, (bins + 1) * sizeof *s->first);
+    for (uint32_t i = 0; i < s->count; i++) {
+        if (again && s->again[i])
+            continue;
+        const uint32_t now = ++s->first[bin_of(s, s->points[i]) + 1];
+        most = now > most ? now : most;
+    }
+    return most;
+}
+
+static int compare_places(const void *a, const void *b, const void *context) {
+    const JoxV2 p = ((const JoxV2 *)context)[*(const uint32_t *)a],
+                q = ((const JoxV2 *)context)[*(const uint32_t *)b];
+    return p.x != q.x ? (p.x > q.x ? 1 : -1) : p.y != q.y ? (p.y > q.y ? 1 : -1) : 0;
+}
+
+/* Marks all but the first of the sites in one place: a cell is cut once by all of them. */
+static void mark_again(JoxSites *s) {
+    JOX_RESERVE(s->again, s->again_capacity, s->count + 1);
+    JOX_RESERVE(s->spare, s->spare_capacity, JOX_SORT_SPARE(s->count));
+    for (uint32_t i = 0; i < s->count; i++)
+        s->order[i] = i;
+    jox_sort(s->order, s->count, sizeof *s->order, compare_places, s->points, s->spare);
+    for (uint32_t k = 0; k < s->count; k++)
+        s->again[s->order[k]] =
+            k > 0 && compare_places(&s->order[k - 1], &s->order[k], s->points) == 0;
+}
+
 void jox_sites_sort(JoxSites *s, double cutoff) {
     JoxV2 high = {-INFINITY, -INFINITY};
+    double wide = 0.0, tall = 0.0;
     s->low = (JoxV2){INFINITY, INFINITY};
     for (uint32_t i = 0; i < s->count; i++) {
         s->low = jox_v2(jox_minf(s->low.x, s->points[i].x), jox_minf(s->low.y, s->points[i].y));
         high = jox_v2(jox_maxf(high.x, s->points[i].x), jox_maxf(high.y, s->points[i].y));
     }
     jox_cell_begin(&s->whole, cutoff);
-    s->columns = s->rows = 1;
     s->bin = 0.5 * cutoff;
     if (s->count) {
-        double wide = (double)high.x - s->low.x, tall = (double)high.y - s->low.y;
+        wide = (double)high.x - s->low.x, tall = (double)high.y - s->low.y;
         s->bin = fmax(s->bin, sqrt((wide + 1.0) * (tall + 1.0) / MOST_BINS));
-        s->columns = (uint32_t)(wide / s->bin) + 1;
-        s->rows = (uint32_t)(tall / s->bin) + 1;
     }
-    uint32_t bins = s->columns * s->rows;
-    JOX_RESERVE(s->first, s->first_capacity, bins + 1);
     JOX_RESERVE(s->order, s->order_capacity, s->count + 1);
-    for (uint32_t b = 0; b <= bins; b++)
-        s->first[b] = 0;
-    for (uint32_t i = 0; i < s->count; i++)
-        s->first[bin_of(s, s->points[i]) + 1]++;
+    /* Denser than people can stand: smaller bins, and each place once, so that the work does not
+       grow with the square of how many there are. */
+    uint32_t most = fill_bins(s, wide, tall, false);
+    for (int halved = 0; most > CROWDED && halved < 3; halved++) {
+        if (4.0 * s->columns * s->rows > MOST_BINS)
+            break;
+        s->bin *= 0.5;
+        most = fill_bins(s, wide, tall, false);
+    }
+    const bool again = most > CROWDED;
+    if (again) {
+        mark_again(s);
+        fill_bins(s, wide, tall, true);
+    }
+    const uint32_t bins = s->columns * s->rows;
     for (uint32_t b = 0; b < bins; b++)
         s->first[b + 1] += s->first[b];
+    const uint32_t kept = s->first[bins];
     for (uint32_t i = s->count; i-- > 0;) /* backwards: bins keep the order of the sites */
-        s->order[--s->first[bin_of(s, s->points[i]) + 1]] = i;
+        if (!again || !s->again[i])
+            s->order[--s->first[bin_of(s, s->points[i]) + 1]] = i;
     for (uint32_t b = 0; b < bins; b++) /* the bins' ends have become their beginnings */
         s->first[b] = s->first[b + 1];
-    s->first[bins] = s->count;
+    s->first[bins] = kept;
 }
 
 static bool hidden(const JoxSites *s, JoxV2 a, JoxV2 b) {
@@ -194,8 +242,8 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
                 double x = (double)other.x - at.x, y = (double)other.y - at.y;
                 if (s->order[k] == site || x * x + y * y >= 4.0 * reach2 || hidden(s, at, other))
                     continue;
-                jox_cell_cut(out, x, y);
-                reach2 = jox_cell_reach2(out);
+                if (jox_cell_cut(out, x, y))
+                    reach2 = jox_cell_reach2(out);
             }
         }
     }
@@ -217,5 +265,7 @@ void jox_sites_free(JoxSites *s) {
     jox_free(s->who);
     jox_free(s->first);
     jox_free(s->order);
+    jox_free(s->again);
+    jox_free(s->spare);
     *s = (JoxSites){0};
 }

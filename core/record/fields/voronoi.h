@@ -19,8 +19,9 @@ typedef struct JoxCell {
 } JoxCell;
 
 void jox_cell_begin(JoxCell *cell, double cutoff);
-/* Takes away what is nearer to a neighbour at (x, y), relative to the person; none at (0, 0). */
-void jox_cell_cut(JoxCell *cell, double x, double y);
+/* Takes away what is nearer to a neighbour at (x, y), relative to the person; none at (0, 0).
+   Returns whether there was any. */
+bool jox_cell_cut(JoxCell *cell, double x, double y);
 /* Square of the distance of the farthest corner, m2. */
 double jox_cell_reach2(const JoxCell *cell);
 double jox_cell_area(const JoxCell *cell); /* m2 */
@@ -50,6 +51,9 @@ typedef struct JoxSites {
     uint32_t columns, rows;
     uint32_t *first, first_capacity; /* of each bin in `order`; one more at the end */
     uint32_t *order, order_capacity;
+    bool *again;     /* of each site, where a bin holds very many: the place of one before it */
+    uint32_t *spare; /* for sorting */
+    uint32_t again_capacity, spare_capacity;
 } JoxSites;
 
 void jox_sites_clear(JoxSites *sites);
