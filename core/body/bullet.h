@@ -214,7 +214,7 @@ void jox_bodies_ensure(JoxBodies *bodies);
  */
 void jox_bodies_keep_carried(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
-/* bullet_image.cc: before many bodies leave Bullet's world. */
+/* bullet_memory.cc: before many bodies leave Bullet's world. */
 void jox_bodies_remove_pairs(JoxBodies *bodies);
 /* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or
    puts them back. */

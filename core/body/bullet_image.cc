@@ -6,15 +6,6 @@
 
 /* ---- re-insertion ---- */
 
-/* In one pass; as each object is removed Bullet would search all pairs for its own. */
-void jox_bodies_remove_pairs(JoxBodies *b) {
-    btOverlappingPairCache *pairs = b->broadphase->getOverlappingPairCache();
-    for (int n = pairs->getNumOverlappingPairs(); n > 0; n = pairs->getNumOverlappingPairs()) {
-        const btBroadphasePair &last = pairs->getOverlappingPairArray()[n - 1];
-        pairs->removeOverlappingPair(last.m_pProxy0, last.m_pProxy1, b->dispatcher);
-    }
-}
-
 void jox_bodies_reinsert(JoxBodies *b) {
     if (!b->world)
         return;

@@ -125,6 +125,15 @@ bool jox_bodies_are_heaped(const JoxBodies *b, JoxText *error) {
     return true;
 }
 
+/* In one pass; as each object is removed Bullet would search all pairs for its own. */
+void jox_bodies_remove_pairs(JoxBodies *b) {
+    btOverlappingPairCache *pairs = b->broadphase->getOverlappingPairCache();
+    for (int n = pairs->getNumOverlappingPairs(); n > 0; n = pairs->getNumOverlappingPairs()) {
+        const btBroadphasePair &last = pairs->getOverlappingPairArray()[n - 1];
+        pairs->removeOverlappingPair(last.m_pProxy0, last.m_pProxy1, b->dispatcher);
+    }
+}
+
 void JoxBulletWorld::release_predictions() {
     for (int m = 0; m < m_predictiveManifolds.size(); m++)
         getDispatcher()->releaseManifold(m_predictiveManifolds[m]);

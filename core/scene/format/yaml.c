@@ -15,180 +15,11 @@
 
 enum {
     LARGEST = 10 << 20,
-    DEEPEST = 64,
+    DEEPEST = JOX_YAML_DEEPEST,
     MOST_NODES = 500000,
     MOST_INCLUDES = 16,
     MOST_KEYS = 4096
 };
-
-/* ---- memory ---- */
-
-struct JoxArena {
-    void **blocks;
-    size_t count, capacity;
-};
-
-JoxArena *jox_arena_create(void) {
-    return jox_alloc(1, sizeof(JoxArena));
-}
-void *jox_arena_take(JoxArena *h, size_t count, size_t size) {
-    JOX_RESERVE(h->blocks, h->capacity, h->count + 1);
-    return h->blocks[h->count++] = jox_alloc(count ? count : 1, size);
-}
-char *jox_arena_text(JoxArena *h, const char *text) {
-    return text ? strcpy(jox_arena_take(h, strlen(text) + 1, 1), text) : NULL;
-}
-void jox_arena_free(JoxArena *h) {
-    for (size_t i = 0; h && i < h->count; i++)
-        jox_free(h->blocks[i]);
-    if (h)
-        jox_free(h->blocks);
-    jox_free(h);
-}
-
-char *jox_arena_beside(JoxArena *arena, const char *file, const char *name) {
-    char path[JOX_LONGEST_PATH];
-    jox_path_beside(file, name, path); /* one that is too long is not found, and said so */
-    return jox_arena_text(arena, path);
-}
-
-/* ---- trees ---- */
-
-bool jox_yaml_same(const JoxYaml *a, const JoxYaml *b) {
-    if (a == b || !a || !b)
-        return a == b;
-    bool same = a->kind == b->kind && a->count == b->count && a->quoted == b->quoted &&
-                (a->kind != JOX_YAML_SCALAR || strcmp(a->text, b->text) == 0);
-    for (uint32_t i = 0; same && a->kind != JOX_YAML_SCALAR && i < a->count; i++)
-        same = (a->kind == JOX_YAML_LIST || strcmp(a->keys[i], b->keys[i]) == 0) &&
-               jox_yaml_same(a->items[i], b->items[i]);
-    return same;
-}
-
-JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key) {
-    for (uint32_t i = 0; map && map->kind == JOX_YAML_MAP && i < map->count; i++)
-        if (strcmp(map->keys[i], key) == 0)
-            return map->items[i];
-    return NULL;
-}
-
-static void add_item(JoxArena *arena, JoxYaml *node, const char *key, JoxPosition at,
-                     JoxYaml *value) {
-    if (node->count == node->capacity) { /* the arena cannot grow a block: old ones stay in it */
-        uint32_t wider = node->capacity ? 2 * node->capacity : 4;
-        JoxYaml **items = jox_arena_take(arena, wider, sizeof *items);
-        if (node->count)
-            memcpy(items, node->items, node->count * sizeof *items);
-        node->items = items;
-        if (node->kind == JOX_YAML_MAP) {
-            const char **keys = jox_arena_take(arena, wider, sizeof *keys);
-            JoxPosition *positions = jox_arena_take(arena, wider, sizeof *positions);
-            if (node->count) {
-                memcpy(keys, node->keys, node->count * sizeof *keys);
-                memcpy(positions, node->key_positions, node->count * sizeof *positions);
-            }
-            node->keys = keys;
-            node->key_positions = positions;
-        }
-        node->capacity = wider;
-    }
-    node->items[node->count] = value;
-    if (node->kind == JOX_YAML_MAP) {
-        node->keys[node->count] = key;
-        node->key_positions[node->count] = at;
-    }
-    node->count++;
-}
-
-void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value) {
-    JOX_ASSERT(map->kind == JOX_YAML_MAP && value);
-    for (uint32_t i = 0; i < map->count; i++)
-        if (strcmp(map->keys[i], key) == 0) {
-            map->items[i] = value;
-            return;
-        }
-    add_item(arena, map, jox_arena_text(arena, key), value->position, value);
-}
-
-void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
-    JOX_ASSERT(map->kind == JOX_YAML_MAP && value);
-    jox_yaml_set(arena, map, key, value);
-    for (uint32_t i = 0; i < map->count; i++)
-        if (strcmp(map->keys[i], key) == 0)
-            map->key_positions[i] = at;
-}
-
-void jox_yaml_remove(JoxYaml *map, const char *key) {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < map->count; i++) {
-        if (strcmp(map->keys[i], key) == 0)
-            continue;
-        map->keys[kept] = map->keys[i];
-        map->key_positions[kept] = map->key_positions[i];
-        map->items[kept++] = map->items[i];
-    }
-    map->count = kept;
-}
-
-void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item) {
-    JOX_ASSERT(list->kind == JOX_YAML_LIST && item);
-    add_item(arena, list, NULL, item->position, item);
-}
-
-JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node) {
-    JOX_ASSERT(node);
-    JoxYaml *copy = jox_arena_take(arena, 1, sizeof *copy);
-    *copy = *node;
-    copy->items = NULL, copy->keys = NULL, copy->key_positions = NULL;
-    copy->count = copy->capacity = 0;
-    for (uint32_t i = 0; i < node->count; i++) {
-        bool map = node->kind == JOX_YAML_MAP;
-        add_item(arena, copy, map ? node->keys[i] : NULL,
-                 map ? node->key_positions[i] : node->position, node->items[i]);
-    }
-    return copy;
-}
-
-static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth);
-
-/* The list with those of its items changed that `change` names by their `name`; NULL where it names
-   others. */
-static JoxYaml *merge_items(JoxArena *arena, const JoxYaml *change, const JoxYaml *list,
-                            int depth) {
-    JoxYaml *result = jox_yaml_copy(arena, list);
-    for (uint32_t k = 0; k < change->count; k++) {
-        uint32_t i = 0;
-        for (; i < list->count; i++) {
-            const JoxYaml *name = jox_yaml_get(list->items[i], "name");
-            if (name && name->text && strcmp(name->text, change->keys[k]) == 0)
-                break;
-        }
-        if (i == list->count || change->items[k]->kind != JOX_YAML_MAP)
-            return NULL;
-        result->items[i] = jox_yaml_copy(arena, change->items[k]);
-        merge(arena, result->items[i], list->items[i], depth + 1);
-    }
-    return result;
-}
-
-/* What the map lacks comes from `base`; where both are maps, deeply. */
-static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth) {
-    for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
-        JoxYaml *own = jox_yaml_get(map, base->keys[i]);
-        if (!own) {
-            add_item(arena, map, base->keys[i], base->key_positions[i], base->items[i]);
-        } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
-                   own != base->items[i]) {
-            own = jox_yaml_copy(arena, own); /* it may be another's too, by an alias */
-            merge(arena, own, base->items[i], depth + 1);
-            jox_yaml_set(arena, map, base->keys[i], own);
-        } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_LIST) {
-            JoxYaml *list = merge_items(arena, own, base->items[i], depth);
-            if (list)
-                jox_yaml_set(arena, map, base->keys[i], list);
-        }
-    }
-}
 
 /* ---- parsing ---- */
 
@@ -341,10 +172,10 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
             jox_diag_error(p->diagnostics, at, "duplicate-key", "Keep one of them",
                            "the key '%s' stands here twice", key);
         else
-            add_item(p->arena, map, key, at, value);
+            jox_yaml_add(p->arena, map, key, at, value);
     }
     for (uint32_t i = 0; i < base_count && !p->failed; i++)
-        merge(p->arena, map, bases[i], 0);
+        jox_yaml_merge(p->arena, map, bases[i]);
 }
 
 /* Makes the node that begins with `event`, which it deletes. */
@@ -374,7 +205,7 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
                 }
                 JoxYaml *child = parse_node(p, item, depth + 1);
                 if (child)
-                    add_item(p->arena, node, NULL, at, child);
+                    jox_yaml_add(p->arena, node, NULL, at, child);
             }
             remember(p, event->data.sequence_start.anchor, node); /* after: no cycles */
         } else if (event->type == YAML_MAPPING_START_EVENT) {
@@ -467,7 +298,7 @@ static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFil
         }
         JoxYaml *base = load(arena, beside, NULL, 0, files, diagnostics, name->position);
         if (base)
-            merge(arena, root, base, 0);
+            jox_yaml_merge(arena, root, base);
     }
 }
 

@@ -13,6 +13,7 @@ void *jox_arena_take(JoxArena *arena, size_t count, size_t size); /* zeroed */
 char *jox_arena_text(JoxArena *arena, const char *text);
 void jox_arena_free(JoxArena *arena);
 
+enum { JOX_YAML_DEEPEST = 64 }; /* levels */
 typedef enum { JOX_YAML_SCALAR, JOX_YAML_LIST, JOX_YAML_MAP } JoxYamlKind;
 typedef struct JoxYaml JoxYaml;
 struct JoxYaml {
@@ -54,6 +55,10 @@ void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value
 void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value);
 void jox_yaml_remove(JoxYaml *map, const char *key);
 void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item);
+/* Adds a key that the map has not, or, of a list, an item: then `key` and `at` are not read. */
+void jox_yaml_add(JoxArena *arena, JoxYaml *node, const char *key, JoxPosition at, JoxYaml *value);
+/* Gives the map what it lacks of another; where both are maps, deeply. */
+void jox_yaml_merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base);
 /* A copy whose own items can be changed; the items themselves are shared. An aliased node stands at
    several places of a tree, so copy before changing one of them. */
 JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node);
