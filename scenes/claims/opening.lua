@@ -4,7 +4,7 @@ local about = measure.about
 return claim {
   id = "B3", title = "An opening of three metres",
   source = "348 people, AO_300, HERMES 2009, archive of Juelich, measured with the scene's own probes",
-  text = "People who were told to hurry come through an opening 3 m wide, each from where and when the camera saw them "
+  text = "People, here in a hurry, come through an opening 3 m wide, each from where and when the camera saw them "
     .. "first.",
   level = "keen", calibrated = measure.walking_law,
   runs = { opening = { scene = "../opening-300.yaml", seeds = "101-110" } },
