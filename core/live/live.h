@@ -152,6 +152,8 @@ void jox_live_free_grid(JoxLiveGrid *grid);
 
 /* Walls of a scene or a recording: the member "walls", a list. */
 void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json);
+/* Which walls of a name stand open: the member "walls" of a status, an object. */
+void jox_live_add_gates(const JoxWalls *walls, JoxJson *json);
 /* The member "colours", an object. */
 void jox_live_add_colours(JoxJson *json);
 

@@ -28,15 +28,7 @@ static void add_machines(JoxJson *json, JoxLive *live, const JoxMachineRun *mach
     jox_json_end(json);
 }
 
-/* Passages of flow probes, and which walls of a name stand open. */
-static void add_doors(JoxJson *json, const JoScene *scene) {
-    const JoxWalls *walls = &scene->world->model.all_walls;
-    const JoxProbe *probe;
-    jox_json_object(json, "flows");
-    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
-        if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW)
-            jox_json_whole(json, jox_probe_def(probe)->name, jox_probe_passages(probe));
-    jox_json_end(json);
+void jox_live_add_gates(const JoxWalls *walls, JoxJson *json) {
     jox_json_object(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         bool known = !walls->rings[r].name;
@@ -46,6 +38,17 @@ static void add_doors(JoxJson *json, const JoScene *scene) {
             jox_json_bool(json, walls->rings[r].name, walls->rings[r].open);
     }
     jox_json_end(json);
+}
+
+/* Passages of flow probes, and which walls of a name stand open. */
+static void add_doors(JoxJson *json, const JoScene *scene) {
+    const JoxProbe *probe;
+    jox_json_object(json, "flows");
+    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
+        if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW)
+            jox_json_whole(json, jox_probe_def(probe)->name, jox_probe_passages(probe));
+    jox_json_end(json);
+    jox_live_add_gates(&scene->world->model.all_walls, json);
 }
 
 /* What of the behaviours came to nothing so far, a sentence each with its file and line. */

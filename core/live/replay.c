@@ -52,8 +52,19 @@ static void make_bodies(JoxReplay *r) {
     }
 }
 
+static uint32_t frame_of(const JoxReplay *r) {
+    return r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown;
+}
+
 const JoxWalls *jox_replay_walls(const JoxReplay *r) {
-    return r->spec ? &r->spec->walls : r->info.walls;
+    return r->spec && !r->info.has_walls ? &r->spec->walls
+                                         : jox_trajectory_reader_walls(r->reader, frame_of(r));
+}
+
+/* Those that stand in the frame that is shown. */
+static const JoxWalls *standing_walls(const JoxReplay *r) {
+    return r->spec && !r->info.has_walls ? &r->spec->walls
+                                         : jox_trajectory_reader_standing(r->reader, frame_of(r));
 }
 
 static void cover(JoxReplay *r) {
@@ -179,8 +190,9 @@ static JoxLiveCrowd crowd_of(const JoxReplay *r) {
                           .face_x = r->frame.face_x,
                           .face_y = r->frame.face_y,
                           .group = r->frame.group,
+                          .radius = r->frame.radius,
                           .period = r->period,
-                          .walls = jox_replay_walls(r)};
+                          .walls = standing_walls(r)};
 }
 
 void jox_replay_spread(JoxReplay *r) {
@@ -263,7 +275,7 @@ static void sample_pressure(JoxReplay *r) {
                       .y = r->y,
                       .vx = r->vx,
                       .vy = r->vy,
-                      .walls = jox_replay_walls(r)};
+                      .walls = standing_walls(r)};
     if (!r->local) {
         r->local = jox_local_create(r->area.low, r->area.high);
         jox_local_want_pressure(r->local);

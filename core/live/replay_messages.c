@@ -131,7 +131,9 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
 uint64_t jox_replay_version(const JoxReplay *r) {
     const uint32_t changes =
         r->shown == JOX_REPLAY_NOBODY ? 0 : jox_trajectory_reader_changes(r->reader, r->shown);
-    return (uint64_t)changes << 32 | r->row_count;
+    const uint32_t walls =
+        r->shown == JOX_REPLAY_NOBODY ? 0 : jox_trajectory_reader_wall_changes(r->reader, r->shown);
+    return (uint64_t)(changes + walls) << 32 | r->row_count;
 }
 
 static void add_machines(JoxJson *json, JoxReplay *r) {
@@ -160,7 +162,7 @@ static void add_machines(JoxJson *json, JoxReplay *r) {
 }
 
 void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double factor, JoxText *out) {
-    static const char *const UNKNOWN[] = {"stage_ns", "flows", "walls"};
+    static const char *const UNKNOWN[] = {"stage_ns", "flows"};
     const bool shown = r->shown != JOX_REPLAY_NOBODY; /* else the frame could not be read */
     jox_replay_spread(r);
     JoxJson json = jox_json_begin(out, 0);
@@ -175,7 +177,8 @@ void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double facto
     jox_json_digits(&json, "density_max", shown ? (double)jox_live_density_max(&r->grid) : NAN, 6);
     jox_json_digits(&json, "density_r", shown ? (double)jox_live_density_r(&r->grid) : NAN, 3);
     jox_json_null(&json, "failures");
-    for (int u = 0; u < 3; u++) {
+    jox_live_add_gates(jox_replay_walls(r), &json);
+    for (size_t u = 0; u < sizeof UNKNOWN / sizeof *UNKNOWN; u++) {
         jox_json_object(&json, UNKNOWN[u]);
         jox_json_end(&json);
     }

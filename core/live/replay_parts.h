@@ -55,7 +55,8 @@ struct JoxReplay {
     uint32_t *people; /* scratch: by state */
 };
 
-/* Of the scene, else those that the recording has. */
+/* Those that the recording has in the frame that is shown, open gates among them; of the scene
+   where the recording has none over time. */
 const JoxWalls *jox_replay_walls(const JoxReplay *replay);
 /* Number of a person's state in the scene message's list; UINT32_MAX: it has none. */
 uint32_t jox_replay_state(const JoxReplay *replay, uint32_t person);

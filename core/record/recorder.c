@@ -14,7 +14,7 @@
 #include "record/recorder_file.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4, COLUMNS = 11, BATCH = 50 }; /* rows that one statement writes */
+enum { FRAMES = 4, COLUMNS = 12, BATCH = 50 }; /* rows that one statement writes */
 static const double COMMITTED = 1.0;           /* s, within which frames are committed */
 
 typedef struct Frame {
@@ -116,6 +116,7 @@ static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecor
         bind_parts(to, first + 2 + k, numbers[k], parts[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
+    bind_parts(to, first + 11, row->radius, PLACE_PARTS);
 }
 
 static bool write_rows(JoxRecorder *r, const Frame *f) {
@@ -222,7 +223,8 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
 
 /* Takes out what was written behind a frame. */
 static bool go_on(JoxRecorder *r, uint32_t last) {
-    static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "frame_data"};
+    static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "jostle_wall",
+                                         "frame_data"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
     char sql[400];
@@ -245,7 +247,7 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
 
 static bool prepare_rows(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
-    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?),";
+    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
     char *end = stpcpy(batch, INSERT);
     for (int k = 0; k < BATCH; k++)
@@ -383,32 +385,34 @@ void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name, JoxCo
               colour);
 }
 
-void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
+void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const JoxWalls *walls,
+                       uint32_t at, bool points) {
     sqlite3_stmt *statement;
-    JoxText points = {0};
+    JoxText text = {0};
+    jox_text_add(&text, "");
     borrow_file(r);
-    bool good = prepare(r, &statement, "INSERT INTO jostle_wall VALUES(?, ?, ?, ?, ?, ?)");
-    for (uint32_t w = 0; good && w < walls->ring_count; w++) {
-        const struct JoxWallRing *ring = &walls->rings[w];
-        bool closed, twin;
-        const uint32_t count = jox_walls_given(walls, w, &closed, &twin);
-        points.length = 0;
+    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?)")) {
+        const struct JoxWallRing *ring = walls ? &walls->rings[at] : &(struct JoxWallRing){0};
+        bool closed = false, twin;
+        const uint32_t count = walls ? jox_walls_given(walls, at, &closed, &twin) : 0;
         for (uint32_t i = 0; i < count; i++) {
-            const JoxV2 at = walls->vertices[ring->first + i].point;
-            jox_text_printf(&points, "%s%.9g %.9g", i ? ", " : "", (double)at.x, (double)at.y);
+            const JoxV2 point = walls->vertices[ring->first + i].point;
+            jox_text_printf(&text, "%s%.9g %.9g", i ? ", " : "", (double)point.x, (double)point.y);
         }
-        sqlite3_bind_text(statement, 1, ring->name, -1, SQLITE_STATIC);
-        sqlite3_bind_int(statement, 2, ring->solid);
-        sqlite3_bind_int(statement, 3, closed);
-        sqlite3_bind_int(statement, 4, ring->open);
-        sqlite3_bind_double(statement, 5, isfinite(ring->height) ? (double)ring->height : 0.0);
-        sqlite3_bind_text(statement, 6, points.data, -1, SQLITE_STATIC);
-        good = put(r, statement);
-        w += twin;
+        sqlite3_bind_int64(statement, 1, frame);
+        sqlite3_bind_int64(statement, 2, number);
+        sqlite3_bind_text(statement, 3, ring->name, -1, SQLITE_STATIC);
+        sqlite3_bind_int(statement, 4, ring->solid);
+        sqlite3_bind_int(statement, 5, closed);
+        sqlite3_bind_int(statement, 6, ring->open);
+        sqlite3_bind_double(statement, 7, isfinite(ring->height) ? (double)ring->height : 0.0);
+        if (points)
+            sqlite3_bind_text(statement, 8, text.data, -1, SQLITE_STATIC);
+        put(r, statement);
+        jox_database_finalize(r->db, statement);
     }
-    jox_database_finalize(r->db, statement);
     return_file(r);
-    jox_text_free(&points);
+    jox_text_free(&text);
 }
 
 void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t part,

@@ -23,6 +23,7 @@ typedef struct JoxRecordRow {
     float compression;  /* N/m: mean since the frame before */
     float load;         /* N: likewise */
     uint16_t group;     /* number in jostle_group */
+    float radius;       /* m */
 } JoxRecordRow;
 typedef struct JoxRecordBody {
     uint32_t id;
@@ -42,9 +43,11 @@ void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *mach
                         const char *state, JoxColour colour);
 /* Names a group of agents; before the first frame. */
 void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name, JoxColour colour);
-/* Walls with their names and heights, which the walkable area cannot tell; before the first frame.
- */
-void jox_recorder_walls(JoxRecorder *recorder, const JoxWalls *walls);
+/* A wall with its name and height, which the walkable area cannot tell, as it is from a frame on:
+   ring `ring` of `walls`, or none (NULL) where it is gone. Without `points` these are as before
+   (wall_history.h). */
+void jox_recorder_wall(JoxRecorder *recorder, uint32_t frame, uint32_t number,
+                       const JoxWalls *walls, uint32_t ring, bool points);
 /* A part of a body as it is from a frame on: all its parts are given again whenever one changes. */
 void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
                        const JoxBodyLook *look);

@@ -102,14 +102,16 @@ const char *const jox_recording_tables[] = {
     "jostle_group",    "jostle_state", "jostle_body", "jostle_part", "jostle_wall", NULL};
 
 /* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths
-   of millimetres, directions in thousandths and loads in tenths, and the format's table is a view
-   of them, which its readers cannot tell from a table. Columns of ours stand beside those of the
-   format. The key is the format's index: rows are found by it, and lie in its order. */
+   of millimetres, as have radii, directions in thousandths and loads in tenths, and the format's
+   table is a view of them, which its readers cannot tell from a table. Columns of ours stand beside
+   those of the format. The key is the format's index: rows are found by it, and lie in its order.
+ */
 const char jox_recording_schema[] =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
     "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"
     " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"
-    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, PRIMARY KEY(frame, id))"
+    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, radius INTEGER, PRIMARY "
+    "KEY(frame, id))"
     " WITHOUT ROWID;"
     "CREATE VIEW trajectory_data AS " JOX_RECORDED_ROWS ";"
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
@@ -122,5 +124,6 @@ const char jox_recording_schema[] =
     "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
     " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
     " corners TEXT, PRIMARY KEY(id, frame, part));"
-    "CREATE TABLE jostle_wall(name TEXT, solid INTEGER, closed INTEGER, open INTEGER, height REAL,"
-    " points TEXT);";
+    "CREATE TABLE jostle_wall(frame INTEGER, number INTEGER, name TEXT, solid INTEGER, closed "
+    "INTEGER,"
+    " open INTEGER, height REAL, points TEXT, PRIMARY KEY(frame, number));";

@@ -27,10 +27,12 @@ bool jox_recording_fold(JoxDatabase *db, JoxText *message);
 extern const char *const jox_recording_tables[];
 
 /* The rows of a recording of ours, as the format has them: jostle_row holds whole numbers. */
-#define JOX_RECORDED_ROWS                                                                          \
+#define JOX_RECORDED_BEFORE_RADII JOX_RECORDED_WITH("")
+#define JOX_RECORDED_ROWS JOX_RECORDED_WITH("radius / 1e4 AS radius, ")
+#define JOX_RECORDED_WITH(more)                                                                    \
     "SELECT frame, id, x / 1e4 AS pos_x, y / 1e4 AS pos_y, facing_x / 1e3 AS ori_x, facing_y / "   \
     "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \
-    "load, state, member FROM jostle_row"
+    "load, " more "state, member FROM jostle_row"
 
 /* What makes an empty file a recording, up to the first rows; it leaves a transaction open. */
 extern const char jox_recording_schema[];

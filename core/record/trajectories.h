@@ -10,6 +10,7 @@
 #include "base/format/diag.h"
 #include "geom/walls.h"
 #include "record/frame.h"
+#include "record/wall_history.h"
 
 typedef struct JoxTrajectoryOptions {
     double fps;             /* frames a second; 0: the file says it */
@@ -25,6 +26,7 @@ typedef struct JoxTrajectories {
     uint32_t *key;   /* the file's ids, or their ranks where these are not numbers below 2^22 */
     float *x, *y, *vx, *vy;
     float *force, *compression, *load; /* NULL unless recorded */
+    float *radius;                     /* m; likewise */
     uint16_t *group;                   /* NULL unless recorded */
     char **groups;                     /* names */
     JoxColour *group_colours;          /* 0 where none was given */
@@ -43,15 +45,21 @@ typedef struct JoxTrajectories {
     JoxV2 period;      /* m */
     bool has_velocity; /* the file gave it */
     JoxV2 low, high;   /* m: everyone, always */
-    JoxWalls walls; /* those that Jostle recorded; else outlines of the walkable area, as lines */
+    /* Those that Jostle recorded, as they were at first; else outlines of the walkable area, as
+       lines. */
+    JoxWalls walls;
+    JoxWallHistory *history; /* the same over time; NULL: the file has none */
 } JoxTrajectories;
 
 /* NULL with errors in `diagnostics`. Velocities that the file does not give are displacements over
    0.2 s before and after, or to the nearest frames where these are farther apart. */
 JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
                                        JoxDiagnostics *diagnostics);
-/* Frame `f` of those in which anyone is; false behind the last. */
+/* Frame `f` of those in which anyone is, with the walls that stand then; false behind the last. The
+   walls hold until the next call. */
 bool jox_trajectories_frame(const JoxTrajectories *trajectories, uint32_t f, JoxFrame *out);
+/* Walls in frame `f`, open gates among them, until the next call. */
+const JoxWalls *jox_trajectories_walls(const JoxTrajectories *trajectories, uint32_t f);
 void jox_trajectories_free(JoxTrajectories *trajectories);
 
 /* trajectories.c: the same of a text; and of rows as they came: sorts them by frame, numbers

@@ -35,11 +35,15 @@ static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
 }
 
 /* Room for one more row in the columns that only our own recordings have. */
-static void widen_own(JoxTrajectories *t, bool loads, size_t capacities[7], size_t need) {
+enum { OWN = 8 }; /* columns */
+static void widen_own(JoxTrajectories *t, bool loads, bool radii, size_t capacities[OWN],
+                      size_t need) {
     JOX_RESERVE(t->force, capacities[0], need);
     JOX_RESERVE(t->compression, capacities[1], need);
     if (loads)
         JOX_RESERVE(t->load, capacities[6], need);
+    if (radii)
+        JOX_RESERVE(t->radius, capacities[7], need);
     JOX_RESERVE(t->group, capacities[2], need);
     JOX_RESERVE(t->face_x, capacities[3], need);
     JOX_RESERVE(t->face_y, capacities[4], need);
@@ -48,7 +52,7 @@ static void widen_own(JoxTrajectories *t, bool loads, size_t capacities[7], size
 }
 
 static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
-                       const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[7]) {
+                       const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[OWN]) {
     const size_t row = jox_trajectories_add(t);
     t->number[row] = r->number[frame];
     t->id[row] = f->id[i];
@@ -58,11 +62,13 @@ static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_
     t->vx[row] = t->vy[row] = 0.0f;
     if (!r->ours)
         return;
-    widen_own(t, f->load != NULL, capacities, row + 1);
+    widen_own(t, f->load != NULL, f->radius != NULL, capacities, row + 1);
     t->force[row] = f->force[i];
     t->compression[row] = f->compression[i];
     if (f->load)
         t->load[row] = f->load[i];
+    if (f->radius)
+        t->radius[row] = f->radius[i];
     t->group[row] = f->group[i];
     t->face_x[row] = f->face_x[i];
     t->face_y[row] = f->face_y[i];
@@ -72,7 +78,7 @@ static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_
 
 static bool read_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *path,
                         JoxDiagnostics *diagnostics) {
-    size_t capacities[7] = {0};
+    size_t capacities[OWN] = {0};
     JoxText why = {0};
     bool good = true;
     for (uint32_t frame = 0; good && frame < r->frames; frame++) {

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 size_t jox_trajectories_add(JoxTrajectories *t) {
@@ -37,6 +38,9 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .force = t->force ? t->force + first : NULL,
                       .compression = t->compression ? t->compression + first : NULL,
                       .load = t->load ? t->load + first : NULL,
+                      .radius = t->radius ? t->radius + first : NULL,
+                      .walls = t->history ? jox_wall_history_standing(t->history, t->number[first])
+                                          : &t->walls,
                       .group = t->group ? t->group + first : NULL,
                       .groups = (const char *const *)t->groups,
                       .group_count = t->group_count,
@@ -48,13 +52,19 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
     return true;
 }
 
+const JoxWalls *jox_trajectories_walls(const JoxTrajectories *t, uint32_t f) {
+    JOX_ASSERT(f < t->frame_count);
+    return t->history ? jox_wall_history_at(t->history, t->number[t->first[f]]) : &t->walls;
+}
+
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
     void *columns[] = {
-        t->number, t->id,     t->line,          t->key,          t->x,     t->y,     t->vx,
-        t->vy,     t->force,  t->compression,   t->load,         t->group, t->first, t->state,
-        t->face_x, t->face_y, t->group_colours, t->state_colours};
+        t->number,       t->id,    t->line,   t->key,         t->x,      t->y,
+        t->vx,           t->vy,    t->force,  t->compression, t->load,   t->group,
+        t->first,        t->state, t->radius, t->face_x,      t->face_y, t->group_colours,
+        t->state_colours};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)
@@ -64,5 +74,6 @@ void jox_trajectories_free(JoxTrajectories *t) {
         jox_free(t->states[s]);
     jox_free(t->states);
     jox_walls_free(&t->walls);
+    jox_wall_history_free(t->history);
     jox_free(t);
 }

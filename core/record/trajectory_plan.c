@@ -10,7 +10,7 @@
 #include "base/mem.h"
 #include "record/trajectories.h"
 
-enum { MOST_RING = 5000, MOST_POINTS = 100000 };
+enum { MOST_RING = 5000 };
 
 /* Every ring of points in a WKT text, whatever it is a part of, becomes a closed line. */
 static void read_outlines(JoxTrajectories *t, const char *wkt) {
@@ -64,53 +64,11 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
     jox_database_finalize(db, statement);
 }
 
-/* "x y, x y, ..."; 0 points where it is something else. */
-static uint32_t read_points(const char *text, JoxV2 *points, uint32_t most) {
-    uint32_t count = 0;
-    for (bool more = text != NULL; more; text++) {
-        float x, y;
-        int used = 0;
-        if (count == most || sscanf(text, "%f %f%n", &x, &y, &used) != 2 || !(fabsf(x) < 1e6f) ||
-            !(fabsf(y) < 1e6f))
-            return 0;
-        points[count++] = (JoxV2){x, y};
-        text += used;
-        more = *text == ',';
-    }
-    return count;
-}
-
-/* Walls of ours, in place of the walkable area, whose outline is where nobody went; false where the
-   recording is another program's, which has none. */
-static bool read_walls(JoxTrajectories *t, JoxDatabase *db) {
-    sqlite3_stmt *list = jox_database_prepare(
-        db, "SELECT name, solid, closed, open, height, points FROM jostle_wall");
-    if (!list)
-        return false;
-    JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
-    JoxWalls *walls = &t->walls;
-    while (sqlite3_step(list) == SQLITE_ROW) {
-        const uint32_t first = walls->ring_count;
-        const char *name = (const char *)sqlite3_column_text(list, 0);
-        const bool solid = sqlite3_column_int(list, 1), closed = sqlite3_column_int(list, 2);
-        const float given = (float)sqlite3_column_double(list, 4);
-        const float height = given > 0.0f && given < 1e6f ? given : INFINITY;
-        const char *text = (const char *)sqlite3_column_text(list, 5);
-        const uint32_t count = read_points(text, points, MOST_POINTS);
-        if (solid && count >= 3)
-            jox_walls_add_solid(walls, points, count, height);
-        else if (!solid && count >= (closed ? 3 : 2))
-            jox_walls_add_polyline(walls, points, count, closed, height);
-        if (name)
-            jox_walls_name(walls, first, name, sqlite3_column_int(list, 3));
-    }
-    jox_database_finalize(db, list);
-    jox_free(points);
-    return true;
-}
-
 void jox_trajectories_plan(JoxTrajectories *t, JoxDatabase *db) {
-    if (!read_walls(t, db))
+    t->history = jox_wall_history_read(db);
+    if (t->history)
+        jox_wall_history_first(t->history, &t->walls);
+    else
         read_geometry(t, db);
     read_groups(t, db);
 }

@@ -6,6 +6,8 @@
 #include "base/mem.h"
 #include "record/trajectory_reader_parts.h"
 
+static const float RADIUS = 0.2f, MOST_RADIUS = 100.0f; /* m */
+
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
     const JoxTrajectories *t = r->all ? r->all : &r->outlines;
     return (JoxTrajectoryReaderInfo){.fps = r->fps,
@@ -21,7 +23,8 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .state_count = r->state_count,
                                      .whole = r->all != NULL,
                                      .has_force = r->all ? r->all->force != NULL : r->ours,
-                                     .has_bodies = r->bodies != NULL};
+                                     .has_bodies = r->bodies != NULL,
+                                     .has_walls = t->history != NULL};
 }
 
 double jox_trajectory_reader_time(const JoxTrajectoryReader *r, uint32_t frame) {
@@ -53,7 +56,7 @@ static void widen(JoxTrajectoryReader *r, size_t need) {
     r->capacity = need + need / 2 + 64;
     r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
     float **columns[] = {&r->x,     &r->y,           &r->face_x, &r->face_y,
-                         &r->force, &r->compression, &r->load};
+                         &r->force, &r->compression, &r->load,   &r->radius};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
     r->state = jox_realloc(r->state, r->capacity, sizeof *r->state);
@@ -82,6 +85,12 @@ static bool is_placed(sqlite3_stmt *row) {
     return placed;
 }
 
+/* m; that of a person of whom none was recorded, or none that can be. */
+static float read_radius(sqlite3_stmt *row, int column) {
+    const float radius = (float)sqlite3_column_double(row, column);
+    return radius > 0.0f && radius < MOST_RADIUS ? radius : RADIUS;
+}
+
 static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     widen(r, (size_t)n + 1);
     r->id[n] = sqlite3_column_int64(r->rows, 0);
@@ -100,6 +109,8 @@ static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);
     if (r->loads)
         r->load[n] = (float)sqlite3_column_double(r->rows, 9);
+    if (r->radii)
+        r->radius[n] = read_radius(r->rows, 10);
 }
 
 bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
@@ -139,6 +150,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     out->force = r->ours ? r->force : NULL;
     out->compression = r->ours ? r->compression : NULL;
     out->load = r->loads ? r->load : NULL;
+    out->radius = r->radii ? r->radius : NULL;
     out->group = r->ours ? r->group : NULL;
     return true;
 }
@@ -221,6 +233,27 @@ bool jox_trajectory_reader_read(JoxTrajectoryReader *r, uint32_t frame,
     return jox_trajectory_reader_read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
 }
 
+/* ---- walls ---- */
+
+const JoxWalls *jox_trajectory_reader_walls(const JoxTrajectoryReader *r, uint32_t frame) {
+    if (r->all)
+        return jox_trajectories_walls(r->all, frame);
+    return r->outlines.history ? jox_wall_history_at(r->outlines.history, r->number[frame])
+                               : &r->outlines.walls;
+}
+
+const JoxWalls *jox_trajectory_reader_standing(const JoxTrajectoryReader *r, uint32_t frame) {
+    return !r->all && r->outlines.history
+               ? jox_wall_history_standing(r->outlines.history, r->number[frame])
+               : jox_trajectory_reader_walls(r, frame);
+}
+
+uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *r, uint32_t frame) {
+    return !r->all && r->outlines.history
+               ? jox_wall_history_changes(r->outlines.history, r->number[frame])
+               : 0;
+}
+
 /* ---- shapes ---- */
 
 uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *r, uint32_t frame) {
@@ -286,14 +319,15 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     jox_free(r->outlines.groups);
     jox_free(r->outlines.group_colours);
     jox_walls_free(&r->outlines.walls);
+    jox_wall_history_free(r->outlines.history);
     for (uint32_t s = 0; s < r->state_count; s++) {
         jox_free(r->states[s].machine);
         jox_free(r->states[s].name);
     }
     jox_free(r->states);
-    void *columns[] = {r->number, r->from,   r->id,    r->x,           r->y,
-                       r->face_x, r->face_y, r->force, r->compression, r->load,
-                       r->state,  r->group,  r->body,  r->changes,     r->corners};
+    void *columns[] = {r->number, r->from,  r->id,          r->x,      r->y,      r->face_x,
+                       r->face_y, r->force, r->compression, r->load,   r->radius, r->state,
+                       r->group,  r->body,  r->changes,     r->corners};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     jox_free(r);

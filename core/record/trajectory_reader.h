@@ -18,6 +18,7 @@ typedef struct JoxTrajectoryReaderFrame {
     const float *face_x, *face_y;
     const uint32_t *state; /* row of jox_trajectory_reader_state, or JOX_NO_RECORDED_STATE */
     const float *force, *compression, *load; /* N, N/m, N */
+    const float *radius;                     /* m */
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* ascending ids */
@@ -29,8 +30,8 @@ typedef struct JoxTrajectoryReaderInfo {
     double fps;
     uint32_t frames;
     bool bounded;
-    JoxV2 low, high; /* m, if it is bounded */
-    const JoxWalls *walls;
+    JoxV2 low, high;       /* m, if it is bounded */
+    const JoxWalls *walls; /* as they are at first */
     const char *const *groups;
     uint32_t group_count;
     const JoxColour *group_colours;
@@ -40,8 +41,8 @@ typedef struct JoxTrajectoryReaderInfo {
         JoxColour colour;
     } * states;
     uint32_t state_count;
-    bool whole; /* it was read into memory */
-    bool has_force, has_bodies;
+    bool whole;                            /* it was read into memory */
+    bool has_force, has_bodies, has_walls; /* has_walls: over time */
 } JoxTrajectoryReaderInfo;
 
 /* NULL with errors in `diagnostics`. */
@@ -56,6 +57,11 @@ uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *reader, double ti
 /* Holds until the next call. False with a sentence in `why` where the file is damaged. */
 bool jox_trajectory_reader_read(JoxTrajectoryReader *reader, uint32_t frame,
                                 JoxTrajectoryReaderFrame *out, JoxText *why);
+/* Walls in a frame: all, those that stand; how often any had been made or replaced. They hold until
+   the next call. */
+const JoxWalls *jox_trajectory_reader_walls(const JoxTrajectoryReader *reader, uint32_t frame);
+const JoxWalls *jox_trajectory_reader_standing(const JoxTrajectoryReader *reader, uint32_t frame);
+uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *reader, uint32_t frame);
 /* Shapes that the recording has of its bodies: how often any had changed by a frame; part `part` of
    a body as it was then, valid until the next call; false behind the last. */
 uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *reader, uint32_t frame);

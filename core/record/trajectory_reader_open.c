@@ -119,8 +119,9 @@ static void read_states(JoxTrajectoryReader *r) {
     jox_database_finalize(r->db, list);
 }
 
-/* The columns that there are: of ours; of older ones of ours, which have a table more, and of those
-   before loads were recorded; of JuPedSim; of whoever writes no more than places. */
+/* The columns that there are: of ours; of those before radii were recorded; of older ones, which
+   have a table more, and of those before loads were recorded; of JuPedSim; of whoever writes no
+   more than places. */
 static bool prepare_rows(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
@@ -130,17 +131,22 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
     " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"           \
     " AND a.frame = d.frame"
     static const char *const COLUMNS[] = {
+        PLACED
+        ", d.state, d.force, d.compression, d.member, d.load, d.radius FROM trajectory_data d",
         PLACED ", d.state, d.force, d.compression, d.member, d.load FROM trajectory_data d",
-        OURS ", a.load" OF_AGENTS, OURS OF_AGENTS, PLACED " FROM trajectory_data d",
+        OURS ", a.load" OF_AGENTS,
+        OURS OF_AGENTS,
+        PLACED " FROM trajectory_data d",
         "SELECT d.id, d.pos_x, d.pos_y FROM trajectory_data d"};
-    for (int c = 0; c < 5 && !r->rows; c++) {
+    for (int c = 0; c < (int)(sizeof COLUMNS / sizeof *COLUMNS) && !r->rows; c++) {
         JoxText sql = {0};
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = jox_database_prepare(r->db, sql.data);
-        r->loads = c < 2;
-        r->ours = c < 3;
-        r->facing = c < 4;
+        r->radii = c < 1;
+        r->loads = c < 3;
+        r->ours = c < 4;
+        r->facing = c < 5;
         jox_text_free(&sql);
     }
     double last;
@@ -223,8 +229,12 @@ static bool find_rows(JoxTrajectoryReader *r, const char *path, const char **tab
     if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
             &found)) {
         *table = "jostle_row";
-        sqlite3_exec(r->db->sqlite, "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS, NULL,
-                     NULL, NULL);
+        sqlite3_stmt *radii = jox_database_prepare(r->db, "SELECT radius FROM jostle_row LIMIT 0");
+        sqlite3_exec(r->db->sqlite,
+                     radii ? "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS
+                           : "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII,
+                     NULL, NULL, NULL);
+        jox_database_finalize(r->db, radii);
     } else if (ask(r->db,
                    "SELECT 1 FROM sqlite_schema WHERE type = 'view' AND name = 'trajectory_data'",
                    &found)) {

@@ -15,6 +15,7 @@ struct JoxTrajectoryReader {
     sqlite3_stmt *rows, *body_at, *bodies;
     bool ours;   /* with states, forces and groups */
     bool loads;  /* with loads, which older ones of ours lack */
+    bool radii;  /* likewise */
     bool facing; /* with the way people look */
     int64_t *number,
         *from; /* of each frame; JOX_READ_BY_ROW: its first row, and one more at the end */
@@ -37,7 +38,7 @@ struct JoxTrajectoryReader {
     JoxV2 low, high;
     /* The frame that was read last. */
     int64_t *id;
-    float *x, *y, *face_x, *face_y, *force, *compression, *load;
+    float *x, *y, *face_x, *face_y, *force, *compression, *load, *radius;
     uint32_t *state;
     uint16_t *group;
     JoxRecordBody *body;

@@ -294,6 +294,11 @@ static void name_states(JoxRender *r) {
         r->states[s] = r->state_texts[s];
 }
 
+/* Whether walls are those of the scene beside a recording, which has none of its own over time. */
+static bool is_walled_by_plan(const JoxRender *r) {
+    return r->spec && r->spec->walls.ring_count && !r->crowd->history;
+}
+
 /* Takes the present moment in. */
 static void look(JoxRender *r) {
     if (r->scene) {
@@ -303,7 +308,8 @@ static void look(JoxRender *r) {
         r->frame.states = r->states;
     } else {
         jox_trajectories_frame(r->crowd, r->at, &r->frame);
-        r->frame.walls = r->picture.walls;
+        if (is_walled_by_plan(r))
+            r->frame.walls = &r->spec->walls;
         if (r->danger)
             jox_danger_frame(r->danger, &r->frame, NULL);
     }
@@ -371,7 +377,10 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->face_x = a->face_x;
         p->face_y = a->face_y;
         p->walls = &r->scene->world->model.all_walls;
-    } else if (r->crowd->face_x) {
+    } else {
+        p->walls = is_walled_by_plan(r) ? &r->spec->walls : jox_trajectories_walls(r->crowd, r->at);
+    }
+    if (!r->scene && r->crowd->face_x) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
     }
@@ -424,7 +433,7 @@ static bool load_recording(JoxRender *r, JoError *error) {
     r->first = r->frame.time;
     r->last = (double)r->crowd->last / r->crowd->fps;
     r->pace = pace_of(r->crowd);
-    r->picture.walls = r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+    r->picture.walls = is_walled_by_plan(r) ? &r->spec->walls : &r->crowd->walls;
     return true;
 }
 

@@ -196,17 +196,20 @@ static void measure(JoxReport *r) {
         jox_danger_add_plan(r->danger, r->spec->places, r->spec->place_count, r->spec->probes,
                             r->spec->probe_count);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
-        frame.walls = jox_report_walls(r);
+        if (!t->history)
+            frame.walls = jox_report_walls(r);
         leave(r, left[f], frame.time);
         for (uint32_t p = 0; p < r->count; p++)
             jox_probe_frame(r->probes[p], &frame);
         jox_danger_frame(r->danger, &frame, &r->exits);
         if (jox_danger_local(r->danger)->time == frame.time)
-            jox_story_sample(&r->story, &(JoxStorySample){.frame = &frame,
-                                                          .grid = jox_danger_local(r->danger)->grid,
-                                                          .walls = jox_report_walls(r),
-                                                          .left = r->exits.left,
-                                                          .reel = r->reel});
+            jox_story_sample(&r->story,
+                             &(JoxStorySample){.frame = &frame,
+                                               .grid = jox_danger_local(r->danger)->grid,
+                                               .walls = t->history ? jox_trajectories_walls(t, f)
+                                                                   : jox_report_walls(r),
+                                               .left = r->exits.left,
+                                               .reel = r->reel});
     }
     int64_t end = t->number[t->count - 1];
     if (t->last > end) { /* it goes on, empty */

@@ -141,9 +141,10 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
     return jox_plot_close(out, "index.html", error);
 }
 
-/* Of the scene, else of the recording. */
+/* Of the recording, as they are at first; of the scene where the recording has none over time. */
 const JoxWalls *jox_report_walls(const JoxReport *r) {
-    return r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+    return r->spec && r->spec->walls.ring_count && !r->crowd->history ? &r->spec->walls
+                                                                      : &r->crowd->walls;
 }
 
 const char *jox_report_title(const JoxReport *r) {

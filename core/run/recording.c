@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "base/hash.h"
 #include "base/mem.h"
 #include "record/recorder.h"
 #include "run/run.h"
@@ -17,6 +18,11 @@ typedef struct Recording {
     uint32_t next;                    /* the first number that no machine has */
     uint32_t *shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
     size_t shape_capacity;
+    struct Wall { /* by number: as it was recorded last */
+        uint64_t shape;
+        uint32_t open, there;
+    } * walls;
+    size_t wall_capacity;
     /* By agent's slot: sums over the steps since the recorded frame before, of who is in it. */
     struct Borne {
         float compression, load;
@@ -65,6 +71,41 @@ static void write_area(const JoScene *scene, JoxText *wkt) {
     jox_free(points);
 }
 
+static uint64_t shape_of(const JoxWalls *walls, uint32_t r) {
+    const struct JoxWallRing *ring = &walls->rings[r];
+    const uint32_t what[2] = {ring->count, ring->solid};
+    JoxHash hash = jox_hash_begin();
+    jox_hash_add(&hash, what, sizeof what);
+    jox_hash_add(&hash, &ring->height, sizeof ring->height);
+    if (ring->name)
+        jox_hash_add(&hash, ring->name, strlen(ring->name));
+    for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
+        jox_hash_add(&hash, &walls->vertices[v].point, sizeof walls->vertices[v].point);
+    return jox_hash_end(&hash);
+}
+
+/* Walls that opened, closed, were made, replaced or taken away since the frame before. */
+static void record_walls(Recording *r, const JoxWalls *walls, uint32_t frame) {
+    size_t number = 0;
+    for (uint32_t at = 0; at < walls->ring_count; at++, number++) {
+        bool closed, twin;
+        jox_walls_given(walls, at, &closed, &twin);
+        JOX_RESERVE_ZEROED(r->walls, r->wall_capacity, number + 1);
+        struct Wall *wall = &r->walls[number];
+        const uint64_t shape = shape_of(walls, at);
+        const bool same = wall->there && wall->shape == shape;
+        if (!same || wall->open != walls->rings[at].open)
+            jox_recorder_wall(r->recorder, frame, (uint32_t)number, walls, at, !same);
+        *wall = (struct Wall){shape, walls->rings[at].open, true};
+        at += twin;
+    }
+    for (; number < r->wall_capacity; number++) {
+        if (r->walls[number].there)
+            jox_recorder_wall(r->recorder, frame, (uint32_t)number, NULL, 0, true);
+        r->walls[number].there = false;
+    }
+}
+
 /* Where a recording goes: a new one, or on with one that there is. */
 typedef struct Target {
     const char *path;
@@ -91,7 +132,8 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     jox_text_free(&wkt);
     if (!r->recorder)
         return jox_run_failed(error, &why);
-    jox_recorder_walls(r->recorder, &scene->world->model.all_walls);
+    record_walls(r, &scene->world->model.all_walls,
+                 (uint32_t)((scene->world->state.tick + r->every - 1) / r->every));
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++)
         name_states(r, scene, m);
@@ -149,19 +191,29 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     if (scene->world->state.tick % r->every != 0)
         return true;
     const JoxAgents *a = &scene->world->state.agents;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const JoxObjects *objects = &scene->world->scratch.objects;
     JoxRecordBody *bodies;
     uint32_t count = jox_bodies_count(scene->world->state.bodies), n = 0;
     const uint32_t frame = (uint32_t)(scene->world->state.tick / r->every);
     record_shapes(r, scene, frame);
+    record_walls(r, &scene->world->model.all_walls, frame);
     JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
         const struct Borne borne = take_borne(r, a->slot[i]);
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-        rows[n++] = (JoxRecordRow){
-            id,    a->x[i],           a->y[i],    a->face_x[i], a->face_y[i], state_number(r, a, i),
-            force, borne.compression, borne.load, a->group[i]};
+        rows[n++] = (JoxRecordRow){id,
+                                   a->x[i],
+                                   a->y[i],
+                                   a->face_x[i],
+                                   a->face_y[i],
+                                   state_number(r, a, i),
+                                   force,
+                                   borne.compression,
+                                   borne.load,
+                                   a->group[i],
+                                   radius.cells[i & radius.mask]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {
@@ -192,6 +244,7 @@ static void release(void *self) {
     Recording *r = self;
     JOX_ASSERT(!r->recorder);
     jox_free(r->shapes);
+    jox_free(r->walls);
     jox_free(r->borne);
 }
 
@@ -209,6 +262,7 @@ static void list_sections(void *self, JoxSections *s) {
     JOX_SECTION(s, "base", r->base);
     JOX_SECTION(s, "next", r->next);
     JOX_SECTION_ARRAY(s, "shapes", r->shapes, shapes, r->shape_capacity);
+    JOX_SECTION_ROOM(s, "walls", r->walls, r->wall_capacity);
     JOX_SECTION_ARRAY(s, "borne", r->borne, borne, r->borne_capacity);
 }
 

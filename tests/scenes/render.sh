@@ -55,6 +55,20 @@ render "$work/wall.sqlite" --at 1 --scene scenes/wall-breaking.yaml --out "$work
 bodies() { sed -n '/<g id="bodies"/,/<\/g>/p' "$1" | grep -E '<(path|circle)' | sed 's/><title.*//; s|/>||' | sort; }
 bodies "$work/wall.svg" >"$work/parts"; bodies "$work/wall2.svg" | cmp - "$work/parts" && [ "$(wc -l <"$work/parts")" -gt 50 ]
 verdict "bodies of a recording are those of the run" $?
+# Gates and radii as they were at the time, with and without the scene.
+{
+    printf 'jostle: 1\nduration: 8\nplaces:\n  room: {polygon: [[0.6, 0.6], [6.4, 0.6], [6.4, 4.4], [0.6, 4.4]]}\n'
+    printf '  away: {polygon: [[11, 0], [12, 0], [12, 5], [11, 5]]}\nwalls:\n  - {line: [[7, 1.5], [7, 0], [0, 0], [0, 5], [7, 5], [7, 3.5]]}\n'
+    printf '  - {line: [[7, 1.5], [7, 3.5]], name: gate}\ngroups:\n  people: {behaviour: walker.lua, count: 8, in: room, set: {goal: away}}\n'
+    printf '  prams: {behaviour: walker.lua, count: 3, in: room, spacing: 1.2, set: {goal: away, radius: 0.5}}\nevents: [{at: 3, open: gate}]\n'
+} >"$work/prams.yaml"
+"$JOSTLE" run "$work/prams.yaml" --quiet --record "$work/prams.sqlite" >/dev/null 2>&1
+looks() { render "$1" --at $2 --area 0,0,12,5 "${@:3}" --out "$work/prams.svg" 2>/dev/null; grep -o 'class="gate [a-z]*' "$work/prams.svg"; grep -o '<circle id="p[^>]* r="[0-9.]*' "$work/prams.svg" | sed 's/.* r=//' | sort | uniq -c; }
+for t in 2 6; do
+    looks "$work/prams.yaml" $t >"$work/looks"
+    [ "$(grep -c 'gate' "$work/looks")" = 1 ] && [ "$(wc -l <"$work/looks")" = 3 ] && looks "$work/prams.sqlite" $t | cmp -s - "$work/looks" && looks "$work/prams.sqlite" $t --scene "$work/prams.yaml" | cmp -s - "$work/looks"
+    verdict "a recording has gates and radii as they were at $t s ($(tr -s ' \n' ' ' <"$work/looks"))" $?
+done
 expect "a time that is not in the recording" 3 "which has 0.1 to 20 s" "$JOSTLE" render "$work/run.sqlite" --at 20.4 --out "$work/x.svg"
 [ ! -e "$work/x.svg" ]; verdict "and no file" $?
 printf '1 0 0 0\n1 1 10 0\n1 2 20 0\n' >"$work/bare.txt"

@@ -199,12 +199,15 @@ static void scene_message_of_a_recording(void **state) {
    run that it is of. */
 static void densities_over_a_periodic_edge(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "bounds: [[0, 0], [20, 6]]\n"
-                              "periodic: x\n"
-                              "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
-                              "3]]}}\n",
-                              HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "bounds: [[0, 0], [20, 6]]\n"
+                 "periodic: x\n"
+                 "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
+                 "3]]}}\n",
+                 HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to = \"B\", "
+                      "when = after(0.5) } }, B = { steer = hold, radius = 0.6 } } "
+                      "}\n");
     JoError error = {0};
     JoxText text = {0}, told = {0};
     char file[300], plan[300];
@@ -225,6 +228,45 @@ static void densities_over_a_periodic_edge(void **state) {
     parse(&text);
     assert_near(number_at("density_max", 0, 0, 0), most, 0.05 * most);
     jox_replay_close(replay);
+    jox_text_free(&text);
+}
+
+/* A gate that opens and a person who grows, in whatever order frames are shown. */
+static void gates_and_radii_are_those_of_the_moment(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\n"
+                              "walls: [{line: [[8, 0], [8, 6]], name: gate}]\n"
+                              "groups: {people: {behaviour: own.lua, at: [[1, 3]]}}\n",
+                              HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to "
+                                   "= \"B\", when = after(0.5) } }, B = { steer = hold, "
+                                   "radius = 0.6 } } }\n");
+    JoError error = {0};
+    JoxText text = {0}, told = {0};
+    JoxBytes people = {0};
+    char file[300];
+    snprintf(file, sizeof file, "%s/other.sqlite", folder);
+    unlink(file);
+    assert_true(jo_scene_record(scene, file, 0.0, &error));
+    step(scene, 20);
+    assert_true(jo_scene_input(scene, "open gate", &error));
+    step(scene, 20);
+    assert_true(jo_scene_finish(scene, &error));
+    jo_scene_free(scene);
+    JoxReplay *replay = open_replay(file, NULL, 0);
+    for (int k = 0; k < 3; k++) {
+        const uint32_t last = jox_replay_frames(replay) - 1;
+        const bool late = k == 1;
+        assert_true(jox_replay_show(replay, late ? last : 1, &told));
+        text.length = 0;
+        jox_replay_status(replay, &(JoxLiveSession){.speed = 1}, 1, &text);
+        has_name(&text, "walls");
+        assert_non_null(strstr(text.data, late ? "\"gate\": true" : "\"gate\": false"));
+        jox_replay_people(replay, &people);
+        assert_int_equal(people.data[16], late ? 60 : 30);  /* cm */
+        assert_true(jox_replay_version(replay) >> 32 == 0); /* gates need no new scene message */
+    }
+    jox_replay_close(replay);
+    jox_bytes_free(&people);
     jox_text_free(&text);
 }
 
@@ -387,6 +429,7 @@ int main(void) {
         cmocka_unit_test(scene_message_of_a_recording),
         cmocka_unit_test(recordings_of_others),
         cmocka_unit_test(densities_over_a_periodic_edge),
+        cmocka_unit_test(gates_and_radii_are_those_of_the_moment),
         cmocka_unit_test(damaged_recordings_give_errors),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_more);

@@ -44,7 +44,7 @@ static bool put_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     JoxRecordRow *rows = jox_recorder_take(r, 3, 1, &bodies);
     for (uint32_t i = 0; i < 3; i++)
         rows[i] = (JoxRecordRow){
-            i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.5f, 3.5f, 0};
+            i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.5f, 3.5f, 0, 0.25f};
     bodies[0] = (JoxRecordBody){7, (float)f, 2, 3, 0, 0, 0, 1};
     return jox_recorder_put(r, f, error);
 }

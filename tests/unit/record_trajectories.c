@@ -331,7 +331,16 @@ static void our_recordings_keep_more(void **state) {
     jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456);
     JoxWalls walls = {0};
     jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {2, 1}, {2, 3}}, 3, false, 2.5f);
-    jox_recorder_walls(r, &walls);
+    jox_recorder_wall(r, 0, 0, &walls, 0, true);
+    /* A gate that opens, then another wall that comes and goes. */
+    jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {0, 3}}, 2, false, INFINITY);
+    jox_walls_name(&walls, 1, "gate", false);
+    jox_recorder_wall(r, 0, 1, &walls, 1, true);
+    walls.rings[1].open = true;
+    jox_recorder_wall(r, 1, 1, &walls, 1, false);
+    jox_walls_add_solid(&walls, (const JoxV2[]){{5, 1}, {6, 1}, {6, 3}}, 3, INFINITY);
+    jox_recorder_wall(r, 1, 2, &walls, 2, true);
+    jox_recorder_wall(r, 2, 2, NULL, 0, true);
     jox_walls_free(&walls);
     for (uint32_t f = 0; f < 3; f++) {
         JoxRecordBody *bodies;
@@ -342,7 +351,8 @@ static void our_recordings_keep_more(void **state) {
                                      .force = (float)(10 * i + f),
                                      .compression = (float)(100 * i + f),
                                      .load = (float)(1000 * i + f),
-                                     .group = (uint16_t)i};
+                                     .group = (uint16_t)i,
+                                     .radius = i ? 0.35f : 0.2f + 0.05f * (float)f};
         assert_true(jox_recorder_put(r, f, &error));
     }
     assert_true(jox_recorder_close(r, &error));
@@ -362,8 +372,23 @@ static void our_recordings_keep_more(void **state) {
     assert_near(frame.load[0], 1002, 0);
     assert_near(frame.load[1], 2, 0);
     assert_near(frame.vx[1], 1, 1e-5);
+    assert_near(frame.radius[0], 0.35, 1e-6);
+    assert_near(frame.radius[1], 0.3, 1e-6);
+    /* Gates and walls as they are in each frame, in any order. */
+    const uint32_t order[] = {2, 0, 1}, rings[] = {2, 2, 3}, stand[] = {1, 2, 2};
+    for (uint32_t k = 0; k < 3; k++) {
+        assert_true(jox_trajectories_frame(t, order[k], &frame));
+        const JoxWalls *all = jox_trajectories_walls(t, order[k]);
+        assert_int_equal(all->ring_count, rings[k]);
+        assert_string_equal(all->rings[1].name, "gate");
+        assert_int_equal(all->rings[1].open, order[k] > 0);
+        assert_int_equal(frame.walls->ring_count, stand[k]);
+        assert_int_equal(jox_wall_history_changes(t->history, order[k]), order[k]);
+    }
+    assert_true(jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.radius[1], 0.2, 1e-6);
     /* The walls, not the outline of the walkable area, which need be no wall. */
-    assert_int_equal(t->walls.count, 4); /* there and back */
+    assert_int_equal(t->walls.count, 6); /* there and back */
     for (uint32_t v = 0; v < t->walls.count; v++)
         assert_true(t->walls.vertices[v].point.y >= 1 && t->walls.vertices[v].point.y <= 3);
     assert_near(t->walls.rings[0].height, 2.5, 0);
@@ -378,6 +403,9 @@ static void our_recordings_keep_more(void **state) {
                      "CREATE TABLE placed AS SELECT frame, id, pos_x, pos_y, ori_x, ori_y FROM "
                      "trajectory_data ORDER BY frame, id; DROP VIEW trajectory_data; DROP TABLE "
                      "jostle_row;"
+                     "CREATE TABLE w AS SELECT name, solid, closed, open, height, points FROM "
+                     "jostle_wall WHERE frame = 0; DROP TABLE jostle_wall;"
+                     "ALTER TABLE w RENAME TO jostle_wall;"
                      "ALTER TABLE placed RENAME TO trajectory_data;"
                      "CREATE INDEX frame_id_idx ON trajectory_data(frame, id)",
                      NULL, NULL, NULL),
@@ -387,6 +415,8 @@ static void our_recordings_keep_more(void **state) {
     assert_non_null(t);
     assert_true(jox_trajectories_frame(t, 2, &frame));
     assert_null(frame.load);
+    assert_null(frame.radius);
+    assert_int_equal(jox_trajectories_walls(t, 2)->ring_count, 2);
     assert_near(frame.compression[0], 102, 0);
     jox_trajectories_free(t);
     jox_text_free(&error);

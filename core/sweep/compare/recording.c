@@ -74,7 +74,6 @@ static void sample(Samples *s, const JoxTrajectories *t, uint32_t run) {
     JoxFrame frame;
     int last = -1;
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
-        frame.walls = &t->walls;
         const double since = frame.time - (double)t->number[0] / t->fps;
         const int time = (int)fmin(fmax(since / every, 0), SAMPLES - 1);
         double *density = value_at(s, DENSITY, time, run);
