@@ -236,6 +236,15 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
 
 /* ---- what counts by itself ---- */
 
+/* A hidden slot of the counter that counts in a slot of memory. */
+static int32_t build_hidden(JoxBuild *b, const char *role, uint32_t of) {
+    JoxText identity = {0};
+    jox_text_printf(&identity, "%s%s", role, b->machine->memory[of].name);
+    const int32_t slot = jox_build_memory(b, "");
+    b->machine->memory[slot].identity = identity.data;
+    return slot;
+}
+
 /* Reads one entry of `counts`: the memory slot and what is counted into it; pops nothing. */
 static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
     JOX_ASSERT(slot < b->machine->memory_count);
@@ -245,8 +254,8 @@ static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t s
         JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
         JoxCounter counter = {
             .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
-        counter.angle = jox_build_memory(b, "");
-        counter.begun = jox_build_memory(b, "");
+        counter.angle = build_hidden(b, JOX_IDENTITY_ANGLE, slot);
+        counter.begun = build_hidden(b, JOX_IDENTITY_BEGUN, slot);
         m->counters[m->counter_count++] = counter;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
         jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",

@@ -22,10 +22,12 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
         const JoxMachine *m = machines->set->items[a->machine[i]];
         for (uint32_t s = 0; s < m->memory_count; s++) {
             double value = a->memory[(size_t)i * a->memory_stride + s];
+            if (!*m->memory[s].name)
+                continue;
             if (m->memory[s].kind == JOX_MEMORY_BOOLEAN) {
                 lua_pushboolean(L, value != 0.0);
                 lua_setfield(L, -2, m->memory[s].name);
-            } else if (*m->memory[s].name) {
+            } else {
                 jox_test_set_number(L, m->memory[s].name, value);
             }
         }

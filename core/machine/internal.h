@@ -188,6 +188,18 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
 /* Signals that go on while a state lasts. */
 void jox_machines_repeat_signals(JoxMachineRun *run);
 
+/* dormant.c: the name that the part had which is called `name` now; the same where it was not
+ * renamed. */
+const char *jox_name_before(const JoxMachine *old, const JoxMachine *next, JoxPart part,
+                            const char *name);
+/* Which of the old slots of memory goes on as next->memory[slot], of the same kind; -1: none. */
+int32_t jox_memory_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot);
+/* Gives the new version dormant slots for memory that it lacks. */
+void jox_dormant_keep(const JoxMachine *old, JoxMachine *next);
+/* Tells what memory is kept, taken up again or dropped. */
+void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char *people,
+                      JoxText *out);
+
 /* Sorts indices of agents by id. */
 void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */

@@ -260,14 +260,25 @@ typedef struct JoxOwnSlot {
     char *name;   /* "speed", "court"; "" for a distribution written in a state */
     JoxDist dist; /* drawn once per agent; groups may override it by name */
     bool is_place;
+    bool kept;                        /* of an earlier version: this one does not look at it */
     bool declared;                    /* in the machine's `own`: no group need set it */
     int32_t line, column, end_column; /* where own.NAME was first written; 0 unknown */
     uint32_t source;                  /* number of its file among the machine's files */
 } JoxOwnSlot;
 
 typedef enum { JOX_MEMORY_NUMBER, JOX_MEMORY_BOOLEAN } JoxMemoryKind;
+/* Before the name of the memory that a counter counts in: identities of its hidden slots. */
+#define JOX_IDENTITY_ANGLE "\1"
+#define JOX_IDENTITY_BEGUN "\2"
+/* Slots that nothing names any more and that are kept, of a machine; the oldest are dropped beyond
+ * it. */
+enum { JOX_MOST_DORMANT = 64 };
+
 typedef struct JoxMemorySlot {
     char *name; /* "" for hidden slots */
+    char *
+        identity; /* of hidden slots: what a version that comes later takes them up by; else NULL */
+    bool dormant; /* hidden, as this version lacks the name that an earlier one had */
     JoxMemoryKind kind;
     double initial;
     bool is_public;       /* other machines may read it */
@@ -354,6 +365,10 @@ JoxState jox_state_blank(char *name);
 JoxTransition jox_transition_blank(char *id);
 /* Index of a state by name, or -1. */
 int jox_machine_state(const JoxMachine *machine, const char *name);
+/* What a slot goes on as in a later version: its name, or the identity of a hidden one. */
+static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
+    return *slot->name ? slot->name : slot->identity ? slot->identity : "";
+}
 /* Slot of its memory by name, or -1; slots without a name have none. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
 /* What of a machine others name. */

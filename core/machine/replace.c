@@ -46,37 +46,17 @@ static int continued(const JoxMachine *next, const char *name) {
     return jox_machine_state(next, now ? now : name);
 }
 
-/* The name that the part had which is called `name` now; the same where it was not renamed. */
-static const char *name_before(const JoxMachine *old, const JoxMachine *next, JoxPart part,
-                               const char *name) {
-    for (uint32_t r = 0; r < next->renamed_count && !jox_machine_has(old, part, name); r++)
-        if (strcmp(next->renamed[r].to, name) == 0 &&
-            jox_machine_has(old, part, next->renamed[r].from) &&
-            !jox_machine_has(next, part, next->renamed[r].from))
-            return next->renamed[r].from;
-    return name;
-}
-
-/* Which of the old slots goes on as next[slot]: the n-th of the same name for the n-th of that
+/* Which of the old slots goes on as next->own[slot]: the n-th of the same name for the n-th of that
    name, since slots without a name are several. -1 if there is none. */
-#define BEFORE(old, old_count, next, slot, before)                                                 \
-    do {                                                                                           \
-        uint32_t nth = 0;                                                                          \
-        for (uint32_t s = 0; s < (slot); s++)                                                      \
-            nth += strcmp((next)[s].name, (next)[slot].name) == 0;                                 \
-        for (uint32_t s = 0; s < (old_count); s++)                                                 \
-            if (strcmp((old)[s].name, before) == 0 && nth-- == 0)                                  \
-                return (int32_t)s;                                                                 \
-        return -1;                                                                                 \
-    } while (0)
-
 static int32_t own_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
-    const char *before = name_before(old, next, JOX_PART_OWN, next->own[slot].name);
-    BEFORE(old->own, old->own_count, next->own, slot, before);
-}
-static int32_t memory_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
-    const char *before = name_before(old, next, JOX_PART_MEMORY, next->memory[slot].name);
-    BEFORE(old->memory, old->memory_count, next->memory, slot, before);
+    const char *before = jox_name_before(old, next, JOX_PART_OWN, next->own[slot].name);
+    uint32_t nth = 0;
+    for (uint32_t s = 0; s < slot; s++)
+        nth += strcmp(next->own[s].name, next->own[slot].name) == 0;
+    for (uint32_t s = 0; s < old->own_count; s++)
+        if (strcmp(old->own[s].name, before) == 0 && nth-- == 0)
+            return (int32_t)s;
+    return -1;
 }
 
 /* What a scene gave stays with the agents, though this version does not look at it: a line that is
@@ -90,6 +70,7 @@ static void keep_given(const JoxMachine *old, JoxMachine *next) {
             continue;
         next->own = jox_realloc(next->own, next->own_count + 1, sizeof *next->own);
         next->own[next->own_count] = *slot;
+        next->own[next->own_count].kept = true;
         next->own[next->own_count++].name = jox_strdup(slot->name);
     }
 }
@@ -116,9 +97,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
                 jox_dist_draw(&next->own[s].dist, seed, id, 0, JOX_DRAW_OWN, s);
     }
     for (uint32_t s = 0; s < next->memory_count; s++) {
-        int32_t from = memory_before(old, next, s);
-        bool same = from >= 0 && old->memory[from].kind == next->memory[s].kind;
-        r->memory[s] = same ? from : -1;
+        r->memory[s] = jox_memory_before(old, next, s);
         r->memory_moves |= r->memory[s] != (int32_t)s;
     }
 }
@@ -168,6 +147,7 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
     JoxReplacement *r = jox_alloc(1, sizeof *r);
     uint32_t states = old->state_count;
     keep_given(old, next);
+    jox_dormant_keep(old, next);
     r->old = old;
     r->next = next;
     r->drawn_count = next_id;
@@ -342,6 +322,10 @@ static void carry_counts(const JoxReplacement *r, const JoxMachine *old, JoxMach
     is->before_capacity = was->before_capacity;
     was->before = NULL;
     was->before_count = 0;
+}
+
+void jox_replacement_tell(const JoxReplacement *r, const char *people, JoxText *out) {
+    jox_dormant_tell(r->old, r->next, people, out);
 }
 
 JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxReplacement *r) {

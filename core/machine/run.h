@@ -248,6 +248,10 @@ typedef struct JoxReplacement JoxReplacement;
 JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next, uint64_t seed,
                                         uint32_t next_id);
 void jox_replacement_free(JoxReplacement *replacement);
+/* Tells, a line each, what memory of so many people the swap keeps, takes up again or drops. */
+void jox_replacement_tell(const JoxReplacement *replacement, const char *people, JoxText *out);
+/* Adds a dormant slot of memory behind the others, to a machine that does not run yet. */
+void jox_dormant_add(JoxMachine *machine, const char *identity, JoxMemoryKind kind, double initial);
 /* Whether it may be done now: NULL, or why not ("312 agents are in 'Greet', which this version
    lacks"), written into `why`. */
 const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index,

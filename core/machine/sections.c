@@ -23,7 +23,8 @@ static uint64_t shape_of(const JoxMachine *machine) {
         add_text(&hash, machine->own[o].name);
     jox_hash_add(&hash, &machine->memory_count, sizeof machine->memory_count);
     for (uint32_t m = 0; m < machine->memory_count; m++)
-        add_text(&hash, machine->memory[m].name);
+        add_text(&hash, machine->memory[m].dormant ? machine->memory[m].identity
+                                                   : machine->memory[m].name);
     return jox_hash_end(&hash);
 }
 

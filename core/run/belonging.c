@@ -1,11 +1,14 @@
-/* Tags and teams that behaviours name: they get their numbers in the scene, also those that nobody
-   has yet and states set, and what is asked for must be borne or set by somebody. */
+/* What the texts of a run do not say. Tags and teams that behaviours name get their numbers in the
+   scene, also those that nobody has yet and states set, and what is asked for must be borne or set
+   by somebody. A checkpoint lists these numbers, and what agents keep of earlier versions of their
+   behaviours. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "run/run.h"
 
-/* Text in memory by which a resumed run gets the numbers that tags and teams had. */
+/* Text in memory by which a resumed run gets them. */
 const char jox_run_names_path[] = "<tags and teams>";
 
 void jox_run_refresh_names(JoScene *scene) {
@@ -142,12 +145,94 @@ void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
 
 /* ---- runs that go on ---- */
 
+/* What the text of a machine does not say: memory and own values that are kept of earlier versions.
+ */
+static void list_kept(const JoxMachine *machine, JoxText *out) {
+    for (uint32_t s = 0; s < machine->own_count; s++) {
+        const JoxOwnSlot *own = &machine->own[s];
+        if (!own->kept || strpbrk(own->name, "\t\n"))
+            continue;
+        jox_text_printf(out, "own\t%s\t%d %d %d\t%a %a %a %a", machine->path, own->dist.kind,
+                        own->dist.choices, own->is_place, own->dist.a, own->dist.b, own->dist.lo,
+                        own->dist.hi);
+        for (int c = 0; c < JOX_DIST_CHOICES; c++)
+            jox_text_printf(out, " %a", own->dist.values[c]);
+        jox_text_printf(out, "\t%s\n", own->name);
+    }
+    for (uint32_t s = 0; s < machine->memory_count; s++)
+        if (machine->memory[s].dormant && !strpbrk(machine->memory[s].identity, "\t\n"))
+            jox_text_printf(out, "memory\t%s\t%d\t%a\t%s\n", machine->path,
+                            machine->memory[s].kind == JOX_MEMORY_BOOLEAN,
+                            machine->memory[s].initial, machine->memory[s].identity);
+}
+
 void jox_run_list_names(const JoScene *scene, JoxText *out) {
     const JoxWorldModel *model = &scene->world->model;
     for (uint32_t t = 0; t < model->tag_count; t++)
         jox_text_printf(out, "tag %s\n", model->tags[t]);
     for (uint32_t t = 0; t < model->set_team_count; t++)
         jox_text_printf(out, "team %s\n", model->set_teams[t]);
+    for (uint32_t m = 0; m < model->machines.count; m++)
+        list_kept(model->machines.built[m], out);
+}
+
+/* Ends a field at a tab; the one behind it, or NULL. */
+static char *next_field(char *at) {
+    char *tab = at ? strchr(at, '\t') : NULL;
+    if (tab)
+        *tab++ = 0;
+    return tab;
+}
+
+enum { DIST_NUMBERS = 4 + JOX_DIST_CHOICES, MOST_OWN = 1000 };
+
+static void take_own(JoxMachine *machine, char *kinds, const double *n, const char *name) {
+    JoxOwnSlot own = {
+        .kept = true, .declared = true, .dist = {.a = n[0], .b = n[1], .lo = n[2], .hi = n[3]}};
+    const long kind = strtol(kinds, &kinds, 10), choices = strtol(kinds, &kinds, 10);
+    own.is_place = strtol(kinds, &kinds, 10) != 0;
+    if (kind < 0 || kind >= JOX_DIST_KINDS || choices < 0 || choices > JOX_DIST_CHOICES ||
+        machine->own_count >= MOST_OWN)
+        return;
+    own.dist.kind = (JoxDistKind)kind;
+    own.dist.choices = (int)choices;
+    memcpy(own.dist.values, n + 4, sizeof own.dist.values);
+    own.name = jox_strdup(name);
+    machine->own = jox_realloc(machine->own, machine->own_count + 1, sizeof *machine->own);
+    machine->own[machine->own_count++] = own;
+}
+
+/* Adds what a line says of the machine. */
+static void take_kept(JoxMachine *machine, char *line) {
+    char *path = next_field(line), *number = next_field(path), *value = next_field(number),
+         *name = next_field(value);
+    double numbers[DIST_NUMBERS] = {0};
+    if (!name || strcmp(path, machine->path) != 0)
+        return;
+    for (int n = 0; n < DIST_NUMBERS && *value; n++) {
+        numbers[n] = strtod(value, &value);
+        value += *value == ' ';
+    }
+    const bool boolean = *number == '1';
+    if (strcmp(line, "own") == 0)
+        take_own(machine, number, numbers, name);
+    else if (strcmp(line, "memory") == 0 && machine->memory_count < 64 + 3 * JOX_MOST_DORMANT)
+        jox_dormant_add(machine, name, boolean ? JOX_MEMORY_BOOLEAN : JOX_MEMORY_NUMBER,
+                        numbers[0]);
+}
+
+void jox_run_take_kept(JoxMachine *machine) {
+    const JoxOverlayFile *file = jox_overlay_file(jox_run_names_path);
+    char *text = file ? jox_strndup(file->text, file->length) : NULL;
+    for (char *line = text; line && *line;) {
+        char *end = strchr(line, '\n');
+        if (!end)
+            break;
+        *end = 0;
+        take_kept(machine, line);
+        line = end + 1;
+    }
+    jox_free(text);
 }
 
 void jox_run_take_names(JoScene *scene) {

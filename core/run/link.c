@@ -39,6 +39,7 @@ int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagno
     if (!machine)
         return -1;
     jox_run_number_belongings(scene, machine);
+    jox_run_take_kept(machine);
     return (int32_t)jox_machines_add(machines, machine);
 }
 

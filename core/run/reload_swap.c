@@ -100,6 +100,10 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
         jox_machines_people(machines, change->index, after);
+        uint32_t people = 0;
+        char number[JOX_NOUN];
+        for (uint32_t s = 0; s < next->state_count; s++)
+            people += after[s];
         if (!same_states(old, next)) /* the recording names those of the new version too */
             jox_run_tell_replaced(scene, change->index);
         double took = jox_clock_wall() - begun;
@@ -114,6 +118,9 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         jox_text_add(&text, "\n after: ");
         print_census(next, after, &text);
         jox_text_add(&text, "\n");
+        if (people > 0)
+            jox_replacement_tell(change->replacement, jox_noun(number, people, "person|people"),
+                                 &text);
     }
     link_batch(scene, batch);
     if (text.data)

@@ -126,6 +126,8 @@ void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
 extern const char jox_run_names_path[];
 void jox_run_list_names(const JoScene *scene, JoxText *out);
 void jox_run_take_names(JoScene *scene);
+/* Adds to a machine that is loaded what that text says that its agents keep of earlier versions. */
+void jox_run_take_kept(JoxMachine *machine);
 /* populate.c: checks what groups set, and makes the agents that stand there at the start. */
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of speeds and pushes for which the step is too long. */

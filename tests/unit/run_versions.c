@@ -138,6 +138,123 @@ static void run_with_new_tags_resumes_exactly(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- names that a version lacks ---- */
+
+#define LAPS "local mine = memory { laps = 0, met = false }\n"
+#define COUNTING                                                                                   \
+    LAPS HEAD                                                                                      \
+        "\"A\", own = { luck = uniform(0, 1) }, states = { A = { steer = hold, "                   \
+        "{ to = \"A\", when = after(0.1), set = { laps = mine.laps + 1, met = true } } } } }\n"
+#define RESTING HEAD "\"A\", states = { A = { steer = hold } } }\n"
+
+static double remembered(const JoScene *scene, uint32_t agent, const char *name) {
+    const JoxMachine *m = scene->world->machines.set->items[0];
+    const int32_t slot = jox_machine_memory(m, name);
+    const JoxAgents *a = &scene->world->state.agents;
+    return slot < 0 ? -1.0 : a->memory[(size_t)agent * a->memory_stride + (uint32_t)slot];
+}
+
+static void save_live(JoScene *scene, const char *text) {
+    JoError error = {0};
+    jox_text_free(&said);
+    if (!save(scene, text, &error))
+        fail_msg("%s: %s", error.text, said.data);
+}
+
+static void memory_that_a_version_lacks_is_kept_and_told(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO, COUNTING);
+    step(scene, 40);
+    const double laps = remembered(scene, 1, "laps");
+    assert_true(laps >= 8.0 && remembered(scene, 1, "met") == 1.0);
+    save_live(scene, RESTING);
+    assert_non_null(strstr(said.data, "memory 'laps' of 2 people is kept until"));
+    assert_true(remembered(scene, 1, "laps") == -1.0);
+    step(scene, 5);
+    save_live(scene, FAST("1", ""));
+    assert_null(strstr(said.data, "laps")); /* told once */
+    step(scene, 5);
+    save_live(scene, COUNTING);
+    assert_non_null(strstr(said.data, "memory 'laps' of 2 people is what it was"));
+    assert_true(remembered(scene, 1, "laps") == laps && remembered(scene, 1, "met") == 1.0);
+    jo_scene_free(scene);
+}
+
+static void memory_of_another_type_is_told_and_comes_back(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO, COUNTING);
+    step(scene, 40);
+    const double laps = remembered(scene, 0, "laps");
+    save_live(scene, "memory { laps = false, met = false }\n" RESTING);
+    assert_non_null(strstr(said.data, "memory 'laps' was a number and is true or false now"));
+    assert_true(remembered(scene, 0, "laps") == 0.0 && remembered(scene, 0, "met") == 1.0);
+    save_live(scene, LAPS RESTING);
+    assert_true(remembered(scene, 0, "laps") == laps);
+    jo_scene_free(scene);
+}
+
+#define RING                                                                                       \
+    "jostle: 1\nplaces: {hub: {point: [0, 0]}}\n"                                                  \
+    "groups: {p: {behaviour: own.lua, at: [[3, 0]], facing: 90}}\n"
+#define ORBIT(counts, more)                                                                        \
+    "local mine = memory { laps = 0 }\nreturn machine { name = \"m\", start = \"A\", " counts      \
+    "states = { A = { steer = orbit \"hub\"" more " } } }\n"
+
+/* What a counter has turned so far goes on with it, and is nobody's post meanwhile. */
+static void counter_goes_on_where_it_was(void **state) {
+    (void)state;
+    JoScene *scene = load_own(RING, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
+    step(scene, 150);
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachine *m = scene->world->machines.set->items[0];
+    const double angle = a->memory[m->counters[0].angle];
+    assert_true(angle > 1.0);
+    save_live(scene, ORBIT("", ", face = home"));
+    m = scene->world->machines.set->items[0];
+    assert_true(a->memory[m->home - 1] == (double)a->x[0]); /* set now, and no angle of a counter */
+    save_live(scene, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
+    m = scene->world->machines.set->items[0];
+    assert_true(a->memory[m->counters[0].angle] == angle);
+    jo_scene_free(scene);
+}
+
+static void run_with_dormant_memory_resumes_exactly(void **state) {
+    (void)state;
+    JoScene *scene = load_resumable(COUNTING);
+    keep_checkpoints(scene);
+    step(scene, 40);
+    const double laps = remembered(scene, 1, "laps");
+    save_live(scene, RESTING);
+    step(scene, 5);
+    JoScene *next = resume(scene);
+    assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
+    save_live(scene, COUNTING);
+    save_live(next, COUNTING);
+    assert_true(remembered(next, 1, "laps") == laps);
+    step(scene, 20);
+    step(next, 20);
+    assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
+    jo_scene_free(next);
+    jo_scene_free(scene);
+}
+
+static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO, LAPS RESTING);
+    JoxText text = {0};
+    for (int n = 0; n <= JOX_MOST_DORMANT; n++) {
+        text.length = 0;
+        jox_text_printf(&text, "memory { name%d = %d }\n" RESTING, n, n);
+        save_live(scene, text.data);
+        assert_true((n < JOX_MOST_DORMANT - 1) == !strstr(said.data, "is dropped"));
+    }
+    assert_non_null(strstr(said.data, "memory 'met', which no version named for long, is dropped"));
+    save_live(scene, "memory { name0 = 9 }\n" RESTING);
+    assert_true(remembered(scene, 0, "name0") == 0.0);
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
 static int remove_all(void **state) {
     static const char *const NAMES[] = {"latest.checkpoint", "before.checkpoint"};
     char path[340];
@@ -156,6 +273,11 @@ int main(void) {
         cmocka_unit_test(tag_that_nobody_bears_or_sets_is_refused),
         cmocka_unit_test(misspelt_tag_and_team_are_warned_of),
         cmocka_unit_test(run_with_new_tags_resumes_exactly),
+        cmocka_unit_test(memory_that_a_version_lacks_is_kept_and_told),
+        cmocka_unit_test(memory_of_another_type_is_told_and_comes_back),
+        cmocka_unit_test(counter_goes_on_where_it_was),
+        cmocka_unit_test(run_with_dormant_memory_resumes_exactly),
+        cmocka_unit_test(oldest_of_too_many_names_is_dropped_and_told),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_all);
 }

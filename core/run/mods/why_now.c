@@ -260,7 +260,8 @@ static void not_there(const Now *now, const char *name, JoError *error) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         names[count++] = jox_parameters[p].name;
     for (uint32_t s = 0; s < now->machine->memory_count && count < 256; s++)
-        names[count++] = now->machine->memory[s].name;
+        if (*now->machine->memory[s].name)
+            names[count++] = now->machine->memory[s].name;
     for (uint32_t s = 0; s < now->machine->own_count && count < 256; s++)
         names[count++] = now->machine->own[s].name;
     const char *near = jox_suggest(name, names, count);
