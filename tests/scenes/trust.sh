@@ -37,6 +37,14 @@ for name in "$work/secret/a.yaml" ../secret/a.yaml link.yaml; do
     says "  nor are its walls from there" 3 "lies outside the folder" "$program" check own/s.yaml
 done
 
+# ---- scenes that are large in all ----
+for part in one two; do { printf 'title: [1'; yes ,1 | head -300000 | tr -d '\n'; echo ']'; } >large-$part.yaml; done
+printf 'jostle: 1\ninclude: [large-one.yaml]\ntitle: one\n%s\n' "$group" >s.yaml
+cp "$(dirname "$scene")/../behaviours/stander.lua" .
+says "a scene that is large with what it includes" 0 "nothing wrong" "$program" check s.yaml
+printf 'jostle: 1\ninclude: [large-one.yaml, large-two.yaml]\ntitle: one\n%s\n' "$group" >s.yaml
+says "  has a bound in all" 3 "too large, with the files that it includes" "$program" check s.yaml
+
 # ---- recordings made to harm ----
 table='CREATE TABLE metadata(key TEXT, value TEXT); INSERT INTO metadata VALUES ("fps", "10"); CREATE TABLE'
 columns='(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL)'

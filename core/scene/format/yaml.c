@@ -38,7 +38,7 @@ typedef struct Parse {
     size_t length; /* of the text */
     Anchor anchors[256];
     uint32_t anchor_count;
-    uint64_t nodes; /* as if every alias were written out */
+    uint64_t *nodes; /* of all files, as if every alias were written out */
     bool failed;
 } Parse;
 
@@ -125,8 +125,8 @@ static JoxYaml *resolve_alias(Parse *p, const char *name, JoxPosition at) {
     for (uint32_t i = p->anchor_count; i-- > 0;) {
         if (strcmp(p->anchors[i].name, name) != 0)
             continue;
-        p->nodes += tree_size(p->anchors[i].node, 0);
-        if (p->nodes > MOST_NODES)
+        *p->nodes += tree_size(p->anchors[i].node, 0);
+        if (*p->nodes > MOST_NODES)
             fail(p, at, "too-large", "aliases make this scene too large", NULL);
         return p->anchors[i].node;
     }
@@ -182,9 +182,11 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
 static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
     JoxPosition at = mark(p, event->start_mark, event->end_mark);
     JoxYaml *node = NULL;
-    if (depth > DEEPEST || ++p->nodes > MOST_NODES) {
+    if (depth > DEEPEST || ++*p->nodes > MOST_NODES) {
         fail(p, at, "too-large",
-             depth > DEEPEST ? "this is nested too deeply" : "this scene is too large", NULL);
+             depth > DEEPEST ? "this is nested too deeply"
+                             : "this scene is too large, with the files that it includes",
+             NULL);
     } else if (event->type == YAML_ALIAS_EVENT) {
         node = resolve_alias(p, (const char *)event->data.alias.anchor, at);
     } else {
@@ -329,6 +331,7 @@ static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t
     parse->diagnostics = diagnostics;
     parse->path = file->path;
     parse->role = files->role;
+    parse->nodes = &files->nodes;
     JoxYaml *root = NULL;
     if (jox_diag_check_text(diagnostics, file->path, file->text, length))
         root = parse_text(parse, file->text, length);

@@ -38,6 +38,7 @@ typedef enum JoxYamlRole { JOX_YAML_SCENE, JOX_YAML_MOD, JOX_YAML_PATCH } JoxYam
 typedef struct JoxYamlFiles {
     JoxYamlFile items[64];
     uint32_t count;
+    uint64_t nodes; /* of their trees: bounded in all */
     JoxYamlRole role;
     bool
         plain; /* of a mod, which is not trusted: only files beside it are included, and no links */
