@@ -25,7 +25,12 @@ def _written(value: Any) -> str:
     """A value as `jostle run --set` takes it."""
     if isinstance(value, (list, tuple, dict, np.ndarray)):
         raise TypeError(f"a key is set to a number, a text or a truth value, not to {value!r}")
-    return value if isinstance(value, str) else json.dumps(value, default=float)
+    return value if isinstance(value, str) else json.dumps(value, default=_plain)
+
+
+def _plain(value: Any) -> Any:
+    """A number of NumPy as one of Python."""
+    return value.item() if isinstance(value, np.generic) else float(value)
 
 
 FARTHEST = 1e4  # m, from the origin
@@ -386,6 +391,7 @@ class Scene:
         """In a notebook a picture of how it stands, seen from above; `live`: the live page of another run of the same
         scene, in a frame. Needs the command `jostle` for that."""
         self._live()
+        width, height = (max(100, whole("a size in pixels", size, 10000)) for size in (width, height))
         return live_page(self, width, height) if live else picture_of(self, width, height)
 
     def _repr_svg_(self) -> str:
@@ -498,7 +504,7 @@ class Agent:
     def push(self, fx: float, fy: float) -> None:
         """A force during the next step, N, up to 10,000 along each axis."""
         self._state()
-        self.scene.input(f"push {self.id} {fx!r} {fy!r}")
+        self.scene.input(f"push {self.id} {float(fx)!r} {float(fy)!r}")
 
     def remove(self) -> None:
         """Takes it out."""

@@ -122,7 +122,7 @@ def test_odd_values_are_refused(path):
                 lambda: jostle.Scene("a\0b"), lambda: scene.signal("a\0b"), lambda: scene.record("a\0b"),
                 lambda: scene.record("a", every=nan), lambda: scene.record("a", every=-1),
                 lambda: scene.neighbours(nan, 0, 1), lambda: scene.density(inf, 0), lambda: scene.cast((0,), (1, 1)),
-                lambda: scene.add_wall("w", [(0, 0), (1,)])):
+                lambda: scene.add_wall("w", [(0, 0), (1,)]), lambda: scene.show(width=-1), lambda: scene.agent(0).push("a", 0)):
         with pytest.raises(ValueError):
             act()
     for act in (lambda: scene.step(1.5), lambda: scene.step("1"), lambda: scene.step(None), lambda: scene.run("1"),
@@ -149,6 +149,14 @@ def test_odd_values_are_refused(path):
             act()
         assert error.value.text and error.value.code in (1, 2, 3)
     assert scene.hash == state and scene.step() is None
+
+
+def test_numbers_of_numpy_are_numbers(path):
+    scene = jostle.Scene(path, seed=np.int64(7), set={"groups.people.set.mass": np.float32(90), "duration": np.int64(3)})
+    assert scene["mass"][0] == 90
+    scene.step(np.int32(2))
+    scene.agent(np.uint32(1)).push(np.float64(300), np.float32(0))
+    assert scene.run(np.float32(0.5)).time == pytest.approx(0.6)
 
 
 def test_a_message_may_not_use_its_scene(path):
