@@ -311,6 +311,8 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
     JOX_REQUIRE(!def->scene != !def->recording, false);
     JOX_REQUIRE(strlen(def->out) < 1000, false);
+    JOX_REQUIRE(def->recorded_fps >= 0.0 && def->recorded_fps <= 1e5, false);
+    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3 && !isinf(def->at), false);
     JOX_GUARD (NULL, error)
         return false;
     return draw_all(def, error);

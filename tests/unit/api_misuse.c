@@ -76,6 +76,20 @@ static void defs_must_come_from_their_default(void **state) {
     render = (JoRenderDef){.recording = "x", .out = "x.svg"}; /* not of the default */
     assert_false(jo_render(&render, NULL));
     assert_false(jo_render(NULL, NULL));
+    render = jo_default_render_def();
+    render.recording = "x";
+    render.out = "x.svg";
+    const double odd[] = {NAN, INFINITY, -1, 1e300};
+    for (int i = 0; i < 4; i++) {
+        JoRenderDef bad = render;
+        bad.recorded_fps = odd[i];
+        assert_false(jo_render(&bad, NULL));
+        bad = render;
+        bad.unit = odd[i];
+        assert_false(jo_render(&bad, NULL));
+    }
+    render.at = INFINITY;
+    assert_false(jo_render(&render, NULL));
     JoViewRecordingDef view = jo_default_view_recording_def();
     assert_false(jo_view_recording(&view, NULL)); /* of no recording */
     view.recording = "x";
@@ -83,7 +97,7 @@ static void defs_must_come_from_their_default(void **state) {
     assert_false(jo_view_recording(&view, NULL));
     assert_false(jo_view_recording(&(JoViewRecordingDef){.recording = "x"}, NULL));
     assert_false(jo_view_recording(NULL, NULL));
-    assert_int_equal(reports, 17);
+    assert_int_equal(reports, 26);
 }
 
 static void numbers_out_of_range_are_refused_by_name(void **state) {
