@@ -134,8 +134,11 @@ typedef struct JoAgentDef {
     uint32_t cookie;
 } JoAgentDef;
 JO_API JoAgentDef jo_default_agent_def(void);
-/* A null handle, with `error` filled, if a field is out of range. An agent born in a wall or in
-   another agent is moved to the nearest free spot before its first step. */
+/* A null handle, with `error` filled (JO_INPUT), if a field is out of range, if the point lies in a
+   solid, or if there is no free spot. Where it would lie nearer than 0.99 radii to a wall, or
+   overlap another agent by more than a quarter of the smaller diameter, it begins on the nearest
+   free spot within 25 m with no wall between. All searches between two steps look at 5 million
+   spots, half a radius apart, and those that come after at 1,000 each. */
 JO_API JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error);
 /* Takes an agent out, at once; what it carries falls. Recorded in the world of a scene, as all that
    jostle_act.h has. Nothing for a stale handle. */
@@ -332,7 +335,11 @@ typedef struct JoStats {
     double dt, simulated_s, wall_s, cpu_s; /* stepping alone; CPU of all threads of the process */
     double stage_ns[JO_STAGE_COUNT];       /* wall time per agent-step, ns */
     double bullet_ns;                      /* of the stage "bodies", likewise: Bullet's own steps */
-    double objects_ns; /* of the stage "perceive", likewise: what agents see of bodies */
+    double objects_ns;         /* of the stage "perceive", likewise: what agents see of bodies */
+    uint64_t shifted_at_birth; /* agents who began on a free spot beside their point */
+    uint64_t not_placed;       /* agents who found none, and were not made */
+    uint64_t moved_out, not_moved_out; /* agents in the way of a wall that came: who were moved out
+                                          of it, and for whom there was no free spot */
 } JoStats;
 JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */

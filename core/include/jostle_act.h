@@ -20,12 +20,13 @@ extern "C" {
 /* ---- people ------------------------------------------------------------------------------ */
 
 /* A new agent of a scene's group, at (x, y), m, within 10 km of the origin: with the group's
-   behaviour, tags, team, and values drawn from its distributions. Where it would stand in a wall or
-   in somebody else it is moved to the nearest free spot before the next step. Not for groups that
-   are bound for points opposite to where they begin. */
+   behaviour, tags, team, and values drawn from its distributions. Shifted to a free spot, or
+   refused, as by jo_world_add_agent. Not for groups that are bound for points opposite to where
+   they begin. */
 JO_API JoAgent jo_world_spawn(JoWorld *world, const char *group, double x, double y,
                               JoError *error);
-/* Moves an agent to (x, y), m, or to the nearest free spot within 25 m of it, at rest. */
+/* Moves an agent to (x, y), m, or to the nearest free spot, at rest; refused where there is none,
+   as by jo_world_add_agent. */
 JO_API bool jo_agent_teleport(JoWorld *world, JoAgent agent, double x, double y, JoError *error);
 /* Has an agent aim at a place of the scene: `goal` of its behaviour, and `own.goal` where there is
    such a value. */

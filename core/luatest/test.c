@@ -93,8 +93,6 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
         jo_scene_free(scene);
         scene = NULL;
     }
-    if (scene)
-        jox_world_resolve_placement(scene->world);
     jox_free(path);
     return scene;
 }

@@ -232,6 +232,9 @@ uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine);
    per own slot, NULL or an array of pointers, of which the first JOX_MOST_GIVEN count, NULL where
    the machine's own distribution stands), memory (likewise), enters the start state (its parameters
    are written; on_enter is queued and runs in the next think). */
+/* m: radius that jox_machines_spawn gives the agent that gets this id. */
+float jox_machines_birth_radius(const JoxMachineRun *run, uint32_t id, uint32_t machine,
+                                const JoxDist *const *own);
 void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory);
 /* Evaluates counters, transitions, parameters, kicks. Agents with `removes` states get `removed`.

@@ -101,6 +101,21 @@ static void enter_between_steps(JoxMachineRun *run, uint32_t agent, uint16_t to)
     pending->pending[pending->pending_count++] = run->agents->id[agent];
 }
 
+float jox_machines_birth_radius(const JoxMachineRun *run, uint32_t id, uint32_t machine,
+                                const JoxDist *const *own) {
+    const JoxMachine *kind = run->set->items[machine];
+    const JoxValue *value = jox_state_parameter(kind, &kind->states[kind->start], JOX_PARAM_radius);
+    double radius = jox_parameters[JOX_PARAM_radius].value; /* of what is known in the step only */
+    if (value->kind == JOX_VALUE_CONST)
+        radius = value->number;
+    if (value->kind == JOX_VALUE_OWN) {
+        const uint32_t slot = (uint32_t)value->index;
+        const JoxDist *dist = is_given(own, slot) ? own[slot] : &kind->own[slot].dist;
+        radius = jox_dist_draw(dist, run->seed, id, 0, JOX_DRAW_OWN, slot);
+    }
+    return jox_parameter_store(JOX_PARAM_radius, radius);
+}
+
 void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;

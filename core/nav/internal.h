@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "geom/wall_grid.h"
 #include "nav/nav.h"
+#include "nav/spots/spots.h"
 #include "simd/isa.h"
 
 /* n . v >= offset, n a unit vector: the velocities that a constraint allows, m/s. */
@@ -72,6 +73,7 @@ struct JoxNav {
     uint32_t gap_room;
     uint64_t gap_stream, gap_knots[2];
     JoxWallGrid grid;
+    JoxSpots spots;                     /* between two steps, of births */
     JoxStageMemory *memory, own_memory; /* own: where it was given none */
     bool literal;
     JoIsa isa;              /* of the kernels */

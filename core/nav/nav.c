@@ -32,6 +32,7 @@ void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory) {
 
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
+    jox_spots_free(&nav->spots);
     nav->grid.walls = walls;
     nav->clear_reach = -1.0f;
 }
@@ -67,12 +68,14 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
 
 void jox_nav_forget(JoxNav *nav) {
     nav->drift = jox_drift_unknown();
+    jox_spots_free(&nav->spots);
 }
 
 void jox_nav_free(JoxNav *nav) {
     if (!nav)
         return;
     jox_wall_grid_free(&nav->grid);
+    jox_spots_free(&nav->spots);
     jox_free(nav->cell_first);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);

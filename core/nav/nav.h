@@ -107,21 +107,48 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
                   double response, double on_the_way, JoxPool *pool);
 
-typedef struct JoxPlacement {
-    uint32_t moved;       /* agents put elsewhere */
-    uint32_t stuck;       /* agents for which no free spot was found within 25 m */
+/* Where somebody would begin. */
+typedef struct JoxBirthWish {
+    JoxV2 at;     /* m */
+    float radius; /* m */
+    /* Their place, within a box: they are shifted within it if it has room, and those who stay
+       nowhere else. Its number, from 1 on, tells it from others in the same step. NULL and 0: none.
+     */
+    bool (*holds)(const void *place, JoxV2 spot);
+    const void *place;
+    JoxV2 low, high; /* m */
+    uint32_t place_number;
+    bool stays;
+} JoxBirthWish;
+typedef enum JoxBirthSpot {
+    JOX_BIRTH_AS_WISHED,
+    JOX_BIRTH_SHIFTED, /* out of walls that are nearer than 0.99 radii, and of agents that it would
+                          overlap by more than a quarter of the smaller diameter */
+    JOX_BIRTH_NO_ROOM, /* there is no free spot within 25 m */
+    JOX_BIRTH_IN_SOLID /* the point lies in a wall */
+} JoxBirthSpot;
+/* Finds the nearest free spot of a spiral, with no wall between it and the point; *spot is the
+   point itself where there is none. All searches of births between two steps look at 5 million
+   spots, and those that come after at 1,000 each. Changes nothing; whoever is born there is told to
+   jox_nav_born before the next call. */
+JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *agents, const JoxBirthWish *wish,
+                                JoxV2 *spot);
+/* The last agent was added, on the spot that was found for it. */
+void jox_nav_born(JoxNav *nav, const JoxAgents *agents, uint32_t agent);
+/* Forgets what the searches found, and their memory: people move. */
+void jox_nav_end_births(JoxNav *nav);
+/* The same of the agent at an index, who would stand at *at. */
+JoxBirthSpot jox_nav_free_spot(JoxNav *nav, const JoxAgents *agents, uint32_t agent, JoxV2 *at);
+
+/* How agents in whose way walls came were moved. */
+typedef struct JoxCleared {
+    uint32_t moved;
+    uint32_t stuck;       /* agents for whom there is no free spot within 25 m */
     uint32_t first_stuck; /* index of the first of them */
-    float farthest;       /* m, the longest way an agent was moved */
-} JoxPlacement;
-/* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
-   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. */
-JoxPlacement jox_nav_place_newborn(JoxNav *nav, JoxAgents *agents, uint32_t first_id);
+} JoxCleared;
 /* Moves agents whose centre lies in a solid that came, or nearer than 0.7 radii to an edge that
    did, in ascending id, to the nearest free spot of a spiral. No wall lies on the way, but for
    solids that came over the centre: out of these it leads. */
-JoxPlacement jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *agents);
-/* Where the agent at an index could stand: *at, or the nearest spot to it of a spiral that is free
-   of walls and of others, by the same measures. False where there is none within 25 m. */
-bool jox_nav_free_spot(JoxNav *nav, const JoxAgents *agents, uint32_t agent, JoxV2 *at);
+JoxCleared jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *agents);
 
 #endif

@@ -49,26 +49,6 @@ void jox_run_set_schedule(JoScene *scene, bool anew) {
     jox_world_set_events(scene->world, spec->events, spec->event_count);
 }
 
-bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxSceneSpec *spec = scene->spec;
-    for (uint32_t g = 0; g < spec->group_count; g++) {
-        const JoxGroup *group = &spec->groups[g];
-        check_names(scene, group, group->set, group->set_count, false, diagnostics);
-        check_names(scene, group, group->memory, group->memory_count, true, diagnostics);
-        for (uint32_t p = 0; p < group->profile_count; p++)
-            check_names(scene, group, group->profiles[p].set, group->profiles[p].set_count, false,
-                        diagnostics);
-    }
-    for (uint32_t s = 0; s < spec->source_count; s++)
-        check_names(scene, &spec->groups[spec->sources[s].like], spec->sources[s].memory,
-                    spec->sources[s].memory_count, true, diagnostics);
-    if (diagnostics->errors)
-        return false;
-    jox_run_set_schedule(scene, true);
-    jox_world_populate(scene->world);
-    return true;
-}
-
 /* ---- a step that is too long ---- */
 
 /* The greatest, or least, that a value is for those who run the machine; NAN where it is computed.
@@ -143,61 +123,71 @@ void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
 
 static const double FAR = 0.5; /* m: who was moved by less stands about where the scene says */
 
-enum { MOST_STUCK = 100 };
-
-typedef struct Moved {
-    uint32_t people;
-    double farthest; /* m */
-} Moved;
-
-static void tell_moved(const JoxGroup *group, const Moved *moved, JoxDiagnostics *diagnostics) {
+static void tell_shifted(const JoxGroup *group, const JoxPlaced *placed,
+                         JoxDiagnostics *diagnostics) {
+    const bool far = (double)placed->farthest > FAR;
     char people[JOX_NOUN];
-    static const char HINT[] = "Widen the place, lower the count, or give other points";
-    jox_diag_add(diagnostics, moved->farthest > FAR ? JOX_SEVERITY_WARNING : JOX_SEVERITY_NOTE,
-                 group->position, "placed-in-others", moved->farthest > FAR ? HINT : NULL, NULL,
-                 NULL,
-                 "%u of the %s of group '%.60s' %s placed in a wall or deep in others; "
-                 "they begin up to %.2f m away",
-                 moved->people, jox_noun(people, group->count, "person|people"), group->name,
-                 moved->people == 1 ? "was" : "were", moved->farthest);
+    jox_diag_add(diagnostics, far ? JOX_SEVERITY_WARNING : JOX_SEVERITY_NOTE, group->position,
+                 "placed-in-others",
+                 far ? "Widen the place, lower the count, or give other points" : NULL, NULL, NULL,
+                 "%u of the %s of group '%.60s' %s placed at a wall or deep in others; they begin "
+                 "up to %.2f m away",
+                 placed->shifted, jox_noun(people, group->count, "person|people"), group->name,
+                 placed->shifted == 1 ? "was" : "were", (double)placed->farthest);
 }
 
-/* A few may begin in others; a crowd that nowhere fits costs what pairs of its people cost. */
-static void tell_stuck(const JoScene *scene, const JoxPlacement *settled,
-                       JoxDiagnostics *diagnostics) {
-    const JoxAgents *a = &scene->world->state.agents;
-    char people[JOX_NOUN];
-    const uint32_t first = settled->first_stuck;
-    const bool many = settled->stuck > MOST_STUCK && settled->stuck > a->count / 10;
-    jox_diag_add(diagnostics, many ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
-                 scene->spec->groups[a->group[first]].position, "placed-in-others",
-                 "Widen the place, lower the count, or give people a smaller radius", NULL, NULL,
-                 "%u of %s %s in a wall or deep in others, as no free spot was found: the first is "
-                 "agent %u at (%.2f, %.2f)",
-                 settled->stuck, jox_noun(people, a->count, "person|people"),
-                 settled->stuck == 1 ? "stands" : "stand", a->id[first], (double)a->x[first],
-                 (double)a->y[first]);
+/* A count that does not fit is an error, as figures of fewer people would be those of another
+   scene; of points that were given one by one, some may be wrong. */
+static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
+                            JoxDiagnostics *diagnostics) {
+    const bool given = group->fill == JOX_FILL_AT || group->starts;
+    const bool refused = !given || placed->not_placed == group->count;
+    const JoxV2 first = group->positions[placed->first];
+    char people[JOX_NOUN], hint[100];
+    JoxText why = {0};
+    jox_world_say_unplaced(placed->in_solid == placed->not_placed ? JOX_BIRTH_IN_SOLID
+                                                                  : JOX_BIRTH_NO_ROOM,
+                           (double)first.x, (double)first.y, &why);
+    snprintf(hint, sizeof hint, "Lower the count to %u, widen the place, or lower the radius",
+             group->count - placed->not_placed);
+    jox_diag_add(diagnostics, refused ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING, group->position,
+                 "not-placed", given ? "Give other points" : hint, NULL, NULL,
+                 "%u of the %s of group '%.60s' %s not placed: %s", placed->not_placed,
+                 jox_noun(people, group->count, "person|people"), group->name,
+                 placed->not_placed == 1 ? "is" : "are", why.data);
+    jox_text_free(&why);
 }
 
-void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxAgents *a = &scene->world->state.agents;
+static void place_people(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
-    JoxV2 *placed = jox_alloc((size_t)a->count + 1, sizeof *placed);
-    Moved *moved = jox_alloc((size_t)spec->group_count + 1, sizeof *moved);
-    for (uint32_t i = 0; i < a->count; i++)
-        placed[i] = jox_v2(a->x[i], a->y[i]);
-    const JoxPlacement settled = jox_world_resolve_placement(scene->world);
-    for (uint32_t i = 0; i < a->count && settled.moved && spec->group_count; i++) {
-        const double way = (double)jox_length(jox_sub(jox_v2(a->x[i], a->y[i]), placed[i]));
-        Moved *of = &moved[a->group[i]];
-        of->people += way > 0.0;
-        of->farthest = way > of->farthest ? way : of->farthest;
+    JoxPlaced *placed = jox_alloc((size_t)spec->group_count + 1, sizeof *placed);
+    jox_world_populate(scene->world, placed);
+    for (uint32_t g = 0; g < spec->group_count; g++) {
+        if (placed[g].shifted)
+            tell_shifted(&spec->groups[g], &placed[g], diagnostics);
+        if (placed[g].not_placed)
+            tell_not_placed(&spec->groups[g], &placed[g], diagnostics);
     }
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        if (moved[g].people)
-            tell_moved(&spec->groups[g], &moved[g], diagnostics);
-    if (settled.stuck && spec->group_count)
-        tell_stuck(scene, &settled, diagnostics);
     jox_free(placed);
-    jox_free(moved);
+}
+
+/* ---- all of it ---- */
+
+void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxSceneSpec *spec = scene->spec;
+    for (uint32_t g = 0; g < spec->group_count; g++) {
+        const JoxGroup *group = &spec->groups[g];
+        check_names(scene, group, group->set, group->set_count, false, diagnostics);
+        check_names(scene, group, group->memory, group->memory_count, true, diagnostics);
+        for (uint32_t p = 0; p < group->profile_count; p++)
+            check_names(scene, group, group->profiles[p].set, group->profiles[p].set_count, false,
+                        diagnostics);
+    }
+    for (uint32_t s = 0; s < spec->source_count; s++)
+        check_names(scene, &spec->groups[spec->sources[s].like], spec->sources[s].memory,
+                    spec->sources[s].memory_count, true, diagnostics);
+    if (diagnostics->errors)
+        return;
+    jox_run_set_schedule(scene, true);
+    place_people(scene, diagnostics);
 }

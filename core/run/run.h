@@ -128,15 +128,13 @@ void jox_run_list_names(const JoScene *scene, JoxText *out);
 void jox_run_take_names(JoScene *scene);
 /* Adds to a machine that is loaded what that text says that its agents keep of earlier versions. */
 void jox_run_take_kept(JoxMachine *machine);
-/* populate.c: checks what groups set, and makes the agents that stand there at the start. */
-bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
+/* populate.c: checks what groups set, and makes the agents that stand there at the start; says of
+   which groups how many are shifted and how far, and how many do not fit. */
+void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of speeds and pushes for which the step is too long. */
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* source_checks.c: sources at which walls keep some or all from coming in. */
 void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* Moves people out of walls and of each other before the first step, and says how many of which
-   groups and how far. */
-void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */

@@ -220,9 +220,14 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
         circle(r, map, group);
     else if (group->fill == JOX_FILL_LINE)
         line(r, map, group);
-    else
+    else {
         area(r, map, &a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
              s->group_count, group);
+        group->in = fill->in;
+        group->in_count = fill->in_count;
+        group->outside = fill->outside;
+        group->outside_count = fill->outside_count;
+    }
     JOX_ASSERT(group->positions || r->diagnostics->errors > 0);
     check_bounds(r, map, group);
 }

@@ -206,6 +206,13 @@ JoAgent jox_world_handle(const JoWorld *world, uint32_t index) {
     return (JoAgent){slot, world->state.agents.slot_generation[slot]};
 }
 
+static void refuse_birth(JoxBirthSpot spot, const JoAgentDef *def, JoError *error) {
+    JoxText why = {0};
+    jox_world_say_unplaced(spot, def->x, def->y, &why);
+    jox_error(error, JO_INPUT, "the agent is not added: %s", why.data);
+    jox_text_free(&why);
+}
+
 JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
     JOX_REQUIRE(world && !world->busy && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
     double values[JOX_PARAM_COUNT];
@@ -213,10 +220,24 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
         return (JoAgent){0};
     if (!agent_parameters(def, values, error))
         return (JoAgent){0};
-    uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
-    world->state.agents.machine[i] = JOX_NO_MACHINE;
+    JoxAgents *a = &world->state.agents;
+    const JoxBirthWish wish = {.at = {(float)def->x, (float)def->y},
+                               .radius =
+                                   jox_parameter_store(JOX_PARAM_radius, values[JOX_PARAM_radius])};
+    JoxV2 spot;
+    jox_world_raise_walls(world);
+    const JoxBirthSpot found = jox_nav_find_birth(world->scratch.nav, a, &wish, &spot);
+    if (found == JOX_BIRTH_NO_ROOM || found == JOX_BIRTH_IN_SOLID) {
+        world->state.statistics.not_placed++;
+        refuse_birth(found, def, error);
+        return (JoAgent){0};
+    }
+    const uint32_t i = jox_world_add_agent(world, spot.x, spot.y);
+    a->machine[i] = JOX_NO_MACHINE;
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        jox_param_set(&world->state.agents, p, i, jox_parameter_store((JoxParameter)p, values[p]));
+        jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, values[p]));
+    jox_nav_born(world->scratch.nav, a, i);
+    world->state.statistics.shifted_at_birth += found == JOX_BIRTH_SHIFTED;
     return jox_world_handle(world, i);
 }
 
@@ -375,7 +396,11 @@ JoStats jo_world_stats(const JoWorld *world) {
                      .wall_s = s->wall_s,
                      .cpu_s = s->cpu_s,
                      .bullet_ns = s->bullet_s * each,
-                     .objects_ns = s->objects_s * each};
+                     .objects_ns = s->objects_s * each,
+                     .shifted_at_birth = s->shifted_at_birth,
+                     .not_placed = s->not_placed,
+                     .moved_out = s->moved_out,
+                     .not_moved_out = s->not_moved_out};
     for (int k = 0; k < JO_STAGE_COUNT; k++)
         stats.stage_ns[k] = s->stage_s[k] * each;
     return stats;

@@ -167,7 +167,7 @@ void jox_world_raise_walls(JoWorld *world) {
 static void clear_new_walls(JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     JoxStatistics *s = &world->state.statistics;
-    const JoxPlacement cleared = jox_nav_clear_new_walls(world->scratch.nav, &world->state.agents);
+    const JoxCleared cleared = jox_nav_clear_new_walls(world->scratch.nav, &world->state.agents);
     s->moved_out += cleared.moved;
     s->not_moved_out += cleared.stuck;
     if (cleared.stuck) {
@@ -188,18 +188,8 @@ static void clear_new_walls(JoWorld *world) {
     world->state.walls_came = false;
 }
 
-JoxPlacement jox_world_resolve_placement(JoWorld *world) {
-    JoxPlacement settled = {0};
+void jox_world_settle_walls(JoWorld *world) {
     jox_world_raise_walls(world);
     if (world->state.walls_came)
         clear_new_walls(world);
-    if (world->state.settled)
-        return settled;
-    JOX_ASSERT(world->state.first_unsettled <= world->state.agents.next_id);
-    settled = jox_nav_place_newborn(world->scratch.nav, &world->state.agents,
-                                    world->state.first_unsettled);
-    JOX_ASSERT(settled.moved <= world->state.agents.count);
-    world->state.statistics.shifted_at_birth += settled.moved;
-    world->state.settled = true;
-    return settled;
 }

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/sort.h"
+#include "geom/area.h"
 #include "geom/polygon.h"
 #include "world/world.h"
 
@@ -146,10 +147,14 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     return population->party_team[number];
 }
 
-uint32_t jox_world_spawn_with(JoWorld *world, uint32_t number, JoxV2 at,
-                              const JoxGroupValue *memory, uint32_t memory_count) {
+JoxBirth jox_world_birth_of(const JoWorld *world, uint32_t group, JoxV2 at) {
+    const JoxGroup *of = &world->model.groups[group];
+    return (JoxBirth){group, of->memory, of->memory_count, {.at = at}};
+}
+
+/* Puts an agent who has a machine by now into its group. */
+static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
     const JoxGroup *group = &world->model.groups[number];
-    uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->state.agents;
     if (a->group[i] != number)
         a->group[i] = (uint16_t)number;
@@ -163,22 +168,52 @@ uint32_t jox_world_spawn_with(JoWorld *world, uint32_t number, JoxV2 at,
         a->face_x[i] = (float)jox_cos(group->facing);
         a->face_y[i] = (float)jox_sin(group->facing);
     }
-    uint32_t index = pick_machine(world, group, a->id[i]);
+}
+
+JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
+    const JoxGroup *group = &world->model.groups[birth->group];
+    JoxBirthWish *wish = &birth->wish;
+    const uint32_t id = world->state.agents.next_id, places = world->model.place_count;
+    const uint32_t index = pick_machine(world, group, id);
     JOX_ASSERT(index < world->model.machines.count);
     Overrides set;
-    override(world, group, pick_profile(world, group, a->id[i]), memory, memory_count,
-             world->model.machines.items[index], at, &set);
+    override(world, group, pick_profile(world, group, id), birth->memory, birth->memory_count,
+             world->model.machines.items[index], wish->at, &set);
+    wish->radius = jox_machines_birth_radius(&world->machines, id, index, set.own);
+    JoxV2 spot;
+    jox_world_raise_walls(world);
+    const JoxBirthSpot found =
+        jox_nav_find_birth(world->scratch.nav, &world->state.agents, wish, &spot);
+    if (found == JOX_BIRTH_NO_ROOM || found == JOX_BIRTH_IN_SOLID) {
+        while (world->model.place_count > places) /* its own: see add_antipode */
+            jox_place_free(&world->model.places[--world->model.place_count]);
+        return found;
+    }
+    const uint32_t i = *agent = jox_world_add_agent(world, spot.x, spot.y);
+    join_group(world, i, birth->group);
     world->machines.tick = (uint32_t)world->state.tick;
     world->machines.places = world->model.places;
     world->machines.place_count = world->model.place_count;
     jox_machines_spawn(&world->machines, i, index, set.own, set.memory);
-    return i;
+    JOX_ASSERT(world->state.agents.id[i] == id);
+    JOX_ASSERT(jox_param(&world->state.agents, JOX_PARAM_radius, i) == wish->radius);
+    jox_nav_born(world->scratch.nav, &world->state.agents, i);
+    world->state.statistics.shifted_at_birth += found == JOX_BIRTH_SHIFTED;
+    return found;
 }
 
-uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at) {
-    const JoxGroup *of = &world->model.groups[group];
+JoxBirthSpot jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent) {
     JOX_ASSERT(group < world->model.group_count);
-    return jox_world_spawn_with(world, group, at, of->memory, of->memory_count);
+    JoxBirth birth = jox_world_birth_of(world, group, at);
+    return jox_world_bear(world, &birth, agent);
+}
+
+void jox_world_say_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out) {
+    if (spot == JOX_BIRTH_IN_SOLID)
+        jox_text_printf(out, "(%g, %g) lies in a wall", x, y);
+    else
+        jox_text_printf(
+            out, "there is no free spot within 25 m of (%g, %g) on its side of all walls", x, y);
 }
 
 /* ---- starts ---- */
@@ -237,6 +272,18 @@ static bool is_free(const JoxAgents *a, JoxV2 at) {
     return true;
 }
 
+/* Whoever would begin in a wall never comes in. */
+static void lose_start(JoWorld *world, const JoxStart *start) {
+    const JoxGroup *group = &world->model.groups[start->group];
+    JoxText *news = &world->scratch.news;
+    world->state.statistics.not_placed++;
+    jox_text_printf(news, "%s:%d:%d: t = %.2f s: a person of group '%.60s' is not placed: ",
+                    group->position.file, group->position.line, group->position.column,
+                    (double)world->state.tick * world->model.def.dt, group->name);
+    jox_world_say_unplaced(JOX_BIRTH_IN_SOLID, (double)start->at.x, (double)start->at.y, news);
+    jox_text_add(news, "\n");
+}
+
 void jox_world_starts(JoWorld *world) {
     const JoxWorldModel *model = &world->model;
     JoxPopulation *p = &world->state.population;
@@ -245,11 +292,14 @@ void jox_world_starts(JoWorld *world) {
         const JoxStart *start = &model->starts[s];
         if (p->entered[s] || !is_free(&world->state.agents, start->at))
             continue;
-        const JoxGroup *group = &model->groups[start->group];
-        set_going(world,
-                  jox_world_spawn_with(world, start->group, start->at, group->memory,
-                                       group->memory_count),
-                  start->velocity);
+        uint32_t agent;
+        const JoxBirthSpot spot = jox_world_spawn(world, start->group, start->at, &agent);
+        if (spot == JOX_BIRTH_NO_ROOM)
+            continue;
+        if (spot == JOX_BIRTH_IN_SOLID)
+            lose_start(world, start);
+        else
+            set_going(world, agent, start->velocity);
         p->entered[s] = 1;
     }
     while (p->all_until < model->start_count && p->entered[p->all_until])
@@ -270,19 +320,57 @@ void jox_world_set_groups(JoWorld *world, const JoxGroup *groups, uint32_t count
     model->group_count = count;
 }
 
-void jox_world_populate(JoWorld *world) {
+static bool area_holds(const void *area, JoxV2 spot) {
+    return jox_area_contains(area, spot);
+}
+
+/* Makes those of one group, and says how they were placed. */
+static JoxPlaced place_group(JoWorld *world, uint32_t number) {
+    const JoxGroup *group = &world->model.groups[number];
+    const JoxArea area = {.places = world->model.places,
+                          .in = group->in,
+                          .out = group->outside,
+                          .in_count = group->in_count,
+                          .out_count = group->outside_count};
+    JoxAreaIndex *index = group->in_count ? jox_area_index(&area) : NULL;
+    JoxPlaced placed = {0};
+    for (uint32_t i = 0; i < group->count; i++) {
+        JoxBirth birth = jox_world_birth_of(world, number, group->positions[i]);
+        JoxBirthWish *wish = &birth.wish;
+        if (index && jox_area_extent(&area, &wish->low, &wish->high)) {
+            wish->holds = area_holds;
+            wish->place = index;
+            wish->place_number = number + 1;
+        }
+        uint32_t agent = JOX_NO_INDEX;
+        const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);
+        placed.in_solid += spot == JOX_BIRTH_IN_SOLID;
+        if (agent == JOX_NO_INDEX) {
+            placed.first = placed.not_placed++ ? placed.first : i;
+            continue;
+        }
+        const JoxAgents *a = &world->state.agents;
+        const JoxV2 way = jox_sub(jox_v2(a->x[agent], a->y[agent]), group->positions[i]);
+        placed.shifted += spot == JOX_BIRTH_SHIFTED;
+        placed.farthest = jox_maxf(placed.farthest, jox_length(way));
+        if (group->starts)
+            set_going(world, agent, group->starts[i].velocity);
+    }
+    if (index)
+        jox_area_index_free(index);
+    world->state.statistics.not_placed += placed.not_placed;
+    return placed;
+}
+
+void jox_world_populate(JoWorld *world, JoxPlaced *placed) {
     const JoxWorldModel *p = &world->model;
     uint32_t total = 0;
     for (uint32_t g = 0; g < p->group_count; g++)
         total += p->groups[g].count;
     jox_agents_reserve(&world->state.agents, total);
     for (uint32_t g = 0; g < p->group_count; g++)
-        for (uint32_t i = 0; i < p->groups[g].count; i++) {
-            uint32_t agent = jox_world_spawn(world, g, p->groups[g].positions[i]);
-            if (p->groups[g].starts)
-                set_going(world, agent, p->groups[g].starts[i].velocity);
-        }
-    JOX_ASSERT(world->state.agents.count >= total);
+        placed[g] = place_group(world, g);
+    JOX_ASSERT(world->state.agents.count <= total);
     list_starts(world);
 }
 

@@ -9,6 +9,7 @@
 #include "base/number/distribution.h"
 #include "base/sections.h"
 #include "geom/fill.h"
+#include "nav/nav.h"
 
 typedef struct JoWorld JoWorld;
 
@@ -64,6 +65,8 @@ typedef struct JoxGroup {
     JoxGroupMix *mix;
     uint32_t mix_count;
     JoxFillMode fill;
+    uint32_t *in, *outside; /* places that they fill, and that they keep out of: indices */
+    uint32_t in_count, outside_count;
     JoxV2 *positions; /* where they stand at the start, m */
     uint32_t count;
     /* In order of time, or NULL; the first `count` are those of `positions`, at 0 s. */
@@ -97,13 +100,34 @@ typedef struct JoxPopulation {
 /* Groups of a world, in place of those before; they stay the caller's, and have to stay until they
    are replaced. They must be as many as before, if there were some. */
 void jox_world_set_groups(JoWorld *world, const JoxGroup *groups, uint32_t count);
-/* Makes the agents of all groups that stand there at the start. */
-void jox_world_populate(JoWorld *world);
-/* Makes one more of a group, at a point, m. Returns its index. */
-uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at);
-/* The same; values of memory in place of the group's. */
-uint32_t jox_world_spawn_with(JoWorld *world, uint32_t group, JoxV2 at, const JoxGroupValue *memory,
-                              uint32_t memory_count);
+/* How the agents of a group that stand there at the start were placed. */
+typedef struct JoxPlaced {
+    uint32_t shifted;    /* to a free spot */
+    uint32_t not_placed; /* for whom there is none */
+    uint32_t in_solid;   /* of these, whose point lies in a wall */
+    uint32_t first;      /* of these, the first: index of its position */
+    float farthest;      /* m: the longest way that one was shifted */
+} JoxPlaced;
+/* Makes the agents of all groups that stand there at the start, as far as they fit; fills one of
+   `placed` for each group. */
+void jox_world_populate(JoWorld *world, JoxPlaced *placed);
+/* Who is to be born: of a group, at a point or near it. */
+typedef struct JoxBirth {
+    uint32_t group;
+    const JoxGroupValue *memory;
+    uint32_t memory_count;
+    JoxBirthWish wish; /* its radius is drawn */
+} JoxBirth;
+/* One of a group, with the group's memory and no place. */
+JoxBirth jox_world_birth_of(const JoWorld *world, uint32_t group, JoxV2 at);
+/* Makes the agent at its point, or on the nearest free spot with no wall between
+   (jox_nav_find_birth). Where there is none nothing is done, and nothing is counted; else *agent is
+   its index. */
+JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent);
+/* The same of a group, at a point, m. */
+JoxBirthSpot jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent);
+/* Says why somebody could not be placed at a point, for messages. */
+void jox_world_say_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out);
 /* Before a step: brings in whose start has come. Who would stand in another waits until that one
    has gone on; those behind do not wait for it. */
 void jox_world_starts(JoWorld *world);

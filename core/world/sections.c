@@ -106,6 +106,7 @@ bool jox_world_snapshot_is_exact(const JoWorld *world) {
 }
 
 static void save(JoWorld *world, JoxText *out) {
+    jox_nav_end_births(world->scratch.nav); /* what goes on from here begins without them, too */
     JoxSections s = jox_sections_save(out);
     jox_world_sections(world, &s);
     jox_sections_end(&s);

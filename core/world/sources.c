@@ -88,24 +88,46 @@ static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint
     return (uint32_t)(u * doors);
 }
 
+static bool floor_holds(const void *entrance, JoxV2 spot) {
+    return jox_entrance_holds(entrance, spot);
+}
+
+/* Who is wished for at a point of an entrance's floor, and stays on it. */
+static JoxBirthWish wish_on(const JoxEntrance *entrance, JoxV2 at, uint32_t number) {
+    const JoxPlace *floor = &entrance->floor;
+    const float beside = floor->kind == JOX_PLACE_POINT ? floor->radius : JOX_ENTRANCE_REACH;
+    JoxBirthWish wish = {
+        .at = at, .holds = floor_holds, .place = entrance, .place_number = number, .stays = true};
+    jox_bounds(floor->points, floor->count, &wish.low, &wish.high);
+    wish.low = jox_sub(wish.low, (JoxV2){beside, beside});
+    wish.high = jox_add(wish.high, (JoxV2){beside, beside});
+    return wish;
+}
+
 /* Of those who are due, who comes in by one of the doors while it has room: how many. */
 static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t number,
                           uint32_t due) {
     const JoxAgentSource *source = &world->model.sources[s];
-    const JoxGroup *group = &world->model.groups[source->like];
     const uint32_t door = jox_source_door(world, s, number);
     const JoxEntrance *entrance = jox_source_entrance(world, s, number);
     double sum = covered(entrance, &world->state.agents);
     uint32_t made = 0;
-    for (uint32_t n = 0; n < due && sum < FULL * entrance->area; n++) {
+    bool full = false;
+    for (uint32_t n = 0; n < due && !full && sum < FULL * entrance->area; n++) {
         if (pick_door(world, s, doors, n) != number)
             continue;
         const JoxV2 at = draw_point(world, &world->model.places[door], entrance, s, n);
-        const bool own = source->memory_count > 0;
-        const uint32_t i =
-            jox_world_spawn_with(world, source->like, at, own ? source->memory : group->memory,
-                                 own ? source->memory_count : group->memory_count);
-        sum += cover_of(&world->state.agents, i);
+        JoxBirth birth = jox_world_birth_of(world, source->like, at);
+        if (source->memory_count > 0) {
+            birth.memory = source->memory;
+            birth.memory_count = source->memory_count;
+        }
+        birth.wish = wish_on(entrance, at, world->model.group_count + 1 + door);
+        uint32_t agent = JOX_NO_INDEX;
+        full = jox_world_bear(world, &birth, &agent) == JOX_BIRTH_NO_ROOM;
+        if (agent == JOX_NO_INDEX)
+            continue;
+        sum += cover_of(&world->state.agents, agent);
         made++;
     }
     return made;

@@ -222,14 +222,16 @@ bool jox_world_step(JoWorld *w) {
     if (w->failure[0])
         return false;
     jox_world_events(w);
+    jox_world_settle_walls(w);
     jox_world_sources(w);
     jox_world_starts(w);
+    jox_nav_end_births(w->scratch.nav);
+    w->state.settled = true;
     JOX_CHECK(jox_world_model_check(w));
     JOX_CHECK(jox_world_agents_check(w));
     const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
     double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
     double last = begin;
-    jox_world_resolve_placement(w);
     if (w->model.reinserts_bodies &&
         w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
         jox_bodies_reinsert(w->state.bodies);

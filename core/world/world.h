@@ -153,12 +153,12 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
 /* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
    them: for those of single agents too. */
 void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);
-/* Adds an agent at (x, y), m; it is settled before the next step. Who calls this sets its
-   machine and all of its parameters. Returns its index, valid until the next step. */
+/* Adds an agent at (x, y), m, as it is told: whoever calls this has found a spot for it, and sets
+   its machine and all of its parameters. Returns its index, valid until the next step. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
-/* Brings walls into effect, moves agents in whose way they came, then those that were born in walls
-   or in each other, and says how many of the latter. Runs by itself before a step. */
-JoxPlacement jox_world_resolve_placement(JoWorld *world);
+/* Brings the walls that stand into effect, and moves agents in whose way they came. Runs by itself
+   before a step. */
+void jox_world_settle_walls(JoWorld *world);
 /* Brings the walls that stand into effect, unless they are. */
 void jox_world_raise_walls(JoWorld *world);
 /* Brings the last ring of all_walls into effect, which was added before the first step: who stands

@@ -197,7 +197,7 @@ for scene in evacuation tour station catch rimea-10 families metro gates; do
 done >"$work/hints"
 [ ! -s "$work/hints" ]; verdict "shipped scenes give no cause for hints" $?; head -5 "$work/hints"
 sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/three.yaml"
-expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed in a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
+expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed at a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
 "$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check that warns does not say that nothing is wrong" $?
 

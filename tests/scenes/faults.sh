@@ -89,21 +89,35 @@ groups:
   fit: {behaviour: odd.lua, at: [[-3, 0]]}
   walled: {behaviour: odd.lua, at: [[19, 10], [-5, 5], [18.5, 10]]}'
 for command in check "run --for 1 --quiet"; do
-    says "people in a wall are told of, as the ${command%% *} says" 0 "scene.yaml:9:3: warning: 2 of the 3 people of group 'walled' were placed in a wall" \
+    says "people in a wall are told of, as the ${command%% *} says" 0 "scene.yaml:9:3: warning: 2 of the 3 people of group 'walled' are not placed: (19, 10) lies in a wall" \
         "$program" $command scene.yaml
 done
 scene 'walls: [{solid: [[-30, -30], [60, -30], [60, 60], [-30, 60]]}]
 groups: {g: {behaviour: odd.lua, at: [[10, 10]]}}'
-says "  and those who find no way out" 0 "1 of 1 person stands in a wall or deep in others" "$program" check scene.yaml
+says "  and a group of whom nobody fits is refused" 3 "1 of the 1 person of group 'g' is not placed: (10, 10) lies in a wall" "$program" check scene.yaml
 scene 'groups: {g: {behaviour: odd.lua, count: 30000, in: square}}'
 sed -i 's/^places:/places:\n  square: {polygon: [[0, 0], [3, 0], [3, 3], [0, 3]]}/' "$yard/scene.yaml"
 (ulimit -t 10 -v 2000000
 for command in check "run --quiet"; do
-    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of 30,000 people stand in a wall or deep in others, as no free spot was found" \
+    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of the 30,000 people of group 'g' are not placed: there is no free spot within 25 m of" \
         "$program" $command scene.yaml
 done
 scene 'groups: {g: {behaviour: odd.lua, count: 100000, fill: circle, in: ring}}'
 says "and 100,000 on a circle" 3 "100,000 agents on 31.4 m would stand less than 0.005 m apart" "$program" run scene.yaml --quiet
+# A sealed room: whoever does not fit in it does not begin outside of it.
+room() { # COUNT
+    scene "walls: [{line: [[0, 0], [4, 0], [4, 4], [0, 4]], closed: true}]
+groups: {g: {behaviour: odd.lua, count: $1, in: room, fill: random}}"
+    sed -i 's/^places:/places:\n  room: {polygon: [[0.2, 0.2], [3.8, 0.2], [3.8, 3.8], [0.2, 3.8]]}/' "$yard/scene.yaml"
+}
+room 150
+for command in check "run --quiet"; do
+    says "a count that does not fit is refused, as the ${command%% *} says" 3 "people of group 'g' are not placed: there is no free spot within 25 m of" "$program" $command scene.yaml
+done
+grep -qF "Lower the count to 1" "$work/out"; verdict "  with the count that fits" $?
+room 90
+says "a count that fits is placed" 0 '"not_placed": 0' "$program" run scene.yaml --for 1 --quiet --summary - --record "$work/room.sqlite"
+between "  within the room" "$(sqlite3 "$work/room.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE pos_x BETWEEN 0 AND 4 AND pos_y BETWEEN 0 AND 4")" 90 90
 # Bodies in one place: one after the other, and as copies that are larger than they are apart.
 { printf 'jostle: 1\nbodies:\n'; for n in $(seq 1000); do echo '  - {shape: {sphere: {radius: 0.2}}, at: [0, 0, 1]}'; done; } >"$yard/scene.yaml"
 says "bodies that begin in each other" 3 "pairs of bodies lie in each other" "$program" run scene.yaml --quiet

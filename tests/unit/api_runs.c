@@ -102,7 +102,7 @@ static void momentum_never_exceeds_what_was_given(void **state) {
     jo_world_free(world);
 }
 
-static void born_in_walls_and_in_each_other(void **state) {
+static void births_in_a_solid_are_refused_and_others_keep_apart(void **state) {
     (void)state;
     JoWorldDef def = jo_default_world_def();
     JoWorld *world = jo_world_create(&def, NULL);
@@ -112,14 +112,21 @@ static void born_in_walls_and_in_each_other(void **state) {
     for (int i = 0; i < 40; i++) {
         JoAgentDef agent = jo_default_agent_def();
         agent.x = i % 2 ? 0.0 : 5.0; /* all in two points, one of them inside the block */
-        agents[i] = jo_world_add_agent(world, &agent, NULL);
+        JoError error = {0};
+        agents[i] = jo_world_add_agent(world, &agent, &error);
+        assert_int_equal(jo_agent_is_live(world, agents[i]), i % 2 == 0);
+        if (i % 2)
+            assert_string_equal(error.text, "the agent is not added: (0, 0) lies in a wall");
     }
+    assert_int_equal(jo_world_stats(world).not_placed, 20);
+    assert_int_equal(jo_world_stats(world).shifted_at_birth, 19);
     jo_world_step(world, 40);
-    for (int i = 0; i < 40; i++) {
+    assert_int_equal(jo_world_agent_count(world), 20);
+    for (int i = 0; i < 40; i += 2) {
         JoAgentState a = jo_agent_state(world, agents[i]);
         assert_true(isfinite(a.x) && isfinite(a.y));
         assert_false(fabs(a.x) < 2.0 && fabs(a.y) < 2.0);
-        for (int k = 0; k < i; k++) {
+        for (int k = 0; k < i; k += 2) {
             JoAgentState b = jo_agent_state(world, agents[k]);
             assert_true(hypot(a.x - b.x, a.y - b.y) > 0.2);
         }
@@ -150,7 +157,7 @@ int main(void) {
         cmocka_unit_test(a_steady_step_allocates_nothing),
         cmocka_unit_test(two_hundred_thousand_agents_run),
         cmocka_unit_test(momentum_never_exceeds_what_was_given),
-        cmocka_unit_test(born_in_walls_and_in_each_other),
+        cmocka_unit_test(births_in_a_solid_are_refused_and_others_keep_apart),
         cmocka_unit_test(a_stray_agent_far_away_does_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -214,7 +214,6 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
     }
     if (draw(number, 3) < 0.75)
         return;
-    jox_world_resolve_placement(e->world); /* who lies deep in others would be moved out */
     JoxAgents *a = &e->world->state.agents;
     for (uint32_t i = 1; i < a->count; i++) {
         a->x[i] += (a->x[0] - a->x[i]) * (float)between(number, 100 + 20 * i + 7, 0.0, 0.9);
@@ -436,7 +435,6 @@ static void those_at_rest_stay_so(void **state) {
             def.x = 2.0 * i;
             add_person(&e, def, 0.0, 0.0);
         }
-        jox_world_resolve_placement(e.world); /* who lies deep in others would be moved out */
         JoxAgents *a = &e.world->state.agents;
         for (uint32_t i = 0; i < 4; i++) {
             a->x[i] = (float)between(number, 10 + i, -0.5, 0.5);

@@ -72,7 +72,6 @@ static void begin_all(JoScene *scene, int steps, bool announces) {
     if (announces) /* everybody heeds it, and not what the others call */
         does(scene, "signal crowd");
     jox_machines_spawn(&world->machines, jox_world_add_agent(world, 2.0f, 2.0f), 0, NULL, NULL);
-    jox_world_resolve_placement(world);
     assert_true(machines->called_count > 0 && machines->announced_count == announces);
     assert_true(machines->pending_count > 0 && machines->edit_count > 0);
 }

@@ -10,8 +10,12 @@
     HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 " \
          "} }, own = { goal = \"out\" } }\n"
 
+static const JoxStatistics *counted(const JoWorld *world) {
+    return &world->state.statistics;
+}
+
 static const JoxStatistics *counts(const JoScene *scene) {
-    return &scene->world->state.statistics;
+    return counted(scene->world);
 }
 
 /* ---- gates ---- */
@@ -177,6 +181,118 @@ static void ring_that_becomes_solid_came(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- births ---- */
+
+static JoAgent add_at(JoWorld *world, double x, double y, JoError *error) {
+    JoAgentDef agent = jo_default_agent_def();
+    agent.x = x;
+    agent.y = y;
+    return jo_world_add_agent(world, &agent, error);
+}
+
+/* A room of 2 x 2 m with a thin wall: it takes some, and nobody is put outside. */
+static void births_beyond_the_room_of_a_room_are_refused(void **state) {
+    (void)state;
+    const JoWorldDef def = jo_default_world_def();
+    JoWorld *world = jo_world_create(&def, NULL);
+    const double room[] = {0, 0, 2, 0, 2, 2, 0, 2, 0, 0};
+    JoError error = {0};
+    uint32_t came = 0;
+    assert_true(jo_world_add_line(world, room, 5, NULL));
+    for (int n = 0; n < 200; n++) {
+        const JoAgent one = add_at(world, 0.5 + 0.01 * (n % 100), 1.0, &error);
+        came += one.generation != 0;
+        if (one.generation == 0)
+            assert_non_null(strstr(error.text, "there is no free spot within 25 m of ("));
+    }
+    assert_in_range(came, 20, 40);
+    assert_int_equal(jo_world_agent_count(world), came);
+    assert_int_equal(counted(world)->not_placed, 200 - came);
+    jo_world_step(world, 20);
+    for (uint32_t i = 0; i < came; i++) {
+        const JoxAgents *a = &world->state.agents;
+        assert_true(a->x[i] > 0.0f && a->x[i] < 2.0f && a->y[i] > 0.0f && a->y[i] < 2.0f);
+    }
+    jo_world_free(world);
+}
+
+/* They all fit within 25 m, each on the nearest spot that is left. */
+static void thousands_of_births_at_a_point_spread_about_it(void **state) {
+    (void)state;
+    const JoWorldDef def = jo_default_world_def();
+    JoWorld *world = jo_world_create(&def, NULL);
+    enum { PEOPLE = 10000 };
+    for (int n = 0; n < PEOPLE; n++)
+        assert_true(add_at(world, 3.0, -2.0, NULL).generation != 0);
+    assert_int_equal(counted(world)->shifted_at_birth, PEOPLE - 1);
+    const JoxAgents *a = &world->state.agents;
+    float farthest = 0.0f;
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        farthest = jox_maxf(farthest, hypotf(a->x[i] - 3.0f, a->y[i] + 2.0f));
+    assert_true(farthest > 15.0f && farthest < 20.0f); /* 8 to 14 people per m2 */
+    jo_world_free(world);
+}
+
+/* The world whose state was saved in the midst of births, and the one that got it, go on alike. */
+static void births_after_a_snapshot_are_those_of_the_restored_world(void **state) {
+    (void)state;
+    const JoWorldDef def = jo_default_world_def();
+    JoWorld *worlds[2] = {jo_world_create(&def, NULL), jo_world_create(&def, NULL)};
+    JoxText saved = {0};
+    JoError error = {0};
+    for (int n = 0; n < 300; n++)
+        add_at(worlds[0], 0.1 * (n % 3), 0.0, NULL);
+    assert_true(jox_world_snapshot(worlds[0], &saved, &error));
+    if (!jox_world_restore(worlds[1], saved.data, saved.length, &error))
+        fail_msg("%s", error.text);
+    for (int w = 0; w < 2; w++) {
+        for (int n = 0; n < 300; n++)
+            add_at(worlds[w], 0.05 * (n % 7), 0.1, NULL);
+        jo_world_step(worlds[w], 3);
+    }
+    assert_true(jo_world_hash(worlds[0]) == jo_world_hash(worlds[1]));
+    jox_text_free(&saved);
+    jo_world_free(worlds[0]);
+    jo_world_free(worlds[1]);
+}
+
+/* Beyond the wall there is room, and in the place a little. */
+static void people_of_a_place_are_shifted_within_it_and_on_their_side(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "places: {strip: {polygon: [[0, 0.2], [20, 0.2], [20, 1.2], [0, 1.2]]}}\n"
+                 "walls: [{line: [[-5, 0], [25, 0]]}]\n"
+                 "groups: {people: {behaviour: own.lua, count: 150, in: strip, fill: random}}\n",
+                 STAY);
+    const JoxAgents *a = &scene->world->state.agents;
+    assert_int_equal(a->count, 150);
+    assert_true(counts(scene)->shifted_at_birth > 20);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (!(a->x[i] > -0.01f && a->x[i] < 20.01f && a->y[i] > 0.19f && a->y[i] < 1.21f))
+            fail_msg("agent %u at (%g, %g)", a->id[i], (double)a->x[i], (double)a->y[i]);
+    jo_scene_free(scene);
+}
+
+static void people_who_would_come_in_within_a_wall_are_told_of(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        "jostle: 1\n"
+        "walls: [{solid: [[4, -1], [7, -1], [7, 1], [4, 1]]}]\n"
+        "groups: {people: {behaviour: own.lua, starts: [[0, 0, 0], [0.2, 5, 0], [0.2, 9, 0]]}}\n",
+        STAY);
+    step(scene, 10);
+    assert_int_equal(scene->world->state.agents.count, 2);
+    assert_int_equal(counts(scene)->not_placed, 1);
+    assert_non_null(strstr(said.data, "scene.yaml:3:10: t = 0.20 s: a person of group 'people' is "
+                                      "not placed: (5, 0) lies in a wall"));
+    JoError error = {0};
+    assert_int_equal(jo_world_spawn(scene->world, "people", 6, 0, &error).generation, 0);
+    assert_string_equal(error.text, "(6, 0) lies in a wall");
+    assert_int_equal(jo_scene_stats(scene).not_placed, 2);
+    jo_scene_free(scene);
+}
+
 /* ---- state ---- */
 
 /* Between the call that closes a gate and the step, which edges came is state. */
@@ -251,6 +367,11 @@ int main(void) {
         cmocka_unit_test(people_closed_in_within_a_solid_stay_and_are_told_of),
         cmocka_unit_test(reload_moves_nobody_for_a_wall_that_stood),
         cmocka_unit_test(ring_that_becomes_solid_came),
+        cmocka_unit_test(births_beyond_the_room_of_a_room_are_refused),
+        cmocka_unit_test(thousands_of_births_at_a_point_spread_about_it),
+        cmocka_unit_test(births_after_a_snapshot_are_those_of_the_restored_world),
+        cmocka_unit_test(people_of_a_place_are_shifted_within_it_and_on_their_side),
+        cmocka_unit_test(people_who_would_come_in_within_a_wall_are_told_of),
         cmocka_unit_test(edges_that_came_are_saved),
         cmocka_unit_test(wall_500_m_away_moves_nobody_of_any_shipped_scene),
     };

@@ -61,15 +61,20 @@ static void say_events(const JoScene *scene, JoxText *out) {
     const struct {
         uint64_t count;
         const char *noun;
-    } events[] = {{s->hits, "hit by a body|hits by bodies"},
-                  {s->kicks, "kick"},
-                  {s->throws, "throw"},
-                  {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
-                  {s->people_lost, "person was lost|people were lost"},
-                  {s->bodies_lost, "body was lost|bodies were lost"},
-                  {jox_lua_failures(scene->lua),
-                   "failed call of a function of a behaviour|failed calls of functions of "
-                   "behaviours"}};
+    } events[] = {
+        {s->hits, "hit by a body|hits by bodies"},
+        {s->kicks, "kick"},
+        {s->throws, "throw"},
+        {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
+        {s->people_lost, "person was lost|people were lost"},
+        {s->bodies_lost, "body was lost|bodies were lost"},
+        {s->not_placed, "person not placed|people not placed"},
+        {s->moved_out,
+         "person moved out of the way of a wall|people moved out of the way of a wall"},
+        {s->not_moved_out, "person left in the way of a wall|people left in the way of a wall"},
+        {jox_lua_failures(scene->lua),
+         "failed call of a function of a behaviour|failed calls of functions of "
+         "behaviours"}};
     const char *before = " There were ";
     for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
         if (events[e].count == 0)

@@ -89,6 +89,7 @@ static const struct {
     {"events.opened", "gates opened", "", false},
     {"events.closed", "gates closed", "", false},
     {"events.shifted_at_birth", "people who began beside their point", "", false},
+    {"events.not_placed", "people who were not placed", "", false},
     {"events.moved_out", "people moved out of the way of walls that came", "", false},
     {"events.not_moved_out", "people who stayed in the way of walls that came", "", false},
     {"events.people_lost", "people lost", "", false},

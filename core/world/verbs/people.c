@@ -90,8 +90,14 @@ bool jox_perform_spawn(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
                                 group->name);
                 return false;
             }
-        jox_world_spawn(world, g, (JoxV2){(float)entry->numbers[0], (float)entry->numbers[1]});
-        return true;
+        const JoxV2 at = {(float)entry->numbers[0], (float)entry->numbers[1]};
+        uint32_t agent = JOX_NO_INDEX;
+        const JoxBirthSpot spot = jox_world_spawn(world, g, at, &agent);
+        if (agent != JOX_NO_INDEX)
+            return true;
+        world->state.statistics.not_placed++;
+        jox_world_say_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
+        return false;
     }
     return unknown("group", entry->names[0], names, count, why);
 }
@@ -112,9 +118,9 @@ bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *w
     if (i == JOX_NO_INDEX)
         return false;
     jox_world_raise_walls(world);
-    if (!jox_nav_free_spot(world->scratch.nav, a, i, &at)) {
-        jox_text_printf(why, "there is no free spot within 25 m of (%g, %g)", entry->numbers[0],
-                        entry->numbers[1]);
+    const JoxBirthSpot spot = jox_nav_free_spot(world->scratch.nav, a, i, &at);
+    if (spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_IN_SOLID) {
+        jox_world_say_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
         return false;
     }
     a->x[i] = a->prev_x[i] = a->still_x[i] = at.x;
@@ -220,6 +226,7 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
         return false;
     }
     jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, value));
+    jox_nav_end_births(world->scratch.nav); /* it may be wider now */
     if (a->machine[i] == JOX_NO_MACHINE)
         return true;
     tell_machines(world);

@@ -70,7 +70,7 @@ const JoxVerb jox_input_verbs[] = {
      "disk", NULL, NULL},
     [JOX_INPUT_SPAWN] = {"spawn", {CALLED("GROUP"), METRES("X"), METRES("Y")}, 3, 3,
      "spawn visitors 3 4.5",
-     "a new agent of a group; moved to the nearest free spot where it would stand in a wall or in "
+     "a new agent of a group; moved to the nearest free spot where it would stand at a wall or in "
      "somebody", JOX_VERB_PROGRAM, jox_perform_spawn},
     [JOX_INPUT_REMOVE] = {"remove", {ID("AGENT")}, 1, 1, "remove 7", "takes an agent out",
      JOX_VERB_PROGRAM, jox_perform_remove},

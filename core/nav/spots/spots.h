@@ -14,7 +14,7 @@ typedef struct JoxSearched {
     JoxV2 at; /* m */
     float radius, angle, distance;
     uint32_t kind;
-    bool known;
+    bool known, failed;
 } JoxSearched;
 
 /* A hash of cells to the agents that have a spot. Valid while nobody moves; who enters is told. */
@@ -36,9 +36,11 @@ typedef struct JoxSpots {
 typedef struct JoxSpotWish {
     JoxV2 at;     /* m */
     float radius; /* m */
-    /* Where it has to lie; NULL: anywhere. Wishes of one `kind` have the same `place`. */
+    /* Where it has to lie, within a box; NULL: anywhere. Wishes of one `kind` have the same place.
+     */
     bool (*holds)(const void *place, JoxV2 spot);
     const void *place;
+    JoxV2 low, high; /* m */
     uint32_t kind;
     const bool *passable; /* by ring: solids out of which it leads; NULL: none */
 } JoxSpotWish;

@@ -1,4 +1,4 @@
-#include "nav/spots.h"
+#include "nav/spots/spots.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,8 +11,10 @@
 
 static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
 static const float TOUCHING = 0.99f; /* radii from a wall */
-static const float NEARBY = 0.25f;   /* m: a search begins where one ended whose point is as near */
-enum { SEARCHES = 1024, MOST_LOOKED = 5000000, FEW = 1000 };
+static const float NEARBY =
+    0.25f;                     /* m: a search goes on with that of a point in the same square, */
+static const float FAR = 1.0f; /* m: as soon as it is so far away */
+enum { SEARCHES = 8192, MOST_LOOKED = 5000000, FEW = 1000 };
 
 static uint32_t hash_cell(int32_t x, int32_t y) {
     return (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
@@ -78,7 +80,7 @@ static bool is_taken_in(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float 
 
 /* Its own cell first: of a spot that is taken it mostly tells. */
 static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
-    static const int8_t AROUND[9][2] = {{0, 0},  {-1, 0}, {1, 0},  {0, -1}, {0, 1},
+    static const int8_t AROUND[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
                                         {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const int32_t x = cell_of(t, p.x), y = cell_of(t, p.y);
     for (int k = 0; k < 9; k++)
@@ -108,7 +110,8 @@ bool jox_spots_is_free(const JoxSpots *t, const JoxWallGrid *grid, JoxV2 p, floa
 
 /* Lists the edges that may lie between a wish's point and a spot. */
 static void list_edges(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish) {
-    const JoxV2 reach = {JOX_SPOTS_FARTHEST * 1.01f, JOX_SPOTS_FARTHEST * 1.01f};
+    const float far = JOX_SPOTS_FARTHEST + 2.0f * NEARBY; /* the spiral may be of a point nearby */
+    const JoxV2 reach = {far, far};
     const JoxV2 low = jox_sub(wish->at, reach), high = jox_add(wish->at, reach);
     t->edge_count = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -154,11 +157,12 @@ static JoxSearched *searched_about(const JoxSpots *t, const JoxSpotWish *wish) {
     return &t->searched[(hash_cell(x, y) ^ wish->kind * 2654435761u) % SEARCHES];
 }
 
-/* Where a search begins: as far as the last one about this point, or about one nearby on this side of
-   all walls, has come; what was taken then is taken now. */
+/* Where a search begins: where the last one about this point ended, as what was taken then is taken
+   now. One about a point nearby, on the same side of all walls, goes on with its spiral once that
+   is far from both. */
 static JoxSearched begin_search(const JoxSearched *last, const JoxWallGrid *grid,
                                 const JoxSpotWish *wish, float step) {
-    JoxSearched own = {wish->at, wish->radius, 0.0f, step, wish->kind, true};
+    JoxSearched own = {wish->at, wish->radius, 0.0f, step, wish->kind, true, false};
     if (wish->passable || !last->known || last->kind != wish->kind || last->radius > wish->radius)
         return own;
     if (is_same_point(last->at, wish->at) && last->radius == wish->radius)
@@ -167,10 +171,21 @@ static JoxSearched begin_search(const JoxSearched *last, const JoxWallGrid *grid
         floorf(last->at.y / NEARBY) != floorf(wish->at.y / NEARBY) ||
         (grid->walls && jox_walls_lie_between(grid->walls, last->at, wish->at, NULL)))
         return own;
-    if (last->distance >= JOX_SPOTS_FARTHEST)
-        return *last;
-    own.distance = jox_maxf(step, last->distance - 2.0f * NEARBY);
-    return own;
+    return last->distance > FAR || last->failed ? *last : own;
+}
+
+/* m: how far a search looks: no farther than a corner of its place. */
+static float farthest_of(const JoxSpotWish *wish) {
+    if (!wish->holds)
+        return JOX_SPOTS_FARTHEST;
+    const JoxV2 corner = {jox_maxf(wish->at.x - wish->low.x, wish->high.x - wish->at.x),
+                          jox_maxf(wish->at.y - wish->low.y, wish->high.y - wish->at.y)};
+    return jox_minf(JOX_SPOTS_FARTHEST, jox_length(corner));
+}
+
+static bool is_in_place(const JoxSpotWish *wish, JoxV2 spot) {
+    return !wish->holds ||
+           (jox_is_within(spot, wish->low, wish->high) && wish->holds(wish->place, spot));
 }
 
 /* Whether a free spot can be gone to: no wall lies between, and no solid holds it. */
@@ -190,13 +205,13 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
     JoxSearched *kept = searched_about(t, wish);
     JoxSearched s = begin_search(kept, grid, wish, step);
     bool found = false, listed = false;
-    for (uint32_t looked = 0; s.distance < JOX_SPOTS_FARTHEST; looked++, t->looked++) {
+    const float farthest = farthest_of(wish);
+    for (uint32_t looked = 0; s.distance < farthest && !s.failed; looked++, t->looked++) {
         if (t->looked >= MOST_LOOKED && looked >= FEW)
             break;
-        *spot = (JoxV2){wish->at.x + s.distance * (float)jox_cos(s.angle),
-                        wish->at.y + s.distance * (float)jox_sin(s.angle)};
-        found = (!wish->holds || wish->holds(wish->place, *spot)) &&
-                jox_spots_is_free(t, grid, *spot, radius) &&
+        *spot = (JoxV2){s.at.x + s.distance * (float)jox_cos(s.angle),
+                        s.at.y + s.distance * (float)jox_sin(s.angle)};
+        found = is_in_place(wish, *spot) && jox_spots_is_free(t, grid, *spot, radius) &&
                 is_reached(t, walls, wish, *spot, &listed);
         if (found)
             break;
@@ -204,6 +219,7 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
         s.distance += step * step / (6.2831853f * s.distance);
     }
     t->blocking = UINT32_MAX;
+    s.failed |= s.distance >= farthest;
     if (!wish->passable)
         *kept = s;
     return found;
