@@ -17,6 +17,10 @@
 
 #define JOX_NO_BODY UINT32_MAX
 
+/* N: at a load of this, one person is estimated to die within 15 s (Hopkins et al. 1993, in Lee and
+   Hughes 2006); what would press harder than that on all before it, has to say so. */
+#define JOX_DRIVE_FORCE 6227.0
+
 typedef struct JoxBodies JoxBodies;
 typedef struct JoxBodyPart JoxBodyPart;
 
@@ -58,14 +62,19 @@ typedef struct JoxBodyDef {
     bool still;                  /* static whatever the mass */
     bool kinematic; /* whatever the mass: it moves by its velocity and spin, or along its path, and
                        nothing turns it aside */
-    JoxBodyPath path; /* of the shape's own frame; its first point is `position`. Without points:
-                         none */
+    JoxBodyPath path;   /* of the shape's own frame; its first point is `position`. Without points:
+                           none */
+    double force_limit; /* N: what a kinematic body presses people with at most, all of them
+                           together, where it moves towards them: then it goes as fast as they give
+                           way; 0: no limit */
+    bool ends_run;      /* where that is reached the world ends */
     double friction, restitution; /* multiplied with those of the other; ground and walls have 1 */
     double damping, spin_damping; /* share of velocity lost in a second, 0 to 1 */
     uint64_t tags;
     const char *name; /* or NULL */
 } JoxBodyDef;
-/* A box of 1 m, 10 kg, friction 0.6, restitution 0, no damping. */
+/* A box of 1 m, 10 kg, friction 0.6, restitution 0, no damping; a force limit of
+   JOX_DRIVE_FORCE. */
 JoxBodyDef jox_body_def(void);
 
 typedef struct JoxBodiesDef {
@@ -154,6 +163,12 @@ uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint
 bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], double turn[3]);
 /* They are counted from zero from here on. */
 void jox_bodies_count_impulses(JoxBodies *bodies);
+
+/* In the next step a kinematic body that met its force limit goes `share` of its way, 0 to 1; one
+   on a path that reopens goes back from there. True if it met nothing in the step before. */
+bool jox_bodies_hold_up(JoxBodies *bodies, uint32_t row, float share);
+/* Whether the world ends where a body meets its force limit. */
+bool jox_bodies_ends_run(const JoxBodies *bodies, uint32_t row);
 
 /* Momentum of all moving bodies, with what the next step is still to give them, kg m/s. */
 void jox_bodies_momentum(const JoxBodies *bodies, double out[3]);

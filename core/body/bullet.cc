@@ -161,6 +161,9 @@ static const char *wrong(const JoxBodyDef *d) {
     for (double share : shares)
         if (!(share >= 0 && share <= 1))
             return "a body's restitution and dampings must lie between 0 and 1";
+    if (!(d->force_limit >= 0 && d->force_limit <= 1e6) ||
+        (d->path.reopens && !(d->force_limit > 0)))
+        return "a body presses with up to 1e6 N; one that reopens has such a limit";
     if (d->path.count && !d->kinematic)
         return "a path is for a kinematic body";
     return d->path.count ? jox_path_wrong(&d->path) : nullptr;
@@ -261,6 +264,8 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
         r->body->setLinearVelocity(vector(def->velocity));
         r->body->setAngularVelocity(vector(def->spin));
     }
+    r->force_limit = def->kinematic ? float(def->force_limit) : 0;
+    r->ends_run = def->kinematic && def->ends_run;
     if (def->path.count)
         jox_row_begin_path(r, def);
     if (bonds && !still && bonds->bond_count > 0) {
@@ -326,8 +331,9 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     for (int i = 0; i < 4; i++)
         pose->turn[i] = q[i];
     pose->centre = jox_v3(r->body->getWorldTransform().getOrigin());
-    pose->velocity = jox_v3(r->body->getLinearVelocity());
-    pose->spin = jox_v3(r->body->getAngularVelocity());
+    const float share = 1.0f - r->held_up;
+    pose->velocity = jox_v3(share * r->body->getLinearVelocity());
+    pose->spin = jox_v3(share * r->body->getAngularVelocity());
     pose->mass = r->shape.mass;
     pose->inertia = jox_v3(r->shape.inertia);
     pose->kinematic = r->kinematic;
@@ -369,6 +375,8 @@ bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 s
         !jox_finite(jox_bt(spin)))
         return false;
     jox_row_leave_path(r);
+    r->held_up = 0;
+    r->met = r->meets = false;
     r->body->activate(true);
     r->body->setLinearVelocity(jox_bt(velocity));
     r->body->setAngularVelocity(jox_bt(spin));
@@ -397,7 +405,6 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
         btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
         JoxRow *r = jox_row_of(b, impulses[i].object);
         if (r && r->kinematic && jox_finite(p) && jox_finite(at)) { /* felt, and no more */
-            r->felt = jox_v3(jox_bt(r->felt) + p);
             jox_row_count_impulse(r, p, at - r->body->getWorldTransform().getOrigin());
             continue;
         }

@@ -86,9 +86,14 @@ struct JoxRow {
     bool kinematic;              /* no mass, and moved by its velocity, or along its path */
     JoxBodyPath path;            /* of the centre of mass; its points are owned */
     double path_time;            /* s, since it began: how far along it is */
-    double stands;               /* s: so long it still stands, having met somebody */
     bool goes_back;              /* along the path, to where its leg began */
-    JoxV3 felt;                  /* scratch: impulses of people in this step, N s */
+    float force_limit;           /* N: of a kinematic one; 0: none */
+    bool ends_run;               /* where it meets that */
+    float held_up;               /* share of its way that it did not go in the last step, 0 to 1 */
+    bool met;                    /* its limit, in the last step */
+    bool meets;                  /* scratch: in the step that is next; then so much of its way is */
+    float goes;                  /* left */
+    JoxV3 drive, drive_spin;     /* scratch: how it goes in this step if nothing holds it up */
     bool held;                   /* by an agent */
     uint32_t holder;
     bool placed; /* scratch: held where its carrier put it for this step, at `carried`, m, with the
@@ -232,13 +237,10 @@ void jox_row_make_kinematic(JoxRow *row);
 void jox_row_begin_path(JoxRow *row, const JoxBodyDef *def);
 void jox_row_set_path(JoxRow *row, const JoxBodyPath *path);
 void jox_row_leave_path(JoxRow *row);
-/* Before a substep: velocities with which it leads along paths. After a step: those with which
-   bodies go on, for whoever sees them. */
+/* Before a step: how far driven bodies go in it. Before a substep: the velocities that lead them
+   there. After a step: those with which they go on if nothing holds them up. */
+void jox_bodies_begin_drive(JoxBodies *bodies);
 void jox_bodies_drive(JoxBodies *bodies, float dt);
-/* Before a step of dt: those that met with what they may not press harder stand, or go back. */
-void jox_bodies_feel(JoxBodies *bodies, float dt);
-/* What a body on a path that moves may press people with, N; 0: no limit. */
-float jox_row_most_force(const JoxRow *row);
 void jox_bodies_driven(JoxBodies *bodies);
 /* The shape of bonded blocks; NULL with a sentence in `error`. */
 JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);

@@ -28,53 +28,54 @@ void jox_row_set_path(JoxRow *r, const JoxBodyPath *path) {
 void jox_row_leave_path(JoxRow *r) {
     jox_free(r->path.points);
     r->path = JoxBodyPath();
-    r->path_time = r->stands = 0;
+    r->path_time = 0;
     r->goes_back = false;
 }
 
-/* ---- what stands in its way ---- */
+/* ---- what holds it up ---- */
 
-static const double STANDS = 0.25; /* s, until it tries once more */
-
-/* How it goes on from where it is, m/s. */
+/* How it goes on from where it is along its path, m/s. */
 static btVector3 going(const JoxRow *r) {
     const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
-    const float way = r->stands > 0 ? 0.0f : r->goes_back ? -1.0f : 1.0f;
-    return way *
+    return (r->goes_back ? -1.0f : 1.0f) *
            btVector3(float(spot.velocity[0]), float(spot.velocity[1]), float(spot.velocity[2]));
 }
 
-float jox_row_most_force(const JoxRow *r) {
-    const bool limited = r->path.count && r->path.most > 0;
-    return limited && going(r).length2() > 0 ? float(r->path.most) : 0;
-}
-
-/* Whether people bear in the step of dt what it presses with at most, against how it goes. */
-static bool is_obstructed(const JoxRow *r, float dt) {
-    const btVector3 way = going(r);
-    if (!(r->path.most > 0) || !(way.length2() > 0))
+bool jox_bodies_hold_up(JoxBodies *b, uint32_t row, float share) {
+    JoxRow *r = jox_row_of(b, row);
+    if (!r || !r->kinematic)
         return false;
-    return -jox_bt(r->felt).dot(way.normalized()) >= 0.99f * float(r->path.most) * dt;
+    JOX_ASSERT(share >= 0.0f && share <= 1.0f);
+    r->meets = true;
+    r->goes = share;
+    return !r->met;
 }
 
-void jox_bodies_feel(JoxBodies *b, float dt) {
+bool jox_bodies_ends_run(const JoxBodies *b, uint32_t row) {
+    const JoxRow *r = jox_row_of(b, row);
+    return r && r->kinematic && r->ends_run;
+}
+
+void jox_bodies_begin_drive(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
-        if (!r->path.count)
+        if (!r->kinematic)
             continue;
-        if (is_obstructed(r, dt)) {
-            r->goes_back |= r->path.reopens;
-            r->stands = STANDS;
+        r->held_up = r->meets ? 1.0f - r->goes : 0.0f;
+        r->met = r->meets;
+        r->meets = false;
+        if (r->met && r->path.reopens && !r->goes_back) {
+            r->goes_back = true;
+            r->held_up = 1.0f;
         }
-        r->felt = JoxV3{0, 0, 0};
+        r->drive = jox_v3(r->body->getLinearVelocity());
+        r->drive_spin = jox_v3(r->body->getAngularVelocity());
     }
 }
 
-/* On by dt along its path, or back; what stands only waits. */
+/* On by dt along its path, or back: what is held up comes to all that follows so much later. */
 static void go_on(JoxRow *r, double dt) {
-    if (r->stands > 0) {
-        r->stands = r->stands > dt ? r->stands - dt : 0;
-    } else if (r->goes_back) {
+    if (r->goes_back) {
         const double began = jox_path_leg_began(&r->path, r->path_time);
         r->path_time = std::max(began, r->path_time - dt);
         if (r->path_time == began) { /* there it waits, as it did before it set out */
@@ -106,14 +107,18 @@ void jox_bodies_drive(JoxBodies *b, float dt) {
         JoxRow *r = &b->rows[b->order[k]];
         if (!r->kinematic)
             continue;
+        const float share = 1.0f - r->held_up;
         if (r->path.count) { /* to where it has to be, whatever was rounded so far */
-            go_on(r, double(dt));
+            go_on(r, double(dt) * double(share));
             const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
             const btVector3 &at = r->body->getWorldTransform().getOrigin();
             double v[3];
             for (int i = 0; i < 3; i++)
                 v[i] = (spot.at[i] - double(at[i])) / double(dt);
             set_velocity(r, v);
+        } else if (r->held_up > 0.0f) {
+            r->body->setLinearVelocity(share * jox_bt(r->drive));
+            r->body->setAngularVelocity(share * jox_bt(r->drive_spin));
         }
         wake(r);
     }
@@ -122,7 +127,13 @@ void jox_bodies_drive(JoxBodies *b, float dt) {
 void jox_bodies_driven(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
-        if (r->path.count)
+        if (!r->kinematic)
+            continue;
+        if (r->path.count) {
             r->body->setLinearVelocity(going(r));
+        } else if (r->held_up > 0.0f) {
+            r->body->setLinearVelocity(jox_bt(r->drive));
+            r->body->setAngularVelocity(jox_bt(r->drive_spin));
+        }
     }
 }

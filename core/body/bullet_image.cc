@@ -77,9 +77,6 @@ static void put_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow 
     record->path_after = r->path.after;
     record->path_wait = r->path.wait;
     record->path_time = r->path_time;
-    record->path_most = r->path.most;
-    record->path_stands = r->stands;
-    record->path_reopens = r->path.reopens;
     record->path_back = r->goes_back;
     jox_reserve(image->path_points, image->path_point_capacity, image->path_point_count + numbers);
     if (numbers)
@@ -109,6 +106,10 @@ static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
     record->still = r->kinematic ? JOX_BODY_KINEMATIC : r->shape.still ? JOX_BODY_STATIC : 0;
     put_shape(image, record, r->shape);
     put_path(image, record, r);
+    record->force_limit = r->force_limit;
+    record->held_up = r->held_up;
+    record->drive = (r->path.reopens ? JOX_DRIVE_REOPENS : 0) | (r->ends_run ? JOX_DRIVE_ENDS : 0) |
+                    (r->met ? JOX_DRIVE_MET : 0);
     if (r->bonds)
         jox_bodies_image_add_bonds(image, record, r->bonds);
     record->name_length = r->name ? uint32_t(strlen(r->name)) : 0;
@@ -228,13 +229,15 @@ static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRec
                                   record->path_speed,
                                   record->path_after,
                                   record->path_wait,
-                                  record->path_most,
-                                  record->path_reopens != 0};
+                                  (record->drive & JOX_DRIVE_REOPENS) != 0};
         jox_row_set_path(r, &path);
         r->path_time = record->path_time;
-        r->stands = record->path_stands;
         r->goes_back = record->path_back != 0;
     }
+    r->force_limit = float(record->force_limit);
+    r->held_up = float(record->held_up);
+    r->ends_run = (record->drive & JOX_DRIVE_ENDS) != 0;
+    r->met = (record->drive & JOX_DRIVE_MET) != 0;
     r->grounded = record->grounded != 0;
     r->swept = record->swept != 0;
     r->force = JoxV3{record->force[0], record->force[1], record->force[2]};

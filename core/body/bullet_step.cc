@@ -157,7 +157,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
         driven |= r->kinematic;
     }
     if (driven)
-        jox_bodies_feel(b, dt);
+        jox_bodies_begin_drive(b);
     uint32_t n = substeps(b, dt);
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
@@ -300,9 +300,13 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     r->swept = jox_row_fast(r, b->last_dt);
     o->swept = r->swept;
     o->tags = r->tags;
-    o->velocity = jox_v3(r->body->getLinearVelocity());
-    o->most_force = jox_row_most_force(r);
-    o->spin = jox_v3(r->body->getAngularVelocity());
+    const btVector3 &velocity = r->body->getLinearVelocity(), &spin = r->body->getAngularVelocity();
+    const float share = 1.0f - r->held_up;
+    o->velocity = jox_v3(share * velocity);
+    o->spin = jox_v3(share * spin);
+    o->drive = jox_v3(velocity);
+    o->drive_spin = jox_v3(spin);
+    o->force_limit = r->force_limit;
     o->held = r->held;
     o->holder = r->holder;
     o->in_band = r->shown_in_band && !r->held; /* who carries it is not pushed by it */

@@ -1,8 +1,10 @@
 #include "body/body.h"
 
 JoxBodyDef jox_body_def(void) {
-    return (JoxBodyDef){
-        .shape = {.kind = JOX_SHAPE_BOX, .size = {1, 1, 1}}, .mass = 10, .friction = 0.6};
+    return (JoxBodyDef){.shape = {.kind = JOX_SHAPE_BOX, .size = {1, 1, 1}},
+                        .mass = 10,
+                        .friction = 0.6,
+                        .force_limit = JOX_DRIVE_FORCE};
 }
 
 JoxBodiesDef jox_bodies_def(void) {

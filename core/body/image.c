@@ -156,11 +156,9 @@ static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, u
                               r->path_speed,
                               r->path_after,
                               r->path_wait,
-                              r->path_most,
-                              r->path_reopens != 0};
+                              (r->drive & JOX_DRIVE_REOPENS) != 0};
     return r->path_count <= JOX_PATH_POINTS && r->still == JOX_BODY_KINEMATIC &&
            !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time) &&
-           r->path_stands >= 0.0 && isfinite(r->path_stands) && r->path_reopens <= 1 &&
            r->path_back <= 1;
 }
 
@@ -177,6 +175,15 @@ static bool moves_soundly(const JoxBodyRecord *r) {
            (all_within(r->motion + 9, 3, 1e4f) && all_within(r->motion + 24, 6, 500.0f));
 }
 
+static bool drive_is_sound(const JoxBodyRecord *r) {
+    const uint32_t flags = JOX_DRIVE_REOPENS | JOX_DRIVE_ENDS | JOX_DRIVE_MET;
+    if (r->still != JOX_BODY_KINEMATIC)
+        return r->force_limit == 0.0 && r->held_up == 0.0 && r->drive == 0;
+    return r->force_limit >= 0.0 && r->force_limit <= 1e6 && r->held_up >= 0.0 &&
+           r->held_up <= 1.0 && r->drive <= flags &&
+           (r->force_limit > 0.0 || !(r->drive & JOX_DRIVE_REOPENS));
+}
+
 static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *taken) {
     const JoxBodyRecord *r = &image->bodies[n];
     if (r->row >= image->counters.row_count || taken[r->row] || r->id >= image->counters.next_id ||
@@ -186,7 +193,7 @@ static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *ta
     return r->still <= JOX_BODY_KINEMATIC && r->held <= 1 && r->grounded <= 1 && r->swept <= 1 &&
            !(r->still && (r->held || r->block_count)) && r->activation >= 1 &&
            r->activation <= LAST_ACTIVATION && r->part_count >= 1 && r->part_count <= 4096 &&
-           (r->bond_count == 0) == (r->block_count == 0) && moves_soundly(r) &&
+           (r->bond_count == 0) == (r->block_count == 0) && moves_soundly(r) && drive_is_sound(r) &&
            all_finite(r->motion, JOX_BODY_MOTION) && all_finite(&r->deactivation_time, 1) &&
            all_finite(r->material, 4) && all_finite(r->force, 3);
 }

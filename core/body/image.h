@@ -32,9 +32,12 @@ typedef struct JoxBodyRecord {
     double block_size[3], origin[3], block_mass, peak_load;
     uint32_t path_count, path_end; /* points; 0: no path */
     double path_speed, path_after, path_wait, path_time;
-    double path_most, path_stands;
-    uint32_t path_reopens, path_back;
+    double force_limit, held_up; /* N; share of its way that it did not go */
+    uint32_t drive, path_back;   /* JoxDriveFlag; whether it goes back along its path */
 } JoxBodyRecord;
+
+/* Of a kinematic body: its path reopens; the world ends where it meets its limit; it just did. */
+typedef enum { JOX_DRIVE_REOPENS = 1, JOX_DRIVE_ENDS = 2, JOX_DRIVE_MET = 4 } JoxDriveFlag;
 
 typedef struct JoxBodyPartRecord {
     uint32_t kind, point_count; /* JoxShapeKind; points of a hull */

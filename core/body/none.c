@@ -81,6 +81,16 @@ bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], 
 void jox_bodies_count_impulses(JoxBodies *bodies) {
     (void)bodies;
 }
+bool jox_bodies_hold_up(JoxBodies *bodies, uint32_t row, float share) {
+    (void)bodies, (void)row, (void)share;
+    return false;
+}
+
+bool jox_bodies_ends_run(const JoxBodies *bodies, uint32_t row) {
+    (void)bodies, (void)row;
+    return false;
+}
+
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count) {
     return (void)bodies, (void)impulses, count;
 }

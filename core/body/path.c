@@ -5,9 +5,8 @@
 
 #include "base/assert.h"
 
-static const double FASTEST = 100.0;  /* m/s */
-static const double LONGEST = 1e9;    /* s, of a wait */
-static const double MOST_FORCE = 1e6; /* N */
+static const double FASTEST = 100.0; /* m/s */
+static const double LONGEST = 1e9;   /* s, of a wait */
 
 static const double *point(const JoxBodyPath *p, uint32_t n) {
     return p->points + 3 * (size_t)(n % p->count);
@@ -25,8 +24,6 @@ const char *jox_path_wrong(const JoxBodyPath *p) {
         return "the speed of a path must be above 0 and at most 100 m/s";
     if (!(p->after >= 0.0 && p->after <= LONGEST) || !(p->wait >= 0.0 && p->wait <= LONGEST))
         return "a body on a path waits for 0 to 1e9 s";
-    if (!(p->most >= 0.0 && p->most <= MOST_FORCE) || (p->reopens && !(p->most > 0.0)))
-        return "a body on a path presses with up to 1e6 N; one that reopens has such a limit";
     if (p->end > JO_PATH_ROUND)
         return "the end of a path is unknown";
     for (uint32_t k = 0; k < 3 * p->count; k++)

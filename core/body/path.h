@@ -17,8 +17,8 @@ typedef struct JoxBodyPath {
     double speed;   /* m/s */
     double after;   /* s until it starts */
     double wait;    /* s at each point that it comes to */
-    double most;    /* N: what it presses people with at most as it moves; 0: no limit */
-    bool reopens; /* goes back to where the leg began where it would press harder; else it stands */
+    bool reopens;   /* goes back to where the leg began where it would press harder than its limit;
+                       else it stands */
 } JoxBodyPath;
 
 typedef struct JoxPathSpot {

@@ -80,8 +80,18 @@ typedef struct JoxTouch {
     JoxV2 normal;
     JoxV3 point;
     float gap, target, mass, impulse; /* m, m/s, kg, N s */
-    float most;                       /* N s: of a body that presses with no more */
+    float before;                     /* N s: the impulse before a pass */
+    float ahead;   /* of a driven body: share of its speed that it has towards the agent, 0 to 1 */
+    int16_t drive; /* index of its drive, or -1 */
 } JoxTouch;
+
+/* A driven body under way that touches somebody (touch.c). */
+typedef struct JoxDrive {
+    uint32_t row;
+    float speed;   /* m/s: its greatest towards anybody whom it touches, or of its middle */
+    float most;    /* N s: what it presses with in the step at most */
+    float pressed; /* N s: with what it does */
+} JoxDrive;
 
 /* An agent's end of a contact with another. */
 typedef struct JoxEnd {

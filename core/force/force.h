@@ -62,6 +62,7 @@ typedef struct JoxForceTotals {
     uint32_t pushers; /* agents that pushed something this step */
     uint32_t pairs;   /* overlapping pairs of agents */
     uint32_t touches; /* contacts of agents with bodies */
+    uint32_t inside;  /* agents whose middle is in a driven body */
     uint32_t passed;  /* forces passed on by the last infer */
     uint32_t passes;  /* over the contacts */
     float residual;   /* N: by which the last pass still changed a contact force */
@@ -119,6 +120,16 @@ JoxV2 jox_force_of_bodies(const JoxForces *forces, uint32_t agent);
 /* And what infer has just added to its inferred force for the slowing of others (equation 8; the
    rest is equation 9), N; *kept: the share that it has kept of what was there before. */
 JoxV2 jox_force_slowed(const JoxForces *forces, uint32_t agent, float *kept);
+
+/* What a driven body under way presses people with whom it moves towards, in the last contact. */
+typedef struct JoxDriveLoad {
+    uint32_t row;
+    uint32_t people, agent; /* so many; id of who bears most of it, JOX_NO_INDEX: nobody */
+    float force, hardest;   /* N: of all, along its way; what that one bears */
+    float share;            /* of its way that it goes: less than 1 only where it met its limit */
+    bool met;
+} JoxDriveLoad;
+const JoxDriveLoad *jox_force_drive_loads(const JoxForces *forces, uint32_t *count);
 
 /* The step's impulses on bodies, sorted by agent id, then by row; pushes before contacts. Valid
    until the next begin. */

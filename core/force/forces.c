@@ -71,6 +71,8 @@ void jox_forces_free(JoxForces *f) {
                      f->touch_first,
                      f->touch_number,
                      f->motions,
+                     f->drives,
+                     f->drive_loads,
                      f->residuals,
                      f->braced,
                      f->planes.starts,
@@ -143,6 +145,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     }
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
+    f->drive_count = 0;
     f->touch_count = f->wall_count = f->pairs.count = 0;
     f->pushed = f->contacts_known = false;
     JoxAgents *a = step->agents;

@@ -73,6 +73,11 @@ struct JoxForces {
     JoxTouch *touch; /* all touches, sorted by agent id, then row */
     size_t touch_capacity;
     uint32_t touch_count;
+    JoxDrive *drives;
+    size_t drive_capacity;
+    uint32_t drive_count;
+    JoxDriveLoad *drive_loads; /* of each */
+    size_t drive_load_capacity;
     uint32_t *touch_first; /* per agent, valid where touch_number is not 0 */
     uint8_t *touch_number;
     size_t touch_first_capacity, touch_number_capacity;

@@ -90,14 +90,13 @@ void jox_touches_collect(JoxForces *f) {
         f->touch_first[f->touch[t].agent] = t;
 }
 
-static const float AHEAD = 0.7f; /* cosine to how a body moves, of what it moves towards */
-
 float jox_touch_speed_before(const JoxForces *f, const JoxTouch *t) {
     const JoxObject *body = &f->step.objects->rows[t->object];
+    const JoxV3 velocity = body->kinematic ? body->drive : body->velocity;
     const JoxV3 at = t->point, c = body->position;
-    JoxV3 turning = jox_cross3(body->spin, (JoxV3){at.x - c.x, at.y - c.y, at.z - c.z});
-    return (body->velocity.x + turning.x) * t->normal.x +
-           (body->velocity.y + turning.y) * t->normal.y;
+    JoxV3 turning = jox_cross3(body->kinematic ? body->drive_spin : body->spin,
+                               (JoxV3){at.x - c.x, at.y - c.y, at.z - c.z});
+    return (velocity.x + turning.x) * t->normal.x + (velocity.y + turning.y) * t->normal.y;
 }
 
 float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
@@ -113,18 +112,134 @@ static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
                   (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
 }
 
-/* What a contact presses with at most, N s: a body that limits its force as it moves shares that
-   among those whom it moves towards. */
-static float most_of(const JoxForces *f, const JoxTouch *t) {
-    const JoxObject *body = &f->step.objects->rows[t->object];
-    const JoxV2 way = jox_unit((JoxV2){body->velocity.x, body->velocity.y});
-    uint32_t met = 0;
-    if (!(body->most_force > 0.0f) || !(jox_dot(way, t->normal) > AHEAD))
-        return INFINITY;
-    for (uint32_t k = 0; k < f->touch_count; k++)
-        met += f->touch[k].object == t->object && jox_dot(way, f->touch[k].normal) > AHEAD;
-    return body->most_force * (float)f->step.dt / (float)met;
+/* ---- driven bodies ----
+
+   What moves by a velocity of its own presses people whom it moves towards with a limited force.
+   Where they would bear more, all contacts ahead are scaled down together, pass by pass, and the
+   body goes only as fast as those whom it presses give way. So one that stands presses with its
+   limit, and one that nobody resists goes on as it is driven. */
+
+static const float MET = 0.999f; /* of the limit */
+
+static float speed_of(JoxV3 velocity) {
+    return jox_length(jox_v2(velocity.x, velocity.y));
 }
+
+/* The drive of a body, new where it has none; -1 of a body that is not under way. */
+static int drive_of(JoxForces *f, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    if (!body->kinematic ||
+        !(speed_of(body->drive) > 0.0f || jox_dot3(body->drive_spin, body->drive_spin) > 0.0f))
+        return -1;
+    for (uint32_t d = 0; d < f->drive_count; d++)
+        if (f->drives[d].row == row)
+            return (int)d;
+    if (f->drive_count == INT16_MAX)
+        return -1;
+    JOX_RESERVE(f->drives, f->drive_capacity, f->drive_count + 1);
+    f->drives[f->drive_count] = (JoxDrive){
+        .row = row,
+        .speed = speed_of(body->drive),
+        .most = body->force_limit > 0.0f ? body->force_limit * (float)f->step.dt : INFINITY};
+    f->motions[row].velocity = (JoxFour){body->drive.x, body->drive.y, body->drive.z, 0.0f};
+    f->motions[row].spin =
+        (JoxFour){body->drive_spin.x, body->drive_spin.y, body->drive_spin.z, 0.0f};
+    return (int)f->drive_count++;
+}
+
+static void sum_drives(JoxForces *f) {
+    for (uint32_t d = 0; d < f->drive_count; d++)
+        f->drives[d].pressed = 0.0f;
+    for (uint32_t k = 0; f->drive_count && k < f->touch_count; k++)
+        if (f->touch[k].ahead > 0.0f)
+            f->drives[f->touch[k].drive].pressed += f->touch[k].ahead * f->touch[k].impulse;
+}
+
+static void begin_drives(JoxForces *f) {
+    f->drive_count = 0;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
+        t->drive = (int16_t)drive_of(f, t->object);
+        t->ahead = t->drive < 0 ? 0.0f : jox_maxf(0.0f, jox_touch_speed_before(f, t));
+        if (t->drive >= 0)
+            f->drives[t->drive].speed = jox_maxf(f->drives[t->drive].speed, t->ahead);
+    }
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        if (f->touch[k].ahead > 0.0f)
+            f->touch[k].ahead /= f->drives[f->touch[k].drive].speed;
+    sum_drives(f);
+    for (uint32_t k = 0; k < f->touch_count; k++) { /* the impulses kept are given after this */
+        JoxTouch *t = &f->touch[k];
+        const JoxDrive *d = t->ahead > 0.0f ? &f->drives[t->drive] : NULL;
+        if (d && d->pressed > d->most)
+            t->impulse *= d->most / d->pressed;
+    }
+}
+
+static void limit_drives(JoxForces *f) {
+    sum_drives(f);
+    for (uint32_t k = 0; f->drive_count && k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
+        const JoxDrive *d = t->ahead > 0.0f ? &f->drives[t->drive] : NULL;
+        if (!d || !(d->pressed > d->most))
+            continue;
+        const float less = t->impulse * (d->most / d->pressed) - t->impulse;
+        t->impulse += less;
+        add_impulse(f, t, less);
+    }
+}
+
+/* The share of its way that a body goes which meets its limit: that of those whom it presses and
+   who give way least. */
+static float share_of(const JoxForces *f, uint32_t drive) {
+    float share = 1.0f;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        const JoxTouch *t = &f->touch[k];
+        if (t->drive != (int)drive || !(t->ahead > 0.0f && t->impulse > 0.0f))
+            continue;
+        const float gives =
+            jox_dot(f->work[t->agent], t->normal) + jox_maxf(0.0f, t->gap) / (float)f->step.dt;
+        share = jox_minf(share, gives / (t->ahead * f->drives[drive].speed));
+    }
+    return jox_clampf(share, 0.0f, 1.0f);
+}
+
+static void finish_drives(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    sum_drives(f);
+    JOX_RESERVE(f->drive_loads, f->drive_load_capacity, f->drive_count);
+    for (uint32_t d = 0; d < f->drive_count; d++) {
+        const JoxDrive *drive = &f->drives[d];
+        JoxDriveLoad *load = &f->drive_loads[d];
+        *load = (JoxDriveLoad){.row = drive->row,
+                               .force = drive->pressed / (float)f->step.dt,
+                               .met = drive->pressed >= MET * drive->most,
+                               .share = 1.0f,
+                               .agent = JOX_NO_INDEX};
+        for (uint32_t k = 0; k < f->touch_count; k++) {
+            const JoxTouch *t = &f->touch[k];
+            if (t->drive != (int)d || !(t->ahead > 0.0f && t->impulse > 0.0f))
+                continue;
+            load->people++;
+            if (t->impulse / (float)f->step.dt > load->hardest) {
+                load->hardest = t->impulse / (float)f->step.dt;
+                load->agent = a->id[t->agent];
+            }
+        }
+        if (!load->met)
+            continue;
+        load->share = share_of(f, d);
+        f->motions[drive->row].velocity *= load->share;
+        f->motions[drive->row].spin *= load->share;
+    }
+}
+
+const JoxDriveLoad *jox_force_drive_loads(const JoxForces *f, uint32_t *count) {
+    *count = f->drive_count;
+    return f->drive_loads;
+}
+
+/* ---- the solve ---- */
 
 void jox_touches_begin(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
@@ -143,11 +258,10 @@ void jox_touches_begin(JoxForces *f) {
         t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
         t->target =
             jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
-        t->most = most_of(f, t);
-        t->impulse = jox_minf(
-            t->most, jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object));
+        t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
         JOX_ASSERT(t->mass > 0.0f);
     }
+    begin_drives(f);
     for (uint32_t k = 0; k < f->touch_count; k++)
         add_impulse(f, &f->touch[k], f->touch[k].impulse);
 }
@@ -160,11 +274,13 @@ float jox_touches_pass(JoxForces *f) {
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
         float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
-        float before = t->impulse;
-        t->impulse = jox_clampf(before + (t->target - speed) * t->mass, 0.0f, t->most);
-        most = jox_maxf(most, fabsf(t->impulse - before));
-        add_impulse(f, t, t->impulse - before);
+        t->before = t->impulse;
+        t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
+        add_impulse(f, t, t->impulse - t->before);
     }
+    limit_drives(f);
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        most = jox_maxf(most, fabsf(f->touch[k].impulse - f->touch[k].before));
     return most;
 }
 
@@ -172,15 +288,22 @@ float jox_touches_pass(JoxForces *f) {
 void jox_touches_finish(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxForceTotals *totals = &f->totals;
+    uint32_t inside = JOX_NO_INDEX; /* who was counted last: touches are sorted by agent */
     JOX_RESERVE(f->kept_touches.items, f->kept_touches.capacity, f->touch_count);
     f->kept_touches.count = f->touch_count;
-    if (f->touch_count && !f->options.literal)
+    if (f->touch_count && !f->options.literal) {
         jox_supports_finish(f);
+        finish_drives(f);
+    }
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
         f->kept_touches.items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
         const JoxObject *body = &f->step.objects->rows[t->object];
         const bool moves = body->inverse_mass > 0.0f;
+        if (body->kinematic && t->gap + a->breadth[t->agent] < 0.0f && t->agent != inside) {
+            inside = t->agent;
+            totals->inside++;
+        }
         if (!(t->impulse > 0.0f) || !(moves || body->kinematic)) /* that feels it, and no more */
             continue;
         JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);

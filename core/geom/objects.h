@@ -40,7 +40,11 @@ typedef struct JoxObject {
     float low, high;    /* heights that the footprint covers within the band, m */
     float below, above; /* m: of its lowest and highest point, from position.z */
     float restitution, friction;
-    float most_force; /* N: of one that is kinematic and moves, what it presses with; 0: no limit */
+    /* Of one that is kinematic: how it goes on if nothing holds it up, m/s and rad/s (velocity and
+       spin are how it went in the last step); what it presses people with at most, N, 0: no limit.
+     */
+    JoxV3 drive, drive_spin;
+    float force_limit;
 } JoxObject;
 
 /* An impulse on a body at a point, both in world coordinates: N s and m. The share `lasting` acts

@@ -176,9 +176,10 @@ typedef struct JoPath {
     JoPathEnd end;
     double speed;       /* m/s, 0.001 to 100 */
     double after, wait; /* s: until it starts; at each point that it comes to */
-    double force_limit; /* N: what it presses people with at most as it moves; 0: no limit */
-    bool reopens;       /* with a limit: where people bear it, it goes back to where its leg began,
-                           waits and sets out again; else it stands, and tries again each 0.25 s */
+    double force_limit; /* N, in place of the body's; 0: that counts */
+    bool reopens;       /* where people bear the limit, it goes back to where its leg began, waits
+                           and sets out again; else it goes on as they give way, and all that follows
+                           on the path comes so much later */
 } JoPath;
 typedef struct JoBodyDef {
     JoShape shape;
@@ -188,9 +189,16 @@ typedef struct JoBodyDef {
     double turn;       /* about z, rad */
     double vx, vy, vz; /* m/s */
     double friction, restitution;
-    bool kinematic; /* whatever the mass: it moves by its velocity, as a door or a train does,
-                       pushes people and bodies, and nothing pushes it; see jo_body_set_velocity */
-    JoPath path;    /* of a kinematic body, in place of a velocity; copied */
+    bool kinematic;     /* whatever the mass: it moves by its velocity, as a door or a train does,
+                           pushes people and bodies, and nothing pushes it; see jo_body_set_velocity */
+    JoPath path;        /* of a kinematic body, in place of a velocity; copied */
+    double force_limit; /* N, up to 1e6: what a kinematic body presses people with at most, all of
+                           them together, where it moves towards them. There it goes as fast as they
+                           give way, or stands, and presses with it. 0: no limit; default 6,227, the
+                           load of which one person is estimated to die within 15 s (Hopkins et al.
+                           1993, in Lee and Hughes 2006) */
+    bool ends_world;    /* where that is reached the world fails, and jo_world_failure says whom it
+                           presses */
     uint32_t cookie;
 } JoBodyDef;
 JO_API JoBodyDef jo_default_body_def(void);

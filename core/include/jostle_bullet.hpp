@@ -37,6 +37,7 @@ class BulletBridge {
         def.x = at.x();
         def.y = at.y();
         def.z = at.z();
+        def.force_limit = 0; // it goes where the program's body goes; jo_body_pushed tells what presses on it
         def.friction = body.getFriction();
         def.restitution = body.getRestitution();
         JoError error{};

@@ -124,7 +124,8 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) 
 }
 
 /* A kinematic body has no mass, and moves along its path or by its velocity. */
-static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDef *def) {
+static void set_motion(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) {
+    JoxBodyDef *def = &load->body.def;
     const JoxYaml *path = jox_yaml_get(map, "path"), *velocity = jox_yaml_get(map, "velocity");
     const JoxYaml *mass = jox_yaml_get(map, "mass"), *density = jox_yaml_get(map, "density");
     if (def->kinematic && (mass || density))
@@ -138,13 +139,15 @@ static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDef *def) 
                         "a body on a path moves at the speed of the path");
     if (def->kinematic)
         def->mass = def->density = 0;
-    if (!isfinite(def->path.most)) /* not given */
-        def->path.most = 0;
-    if (def->path.reopens && !(def->path.most > 0.0))
-        jox_scene_error(
-            r, path, "bad-body", "force_limit: 150",
-            "a body on a path reopens where it would press harder than its force_limit: "
-            "it has none");
+    const JoxYaml *limit = jox_yaml_get(map, "force_limit"), *end = jox_yaml_get(map, "at_limit");
+    if (!def->kinematic && (limit || end))
+        jox_scene_error(r, limit ? limit : end, "bad-body", "Add `kinematic: true`, and no mass",
+                        "only a kinematic body has a force limit: others press with their mass");
+    if (limit && isfinite(load->path_force))
+        jox_scene_error(r, limit, "bad-body", "Leave one of them out",
+                        "the body has a force_limit, and so has its path");
+    if (isfinite(load->path_force))
+        def->force_limit = load->path_force;
     if (def->path.count)
         memcpy(def->path.points, def->position, sizeof def->position);
 }
@@ -235,7 +238,7 @@ void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, 
         r->load->block_mass = NAN;
         if (jox_keys_fill(r, list->items[i], "body", &body)) {
             set_mass(r, list->items[i], &body);
-            set_motion(r, list->items[i], &body.body.def);
+            set_motion(r, list->items[i], &body);
         }
         if (is_lattice(r, list->items[i], &body) && are_few(r, list->items[i], &body))
             add_copies(r, &body, &room);

@@ -45,6 +45,7 @@ enum { JOX_WALL_SOLID, JOX_WALL_LINE, JOX_WALL_FILE };
 typedef struct JoxLoadBody {
     JoxSceneBody body;
     double mass, density;          /* NAN: not given */
+    double path_force;             /* N, of a path; NAN: not given */
     double copies[3], distance[3]; /* of a body that is repeated */
 } JoxLoadBody;
 

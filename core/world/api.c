@@ -291,6 +291,7 @@ JoBodyDef jo_default_body_def(void) {
                        .mass = 10.0,
                        .z = 0.5,
                        .friction = 0.6,
+                       .force_limit = JOX_DRIVE_FORCE,
                        .cookie = BODY_COOKIE};
 }
 
@@ -305,7 +306,6 @@ static JoxBodyPath path_of(const JoBodyDef *def) {
                         .speed = p->speed,
                         .after = p->after,
                         .wait = p->wait,
-                        .most = p->force_limit,
                         .reopens = p->reopens};
     memcpy(path.points, (double[]){def->x, def->y, def->z}, 3 * sizeof *path.points);
     memcpy(path.points + 3, p->points, 3 * (size_t)p->count * sizeof *path.points);
@@ -336,6 +336,9 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     body.friction = def->friction;
     body.restitution = def->restitution;
     body.path = path_of(def);
+    body.force_limit =
+        def->path.points && def->path.force_limit > 0.0 ? def->path.force_limit : def->force_limit;
+    body.ends_run = def->ends_world;
     JoxText why = {0};
     uint32_t row = jox_bodies_add(world->state.bodies, &body, &why);
     jox_free(body.path.points);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/number/bits.h"
 #include "world/world.h"
 
@@ -237,6 +238,24 @@ void jox_world_lose_body(JoWorld *w, const JoxBodyGone *gone) {
     add_vector(&what, " m/s; people gave it", gone->force);
     jox_text_add(&what, " N");
     tell(w, w->model.def.lost_bodies, w->state.statistics.bodies_lost, &what);
+}
+
+void jox_world_overload(JoWorld *w, const JoxDriveLoad *load) {
+    const JoxObject *body = &w->scratch.objects.rows[load->row];
+    const char *name = jox_bodies_name(w->state.bodies, load->row);
+    JoxText what = {0};
+    add_when(w, &what);
+    jox_text_printf(&what, "body %u%s%s presses ", body->id, *name ? ", " : "", name);
+    jox_text_noun(&what, load->people, "person|people");
+    jox_text_printf(&what, " with %.6g N, its limit", (double)load->force);
+    add_vector(&what, ", at", body->position);
+    jox_text_printf(&what, " m; agent %u bears most of it, %.6g N", load->agent,
+                    (double)load->hardest);
+    const uint32_t i = jox_agents_find(&w->state.agents, load->agent);
+    if (i != JOX_NO_INDEX)
+        jox_text_printf(&what, ", at (%.6g, %.6g) m", (double)w->state.agents.x[i],
+                        (double)w->state.agents.y[i]);
+    tell(w, JO_LOST_END, 0, &what);
 }
 
 bool jox_world_guard(JoWorld *w) {

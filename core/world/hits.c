@@ -88,11 +88,37 @@ static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uin
     exchange->residual += sqrt(x * x + y * y);
 }
 
+/* Holds up the driven bodies that met their force limits, and counts what such bodies press with.
+ */
+static void hold_up_driven(const JoxBodyStage *s) {
+    uint32_t count;
+    const JoxDriveLoad *loads = jox_force_drive_loads(s->forces_of, &count);
+    JoxDriveStatistics *told = &s->statistics->drives;
+    const uint32_t inside = jox_force_totals(s->forces_of).inside;
+    told->inside = inside > told->inside ? inside : told->inside;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxDriveLoad *load = &loads[k];
+        if ((double)load->force > told->force) {
+            told->force = (double)load->force;
+            told->at_s = s->substep->end;
+            told->body = s->objects->rows[load->row].id;
+            told->people = load->people;
+            told->hardest = (double)load->hardest;
+        }
+        if (!load->met)
+            continue;
+        told->held_up += jox_bodies_hold_up(s->bodies, load->row, load->share);
+        if (s->overload->row == JOX_NO_BODY && jox_bodies_ends_run(s->bodies, load->row))
+            *s->overload = *load;
+    }
+}
+
 JoxBodiesReport jox_bodies_advance(const JoxBodyStage *s) {
     uint32_t count;
     float dt = (float)s->substep->dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
     give_impulses(s, impulses, count);
+    hold_up_driven(s);
     if (s->substep->first) {
         jox_mem_fill(s->agents->struck, 0, s->agents->count * sizeof *s->agents->struck);
         jox_bodies_impulses(s->bodies, s->machines->kicks, s->machines->kick_count);

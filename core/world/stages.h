@@ -129,8 +129,9 @@ typedef struct JoxBodyStage {
     JoxBodies *bodies;
     JoxDrags *drags;
     JoxStatistics *statistics;
-    JoxBodyGone *lost;     /* becomes the first that is lost in this substep, if any is */
-    JoxHappened *happened; /* hits and breaks, for those who ask */
+    JoxBodyGone *lost;      /* becomes the first that is lost in this substep, if any is */
+    JoxDriveLoad *overload; /* likewise of driven bodies that met limits at which the world ends */
+    JoxHappened *happened;  /* hits and breaks, for those who ask */
 } JoxBodyStage;
 void jox_stage_bodies(const JoxBodyStage *stage);
 /* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who

@@ -45,6 +45,18 @@ typedef struct JoxBondStatistics {
     uint32_t front;     /* and the most there were */
 } JoxBondStatistics;
 
+/* What driven bodies press people with whom they move towards. */
+typedef struct JoxDriveStatistics {
+    uint64_t
+        held_up;   /* times that one met its force limit, which it had not met in the step before */
+    double force;  /* N: the greatest, of all whom one pressed; then: */
+    double at_s;   /* when that was */
+    uint32_t body; /* its id */
+    uint32_t people; /* whom it pressed */
+    double hardest;  /* N: what one of them bore of it */
+    uint32_t inside; /* most people at a time whose middle was in driven bodies */
+} JoxDriveStatistics;
+
 typedef struct JoxStatistics {
     uint64_t steps, agent_steps;
     double stage_s[JO_STAGE_COUNT]; /* wall time */
@@ -69,6 +81,7 @@ typedef struct JoxStatistics {
     uint64_t overlap[JOX_OVERLAP_BINS];
     uint64_t overlap_samples;
     JoxBondStatistics bonds;
+    JoxDriveStatistics drives;
     JoxExchange exchange;
 } JoxStatistics;
 

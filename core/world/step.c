@@ -117,6 +117,7 @@ static void move(JoWorld *w, const JoxSubstep *substep) {
 
 static void bodies(JoWorld *w, const JoxSubstep *substep) {
     JoxBodyGone lost = {.row = JOX_NO_BODY};
+    JoxDriveLoad overload = {.row = JOX_NO_BODY};
     jox_stage_bodies(&(JoxBodyStage){.substep = substep,
                                      .forces = w->model.def.forces,
                                      .gravity = w->model.def.gravity,
@@ -131,9 +132,12 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
                                      .drags = &w->state.drags,
                                      .statistics = &w->state.statistics,
                                      .lost = &lost,
+                                     .overload = &overload,
                                      .happened = &w->scratch.happened});
     if (lost.row != JOX_NO_BODY)
         jox_world_lose_body(w, &lost);
+    if (overload.row != JOX_NO_BODY)
+        jox_world_overload(w, &overload);
 }
 
 static void infer(JoWorld *w, const JoxSubstep *substep) {

@@ -209,6 +209,8 @@ bool jox_world_step(JoWorld *world);
 bool jox_world_guard(JoWorld *world);
 /* The same of a body that the last stage found, and has dealt with. */
 void jox_world_lose_body(JoWorld *world, const JoxBodyGone *gone);
+/* Ends the world: a driven body met a limit at which it does. */
+void jox_world_overload(JoWorld *world, const JoxDriveLoad *load);
 #define JOX_WORLD_FARTHEST                                                                         \
     10000.0f /* m, from the origin: floats still resolve a millimetre there */
 /* Takes out those who are listed. */

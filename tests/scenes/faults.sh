@@ -70,6 +70,23 @@ verdict "  after its last step, with the others" $?
 says "  or put back, which is counted" 1 " times the numbers of somebody went wrong, who was put back" \
     "$program" run scene.yaml --for 4 --quiet --set guard.people=stop
 
+# ---- driven bodies that press too hard ----
+for at_limit in yield end; do
+    behaviour hold
+    scene "walls: [{line: [[-3, 0.3], [3, 0.3], [3, -0.3], [-3, -0.3]]}]
+bodies: [{name: piston, shape: {box: {size: [0.5, 0.5, 2]}}, kinematic: true, at: [0, 0, 1], velocity: [0.5, 0, 0], force_limit: 900 N, at_limit: $at_limit}]
+groups: {g: {behaviour: odd.lua, at: [[2, 0], [2.5, 0]]}}"
+    if [ $at_limit = yield ]; then
+        says "a piston stops at its force limit" 0 "" "$program" run scene.yaml --for 8 --summary summary.json
+        tr '\n' ' ' <"$work/out" | grep -q 'Driven bodies met their force limits 1 time; body 0, piston pressed hardest, 1 person with 900 N'
+        verdict "  with the load in its last lines" $?
+        [ "$(python3 -c 'import json, sys; d = json.load(sys.stdin)["driven"]; print(round(d["greatest_N"]), d["inside"])' <"$yard/summary.json")" = "900 0" ]
+        verdict "  and in its summary" $?
+    else
+        says "  or ends the run, and says whom it presses" 1 "body 0, piston presses 1 person with 900 N, its limit" "$program" run scene.yaml --for 8 --quiet
+    fi
+done
+
 # ---- starts and steps that are unsound ----
 for setting in 'max_speed = 12' 'push = 5000, mass = 5'; do
     printf 'return machine { name = "odd", start = "A", states = {\n  A = { steer = hold,\n    %s } } }\n' "$setting" >"$yard/odd.lua"

@@ -239,6 +239,14 @@ static const struct Case {
      "0, 0],\n"
      "     path: {through: [[1, 0, 1]], speed: 1}}\n" GROUP,
      "bad-body", "Leave out the velocity or the path"},
+    {"bodies: [{shape: {sphere: {radius: 1}}, at: [0, 0, 1], force_limit: @150}]\n" GROUP,
+     "bad-body", "Add `kinematic: true`"},
+    {"bodies: [{shape: {sphere: {radius: 1}}, at: [0, 0, 1], at_limit: @end}]\n" GROUP, "bad-body",
+     "Add `kinematic: true`"},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], kinematic: true, force_limit: "
+     "@150,\n"
+     "     path: {through: [[1, 0, 1]], speed: 1, force_limit: 200}}\n" GROUP,
+     "bad-body", "Leave one of them out"},
     {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], kinematic: true,\n"
      "     path: {through: @[], speed: 1}}\n" GROUP,
      "bad-type", "[[5, 0, 1], ...]"},

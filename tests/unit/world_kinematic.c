@@ -183,6 +183,7 @@ static Squeeze squeeze(double limit, bool reopens) {
     leaf.x = -0.7;
     leaf.z = 1;
     leaf.kinematic = true;
+    leaf.force_limit = 0;
     leaf.path = (JoPath){.points = through,
                          .count = 1,
                          .speed = 0.5,
@@ -226,6 +227,7 @@ static void a_door_feels_whom_it_squeezes(void **state) {
     JoWorld *world = jo_world_create(&def, &error);
     JoBodyDef wrong = jo_default_body_def();
     wrong.kinematic = true;
+    wrong.force_limit = 0;
     wrong.path = (JoPath){.points = (double[]){5, 0, 0}, .count = 1, .speed = 1, .reopens = true};
     assert_int_equal(jo_world_add_body(world, &wrong, &error).generation, 0);
     assert_non_null(strstr(error.text, "limit"));

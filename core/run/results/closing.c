@@ -87,6 +87,28 @@ static void say_events(const JoScene *scene, JoxText *out) {
         jox_text_add(out, ".");
 }
 
+/* Of driven bodies: how often they met their limits, and whoever is in them. */
+static void say_drives(const JoScene *scene, JoxText *out) {
+    const JoxDriveStatistics *d = &scene->world->state.statistics.drives;
+    if (d->held_up > 0 || d->inside > 0) {
+        const JoxBodies *bodies = scene->world->state.bodies;
+        const uint32_t row = jox_bodies_find(bodies, d->body);
+        const char *name = row == JOX_NO_BODY ? "" : jox_bodies_name(bodies, row);
+        jox_text_add(out, " Driven bodies met their force limits ");
+        jox_text_noun(out, d->held_up, "time|times");
+        jox_text_printf(out, "; body %u%s%.60s pressed hardest, ", d->body, *name ? ", " : "",
+                        name);
+        jox_text_noun(out, d->people, "person|people");
+        jox_text_printf(out, " with %.0f N at %.1f s, one with %.0f N of it.", d->force, d->at_s,
+                        d->hardest);
+    }
+    if (d->inside > 0) {
+        jox_text_add(out, " Up to ");
+        jox_text_noun(out, d->inside, "person was|people were");
+        jox_text_add(out, " inside driven bodies at a time.");
+    }
+}
+
 static void say_standing(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     const JoxStood *stood = jox_run_stood_longest(scene);
@@ -136,6 +158,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_states(scene, &text);
     jox_run_say_demand(scene, &text);
     say_events(scene, &text);
+    say_drives(scene, &text);
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     say_probes(scene, &text);

@@ -84,6 +84,22 @@ static void add_events(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
+/* What driven bodies pressed people with; nothing where none did. */
+static void add_drives(JoxJson *json, const JoScene *scene) {
+    const JoxDriveStatistics *d = &scene->world->state.statistics.drives;
+    if (!(d->force > 0.0) && d->inside == 0)
+        return;
+    jox_json_object(json, "driven");
+    jox_json_whole(json, "held_up", d->held_up);
+    jox_json_number(json, "greatest_N", d->force);
+    jox_json_number(json, "at_s", d->at_s);
+    jox_json_whole(json, "body", d->body);
+    jox_json_whole(json, "people", d->people);
+    jox_json_number(json, "hardest_N", d->hardest);
+    jox_json_whole(json, "inside", d->inside);
+    jox_json_end(json);
+}
+
 /* How well the contacts between people, walls and bodies were solved. */
 static void add_contacts(JoxJson *json, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
@@ -284,6 +300,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_states(&json, world);
     add_transitions(&json, &world->machines);
     add_contacts(&json, scene);
+    add_drives(&json, scene);
     add_regions(&json, scene);
     add_events(&json, scene);
     jox_run_add_demand(scene, &json);

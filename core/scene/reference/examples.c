@@ -96,7 +96,7 @@ const JoxExample jox_scene_examples[] = {
      "    repeat: {count: [3, 1, 1], step: [0.5, 0, 0]}\n"
      "    tags: [ball]\n"
      "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, density: 300 kg/m3, at: [5, 0, 0.5], turn: 30}\n"
-     "  - {name: turnstile, shape: {box: {size: [3, 0.1, 1]}}, kinematic: true, at: [-6, 0, 1], spin: [0, 0, 20 deg/s]}\n"
+     "  - {name: turnstile, shape: {box: {size: [3, 0.1, 1]}}, kinematic: true, at: [-6, 0, 1], spin: [0, 0, 20 deg/s], force_limit: 300 N, at_limit: yield}\n"
      "  - {name: lift, shape: {box: {size: [2, 2, 0.2]}}, kinematic: true, at: [0, 9, 0.1], path: {through: [[0, 9, 4]], speed: 0.5, end: back}}\n"
      STANDER},
     {"path", OPENING
