@@ -157,7 +157,8 @@ bool cli_is_sweep(const char *path);
 /* Makes a folder, and those above it; false with a message. */
 bool cli_make_folder(const CliCommand *command, const char *path);
 
-/* Whether functions of behaviours were suspended or people were lost, which it says. */
+/* Whether functions of behaviours failed, people were lost, or walls keep some from their goal,
+   which it says. */
 bool cli_troubled(const CliCommand *command, const JoScene *scene);
 
 /* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */

@@ -386,8 +386,9 @@ const CliCommand cli_run = {
     .about = "SCENE is a file, or the name alone of one that lies here, in scenes/, or came with "
              "Jostle: `jostle` lists some.",
     .notes =
-        "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), or a "
-        "function of a behaviour failed in a tenth of its calls or more, or 100 times within a "
+        "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), "
+        "walls keep people from their goal, or a function of a behaviour failed in a tenth of its "
+        "calls or more, or 100 times within a "
         "second, which suspends it, and was not mended and reloaded (then the run goes on to its "
         "end), 2 wrong usage, 3 bad input: "
         "also a mod that is asked for and is not there, or does not load; 129, 130 and 143: "

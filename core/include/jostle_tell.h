@@ -67,11 +67,12 @@ JO_API JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n);
 typedef enum JoTroubleKind {
     JO_TROUBLE_SUSPENDED, /* a function of a behaviour failed too often and is no longer called */
     JO_TROUBLE_LOST,      /* people were lost (JoLost) */
-    JO_TROUBLE_FAILED     /* a function of a behaviour failed in a tenth of its calls or more */
+    JO_TROUBLE_FAILED,    /* a function of a behaviour failed in a tenth of its calls or more */
+    JO_TROUBLE_NO_WAY     /* people cannot reach their goal: walls that are no gates lie between */
 } JoTroubleKind;
 typedef struct JoTrouble {
     JoTroubleKind kind;
-    uint64_t count;   /* failures within a second; people; calls that failed */
+    uint64_t count;   /* failures within a second; people; calls that failed; people */
     const char *file; /* of the behaviour, or "" */
     const char *text; /* a sentence, without its full stop */
 } JoTrouble;

@@ -301,6 +301,10 @@ void jox_machines_announce(JoxMachineRun *run, uint32_t name);
    not through walls that open either; -1: none. That a way leads through these is known half a
    second after it was asked for. */
 int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i);
+/* Places that an agent goes to by a field in any state of its machine: those that the machine
+   names, and the agent's own. Writes at most `most` of them, a place again where several states go
+   there, and returns how many. */
+uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *places, uint32_t most);
 /* Marks in `wanted` the ways that agents want in the states that they are in. */
 void jox_machines_ask_routes(JoxMachineRun *run);
 /* Notes who wrote a value of agent i, if it is watched. */

@@ -133,8 +133,11 @@ void jox_run_take_kept(JoxMachine *machine);
 void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of speeds and pushes for which the step is too long. */
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* source_checks.c: sources at which walls keep some or all from coming in. */
+/* wall_checks.c: sources at which walls keep some or all from coming in. */
 void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Goals to which walls leave no way, also with all gates open. The scene is not to be
+   stepped from then on. */
+void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */
@@ -244,6 +247,8 @@ typedef struct JoxStill {
     uint32_t people;     /* the most at a time */
 } JoxStill;
 const JoxStill *jox_run_stood_still(const JoScene *scene);
+/* Whether it was said of a place that people cannot reach it. */
+bool jox_run_told_no_way(const JoScene *scene, uint32_t place);
 /* probes.c: the same for probes. The n-th, or NULL behind the last. */
 void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);

@@ -229,6 +229,11 @@ void jox_run_collect_standing(JoScene *scene) {
         jox_run_listen(scene, &STANDING, NULL, NULL);
 }
 
+bool jox_run_told_no_way(const JoScene *scene, uint32_t place) {
+    const Standing *s = jox_run_listener(scene, &STANDING);
+    return s && place < s->told_count && s->told[place] == TOLD;
+}
+
 const JoxStood *jox_run_stood_longest(const JoScene *scene) {
     const Standing *s = jox_run_listener(scene, &STANDING);
     return s ? &s->longest : NULL;

@@ -39,6 +39,7 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     JoScene *scene = jox_run_load(&def, all);
     if (scene) {
         jox_run_advise(scene, all);
+        jox_run_check_ways(scene, all);
         jox_diag_move(all, &scene->mod_problems);
     }
     jo_scene_free(scene);

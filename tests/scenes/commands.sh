@@ -184,8 +184,18 @@ END
 [ "$(wc -l <"$work/out")" = 1 ]; verdict "a quiet run says where its report is, and nothing of gnuplot's" $?
 "$JOSTLE" run "$work/turned.yaml" --for 12 2>&1 | tr '\n' ' ' >"$work/out"
 grep -qE "line of probe (line|other) was crossed 3 times, always against the direction" "$work/out" && [ "$(grep -o 'always against' "$work/out" | wc -l)" = 1 ]; verdict "a flow that is crossed from the wrong side alone is told of" $?
-expect "a goal to which no way leads is told" 0 "warning: 14 people cannot reach street: no way leads there from" "$JOSTLE" run "$work/shut.yaml" --for 6
+expect "a goal to which no way leads is told" 1 "warning: 14 people cannot reach street: no way leads there from" "$JOSTLE" run "$work/shut.yaml" --for 6
 grep -q "1 warning was given" <(tr '\n' ' ' <"$work/out"); verdict "as a warning" $?
+expect "  and ends with status 1 and the cause" 1 "nobody can reach 'street': walls lie between; 14 people of group 'g'" "$JOSTLE" run "$work/shut.yaml" --for 6 --quiet
+expect "  and the check says so before" 0 "shut.yaml:8:10: warning: nobody of group 'g' can reach 'street'" "$JOSTLE" check "$work/shut.yaml"
+expect "  not where a gate may be opened" 0 "nothing wrong" "$JOSTLE" check "$work/gate.yaml"
+for who in 'at: [[1, 0.5], [20, 0.5]]|1 of the 2 people of group' 'count: 0|who comes in at'; do
+    sed "s/count: 14, fill: random, in: lane/${who%%|*}/; \$ a sources: [{at: lane, like: g, rate: 1}]" "$work/shut.yaml" >"$work/some.yaml"
+    expect "  of some, and of sources: ${who#*|}" 0 "warning: ${who#*|}" "$JOSTLE" check "$work/some.yaml"
+done
+sed 's/walker.lua/stander.lua/; s/, set: {goal: street}//' "$work/shut.yaml" >"$work/stay.yaml"
+cp behaviours/stander.lua "$work"
+expect "  not of people who go nowhere" 0 "nothing wrong" "$JOSTLE" check "$work/stay.yaml"
 printf 'jostle: 1\nduration: 25\nplaces: {near: {point: [4, 0], radius: 1}, far: {point: [90, 0], radius: 1}}\ngroups: {g: {behaviour: hinted.lua, at: [[0, 0]]}}\n' >"$work/hinted.yaml"
 printf 'return machine { name = "hinted", version = 1, start = "Go", states = {\n  Go = { steer = seek "near",\n    { to = "Done", when = inside "far" } },\n  Done = { steer = hold } } }\n' >"$work/hinted.lua"
 expect "a run to its end hints at what came to nothing, with file and line" 0 "hinted.lua:3: nobody was ever in state 'Done'" "$JOSTLE" run "$work/hinted.yaml"

@@ -179,6 +179,22 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
     }
 }
 
+uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *places, uint32_t most) {
+    const JoxMachine *machine = jox_machine_of(run, i);
+    uint32_t count = 0;
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        for (uint32_t t = 0; t < machine->states[s].steer_count && count < most; t++) {
+            const int32_t index = machine->states[s].steer[t].target;
+            if (machine->states[s].steer[t].kind != JOX_STEER_FIELD || index < 0 ||
+                (machine->targets[index].kind != JOX_TARGET_PLACE &&
+                 machine->targets[index].kind != JOX_TARGET_OWN_PLACE))
+                continue;
+            places[count] = jox_target_place(run, i, index);
+            count += places[count] >= 0;
+        }
+    return count;
+}
+
 int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     if (!run->fields || a->machine[i] == JOX_NO_MACHINE)

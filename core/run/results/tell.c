@@ -4,12 +4,14 @@
 
 #include "base/assert.h"
 #include "base/format/json.h"
+#include "base/format/noun.h"
 #include "base/guard.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
 #include "run/run.h"
 
-enum { HEAD, ITEMS }; /* parts of a pack */
+enum { HEAD, ITEMS };      /* parts of a pack */
+enum { MOST_NO_WAYS = 5 }; /* places that are told */
 
 /* ---- figures ---- */
 
@@ -123,6 +125,42 @@ static void add_failing(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     }
 }
 
+/* People whom walls still keep from a place, by group; of a place of which that was said. */
+static void add_no_way(const JoScene *scene, uint32_t place, JoxPack *pack, JoTroubles *head) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    const JoxAgents *a = &scene->world->state.agents;
+    const char *name = machines->places[place].name;
+    uint32_t *people = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *people), all = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (jox_machines_no_way(machines, i) == (int32_t)place) {
+            people[a->group[i]]++;
+            all++;
+        }
+    const bool nobody = all == a->count && scene->world->state.exits.left == 0;
+    JoxText text = {0};
+    jox_text_printf(&text, "%s reach '%.60s': walls lie between",
+                    nobody ? "nobody can" : "some cannot", name ? name : "their goal");
+    for (uint32_t g = 0, told = 0; g < scene->spec->group_count; g++) {
+        if (people[g] == 0)
+            continue;
+        jox_text_add(&text, told++ ? ", " : "; ");
+        jox_text_noun(&text, people[g], "person|people");
+        jox_text_printf(&text, " of group '%.60s'", scene->spec->groups[g].name);
+    }
+    jox_free(people);
+    if (all > 0)
+        add_trouble(pack, head, JO_TROUBLE_NO_WAY, all, "", &text);
+    else
+        jox_text_free(&text);
+}
+
+static void add_no_ways(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
+    const uint32_t before = head->count;
+    for (uint32_t p = 0; p < scene->world->machines.place_count; p++)
+        if (head->count < before + MOST_NO_WAYS && jox_run_told_no_way(scene, p))
+            add_no_way(scene, p, pack, head);
+}
+
 JoTroubles *jo_scene_troubles(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     JOX_GUARD (NULL, NULL)
@@ -140,6 +178,7 @@ JoTroubles *jo_scene_troubles(const JoScene *scene) {
                                                                    : "put back, at rest");
         add_trouble(&pack, head, JO_TROUBLE_LOST, s->people_lost, "", &text);
     }
+    add_no_ways(scene, &pack, head);
     return jox_disown(jox_pack_end(&pack));
 }
 

@@ -215,18 +215,34 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
     making->high = jox_add(high, (JoxV2){spare, spare});
 }
 
-/* Begins to make a field from what stands where now. */
+/* What a field is made of: what stands where now. `before`: the field that it replaces, or NULL. */
+static Making *prepare(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind,
+                       const JoxField *before) {
+    Making *making = jox_alloc(1, sizeof *making);
+    making->item.run = make;
+    jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
+    jox_obstacles_add(&w->routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
+    copy_places(w, place, making);
+    lay_out(w, before, kind == JOX_ROUTE_CROWD ? MOST_CROWD_CELLS : MOST_CELLS, making);
+    return making;
+}
+
+JoxField *jox_routes_look_ahead(const JoxRouteStage *w, uint32_t place) {
+    jox_obstacles_update(&w->routes->obstacles, w->objects);
+    Making *making = prepare(w, place, JOX_ROUTE_OPEN, NULL);
+    make(&making->item);
+    JoxField *field = making->field;
+    making->field = NULL;
+    free_making(making);
+    return field;
+}
+
+/* Begins to make a field. */
 static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, double delay) {
     JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
-    Making *making = jox_alloc(1, sizeof *making);
     JOX_ASSERT(!route->making); /* it would be lost */
-    making->item.run = make;
-    jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
-    jox_obstacles_add(&routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
-    copy_places(w, place, making);
-    lay_out(w, routes->fields[place * JOX_ROUTE_KINDS + kind],
-            kind == JOX_ROUTE_CROWD ? MOST_CROWD_CELLS : MOST_CELLS, making);
+    Making *making = prepare(w, place, kind, routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (kind == JOX_ROUTE_CROWD) {
         copy_crowd(w, place, &making->crowd);
         making->keeps_marks = true;

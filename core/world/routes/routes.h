@@ -36,6 +36,9 @@ void jox_routes_free(JoxRoutes *routes);
    people bound for a place are held up, who walks by the law has a field that is slow where they
    stand, made anew each second. */
 void jox_routes_update(const JoxRouteStage *stage);
+/* The field to a place where all gates are open and whatever can be moved is away, made at once for
+   who asks whether any way leads there; the caller frees it. There are walls or agents. */
+JoxField *jox_routes_look_ahead(const JoxRouteStage *stage, uint32_t place);
 /* Places moved: all fields are renewed. */
 void jox_routes_renew(JoxRoutes *routes);
 /* Lists the fields in use, those under way, which are finished first, and when they come into use.
