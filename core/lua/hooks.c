@@ -144,7 +144,7 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
     double begun = timed ? jox_clock_wall() : 0.0;
     script->machine = machine;
     script->agent = agent;
-    script->draws = 0;
+    script->draws = script->read_count = 0;
     script->vm.run++;
     lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
     lua_rawgeti(L, LUA_REGISTRYINDEX, script->me);
@@ -201,6 +201,43 @@ static int32_t slot_now(const JoxMachineRun *machines, uint32_t i, const JoxWrit
     return -1;
 }
 
+/* Whether something else has changed the memory in this step that a function worked out anew from
+   what it was before the step: the change is lost. Who agree that it is true lose nothing. */
+static bool is_stale(const JoxLua *lua, uint32_t i, uint32_t slot, const JoxWrite *write) {
+    const JoxAgents *a = lua->machines->agents;
+    const size_t at = (size_t)i * a->memory_stride + slot;
+    if (!write->depends || a->machine[i] != write->machine ||
+        lua->before_machine[i] != write->machine || a->memory[at] == lua->before_memory[at])
+        return false;
+    const JoxMachine *m = lua->machines->set->items[write->machine];
+    return m->memory[slot].kind == JOX_MEMORY_NUMBER || a->memory[at] != write->value;
+}
+
+/* Tells once in a simulated second that changes of others' memory are lost. */
+static void tell_lost(JoxLua *lua, const JoxWrite *write) {
+    const JoxMachineRun *machines = lua->machines;
+    const uint32_t second = (uint32_t)(machines->tick * machines->dt) + 1;
+    char text[700], more[60] = "";
+    lua->lost_writes++;
+    if (lua->lost_second == second)
+        return;
+    if (lua->lost_writes > 1)
+        snprintf(more, sizeof more, " (%llu such before)",
+                 (unsigned long long)lua->lost_writes - 1);
+    snprintf(
+        text, sizeof text,
+        "%.200s:%d: '%.60s' of agent %u is changed by several in step %u, here from what it was "
+        "before "
+        "the step: a change is lost%s. Let the agent itself count: a signal, or a condition on "
+        "others, tells it when\n",
+        write->file ? write->file : "", write->line,
+        machines->set->items[write->machine]->memory[write->slot].name, write->agent_id,
+        machines->tick, more);
+    lua->lost_second = second;
+    lua->lost_writes = 0;
+    say(lua, text);
+}
+
 void jox_lua_bracket(void *context, bool begins) {
     JoxLua *lua = context;
     JoxAgents *a = lua->machines->agents;
@@ -224,6 +261,8 @@ void jox_lua_bracket(void *context, bool begins) {
         const int32_t slot = i == JOX_NO_INDEX ? -1 : slot_now(lua->machines, i, write);
         if (slot < 0)
             continue;
+        if (is_stale(lua, i, (uint32_t)slot, write))
+            tell_lost(lua, write);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
         const JoxWrote wrote = {
             .is_memory = true, .index = (uint16_t)slot, .by = JOX_WROTE_FUNCTION};

@@ -125,6 +125,39 @@ static void judge_test(const Search *f, const JoxTreeTest *test) {
         add_misuse(f, test->at, true);
 }
 
+/* The token that writes out the key of a field, a name or a text in brackets; NULL of any other. */
+static const JoxToken *key_of(const JoxSyntax *s, const JoxTree *field) {
+    if (field->named)
+        return &s->source->tokens[field->at];
+    if (field->a == JOX_NO_TREE || s->trees[field->a].kind != JOX_TREE_CONSTANT)
+        return NULL;
+    const JoxToken *t = jox_syntax_token(s, field->a);
+    return t->kind == JOX_TOKEN_STRING ? t : NULL;
+}
+
+/* Reports keys that a table writes out twice: Lua takes the last, and what the first had is lost.
+ */
+static void report_doubled(JoxBuild *b, const JoxSyntax *s, const JoxTree *table) {
+    enum { MOST_KEYS = 2000 };
+    int looked = 0;
+    for (int32_t f = table->items; f >= 0; f = s->trees[f].next) {
+        const JoxToken *key = key_of(s, &s->trees[f]);
+        for (int32_t o = table->items; key && o != f && looked++ < MOST_KEYS;
+             o = s->trees[o].next) {
+            const JoxToken *other = key_of(s, &s->trees[o]);
+            if (!other || other->length != key->length ||
+                memcmp(other->text, key->text, key->length) != 0)
+                continue;
+            jox_build_error(b,
+                            (JoxPosition){s->source->path, key->line, key->column, key->end_column},
+                            "doubled-key", "Take one of them out, or give it another name",
+                            "'%.*s' is in this table twice: what line %d says of it is lost",
+                            key->length < 60 ? (int)key->length : 60, key->text, other->line);
+            break;
+        }
+    }
+}
+
 static void report(JoxBuild *b, JoxMisuse *misuse) {
     static const struct {
         const char *sign, *instead;
@@ -169,6 +202,12 @@ void jox_misuse_find(JoxBuild *b) {
             "it is too large to be searched for `and`, `or`, `not`, `==` and `~=` between "
             "conditions");
     jox_kinds_free(kinds);
+    for (size_t n = 0; n < script->vm.source_count; n++) {
+        const JoxSyntax *s = jox_outline_syntax(script->vm.sources[n]);
+        for (size_t t = 0; s->whole && t < s->tree_count; t++)
+            if (s->trees[t].kind == JOX_TREE_TABLE)
+                report_doubled(b, s, &s->trees[t]);
+    }
     for (uint32_t i = 0; i < script->misuse_count; i++)
         if (script->misuses[i].certain)
             report(b, &script->misuses[i]);

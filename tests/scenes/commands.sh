@@ -70,6 +70,26 @@ expect "notes are counted" 0 "nothing wrong, " "$JOSTLE" check scenes/opening-30
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "  with the condition's words and their values" 0 "when after(own.alarm 5) is true" "$JOSTLE" run scenes/evacuation.yaml --quiet --trace 9 --for 6
 expect "  as it is written" 0 " > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 2 --for 30
+cat >"$work/till.yaml" <<'END'
+jostle: 1
+duration: 1
+groups:
+  buyers: {behaviour: buyer.lua, at: [[0, 0], [1, 0]]}
+  seller: {behaviour: seller.lua, at: [[0.5, 1]]}
+END
+echo 'memory { earned = 0, told = false } return machine { name = "seller", start = "A", states = { A = { steer = hold } } }' >"$work/seller.lua"
+pays() { # WHAT: in the function of both buyers
+    cat >"$work/buyer.lua" <<END
+return machine { name = "buyer", start = "A", states = { B = { steer = hold }, A = { steer = hold, { to = "B", on_take = function(me)
+  for _, other in ipairs(me.neighbours) do
+    if other.machine == "seller" then $1 end
+  end end } } } }
+END
+}
+pays "other.earned = other.earned + 5"
+expect "changes of others' memory that are lost are told" 0 "buyer.lua:3: 'earned' of agent 2 is changed by several in step 0" "$JOSTLE" run "$work/till.yaml"
+pays "other.told = not other.told or true"
+"$JOSTLE" run "$work/till.yaml" 2>&1 | grep -q "is changed by several"; [ $? = 1 ]; verdict "  but not what they agree on" $?
 expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference: what?" 2 "there is no page 'plants'; there are behaviours, scenes" "$JOSTLE" reference plants

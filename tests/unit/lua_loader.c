@@ -54,6 +54,12 @@ static const Mistake MISTAKES[] = {
     {"local q = normal(1)\n" SHEET(""), 1, 11, "bad-argument", "deviation"},
     {"return 3", 0, 0, "no-machine", "machine"},
     {"local a = = 3", 1, 11, "lua-error", "unexpected symbol"},
+    {SHEET("speed = 1,\nspeed = 2"), 3, 1, "doubled-key", "line 2"},
+    {"local t = { a = 1, [\"a\"] = 2 }\n" SHEET(""), 1, 21, "doubled-key", "'a'"},
+    {"return machine { name = \"m\", start = \"A\", states = { A = {},\nB = {}, A = {} } }", 2, 9,
+     "doubled-key", "'A'"},
+    {"memory { n = 0 }\nlocal m = memory { n = 1 }\n" SHEET(""), 2, 20, "bad-memory", "before"},
+    {"memory { n = 0 }\nlocal m = memory { n = false }\n" SHEET(""), 2, 20, "bad-memory", "before"},
 };
 
 static void every_mistake_has_its_place(void **state) {

@@ -119,7 +119,7 @@ static const char *const BAD[] = {
     BEHAVIOUR(MINE, "after(1)", "set = { met = mine.laps `== 3 },"),
     BEHAVIOUR(MINE, "after(1)", "push_when = mine.met `and lasted,"),
     BEHAVIOUR("", "after(1)", "speed = own.speed `or 2,"),
-    BEHAVIOUR("", "after(1)", "steer = seek \"post\" `or hold,"),
+    BEHAVIOUR("", "after(1)", "approach = nearest \"ball\" `or goal,"),
     BEHAVIOUR("local busy = after(1)", "busy",
               "on_enter = function(me) if busy `and me.x > 3 then me.goal = \"post\" end end,"),
     BEHAVIOUR("local busy = after(1)", "busy",

@@ -107,10 +107,14 @@ static int view_index(lua_State *L) {
             return lua_pushstring(L, m->states[state].name), 1;
         if (strcmp(name, "machine") == 0)
             return lua_pushstring(L, m->name), 1;
-        if (slot >= 0)
+        if (slot >= 0) {
+            const uint32_t most = sizeof script->read / sizeof *script->read;
+            script->read[script->read_count % most].agent = i;
+            script->read[script->read_count++ % most].slot = (uint32_t)slot;
             return push_memory(L, &m->memory[slot],
                                lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
                    1;
+        }
     }
     if (push_number(L, lua->machines, i, name))
         return 1;
@@ -120,6 +124,15 @@ static int view_index(lua_State *L) {
     if (lacks || jox_machine_memory(script->machine, name) >= 0)
         return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
+}
+
+static bool has_read(const JoxScript *script, uint32_t agent, uint32_t slot) {
+    const uint32_t most = sizeof script->read / sizeof *script->read;
+    const uint32_t count = script->read_count < most ? script->read_count : most;
+    for (uint32_t r = 0; r < count; r++)
+        if (script->read[r].agent == agent && script->read[r].slot == slot)
+            return true;
+    return false;
 }
 
 static int view_newindex(lua_State *L) {
@@ -138,7 +151,14 @@ static int view_newindex(lua_State *L) {
         return luaL_error(L, "too much is written to neighbours in one step");
     double value = check_memory(L, &m->memory[slot], 3);
     JOX_RESERVE(lua->writes, lua->write_capacity, lua->write_count + 1);
-    lua->writes[lua->write_count++] = (JoxWrite){a->id[i], (uint32_t)slot, machine, value};
+    const JoxPosition at = jox_vm_place(L);
+    lua->writes[lua->write_count++] = (JoxWrite){.agent_id = a->id[i],
+                                                 .slot = (uint32_t)slot,
+                                                 .machine = machine,
+                                                 .depends = has_read(script, i, (uint32_t)slot),
+                                                 .file = at.file,
+                                                 .line = at.line,
+                                                 .value = value};
     return 0;
 }
 

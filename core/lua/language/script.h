@@ -189,8 +189,12 @@ typedef struct JoxScript {
     JoxMachine *built;         /* under construction, so that a failure can free it */
     const JoxMachine *machine; /* whose hook runs */
     int me;                    /* registry reference of the object that hooks are given */
-    uint32_t draws;            /* math.random calls of the present hook */
-    uint32_t agent;            /* whose hook runs */
+    struct {
+        uint32_t agent, slot;
+    } read[16];          /* memory of others that the present hook has read: the last ones */
+    uint32_t read_count; /* all of them */
+    uint32_t draws;      /* math.random calls of the present hook */
+    uint32_t agent;      /* whose hook runs */
 } JoxScript;
 static_assert(offsetof(JoxScript, vm) == 0, "jox_script_of casts");
 
@@ -198,6 +202,9 @@ static_assert(offsetof(JoxScript, vm) == 0, "jox_script_of casts");
 typedef struct JoxWrite {
     uint32_t agent_id, slot;
     uint16_t machine; /* whose slot it is: the agent may become another in the same step */
+    bool depends;     /* on what the hook had read there */
+    const char *file; /* where it is written */
+    int line;
     double value;
 } JoxWrite;
 
@@ -215,6 +222,8 @@ struct JoxLua {
     JoxWrite *writes;
     uint32_t write_count;
     size_t write_capacity;
+    uint64_t lost_writes; /* that were not said; `lost_second`: of the last that was, plus 1 */
+    uint32_t lost_second;
 };
 
 /* A state with the language in it; NULL where memory lacks. */

@@ -77,6 +77,13 @@ static int make_machine(lua_State *L) {
     return 1;
 }
 
+static const JoxMemorySlot *find_memory(const JoxScript *script, const char *name) {
+    for (uint32_t m = 0; m < script->memory_count; m++)
+        if (strcmp(script->memory[m].name, name) == 0)
+            return &script->memory[m];
+    return NULL;
+}
+
 /* memory { laps = 0, touched = false }: what each agent remembers. */
 static int make_memory(lua_State *L) {
     JoxScript *script = jox_script_of(L);
@@ -93,6 +100,16 @@ static int make_memory(lua_State *L) {
                                   "memory '%s' cannot be a %s", name, luaL_typename(L, -1));
         JOX_RESERVE(script->memory, script->memory_capacity, script->memory_count + 1);
         double value = type == LUA_TNUMBER ? lua_tonumber(L, -1) : lua_toboolean(L, -1);
+        const JoxMemorySlot *known = find_memory(script, name);
+        if (known && known->initial == value &&
+            (known->kind == JOX_MEMORY_NUMBER) == (type == LUA_TNUMBER)) {
+            lua_pop(L, 1); /* another file has it too */
+            continue;
+        }
+        if (known)
+            return jox_word_error(L, name, "bad-memory", "Give one of them another name",
+                                  "memory '%s' is declared before, and begins otherwise there",
+                                  name);
         if (!isfinite(value))
             return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
                                   "memory '%s' must begin with a finite number", name);
