@@ -136,20 +136,23 @@ static void tell_shifted(const JoxGroup *group, const JoxPlaced *placed,
                  placed->shifted == 1 ? "was" : "were", (double)placed->farthest);
 }
 
-/* A count that does not fit is an error, as figures of fewer people would be those of another
-   scene; of points that were given one by one, some may be wrong. */
+/* A warning, and the run goes on without them; an error where nobody fits, or, of a count, fewer
+   than half do: figures of so few people would be those of another scene. */
 static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
                             JoxDiagnostics *diagnostics) {
     const bool given = group->fill == JOX_FILL_AT || group->starts;
-    const bool refused = !given || placed->not_placed == group->count;
+    const uint32_t fit = group->count - placed->not_placed;
+    const bool refused = fit == 0 || (!given && placed->not_placed > fit);
     const JoxV2 first = group->positions[placed->first];
     char people[JOX_NOUN], hint[100];
     JoxText why = {0};
-    jox_world_say_unplaced(placed->in_solid == placed->not_placed ? JOX_BIRTH_IN_SOLID
-                                                                  : JOX_BIRTH_NO_ROOM,
-                           (double)first.x, (double)first.y, &why);
-    snprintf(hint, sizeof hint, "Lower the count to %u, widen the place, or lower the radius",
-             group->count - placed->not_placed);
+    if (placed->in_solid == placed->not_placed)
+        jox_world_say_unplaced(JOX_BIRTH_IN_SOLID, (double)first.x, (double)first.y, &why);
+    else if (group->in_count)
+        jox_text_add(&why, "no spot of its place is free");
+    else
+        jox_world_say_unplaced(JOX_BIRTH_NO_ROOM, (double)first.x, (double)first.y, &why);
+    snprintf(hint, sizeof hint, "Lower the count to %u, widen the place, or lower the radius", fit);
     jox_diag_add(diagnostics, refused ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING, group->position,
                  "not-placed", given ? "Give other points" : hint, NULL, NULL,
                  "%u of the %s of group '%.60s' %s not placed: %s", placed->not_placed,

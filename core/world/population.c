@@ -341,6 +341,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
             wish->holds = area_holds;
             wish->place = index;
             wish->place_number = number + 1;
+            wish->stays = true;
         }
         uint32_t agent = JOX_NO_INDEX;
         const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);

@@ -116,7 +116,7 @@ scene 'groups: {g: {behaviour: odd.lua, count: 30000, in: square}}'
 sed -i 's/^places:/places:\n  square: {polygon: [[0, 0], [3, 0], [3, 3], [0, 3]]}/' "$yard/scene.yaml"
 (ulimit -t 10 -v 2000000
 for command in check "run --quiet"; do
-    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of the 30,000 people of group 'g' are not placed: there is no free spot within 25 m of" \
+    says "30,000 people on 9 m2 are refused soon, as the ${command%% *} says" 3 "of the 30,000 people of group 'g' are not placed: no spot of its place is free" \
         "$program" $command scene.yaml
 done
 scene 'groups: {g: {behaviour: odd.lua, count: 100000, fill: circle, in: ring}}'
@@ -128,10 +128,15 @@ groups: {g: {behaviour: odd.lua, count: $1, in: room, fill: random}}"
     sed -i 's/^places:/places:\n  room: {polygon: [[0.2, 0.2], [3.8, 0.2], [3.8, 3.8], [0.2, 3.8]]}/' "$yard/scene.yaml"
 }
 room 150
-for command in check "run --quiet"; do
-    says "a count that does not fit is refused, as the ${command%% *} says" 3 "people of group 'g' are not placed: there is no free spot within 25 m of" "$program" $command scene.yaml
+for command in check "run --for 1 --quiet --summary room.json --record room.sqlite"; do
+    says "who does not fit is told of, as the ${command%% *} says" 0 "of the 150 people of group 'g' are not placed: no spot of its place is free" "$program" $command scene.yaml
 done
 grep -qF "Lower the count to 1" "$work/out"; verdict "  with the count that fits" $?
+grep -q '"not_placed": 3.,' "$yard/room.json"; verdict "  and counted" $?
+between "  and all others begin within the room" "$(sqlite3 "$yard/room.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE pos_x BETWEEN 0 AND 4 AND pos_y BETWEEN 0 AND 4")" 110 120
+rm "$yard/room.sqlite"
+room 400
+says "a count of which fewer than half fit is refused" 3 "people of group 'g' are not placed: no spot of its place is free" "$program" run scene.yaml --quiet
 room 90
 says "a count that fits is placed" 0 '"not_placed": 0' "$program" run scene.yaml --for 1 --quiet --summary - --record "$work/room.sqlite"
 between "  within the room" "$(sqlite3 "$work/room.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE pos_x BETWEEN 0 AND 4 AND pos_y BETWEEN 0 AND 4")" 90 90
