@@ -88,17 +88,6 @@ static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     return p;
 }
 
-JoxV2 jox_way_by_walls(const JoxWallGrid *grid, JoxV2 from, JoxV2 to, float radius) {
-    uint32_t near;
-    if (jox_length2(jox_sub(to, from)) > grid->reach * grid->reach)
-        from = piece_of_way(grid, from, &to);
-    jox_wall_grid_at(grid, from, &near);
-    if (near == 0)
-        return to;
-    const JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, to), radius);
-    return stop_at_walls(grid, from, clear);
-}
-
 /* On which side of a line through a and b a point lies: 1 left, -1 right, 0 on it. */
 static int side_of(JoxV2 a, JoxV2 b, JoxV2 p) {
     const double d =
@@ -109,6 +98,32 @@ static int side_of(JoxV2 a, JoxV2 b, JoxV2 p) {
 bool jox_edge_lies_between(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
     return jox_boxes_meet(a, b, p, q) && side_of(a, b, p) * side_of(a, b, q) < 0 &&
            side_of(p, q, a) * side_of(p, q, b) <= 0;
+}
+
+/* For assertions: whether a way leads through an edge on whose outer side it clearly begins. */
+static bool leads_through_edge(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
+        if (jox_det(v->direction, jox_sub(p, v->point)) < -0.5f * SKIN &&
+            jox_edge_lies_between(v->point, grid->walls->vertices[v->next].point, p, q))
+            return true;
+    }
+    return false;
+}
+
+JoxV2 jox_way_by_walls(const JoxWallGrid *grid, JoxV2 from, JoxV2 to, float radius) {
+    uint32_t near;
+    if (jox_length2(jox_sub(to, from)) > grid->reach * grid->reach)
+        from = piece_of_way(grid, from, &to);
+    jox_wall_grid_at(grid, from, &near);
+    if (near == 0)
+        return to;
+    const JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, to), radius);
+    const JoxV2 end = stop_at_walls(grid, from, clear);
+    JOX_ASSERT(!leads_through_edge(grid, from, end));
+    return end;
 }
 
 bool jox_walls_lie_between(const JoxWalls *walls, JoxV2 p, JoxV2 q, const bool *passable) {

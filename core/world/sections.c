@@ -29,8 +29,10 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     JoxWalls *walls = &w->model.all_walls;
     JoxHash shape = jox_hash_begin();
     const uint32_t own = w->state.made_count > 0 ? w->model.made_vertex : walls->count;
-    if (s->mode == JOX_SECTIONS_RESTORE)
+    if (s->mode == JOX_SECTIONS_RESTORE) {
         jox_world_mark_made(w);
+        jox_walls_clear_came(walls);
+    }
     for (uint32_t v = 0; v < own; v++)
         jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
     jox_section_model(s, "walls", jox_hash_end(&shape));

@@ -1,0 +1,308 @@
+/* No person passes a wall: random scenes with gates, doors, walls that come, sources, births and
+   reloads. JOSTLE_PASSAGES: how many scenes. */
+#include <math.h>
+
+#include "base/number/random.h"
+#include "geom/wall_way.h"
+#include "unit/run_acted.h"
+
+enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };
+
+/* A hall of 12 x 8 m, sealed; nothing is built where x is below 3 m. */
+static const double STEPS[] = {0.01, 0.02, 0.05, 0.1, 0.2};
+
+typedef struct Passage {
+    uint64_t number;
+    uint32_t drawn;
+    JoxText yaml, lua;
+    JoScene *scene;
+    double dt;
+    uint32_t made; /* walls added live */
+    /* Of the agents before the step, by id. */
+    struct Before {
+        bool there;
+        JoxV2 at;
+        bool inside[MOST_RINGS]; /* of the solids that stand in the step */
+    } before[MOST_PEOPLE];
+    uint64_t crossings, checked;
+} Passage;
+
+static double draw(Passage *p, double low, double high) {
+    return low + (high - low) * jox_random_unit(p->number, p->drawn++, 0, JOX_DRAW_FILL, 0);
+}
+
+static bool chance(Passage *p, double share) {
+    return draw(p, 0.0, 1.0) < share;
+}
+
+/* ---- scenes ---- */
+
+/* A thin wall of up to three points, or a solid quadrangle. */
+static void add_wall(Passage *p, const char *more) {
+    const double x = draw(p, 3.5, 11.0), y = draw(p, 0.5, 7.5);
+    if (chance(p, 0.6)) {
+        jox_text_printf(&p->yaml, "  - {line: [[%.3f, %.3f], [%.3f, %.3f]", x, y,
+                        draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+        if (chance(p, 0.5))
+            jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+        jox_text_printf(&p->yaml, "]%s}\n", more);
+        return;
+    }
+    const double w = draw(p, 0.1, 1.5), h = draw(p, 0.1, 1.5), slant = draw(p, -0.3, 0.3);
+    jox_text_printf(
+        &p->yaml, "  - {solid: [[%.3f, %.3f], [%.3f, %.3f], [%.3f, %.3f], [%.3f, %.3f]]%s}\n", x, y,
+        x + w, y + slant * w, x + w - slant * h, y + slant * w + h, x - slant * h, y + h, more);
+}
+
+/* The same walls for the same `seed`, of which the last `others` are others in each version. */
+static void write_walls(Passage *p, uint32_t seed, uint32_t count, uint32_t others) {
+    const uint32_t drawn = p->drawn;
+    jox_text_add(&p->yaml, "walls:\n"
+                           "  - {line: [[0, 0], [12, 0], [12, 8], [0, 8]], closed: true}\n");
+    p->drawn = seed;
+    for (uint32_t w = 0; w < count; w++) {
+        if (w == count - others)
+            p->drawn = drawn;
+        add_wall(p, "");
+    }
+    p->drawn = seed + 1000;
+    add_wall(p, ", name: gate, open: true");
+    add_wall(p, ", name: gate");
+    add_wall(p, ", name: door, open: true");
+    p->drawn = drawn + 100;
+}
+
+static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
+    const uint32_t people = 12 + (uint32_t)(p->number % 17);
+    p->yaml.length = 0;
+    jox_text_printf(&p->yaml,
+                    "jostle: 1\nstep: %g\nguard: {people: stop}\n"
+                    "places:\n"
+                    "  west: {polygon: [[0.3, 0.3], [2.7, 0.3], [2.7, 7.7], [0.3, 7.7]]}\n"
+                    "  east: {point: [11, 4], radius: 0.5}\n",
+                    p->dt);
+    write_walls(p, 5000, walls, others);
+    if (jox_bodies_available())
+        jox_text_add(&p->yaml,
+                     "bodies:\n"
+                     "  - {name: leaf, shape: {box: {size: [0.8, 0.1, 2]}}, kinematic: true, at: "
+                     "[6, 4, 1], path: {through: [[8, 4, 1], [6, 4, 1]], speed: 2, wait: 0.1}}\n"
+                     "  - {name: ball, shape: {sphere: {radius: 0.3}}, mass: 40, at: [2, 4, 0.3], "
+                     "velocity: [9, 0, 0]}\n");
+    p->drawn = 9000;
+    jox_text_add(&p->yaml,
+                 "groups:\n  people: {behaviour: own.lua, set: {goal: east}, at: [[1, 1]");
+    for (uint32_t n = 1; n < people; n++)
+        jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw(p, 0.3, 11.7), draw(p, 0.3, 7.7));
+    jox_text_printf(&p->yaml,
+                    "]}\n"
+                    "sources: [{at: west, like: people, rate: %.2f}]\n"
+                    "sinks: [{at: east}]\n"
+                    "events:\n"
+                    "  - {at: %.2f, every: %.2f, open: gate}\n"
+                    "  - {at: %.2f, every: %.2f, close: gate}\n"
+                    "  - {at: %.2f, every: 0.9, close: door}\n"
+                    "  - {at: %.2f, every: 0.7, open: door}\n",
+                    draw(p, 0.5, 6.0), draw(p, 0.0, 0.5), draw(p, 0.3, 0.9), draw(p, 0.1, 0.6),
+                    draw(p, 0.3, 0.9), draw(p, 0.0, 0.9), draw(p, 0.0, 0.7));
+}
+
+static void write_behaviour(Passage *p) {
+    static const double FAST[] = {1.5, 1.5, 5.0, 16.0};
+    const double speed = FAST[p->number % 4];
+    p->lua.length = 0;
+    jox_text_printf(&p->lua,
+                    HEAD
+                    "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
+                    "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
+                    "  states = { A = { steer = seek(own.goal) } }, own = { goal = \"east\" } }\n",
+                    speed, 1.2 * speed, chance(p, 0.5) ? 800.0 : 0.0, chance(p, 0.5) ? 1.0 : 0.0);
+}
+
+/* ---- what people do to it ---- */
+
+static void edit(Passage *p, uint32_t walls) {
+    JoxDiagnostics diagnostics = {0};
+    write_scene(p, walls, 2);
+    write_file("scene.yaml", p->yaml.data);
+    JoxSceneSpec *spec = jox_run_load_spec(&p->scene->def, p->scene->mods, 0, &diagnostics);
+    if (spec) { /* a wall may cross itself */
+        jox_run_rescene(p->scene, &spec, 0.0);
+        jox_scene_free(spec);
+    }
+    jox_diag_free(&diagnostics);
+}
+
+/* Some line of an input log; what cannot be done is refused. */
+static void do_something(Passage *p) {
+    char line[200];
+    JoError error = {0};
+    const double x = draw(p, 3.5, 11.0), y = draw(p, 0.5, 7.0);
+    switch ((int)draw(p, 0.0, 7.0)) {
+    case 0:
+        snprintf(line, sizeof line, "wall w%u %.3f %.3f %.3f %.3f", p->made++, x, y,
+                 draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+        break;
+    case 1: {
+        const double w = draw(p, 0.3, 2.0), h = draw(p, 0.3, 2.0);
+        snprintf(line, sizeof line, "wall w%u %.3f %.3f %.3f %.3f %.3f %.3f %.3f %.3f", p->made++,
+                 x, y, x + w, y, x + w, y + h, x, y + h);
+        break;
+    }
+    case 2:
+        snprintf(line, sizeof line, "unwall w%d", (int)draw(p, 0.0, p->made + 1.0));
+        break;
+    case 3:
+        snprintf(line, sizeof line, "spawn people %.3f %.3f", draw(p, 0.2, 11.8), y);
+        break;
+    case 4:
+        snprintf(line, sizeof line, "%s gate", chance(p, 0.5) ? "open" : "close");
+        break;
+    default:
+        snprintf(line, sizeof line, "push %d %.0f %.0f", (int)draw(p, 0.0, 20.0),
+                 draw(p, -10000.0, 10000.0), draw(p, -10000.0, 10000.0));
+    }
+    jo_scene_input(p->scene, line, &error);
+}
+
+/* ---- what is watched ---- */
+
+static void note_before(Passage *p) {
+    const JoxAgents *a = &p->scene->world->state.agents;
+    memset(p->before, 0, sizeof p->before);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->id[i] < MOST_PEOPLE)
+            p->before[a->id[i]] = (struct Before){.there = true, .at = {a->x[i], a->y[i]}};
+}
+
+/* The solids that hold a point: whoever stood in one when it came may leave it. */
+static void note_solids(const JoxWalls *walls, JoxV2 at, bool inside[MOST_RINGS]) {
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        inside[r] = walls->rings[r].solid && jox_walls_ring_holds(walls, r, at);
+}
+
+/* m: from one point to another round the end of an edge. */
+static double way_round(const JoxWallVertex *v, JoxV2 from, JoxV2 to) {
+    return (double)(jox_length(jox_sub(v->point, from)) + jox_length(jox_sub(to, v->point)));
+}
+
+/* A step longer than 0.05 s is done in parts, and its way may bend round an end of a wall. */
+static bool bends_round(const Passage *p, const JoxWalls *walls, uint32_t ring, JoxV2 from,
+                        JoxV2 to, double most) {
+    const struct JoxWallRing *r = &walls->rings[ring];
+    for (uint32_t i = 0; p->dt > 0.05 && i < r->count; i++)
+        if (way_round(&walls->vertices[r->first + i], from, to) < most)
+            return true;
+    return false;
+}
+
+static void watch_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
+                      double most, const char *what) {
+    const bool *inside = p->before[id].inside;
+    p->checked++;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t i = 0; i < ring->count && !inside[r]; i++) {
+            const JoxWallVertex *v = &walls->vertices[ring->first + i];
+            const JoxV2 end = walls->vertices[v->next].point;
+            if (!jox_edge_lies_between(v->point, end, from, to) ||
+                bends_round(p, walls, r, from, to, most))
+                continue;
+            p->crossings++;
+            print_message("scene %llu, step %llu of %g s: agent %u %s from (%.9g, %.9g) to (%.9g, "
+                          "%.9g) through (%.9g, %.9g) - (%.9g, %.9g) of ring %u%s\n",
+                          (unsigned long long)p->number,
+                          (unsigned long long)p->scene->world->state.tick, p->dt, id, what,
+                          (double)from.x, (double)from.y, (double)to.x, (double)to.y,
+                          (double)v->point.x, (double)v->point.y, (double)end.x, (double)end.y, r,
+                          ring->solid ? ", solid" : "");
+            return;
+        }
+    }
+}
+
+static void watch_step(Passage *p) {
+    const JoxAgents *a = &p->scene->world->state.agents;
+    const JoxWalls *walls = &p->scene->world->scratch.walls;
+    assert_true(walls->ring_count <= MOST_RINGS);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t id = a->id[i];
+        const JoxV2 now = {a->x[i], a->y[i]}, last = {a->prev_x[i], a->prev_y[i]};
+        const bool in_hall = now.x > 0.0f && now.x < 12.0f && now.y > 0.0f && now.y < 8.0f;
+        if (!in_hall) {
+            p->crossings++;
+            print_message("scene %llu: agent %u outside, at (%g, %g)\n",
+                          (unsigned long long)p->number, id, (double)now.x, (double)now.y);
+        }
+        if (id >= MOST_PEOPLE || !p->before[id].there)
+            continue;
+        const JoxV2 before = p->before[id].at;
+        const double speed = hypot((double)a->vx[i], (double)a->vy[i]);
+        note_solids(walls, before, p->before[id].inside);
+        if (p->dt > 0.05) {
+            watch_way(p, walls, id, before, now, 2.0 * p->dt * fmax(speed, 30.0), "went");
+            continue;
+        }
+        watch_way(p, walls, id, before, last, 0.0, "was moved");
+        note_solids(walls, last, p->before[id].inside);
+        watch_way(p, walls, id, last, now, 0.0, "went");
+    }
+}
+
+/* ---- all of it ---- */
+
+static void run_passage(Passage *p) {
+    const uint32_t walls = 1 + (uint32_t)(p->number % 4);
+    char path[300];
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    p->drawn = p->made = 0;
+    p->dt = STEPS[p->number % 5];
+    write_behaviour(p);
+    write_scene(p, walls, 0);
+    write_file("own.lua", p->lua.data);
+    write_file("scene.yaml", p->yaml.data);
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    def.path = path;
+    def.message = hear;
+    def.named_mods_only = def.no_density = true;
+    jox_text_free(&said);
+    p->scene = jo_scene_load(&def, &error);
+    if (!p->scene) {
+        fail_msg("scene %llu: %s\n%s", (unsigned long long)p->number, error.text, p->yaml.data);
+        return;
+    }
+    for (int n = 0; n < 60; n++) {
+        if (n % 20 == 13 && p->number % 3 == 0)
+            edit(p, walls + (n > 20));
+        if (chance(p, 0.3))
+            do_something(p);
+        note_before(p);
+        step(p->scene, 1);
+        watch_step(p);
+    }
+    jo_scene_free(p->scene);
+}
+
+static void nobody_passes_a_wall(void **state) {
+    (void)state;
+    const char *wanted = getenv("JOSTLE_PASSAGES");
+    const uint64_t scenes = wanted ? strtoull(wanted, NULL, 10) : SCENES;
+    Passage *p = jox_alloc(1, sizeof *p);
+    for (p->number = 0; p->number < scenes; p->number++)
+        run_passage(p);
+    assert_true(p->checked > 300 * scenes);
+    if (p->crossings)
+        fail_msg("%llu of %llu ways crossed a wall", (unsigned long long)p->crossings,
+                 (unsigned long long)p->checked);
+    jox_text_free(&p->yaml);
+    jox_text_free(&p->lua);
+    jox_free(p);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nobody_passes_a_wall),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
