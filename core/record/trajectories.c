@@ -158,7 +158,9 @@ static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryO
                        jox_file_why(errno));
         return false;
     }
-    bool good = jox_trajectories_text(t, path, text, length, options, diagnostics);
+    /* Comments of other programs may be in any encoding, but for those of two bytes a letter. */
+    bool good = !memchr(text, 0, length) || jox_diag_check_text(diagnostics, path, text, length);
+    good = good && jox_trajectories_text(t, path, text, length, options, diagnostics);
     jox_diag_attach_source(diagnostics, path, text, length);
     jox_free(text);
     return good;

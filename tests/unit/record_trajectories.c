@@ -422,13 +422,35 @@ static void our_recordings_keep_more(void **state) {
     jox_text_free(&error);
 }
 
+/* Texts that a string of C cannot hold. */
+static void zero_bytes_have_places(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t length;
+        const char *said;
+    } BAD[] = {{"1 0 0 0\n1 1 0.1 0\0\n", 18, "crowd:2:10: a text has no zero byte"},
+               {"1 0 0 0\n\0\0\n1 1 0 0\n", 19, "crowd:2:1: a text has no zero byte"},
+               {"\xff\xfe"
+                "1\0 \0",
+                6, "crowd:1:1: this file is UTF-16. Save it as UTF-8"}};
+    for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
+        JoxText said = {0};
+        write_file(BAD[b].text, BAD[b].length);
+        assert_null(read_file(25, 1, &said));
+        if (!strstr(said.data, BAD[b].said))
+            fail_msg("%s", said.data);
+        jox_text_free(&said);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_by_place),          cmocka_unit_test(columns_by_name),
-        cmocka_unit_test(velocity_is_displacement),  cmocka_unit_test(any_ids_will_do),
-        cmocka_unit_test(errors_have_places),        cmocka_unit_test(bent_files_do_no_harm),
-        cmocka_unit_test(both_versions_of_jupedsim), cmocka_unit_test(our_recordings_keep_more),
-        cmocka_unit_test(sqlite_in_any_order),
+        cmocka_unit_test(columns_by_place),         cmocka_unit_test(columns_by_name),
+        cmocka_unit_test(velocity_is_displacement), cmocka_unit_test(any_ids_will_do),
+        cmocka_unit_test(errors_have_places),       cmocka_unit_test(zero_bytes_have_places),
+        cmocka_unit_test(bent_files_do_no_harm),    cmocka_unit_test(both_versions_of_jupedsim),
+        cmocka_unit_test(our_recordings_keep_more), cmocka_unit_test(sqlite_in_any_order),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
