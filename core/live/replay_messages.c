@@ -106,6 +106,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     const JoxLiveSceneHead head = {
         .session = "replay",
         .title = spec && spec->title && *spec->title ? spec->title : jox_path_name(r->path),
+        .about = spec ? spec->about : NULL,
         .file = r->path,
         .dt = 1.0 / r->info.fps,
         .duration = jox_replay_time(r, r->info.frames - 1),

@@ -170,7 +170,7 @@ def served(*arguments):
                 expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
             finally:
                 status = session.stop()
-            expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
+            expect(status == 130, f"the program ended with status {status}, not that of SIGINT: {session.said[-3:]}")
         return run
     return decorate
 

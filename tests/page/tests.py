@@ -9,6 +9,7 @@ import time
 import following
 import reach
 import sight
+import steady
 from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, write
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
@@ -281,7 +282,7 @@ def with_walkers(test):
         finally:
             status = session.stop()
             shutil.rmtree(folder)
-        expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
+        expect(status == 130, f"the program ended with status {status}, not that of SIGINT: {session.said[-3:]}")
     return run
 
 
@@ -494,7 +495,7 @@ def replays(browser):
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

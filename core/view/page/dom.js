@@ -58,6 +58,11 @@ export function figure(value) {
     return text.replace("-", "−").replace(/\B(?=(\d{3})+$)/g, digits === 0 ? "\u202f" : "");
 }
 
+/** A measured figure with its unit. What is below a thousandth is 0: it is how a sum of rounded numbers shows nothing. */
+export function amount(value, unit) {
+    return `${figure(Math.abs(value) < 0.001 ? 0 : value)} ${unit}`;
+}
+
 /** Seconds as m:ss.s */
 export function clock(seconds) {
     const minutes = Math.floor(seconds / 60);

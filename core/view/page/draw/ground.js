@@ -5,7 +5,7 @@ import { table } from "./palette.js";
 import { bakeShade } from "./shade.js";
 import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED } from "./shaders.js";
 import { meetsBlock } from "./sightline.js";
-import { Prism } from "./walls.js";
+import { Prism, wallMaterial } from "./walls.js";
 
 const OPEN = 0.04; // m, drawn height of an open gate
 
@@ -57,6 +57,7 @@ export class Ground {
         this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(1, 1), material);
         this.floor.frustumCulled = false;
         this.floor.renderOrder = -1;
+        this.materials = new Map(); // kept over scene messages: a material that is made anew has its program compiled anew
         this.walls = [];
         this.theme("light");
     }
@@ -156,9 +157,15 @@ export class Ground {
         return changed;
     }
 
+    /** The material of a key, made where there is none. */
+    material(key, make) {
+        if (!this.materials.has(key)) this.materials.set(key, make());
+        return this.materials.get(key);
+    }
+
     addPrism(prism, colour, edge) {
         if (prism.empty()) return [];
-        const parts = prism.parts(this.seen, colour, edge);
+        const parts = prism.parts((ink, shader) => this.material(`${ink} ${shader}`, () => wallMaterial(this.seen, ink, shader)), colour, edge);
         this.group.add(...parts);
         return parts;
     }
@@ -166,7 +173,7 @@ export class Ground {
     addLines(positions, colour, opacity) {
         const geometry = new THREE.BufferGeometry();
         geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
-        const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, opacity, transparent: true }));
+        const lines = new THREE.LineSegments(geometry, this.material(`${colour} ${opacity}`, () => new THREE.LineBasicMaterial({ color: colour, opacity, transparent: true })));
         lines.frustumCulled = false;
         lines.visible = positions.length > 0;
         this.group.add(lines);
@@ -176,7 +183,6 @@ export class Ground {
     drop(part) {
         this.group.remove(part);
         part.geometry.dispose();
-        part.material.dispose();
     }
 
     clear() {

@@ -253,6 +253,7 @@ export class View {
         const begun = performance.now();
         this.renderer.render(this.scene, camera);
         this.called = performance.now() - begun;
+        if (this.crowd.next) this.canvas.parentElement.classList.remove("empty"); // until then it would be black
         this.spare(now, drawn);
         return true;
     }

@@ -22,6 +22,14 @@ function acrossOf(points, [mx, my], beside) {
     return [x * (reach + beside), y * (reach + beside)];
 }
 
+/** A material of walls or of their edges. `seen`: uniforms of the shader that are shared. */
+export function wallMaterial(seen, colour, fragmentShader) {
+    return new THREE.ShaderMaterial({
+        uniforms: { ...seen, colour: { value: new THREE.Color(colour) } },
+        vertexShader: WALL_VERTEX, fragmentShader, side: THREE.DoubleSide,
+    });
+}
+
 /** Triangles and edges of blocks. `beside`: m from a wall; whether the spot there is within the scene decides if it is lowered. */
 export class Prism {
     constructor(beside = 1.2) {
@@ -77,18 +85,15 @@ export class Prism {
         return this.faces.position.length === 0;
     }
 
-    /** What is drawn: the faces and their edges. `seen`: uniforms of the shader that are shared. */
-    parts(seen, colour, edge) {
+    /** What is drawn: the faces and their edges. `materialOf(colour, fragment shader)` makes or finds their materials. */
+    parts(materialOf, colour, edge) {
         const made = [[this.faces, colour, WALL_FRAGMENT, THREE.Mesh], [this.edges, edge, WALL_EDGE_FRAGMENT, THREE.LineSegments]];
         return made.map(([part, ink, fragmentShader, Kind]) => {
             const geometry = new THREE.BufferGeometry();
             for (const [name, size] of [["position", 3], ["normal", 3], ["middle", 2], ["across", 2]]) {
                 geometry.setAttribute(name, new THREE.Float32BufferAttribute(part[name], size));
             }
-            const node = new Kind(geometry, new THREE.ShaderMaterial({
-                uniforms: { ...seen, colour: { value: new THREE.Color(ink) } },
-                vertexShader: WALL_VERTEX, fragmentShader, side: THREE.DoubleSide,
-            }));
+            const node = new Kind(geometry, materialOf(ink, fragmentShader));
             node.frustumCulled = false;
             return node;
         });

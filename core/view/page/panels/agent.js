@@ -1,5 +1,5 @@
 // One person: state, parameters and who set them, memory, why it came here, forces, velocities.
-import { clock, el, figure, fill, say, svg } from "../dom.js";
+import { amount, clock, el, figure, fill, say, svg } from "../dom.js";
 import { FORCE_COLOURS } from "../draw/overlay.js";
 import { drawVelocities, PLANE_COLOURS } from "./velocity.js";
 
@@ -40,14 +40,14 @@ export class AgentPage {
         if (this.id !== agent.id) this.build(agent);
         const speed = Math.hypot(agent.vx, agent.vy);
         fill(this.state, pairs([
-            ["state", `${agent.state}, for ${figure(agent.since)} s`],
+            ["state", `${agent.state}, for ${amount(agent.since, "s")}`],
             ["machine", agent.machine],
             ["group", agent.group ?? "–"],
             ["place", `${figure(agent.x)}, ${figure(agent.y)} m`],
-            ["speed", `${figure(speed)} m/s`],
+            ["speed", amount(speed, "m/s")],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
-            ["compression", `${figure(message.compression)} N/m`],
-            ["load from one side", `${figure(message.load)} N`],
+            ["compression", amount(message.compression, "N/m")],
+            ["load from one side", amount(message.load, "N")],
         ]));
         this.failed.hidden = !message.failed;
         fill(this.last, message.last ? [
@@ -62,7 +62,7 @@ export class AgentPage {
             return n ? el("li", {}, swatch(PLANE_COLOURS[kind]), `${name}: ${n}`) : null;
         }));
         fill(this.forces, (message.forces ?? []).map((f) => el("li", {}, swatch(FORCE_COLOURS[f.kind] ?? "#999999"),
-            `${f.kind} ${figure(Math.hypot(f.fx, f.fy))} N`)));
+            `${f.kind} ${amount(Math.hypot(f.fx, f.fy), "N")}`)));
         this.noForce.hidden = (message.forces ?? []).length > 0;
         fill(this.parameters, (message.parameters ?? []).map((p) => [
             el("dt", {}, p.name), el("dd", {}, `${figure(p.value)} `, el("span", { className: "faint" }, p.set ?? ""))]));

@@ -1,0 +1,46 @@
+"""What stays as it is: materials over scene messages, figures that are nothing, what a scene is about."""
+import os
+import subprocess
+
+from harness import JOSTLE, Session, expect, served, temporary_copy
+
+
+@served("run", "scenes/wall-breaking.yaml", "--view")
+def materials_stay(browser):
+    """walls that a scene message brings anew are drawn by the programs that are there"""
+    materials = "return page.view.ground.group.children.map((child) => child.material.uuid)"
+    programs = "return page.view.renderer.info.programs.map((program) => program.id)"
+    again = "page.take({ ...page.scene, type: 'scene' }); page.view.dirty = true; page.view.draw(performance.now());"
+    browser.run(again)
+    before, compiled = browser.run(materials), browser.run(programs)
+    expect(len(before) > 2, f"there are {len(before)} parts")
+    browser.run(again * 5)
+    expect(browser.run(materials) == before, "materials are made anew")
+    expect(browser.run(programs) == compiled, "programs are compiled anew")
+
+
+@served("run", "scenes/circle.yaml", "--view")
+def nothing_is_zero(browser):
+    """measured figures that are nothing are 0, with their unit; the loading note goes with the first picture"""
+    said = browser.run("return import('/dom.js').then((dom) => [[6.4e-11, 'N'], [-2e-4, 'm/s'], [0.25, 'm'], [1234, 'N']].map((of) => dom.amount(...of)))")
+    expect(said == ["0 N", "0 m/s", "0.25 m", "1\u202f234 N"], f"they are {said}")
+    browser.wait("return !document.getElementById('stage').classList.contains('empty')", "the picture stays hidden")
+    expect(not browser.find("#loading").is_displayed() and browser.find("#picture").is_displayed(), "the loading note stays")
+
+
+def recordings_say_about(browser):
+    """the page of a recording with its scene says what that is about"""
+    folder = temporary_copy({})
+    recording = os.path.join(folder, "run.sqlite")
+    subprocess.run([JOSTLE, "run", "scenes/circle.yaml", "--for", "2", "--record", recording, "--quiet"], check=True)
+    session = Session("view", recording, "--scene", "scenes/circle.yaml")
+    try:
+        browser.open(session)
+        with open("scenes/circle.yaml", encoding="utf-8") as scene:
+            about = next(line for line in scene if line.startswith("about:"))[6:].strip().strip('"')
+        expect(browser.run("return page.scene.about") == about, "the replay says: " + browser.run("return page.scene.about"))
+    finally:
+        session.stop()
+
+
+TESTS = [materials_stay, nothing_is_zero, recordings_say_about]
