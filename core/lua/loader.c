@@ -250,3 +250,24 @@ const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, ui
     *count = script ? script->vm.file_count : 0;
     return script ? script->vm.files : NULL;
 }
+
+/* Whether the token `signal` begins a call that may give this one: me.signal("NAME"), or of a name
+   that is worked out. As a key of a table it is known to the machine. */
+static bool may_give(const JoxSource *source, size_t at, const char *name) {
+    size_t next = at + 1;
+    if (next < source->token_count && jox_token_is(&source->tokens[next], "="))
+        return false;
+    next += next < source->token_count && jox_token_is(&source->tokens[next], "(");
+    const JoxToken *t = next < source->token_count ? &source->tokens[next] : NULL;
+    return !t || t->kind != JOX_TOKEN_STRING || jox_token_says(t, name);
+}
+
+bool jox_lua_may_signal(const JoxLua *lua, const JoxMachine *machine, const char *name) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    for (size_t s = 0; script && s < script->vm.source_count; s++)
+        for (size_t t = 0; t < script->vm.sources[s]->token_count; t++)
+            if (jox_token_is(&script->vm.sources[s]->tokens[t], "signal") &&
+                may_give(script->vm.sources[s], t, name))
+                return true;
+    return false;
+}

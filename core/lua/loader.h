@@ -85,6 +85,9 @@ const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t 
                          size_t *length);
 const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length);
 
+/* Whether a function of the machine may give the signal, as far as its files tell. */
+bool jox_lua_may_signal(const JoxLua *lua, const JoxMachine *machine, const char *name);
+
 /* All files that were looked for when a machine was loaded. */
 char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 

@@ -211,6 +211,15 @@ static bool announced(const JoScene *scene, const char *text) {
     return false;
 }
 
+/* Whether a function of a behaviour may give it. */
+static bool may_be_called(const JoScene *scene, const char *text) {
+    const JoxMachineSet *set = &scene->world->model.machines;
+    bool may = false;
+    for (uint32_t m = 0; m < set->count; m++)
+        may |= set->items[m]->hook_count && jox_lua_may_signal(scene->lua, set->items[m], text);
+    return may;
+}
+
 /* What an own value is called now that is asked for, and so has a slot, by the name that it had. */
 static const char *renamed_own(const JoxMachine *machine, const char *name) {
     for (uint32_t r = 0; r < machine->renamed_count; r++)
@@ -289,8 +298,8 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
                 continue;
             }
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !is_signalled(machines, name->text) && !machine->hook_count &&
-                !announced(scene, name->text))
+            if (heard && !is_signalled(machines, name->text) && !announced(scene, name->text) &&
+                !may_be_called(scene, name->text))
                 jox_diag_warn(diagnostics, in, "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
             if (state && !is_state(machines, name->text))

@@ -86,6 +86,18 @@ return machine { name = "buyer", start = "A", states = { B = { steer = hold }, A
   end end } } } }
 END
 }
+calls() { # HEARD CALL
+    cat >"$work/seller.lua" <<END
+return machine { name = "seller", start = "A", states = { A = { steer = hold, on_exit = function(me) $2 end,
+  { to = "A", when = heard "$1" } } } }
+END
+    "$JOSTLE" check "$work/till.yaml"
+}
+pays "other.earned = 0"
+calls redy 'me.signal("ready")' | grep -q "no machine of the scene gives the signal 'redy'"; verdict "a signal that no function gives is warned of" $?
+calls ready 'me.signal("ready")' | grep -q "gives the signal"; [ $? = 1 ]; verdict "  one that a function gives is not" $?
+calls redy 'me.signal(me.x > 0 and "redy" or "ready")' | grep -q "gives the signal"; [ $? = 1 ]; verdict "  nor where its name is worked out" $?
+echo 'memory { earned = 0, told = false } return machine { name = "seller", start = "A", states = { A = { steer = hold } } }' >"$work/seller.lua"
 pays "other.earned = other.earned + 5"
 expect "changes of others' memory that are lost are told" 0 "buyer.lua:3: 'earned' of agent 2 is changed by several in step 0" "$JOSTLE" run "$work/till.yaml"
 pays "other.told = not other.told or true"
