@@ -123,6 +123,7 @@ static int list_protected(lua_State *L) {
     lua_settop(L, 1);
     if (!lua_istable(L, 1)) {
         add(all, "");
+        jox_free(all->items[all->count - 1].doc); /* the file's own comment says it */
         all->items[all->count - 1].doc = NULL;
         return 0;
     }
