@@ -40,7 +40,7 @@ void jox_regions_frame(JoxRegions *r, const float *x, const float *y, const floa
 }
 
 double jox_region_speed(const JoxRegion *region) {
-    return region->frames ? region->speed_sum / (double)region->frames : 0.0;
+    return region->frames ? region->speed_sum / (double)region->frames : (double)NAN;
 }
 
 void jox_regions_sections(JoxRegions *r, JoxSections *s) {

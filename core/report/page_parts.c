@@ -57,9 +57,11 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     if (window.length)
         jox_text_printf(&group, " (%s)", window.data);
     f->group = group.data;
-    for (uint32_t i = 0; i < figures.count; i++)
+    for (uint32_t i = 0; i < figures.count; i++) {
         jox_page_add(f, figures.items[i].unit, figures.items[i].value, "%s",
                      figures.items[i].title);
+        f->items[f->count - 1].none = figures.items[i].why;
+    }
     f->group = NULL;
     jox_text_free(&group);
     jox_text_free(&window);

@@ -24,6 +24,7 @@ typedef struct Displacement {
     JoxTrack track;
     Person *people; /* by key */
     uint32_t capacity;
+    double pace; /* s: the longest time between two frames */
 } Displacement;
 
 /* m from the place of rest: along the given direction, else in any. */
@@ -66,15 +67,19 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
                           .rested = 1,
                           .since = frame->time,
                           .onset = NAN};
-        else
+        else {
             move(def, p, &stretch);
+            d->pace = fmax(d->pace, stretch.ended - stretch.begun);
+        }
     }
 }
 
-/* m/s; NAN where fewer than three moved, or where time does not grow with distance. */
-static double front_speed(const JoxProbeDef *def, const Displacement *d) {
+/* m/s; NAN with a reason where it cannot be told. Times are no finer than frames: if all begin to
+   move within the time between two, they moved at once, as far as is known. The time must grow with
+   distance by more than twice its standard error. */
+static double front_speed(const JoxProbeDef *def, const Displacement *d, const char **why) {
     const Person *first = NULL;
-    double n = 0, s = 0, t = 0, ss = 0, st = 0;
+    double n = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0, last = 0;
     for (uint32_t k = 0; k < d->capacity; k++)
         if (d->people[k].known && isfinite(d->people[k].onset) &&
             (!first || d->people[k].onset < first->onset))
@@ -88,10 +93,27 @@ static double front_speed(const JoxProbeDef *def, const Displacement *d) {
         double away =
             def->count ? fabsf(jox_dot(apart, jox_unit(def->points[0]))) : jox_length(apart);
         double after = p->onset - first->onset;
-        n++, s += away, t += after, ss += away * away, st += away * after;
+        n++, s += away, t += after;
+        ss += away * away, st += away * after, tt += after * after;
+        last = fmax(last, after);
     }
-    double spread = n * ss - s * s, slope = spread > 0.0 ? (n * st - s * t) / spread : 0.0;
-    return n >= 3 && slope > 0.0 ? 1.0 / slope : NAN;
+    const double spread = n * ss - s * s;
+    *why = NULL;
+    if (n < 3)
+        *why = "not known: fewer than three people were moved";
+    else if (last <= d->pace)
+        *why = "not known: all began to move at once, within the time between two frames";
+    else if (!(spread > 0.0))
+        *why = "not known: all who moved stood equally far from the first";
+    if (*why)
+        return NAN;
+    const double slope = (n * st - s * t) / spread;
+    const double rest = fmax(tt - t * t / n - slope * slope * spread / n, 0.0);
+    const double error = sqrt(n * rest / ((n - 2.0) * spread));
+    if (slope > 2.0 * error && slope > 0.0)
+        return 1.0 / slope;
+    *why = "not known: those farther off did not begin to move later";
+    return NAN;
 }
 
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
@@ -117,8 +139,10 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "peak_mean", "mean of the greatest displacements", "m",
                    count ? peaks / count : NAN);
     jox_figure_add(out, "peak", "greatest displacement at any time", "m", peak);
-    jox_figure_add(out, "front_speed", "speed at which the push travels", "m/s",
-                   front_speed(def, d));
+    const char *why;
+    const double front = front_speed(def, d, &why);
+    jox_figure_add(out, "front_speed", "speed at which the push travels", "m/s", front);
+    jox_figure_why(out, why);
     jox_free(ends);
 }
 
@@ -126,6 +150,7 @@ static void sections(void *state, JoxSections *s) {
     Displacement *d = state;
     jox_track_sections(&d->track, s);
     JOX_SECTION_ROOM(s, "people", d->people, d->capacity);
+    JOX_SECTION(s, "pace", d->pace);
 }
 
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {

@@ -10,7 +10,9 @@
 #include "base/sort.h"
 #include "record/probes/probe_parts.h"
 
-static const double TAIL = 0.2; /* share of the passages left out at either end */
+static const double TAIL = 0.2;  /* share of the passages left out at either end */
+static const double LEAST = 1.0; /* s: over less a flow is that of two who pass side by side */
+static const char FEW[] = "not known: fewer than two passages, or all within a second";
 
 typedef struct Crossing {
     double time; /* s */
@@ -148,7 +150,7 @@ static bool middle(size_t count, size_t *first, size_t *last) {
 
 static double rate(const double *times, size_t first, size_t last) {
     double spent = times[last] - times[first];
-    return spent > 0.0 ? (double)(last - first) / spent : NAN;
+    return spent >= LEAST ? (double)(last - first) / spent : NAN;
 }
 
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
@@ -164,10 +166,13 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "forward", "passages from its right to its left", "", f->forward);
     jox_figure_add(out, "back", "passages from its left to its right", "", f->back);
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);
+    jox_figure_why(out, FEW);
     jox_figure_add(out, "flow_all", "flow from the first to the last passage", "1/s",
                    count >= 2 ? rate(times, 0, count - 1) : NAN);
+    jox_figure_why(out, FEW);
     jox_figure_add(out, "specific_flow", "flow over the middle 60 % per metre of the opening",
                    "1/(m s)", f->width > 0.0 ? flow / f->width : NAN);
+    jox_figure_why(out, FEW);
     jox_figure_add(out, "lapse_median", "median time between passages", "s",
                    jox_quantile(lapses, gaps, 0.5));
     jox_figure_add(out, "lapse_max", "longest time between passages", "s",

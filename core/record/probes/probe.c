@@ -138,6 +138,17 @@ void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     jox_json_object(json, key);
     for (uint32_t f = 0; f < figures.count; f++)
         jox_json_number(json, figures.items[f].name, figures.items[f].value);
+    bool told = false;
+    for (uint32_t f = 0; f < figures.count; f++) {
+        if (!figures.items[f].why)
+            continue;
+        if (!told)
+            jox_json_object(json, "why");
+        told = true;
+        jox_json_string(json, figures.items[f].name, figures.items[f].why);
+    }
+    if (told)
+        jox_json_end(json);
     jox_json_number(json, "from", p->def.from);
     jox_json_number(json, "until", p->def.until);
     jox_json_end(json);

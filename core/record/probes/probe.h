@@ -21,6 +21,7 @@ typedef struct JoxFigures {
     struct JoxFigure {
         const char *name, *title, *unit; /* key, the same in words, and "" without a unit */
         double value;
+        const char *why; /* there is no value, in words; NULL: nobody was seen that gives one */
     } items[JOX_MOST_FIGURES];
     uint32_t count;
 } JoxFigures;
@@ -42,7 +43,8 @@ uint32_t jox_probe_against(const JoxProbe *probe);
 /* Appends when and whom it measures, where that is not everybody all the time: "from 80 s on",
    "from 10 to 60 s, one group". */
 void jox_probe_window(const JoxProbe *probe, JoxText *out);
-/* Adds {"flow": 1.15, ..., "from": 80, "until": null}; until is null without an end. */
+/* Adds {"flow": 1.15, ..., "why": {"flow": "..."} for those that have no value, "from": 80,
+ * "until": null}; until is null without an end. */
 void jox_probe_json(const JoxProbe *probe, JoxJson *json, const char *key);
 /* Writes the table: a first line with names and units in brackets, then rows. */
 void jox_probe_csv(const JoxProbe *probe, FILE *out);

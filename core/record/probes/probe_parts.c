@@ -4,7 +4,13 @@
 void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,
                     double value) {
     if (figures->count < JOX_MOST_FIGURES)
-        figures->items[figures->count++] = (struct JoxFigure){name, title, unit, value};
+        figures->items[figures->count++] = (struct JoxFigure){name, title, unit, value, NULL};
+}
+
+void jox_figure_why(JoxFigures *figures, const char *why) {
+    struct JoxFigure *last = &figures->items[figures->count - 1];
+    if (!isfinite(last->value))
+        last->why = why;
 }
 
 void jox_plot_nothing(JoxText *out, const char *why) {

@@ -56,6 +56,9 @@ void jox_flow_free(void *state);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,
                     double value);
 
+/* Why the figure that was added last has no value, where it has none. */
+void jox_figure_why(JoxFigures *figures, const char *why);
+
 /* A plot that only says why there is nothing to draw. */
 void jox_plot_nothing(JoxText *out, const char *why);
 
