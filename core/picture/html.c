@@ -29,7 +29,8 @@ static const char STYLE[] =
     "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.4rem}h2,h3{break-after:avoid}"
     "figure,tr,.summary p{break-inside:avoid}.scroll{overflow:visible}table{font-size:8.5pt;"
     "width:100%}th,td{padding-right:.5rem}td.n{white-space:normal}figure.wide img{max-height:"
-    "230mm;width:auto}.summary{-webkit-print-color-adjust:exact;print-color-adjust:exact}"
+    "230mm;width:auto}.summary{font-size:9.5pt;-webkit-print-color-adjust:exact;print-color-adjust:"
+    "exact}"
     "a{color:inherit;text-decoration:none}}";
 
 void jox_html_text(FILE *out, const char *text) {

@@ -11,6 +11,7 @@
 #include "picture/html.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
+#include "record/danger/trust.h"
 #include "report/page_parts.h"
 #include "report/run_subject.h"
 #include "run/run.h"
@@ -52,6 +53,9 @@ static JoxPageFigures collect(const JoScene *scene) {
     f.group = "The simulation itself";
     jox_page_add(&f, "", jox_statistics_overlap_p99(s),
                  "overlap that 99 %% stay below, share of a diameter");
+    jox_page_add(&f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
+                 "share of people's time in which they overlap by more than %.0f %% of a diameter",
+                 100.0 * JOX_TRUST_OVERLAP);
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
     return f;

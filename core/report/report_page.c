@@ -170,5 +170,6 @@ JoxSubject jox_report_subject(const JoxReport *r) {
                         .probe_count = r->count,
                         .inside = (uint32_t)(t->people - r->exits.left),
                         .from = first.time,
-                        .until = (double)t->last / t->fps};
+                        .until = (double)t->last / t->fps,
+                        .overlap_p99 = NAN};
 }

@@ -253,7 +253,8 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .probe_count = spec->probe_count,
                         .inside = scene->world->state.agents.count,
                         .until = jo_world_time(scene->world),
-                        .simulated = true};
+                        .simulated = true,
+                        .overlap_p99 = jox_statistics_overlap_p99(&scene->world->state.statistics)};
 }
 
 void jox_run_subject_free(JoxSubject *s) {

@@ -23,6 +23,7 @@ typedef struct JoxSubject {
     uint32_t inside;              /* people who are still there at the end */
     double from, until;           /* s: what is measured */
     bool simulated;
+    double overlap_p99; /* share of a diameter; NAN: not known */
 } JoxSubject;
 
 /* where.c: appends where a point is, in words: "(18.1, 0.6) m, 0.6 m from the line south, in hall".

@@ -6,6 +6,7 @@
 #include "base/format/noun.h"
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
+#include "record/danger/trust.h"
 #include "report/subject.h"
 
 static void put(FILE *out, const char *lead, JoxText *text) {
@@ -178,12 +179,11 @@ static void put_pressure(FILE *out, const JoxSubject *s) {
 
 /* Regions above 4 per m2 for longer than a tenth of the time that everybody took to leave. */
 static void put_congestion(FILE *out, const JoxSubject *s) {
-    enum { MOST = 3 };
+    enum { MOST = 2 };
     const JoxDanger *d = s->danger;
     JoxCongestionFound found = jox_congestion_find(&d->congestion, d->local->grid);
     JoxText text = {0};
-    const char *time = found.cleared ? "that passed until nobody was inside"
-                                     : "measured so far, since people were still inside";
+    const char *time = found.cleared ? "until nobody was inside" : "so far, with people inside";
     if (!found.known)
         jox_text_printf(&text, "Not judged: only %.1f s were measured.", found.time);
     else if (found.count == 0 && found.longest > 0.0)
@@ -199,10 +199,8 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
                         (double)JOX_CONGESTION_DENSITY);
     else
         jox_text_printf(&text,
-                        "Significant: %s above %g per m\xc2\xb2 " JOX_DENSITY_BY
-                        " for longer than %.0f %% of the "
-                        "%.1f s %s.",
-                        found.count == 1 ? "a region was" : "regions were",
+                        "Significant: above %g per m\xc2\xb2 " JOX_DENSITY_BY
+                        " for more than %.0f %% of the %.1f s %s.",
                         (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
                         time);
     if (found.known && found.count == 0 && found.longest > 0.0) {
@@ -213,10 +211,8 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
         const JoxCongestionRegion *region = &found.regions[r];
         jox_text_printf(&text, " %.1f m\xc2\xb2 about ", region->area);
         jox_where(s, region->at, &text);
-        jox_text_printf(&text,
-                        ": for %.1f s in all, between %.1f and %.1f s, with at most %.2g per "
-                        "m\xc2\xb2.",
-                        region->seconds, region->first, region->last, region->most);
+        jox_text_printf(&text, ": %.1f s in all, between %.1f and %.1f s.", region->seconds,
+                        region->first, region->last);
     }
     if (found.count > MOST)
         jox_text_printf(&text, " So %s %u more, for less long; they are in danger-congestion.csv.",
@@ -235,7 +231,7 @@ static void say_probe_of(const JoxSubject *s, const JoxDangerLine *line, JoxText
             passages == line->forward + line->back)
             continue;
         jox_probe_window(s->probes[p], &window);
-        jox_text_printf(out, " (its probe has %u: %s%sone way, less those who step back)", passages,
+        jox_text_printf(out, " (its probe has %u: %s%sone way, net)", passages,
                         window.length ? window.data : "", window.length ? ", " : "");
         jox_text_free(&window);
         return;
@@ -259,7 +255,7 @@ static void put_lines(FILE *out, const JoxSubject *s) {
             jox_text_printf(&text, ": what walls leave of its %.2f m", given);
         jox_text_add(&text, "): ");
         jox_text_noun(&text, (uint64_t)line->forward + line->back, "crossing");
-        jox_text_printf(&text, " either way from %.4g s on", s->danger->congestion.begun);
+        jox_text_printf(&text, " from %.4g s on", s->danger->congestion.begun);
         say_probe_of(s, line, &text);
         jox_text_printf(&text, ", at most %.2f per m and s", line->flow_most);
         if (line->stop_and_go.seconds > 0.0)
@@ -268,8 +264,7 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         else
             jox_text_add(&text, ", no stop-and-go");
         if (line->growth_most > 0.0)
-            jox_text_printf(&text, "; its queue grew by at most %.2g people per s",
-                            line->growth_most);
+            jox_text_printf(&text, "; its queue grew by up to %.2g per s", line->growth_most);
         jox_text_add(&text, ".");
     }
     if (text.length)
@@ -323,12 +318,19 @@ static void put_levels(FILE *out, const JoxSubject *s) {
     crowded = d->level_s[JOX_LEVELS - 2] + d->level_s[JOX_LEVELS - 1];
     jox_text_printf(
         &text,
-        "Of all the time that people spent here, %.1f %% was at Fruin's levels E "
-        "and F for queues (more than %.1f people per m\xc2\xb2) by the density where they "
-        "stood " JOX_DENSITY_BY ".",
+        "People spent %.1f %% of their time here at Fruin's levels E and F for queues: in more "
+        "than %.1f per m\xc2\xb2 " JOX_DENSITY_BY ".",
         100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
     say_areas(d, &text);
     put(out, "Levels of service.", &text);
+}
+
+static void put_trust(FILE *out, const JoxSubject *s) {
+    const double density = jox_danger_most(s->danger, JOX_DANGER_DENSITY).value;
+    JoxText text = {0};
+    jox_trust_say(s->overlap_p99, density, &text);
+    if (text.length)
+        put(out, "Too dense to trust.", &text);
 }
 
 void jox_summary_crowd(FILE *out, const JoxSubject *s) {
@@ -339,4 +341,5 @@ void jox_summary_crowd(FILE *out, const JoxSubject *s) {
     put_congestion(out, s);
     put_lines(out, s);
     put_levels(out, s);
+    put_trust(out, s);
 }

@@ -58,10 +58,19 @@ void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
 
 double jox_statistics_overlap_p99(const JoxStatistics *s) {
     uint64_t above = s->overlap_samples / 100, sum = 0;
+    if (s->overlap_samples == 0)
+        return NAN;
     for (int bin = JOX_OVERLAP_BINS - 1; bin >= 0; bin--) {
         sum += s->overlap[bin];
         if (sum > above)
             return (double)bin / JOX_OVERLAP_BINS;
     }
     return 0.0;
+}
+
+double jox_statistics_overlap_share(const JoxStatistics *s, double over) {
+    uint64_t sum = 0;
+    for (int bin = (int)(over * JOX_OVERLAP_BINS + 0.5); bin < JOX_OVERLAP_BINS; bin++)
+        sum += s->overlap[bin];
+    return s->overlap_samples ? (double)sum / (double)s->overlap_samples : NAN;
 }

@@ -88,7 +88,10 @@ typedef struct JoxStatistics {
 /* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */
 void jox_statistics_observe(JoxStatistics *statistics, const JoxAgents *agents,
                             const JoxNeighbours *neighbours, uint64_t tick, double dt);
-/* The overlap that 99 % of the sampled agents stay below, as a share of their diameter. */
+/* The overlap that 99 % of the sampled agents stay below, as a share of their diameter; NAN
+   where none was sampled, as in runs of less than a second. */
 double jox_statistics_overlap_p99(const JoxStatistics *statistics);
+/* Share of the sampled agents that overlap by more than a share of their diameter; NAN of none. */
+double jox_statistics_overlap_share(const JoxStatistics *statistics, double over);
 
 #endif

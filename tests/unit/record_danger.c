@@ -13,6 +13,8 @@
 
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
+#include "record/danger/trust.h"
+#include "world/statistics.h"
 
 enum { SIDE = 25, MOST = SIDE * SIDE };
 static const float SPACING = 0.4f; /* m: 6.25 people per m2 */
@@ -302,9 +304,31 @@ static void voronoi_density_is_the_room_of_one(void **state) {
     jox_walls_free(&walls);
 }
 
+static void what_is_too_dense_is_told(void **state) {
+    (void)state;
+    JoxText text = {0};
+    assert_true(jox_trust_holds(0.1, 10.0) && jox_trust_holds(NAN, NAN));
+    jox_trust_say(0.1, 10.0, &text);
+    assert_int_equal(text.length, 0);
+    assert_false(jox_trust_holds(0.101, NAN) || jox_trust_holds(0.0, 10.1));
+    jox_trust_say(0.36, 12.7, &text);
+    assert_non_null(strstr(text.data, "overlap by 36 % of a diameter"));
+    assert_non_null(strstr(text.data, "reached 12.7 per m"));
+    jox_text_free(&text);
+    JoxStatistics statistics = {.overlap_samples = 200};
+    statistics.overlap[0] = 196;
+    statistics.overlap[100] = 3; /* 10 % */
+    statistics.overlap[300] = 1;
+    assert_float_equal(jox_statistics_overlap_p99(&statistics), 0.1, 1e-9);
+    assert_float_equal(jox_statistics_overlap_share(&statistics, 0.1), 0.02, 1e-9);
+    statistics.overlap_samples = 0;
+    assert_true(isnan(jox_statistics_overlap_share(&statistics, 0.1)));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(voronoi_density_is_the_room_of_one),
+        cmocka_unit_test(what_is_too_dense_is_told),
         cmocka_unit_test(a_still_crowd_is_dense_and_calm),
         cmocka_unit_test(pressure_is_density_times_variance_over_time),
         cmocka_unit_test(what_is_held_counts_and_a_knock_does_not),

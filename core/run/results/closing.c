@@ -6,6 +6,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
+#include "record/danger/trust.h"
 #include "run/run.h"
 
 static const double WORTH = 10.0; /* s: shorter stands of one person are not mentioned */
@@ -132,6 +133,16 @@ static void say_standing(const JoScene *scene, JoxText *out) {
     }
 }
 
+/* Whether it was denser than people can be. */
+static void say_trust(const JoScene *scene, JoxText *out) {
+    const double overlap = jox_statistics_overlap_p99(&scene->world->state.statistics);
+    const double density = jox_run_density_max(scene);
+    if (jox_trust_holds(overlap, density))
+        return;
+    jox_text_add(out, " ");
+    jox_trust_say(overlap, density, out);
+}
+
 /* Flows are counted in one direction: a line whose ends were given the other way round. */
 static void say_probes(const JoScene *scene, JoxText *out) {
     const JoxProbe *probe;
@@ -162,6 +173,7 @@ char *jo_scene_closing(const JoScene *scene) {
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     say_probes(scene, &text);
+    say_trust(scene, &text);
     if (scene->warnings) {
         jox_text_add(&text, " ");
         jox_text_noun(&text, scene->warnings, "warning was given|warnings were given");

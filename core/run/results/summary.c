@@ -10,6 +10,7 @@
 #include "base/number/elementary.h"
 #include "jostle_tools.h"
 #include "record/aggregate.h"
+#include "record/danger/trust.h"
 #include "run/run.h"
 #include "simd/isa.h"
 
@@ -117,6 +118,22 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
     jox_json_object(json, "regions");
     for (uint32_t r = 0; r < regions->count; r++)
         jox_json_number(json, regions->items[r].name, jox_region_speed(&regions->items[r]));
+    jox_json_end(json);
+}
+
+/* Whether it was denser than people can be. */
+static void add_trust(JoxJson *json, const JoScene *scene) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    const double overlap = jox_statistics_overlap_p99(s);
+    const bool holds = jox_trust_holds(overlap, jox_run_density_max(scene));
+    jox_json_object(json, "trust");
+    if (holds && isnan(overlap))
+        jox_json_null(json, "holds");
+    else
+        jox_json_bool(json, "holds", holds);
+    jox_json_number(json, "overlap_limit", JOX_TRUST_OVERLAP);
+    jox_json_number(json, "overlap_share", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP));
+    jox_json_number(json, "density_limit", JOX_TRUST_DENSITY);
     jox_json_end(json);
 }
 
@@ -292,10 +309,12 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_json_object(&json, NULL);
     add_run(&json, scene, &stats);
     jox_json_number(&json, "lp_failure_share",
-                    stats.agent_steps ? (double)s->failures / (double)stats.agent_steps : 0);
+                    stats.agent_steps ? (double)s->failures / (double)stats.agent_steps
+                                      : (double)NAN);
     jox_json_number(&json, "lp_failure_peak", s->failure_peak);
     jox_json_number(&json, "density_max", jox_run_density_max(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
+    add_trust(&json, scene);
     add_standing(&json, scene);
     add_states(&json, world);
     add_transitions(&json, &world->machines);

@@ -113,6 +113,8 @@ static const struct {
     {"states.*.*", "", "", false},
     {"bodies", "bodies at the end", "", false},
     {"lp_failure_share", "share of agent-steps whose 2-D program failed", "", false},
+    {"trust.overlap_share",
+     "share of people's time in which they overlap by more than 10 % of a diameter", "", false},
     {"overlap_p99", "overlap that 99 % stay below, share of a diameter", "", false},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
