@@ -9,9 +9,10 @@
 
 #include "base/text.h"
 
-#define JOX_TRUST_OVERLAP 0.1  /* share of a diameter, that 99 % of people stay below */
-#define JOX_TRUST_DENSITY 10.0 /* 1/m2, Gaussian, R = 1 m: about that of the densest crowds known  \
-                                */
+#define JOX_TRUST_OVERLAP 0.1 /* share of a diameter, that 99 % of people stay below */
+#define JOX_TRUST_DENSITY                                                                          \
+    10.0 /* 1/m2, Gaussian, R = 1 m: about that of the densest crowds known                        \
+          */
 
 /* A NAN is not known, and no sign. */
 bool jox_trust_holds(double overlap_p99, double density_max);
