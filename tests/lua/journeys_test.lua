@@ -52,7 +52,7 @@ test("people come by timetable, at intervals and by a curve, by any door", funct
   equal(come({ times = { 1, 3 }, people = 5 }, 2):count(), 5)
   equal(come({ times = { 1, 3 }, people = 5 }, 3.2):count(), 10)
   equal(come({ every = 2, from = 1, people = 3 }, 5.5):count(), 9)
-  near(come({ curve = { { 0, 0 }, { 10, 2 }, { 20, 0 } } }, 20):count(), 20, 1)
+  near(come({ curve = { { 0, 0 }, { 10, 2 }, { 20, 0 } }, even = true }, 20):count(), 20, 1)
   local north = 0
   for _, a in ipairs(come({ rate = 4 }, 5):agents()) do north = north + (a.y > 5 and 1 or 0) end
   truthy(north > 4 and north < 16, "one door was used alone")
