@@ -13,6 +13,7 @@ extern "C" {
 namespace {
 
 const double MOST_SIZE = 1000.0, LEAST_SIZE = 0.001, MOST_MASS = 1e9;
+const double LEAST_MASS = 1e-9; /* kg: the inverse moments of what is lighter are no floats */
 enum { PRISM_SIDES = 16 };
 
 /* Mass properties of one part of unit density in its own frame. */
@@ -237,6 +238,8 @@ bool mass_of(double mass, double density, double volume, double *out, JoxText *e
     *out = mass > 0 ? mass : density * volume;
     if (!good(*out, 0, MOST_MASS))
         return fail(error, "a body's mass must lie between 0 and 1e9 kg");
+    if (*out > 0 && *out < LEAST_MASS)
+        return fail(error, "a body's mass is 0, or 1e-9 kg and more");
     return true;
 }
 
