@@ -18,7 +18,9 @@ static const struct Section {
     {"Targets",
      "Where a target is asked for, the name of a place does as well. Walls that are open, and "
      "those "
-     "lower than 1.3 m, hide nobody.",
+     "lower than 1.3 m, hide nobody. A body hides whoever is behind it if it reaches above 1.3 m, "
+     "is "
+     "at least half a metre wide and nobody carries it.",
      JOX_NODE_TARGET},
     {"Steering", "Weighted sums: `0.8 * seek(goal) + 0.2 * spread`.", JOX_NODE_STEER},
     {"Drawn values", "For `defaults`, parameters and `lasts`.", JOX_NODE_DIST},

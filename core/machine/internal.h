@@ -163,7 +163,10 @@ bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double r
 /* sight.c: whether a wall that stands hides one point from another; those that people look over do
    so only where `touched`. */
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched);
-/* The same of walls of other rings than `but`. */
+/* Whether a body hides one point from another: one that reaches above 1.3 m, half a metre wide at
+   least, in which neither lies; not that of row `but`. */
+bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t but);
+/* Whether a wall of another ring than `but` hides one point from another. */
 bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched);
 /* The first wall that stands on the way from one point to another: true with its unit normal. */
 bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal);

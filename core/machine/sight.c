@@ -1,6 +1,7 @@
-/* Who sees, hears and touches whom: walls lie between, and others are of a kind. */
+/* Who sees, hears and touches whom: walls and bodies lie between, and others are of a kind. */
 #include <math.h>
 
+#include "geom/polygon.h"
 #include "geom/wall_grid.h"
 #include "machine/internal.h"
 
@@ -44,6 +45,44 @@ bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *norma
     if (edge >= 0)
         *normal = jox_left(run->walls->vertices[edge].direction);
     return edge >= 0;
+}
+
+/* ---- bodies ---- */
+
+static const float WIDE = 0.25f; /* m: bounding radius of a body that can hide a person */
+
+/* Whether a body is as tall as walls that are not looked over, and as wide as people are. */
+static bool hides_people(const JoxObject *body) {
+    return body->live && body->in_band && body->low < EYES && body->high >= EYES &&
+           jox_maxf(body->disc, body->round) >= WIDE;
+}
+
+static bool is_across(const JoxObject *body, JoxV2 from, JoxV2 to) {
+    if (jox_footprint_nearest(body, from).gap <= 0.0f ||
+        jox_footprint_nearest(body, to).gap <= 0.0f)
+        return false;
+    const JoxV2 centre = {body->position.x, body->position.y};
+    if (body->footprint_count == 0)
+        return jox_length(jox_sub(jox_segment_nearest(from, to, centre), centre)) < body->round;
+    for (uint32_t k = 0; k < body->footprint_count; k++)
+        if (jox_segments_cross(from, to, body->footprint[k],
+                               body->footprint[(k + 1) % body->footprint_count]))
+            return true;
+    return false;
+}
+
+bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t but) {
+    if (!run->objects || run->objects->grid.columns == 0)
+        return false;
+    const JoxV2 middle = jox_scale(jox_add(from, to), 0.5f);
+    JoxObjectWalk walk =
+        jox_objects_near(run->objects, middle, 0.5f * jox_length(jox_sub(to, from)));
+    uint32_t row;
+    while (jox_objects_next(&walk, &row))
+        if ((int32_t)row != but && hides_people(&run->objects->rows[row]) &&
+            is_across(&run->objects->rows[row], from, to))
+            return true;
+    return false;
 }
 
 /* ---- others ---- */
@@ -100,8 +139,8 @@ bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i
     const JoxAgents *a = run->agents;
     if (!is_kind(a, target, i, j) || (target->whose.some && !is_such(run, &target->whose, i, j)))
         return false;
-    const JoxV2 from = {a->x[i], a->y[i]};
-    return !jox_is_hidden(run, from, jox_add(from, jox_offset(a, i, j)), false);
+    const JoxV2 from = {a->x[i], a->y[i]}, to = jox_add(from, jox_offset(a, i, j));
+    return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);
 }
 
 /* Adds those whom the neighbours of agent i lack, in a small crowd: all within perception, by

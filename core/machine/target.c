@@ -99,11 +99,13 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
     return best;
 }
 
-/* Whether a wall hides a body: what flies is seen above those that are lower. */
+/* Whether a wall or another body hides a body: what flies is seen above those that are lower. */
 static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObject *object) {
     const JoxV2 from = {run->agents->x[i], run->agents->y[i]};
+    const JoxV2 to = {object->position.x, object->position.y};
     return object->in_band &&
-           jox_is_hidden(run, from, (JoxV2){object->position.x, object->position.y}, false);
+           (jox_is_hidden(run, from, to, false) ||
+            jox_is_behind_body(run, from, to, (int32_t)(object - run->objects->rows)));
 }
 
 static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,

@@ -152,7 +152,7 @@ function Target:where(name, ...) end
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
 ---@field goal string can be set
----@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` finds one of: nearest first, within perception, with no wall between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
+---@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` finds one of: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
 ---@field signal fun(name: string) calls out: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 
@@ -223,18 +223,18 @@ function kicked(a1) end
 ---@return jostle.Condition
 function has(a1) end
 
---- `sees(target)`: the target is there, within perception
+--- `sees(target)`: the target is there, within perception, with no wall and no tall body between
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function sees(a1) end
 
---- `heard(name [, metres])`: somebody within perception (and so many metres) gave the signal in the last step, or the scene now
+--- `heard(name [, metres])`: somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene now; bodies are no hindrance
 ---@param a1 string
 ---@param a2? number|jostle.Number
 ---@return jostle.Condition
 function heard(a1, a2) end
 
---- `shut(place)`: a gate at the place, or within half a metre of it, is closed, and the agent sees that: within perception, with no other wall before it
+--- `shut(place)`: a gate at the place, or within half a metre of it, is closed, and the agent sees that: within perception, with no other wall before it; bodies are no hindrance
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function shut(a1) end
@@ -264,7 +264,7 @@ function queued(a1) end
 ---@return jostle.Number
 function distance(a1) end
 
---- `neighbours(tag)`: agents seen, with no wall between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the words with a colon say which of them
+--- `neighbours(tag)`: agents seen, with no wall and no tall body between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the words with a colon say which of them
 ---@param a1 string
 ---@return jostle.Number
 function neighbours(a1) end
@@ -348,7 +348,7 @@ now = {}
 ---@type table<string, jostle.Number>
 own = {}
 
---- `nearest(tag)`: the nearest body or agent seen, with no wall between, that bears a tag, or of "anyone", "opponents" or "teammates"; the words with a colon say which agents
+--- `nearest(tag)`: the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of "anyone", "opponents" or "teammates"; the words with a colon say which agents
 ---@param a1 string
 ---@return jostle.Target
 function nearest(a1) end

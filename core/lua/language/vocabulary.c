@@ -41,13 +41,13 @@ const JoxWord jox_words[] = {
     {"has", "t", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
      "the agent carries the body (see `take`), or holds on to somebody who is what the target asks for (see `grasp`)", "has(nearest \"ball\")"},
     {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
-     "the target is there, within perception", "sees(nearest \"people\")"},
+     "the target is there, within perception, with no wall and no tall body between", "sees(nearest \"people\")"},
     {"heard", "s?n", CONDITION, JOX_OP_HEARD, 0, "heard(name [, metres])", "",
-     "somebody within perception (and so many metres) gave the signal in the last step, or the scene now",
+     "somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene now; bodies are no hindrance",
      "heard(\"alarm\", 10)"},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within half a metre of it, is closed, and the agent sees that: within "
-     "perception, with no other wall before it", "shut \"mid\""},
+     "perception, with no other wall before it; bodies are no hindrance", "shut \"mid\""},
     {"open", "w", CONDITION, JOX_OP_OPEN, 0, "open(gate)", "",
      "the walls of this name are open, wherever they are: all know it, as of a door that is announced",
      "open \"gate\""},
@@ -61,7 +61,7 @@ const JoxWord jox_words[] = {
     {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
      "to the target, 0 in a place; infinite where there is none", "distance \"post\""},
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",
-     "agents seen, with no wall between, that bear a tag, or are \"anyone\", \"teammates\", "
+     "agents seen, with no wall and no tall body between, that bear a tag, or are \"anyone\", \"teammates\", "
      "\"opponents\": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; "
      "the words with a colon say which of them", "neighbours \"people\""},
     {"theirs", "ts", NUMBER, JOX_OP_THEIRS, 0, "theirs(target, name)", "",
@@ -89,7 +89,7 @@ const JoxWord jox_words[] = {
      "place too", "own.speed"},
     /* targets */
     {"nearest", "g", TARGET, JOX_TARGET_NEAREST, 0, "nearest(tag)", "",
-     "the nearest body or agent seen, with no wall between, that bears a tag, or of \"anyone\", "
+     "the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of \"anyone\", "
      "\"opponents\" or \"teammates\"; the words with a colon say which agents", "nearest \"ball\""},
     {":in_state", "*", TARGET, 0, 0, "of:in_state(name)", "",
      "of `nearest` and `neighbours`: only those in a state of the name",
@@ -266,7 +266,7 @@ const JoxMeKey jox_me_keys[] = {
     {"state", "text", "", "name of its state; nil of a neighbour without a machine"},
     {"machine", "text", "", "name of its machine; nil of a neighbour without one"},
     {"goal", "name of a place", "", "can be set"},
-    {"neighbours", "list", "", "views of the agents that `nearest \"anyone\"` finds one of: nearest first, within perception, with no wall between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
+    {"neighbours", "list", "", "views of the agents that `nearest \"anyone\"` finds one of: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
     {"signal", "function(name)", "", "calls out: me.signal(\"alarm\")"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
