@@ -55,6 +55,7 @@ std = {
     "drift",
     "wander",
     "formation",
+    "gather",
     "spread",
     "evade",
     "hold",

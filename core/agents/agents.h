@@ -97,6 +97,7 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     X(STATE, float, still_y)                                                                       \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
+    X(STATE, uint32_t, turn)       /* order among those who gather in a place; 0 has none */       \
     X(STATE, uint32_t, kicked)     /* reference to the body kicked last step */                    \
     X(STATE, uint32_t, struck)     /* reference to the fast body that hit it last step */          \
     X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \

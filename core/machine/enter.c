@@ -74,6 +74,8 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     a->lasts[i] = INFINITY;
     if (jox_queue_target(state) < 0 && a->queue_at[i])
         a->queue_at[i] = 0;
+    if (a->turn[i] && !jox_gather_term(state)) /* from state to state it keeps its turn */
+        a->turn[i] = 0;
     if (state->has_lasts)
         a->lasts[i] =
             (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);

@@ -44,7 +44,14 @@ typedef struct JoxMachineScratch {
     uint32_t list_count;
     JoxV2 *row;                  /* per agent that stands in a row: where in it */
     struct JoxRowEntry *entries; /* those who do */
-    JoxSignal *heard;            /* called in the last step, by name and x */
+    /* Of those who gather in places: their spots stand in `row`, too. Nothing where nobody does. */
+    struct JoxGathering *gathered;
+    void *gather_blocks;
+    uint32_t gather_capacity;
+    struct JoxGatherPlace *gather_places; /* by place and front */
+    uint32_t gather_count;
+    size_t gather_place_capacity;
+    JoxSignal *heard; /* called in the last step, by name and x */
     uint32_t heard_count;
     uint32_t *everywhere; /* names called out to everybody in the last step */
     uint32_t everywhere_count;
@@ -118,6 +125,13 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t agent, const JoxSteerTer
 JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* rows.c: finds for all who stand in rows where in them that is, into the scratch's `row`. */
 void jox_rows_form(JoxMachineRun *run);
+/* gather.c: the term by which those in a state gather in a place, or NULL. */
+const JoxSteerTerm *jox_gather_term(const JoxState *state);
+/* gather.c: finds for all who gather in a place where to stand, into the scratch's `row`. */
+void jox_gatherings_form(JoxMachineRun *run);
+void jox_gatherings_free(JoxMachineScratch *scratch);
+/* The spots of places are found anew. */
+void jox_gatherings_forget(JoxMachineScratch *scratch);
 /* Full speed towards a point, less when it is near. */
 JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed);
 /* Past those who come towards where the other terms lead. */

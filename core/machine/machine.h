@@ -173,6 +173,8 @@ typedef enum JoxSteerKind {
     JOX_STEER_WANDER,    /* about, turning gradually; within target, if that is given */
     JOX_STEER_FORMATION, /* to the agent's place in a row: along a line, or behind somebody across
                             the way they look; args[0] metres apart */
+    JOX_STEER_GATHER,    /* to the agent's spot among those who wait in a polygon, which they fill
+                            from its front: towards args[0] degrees */
     JOX_STEER_PLAYER,    /* as the input log says; holds while it says nothing */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;

@@ -96,6 +96,7 @@ void jox_machines_forget(JoxMachineRun *run) {
     run->taken_count = run->kick_count = run->grip_count = 0;
     if (n == 0)
         return;
+    jox_gatherings_forget(s);
     s->batch_count = s->list_count = s->heard_count = s->everywhere_count = 0;
     struct {
         void *cells;

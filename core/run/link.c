@@ -339,6 +339,7 @@ static bool goes_somewhere(const JoxState *state) {
         case JOX_STEER_QUEUE:
         case JOX_STEER_FOLLOW:
         case JOX_STEER_FORMATION:
+        case JOX_STEER_GATHER:
         case JOX_STEER_WANDER:
         case JOX_STEER_DRIFT:
         case JOX_STEER_ALONG:

@@ -91,11 +91,11 @@ bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool g
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     const JoxYaml *journey = jox_yaml_get(map, "journey");
     const size_t errors = r->diagnostics->errors;
+    jox_load_positions(r, map, group);
     if (!one + !mix + !journey != 2)
         jox_scene_error(r, map, "missing-key", "behaviour: walker.lua",
                         "a group needs one of a behaviour, a mix of them and a journey");
     else if (journey && good && errors == 0)
         jox_load_journey(r, map, group);
-    jox_load_positions(r, map, group);
     return true; /* a wrong one is known by its name */
 }

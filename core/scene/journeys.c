@@ -9,6 +9,7 @@
 #include "geom/polygon.h"
 #include "scene/internal.h"
 
+static const double DEGREE = 3.141592653589793 / 180.0;
 enum { MOST_STEPS = 50, MOST_QUEUES = 16, LONGEST_NAME = 60 };
 
 /* ---- the steps as they are written ---- */
@@ -80,6 +81,9 @@ bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool go
     if (jox_yaml_get(map, "service") && !jox_yaml_get(map, "queue"))
         jox_scene_error(r, jox_yaml_get(map, "service"), "bad-value", NULL,
                         "service belongs to a queue");
+    if (jox_yaml_get(map, "front") && !jox_yaml_get(map, "to"))
+        jox_scene_error(r, jox_yaml_get(map, "front"), "bad-value", "{to: hall, front: stage}",
+                        "front belongs to a place to wait in");
     if (step->until && (strlen(step->until) > LONGEST_NAME || strpbrk(step->until, "\"\\\n")))
         jox_scene_error(r, jox_yaml_get(map, "until"), "bad-value", NULL,
                         "a signal's name has up to %d letters, and no quotes", LONGEST_NAME);
@@ -120,13 +124,18 @@ static void state_name(const Journey *j, uint32_t step, Part part, uint32_t queu
     snprintf(out, 256, "%u %s%s%.60s", step + 1, PARTS[part], *what ? " " : "", what);
 }
 
+/* Whether those who wait in a step fill an area. */
+static bool gathers(const Journey *j, const JoxJourneyStep *s) {
+    return s->to >= 0 && kind_of(j, s->to) == JOX_PLACE_POLYGON && (s->wait || s->until || s->gate);
+}
+
 /* The parts that a step has, in their order; of a queue only the choice. */
 static uint32_t parts_of(const Journey *j, uint32_t step, Part parts[8]) {
     const JoxJourneyStep *s = &j->group->journey[step];
     uint32_t count = 0;
     if (s->to >= 0)
         parts[count++] = WALK;
-    if (s->to >= 0 && kind_of(j, s->to) == JOX_PLACE_POLYGON && (s->wait || s->until || s->gate))
+    if (gathers(j, s) && s->wait) /* which begins when they have come to a stand */
         parts[count++] = LOOK;
     if (s->queue_count)
         parts[count++] = CHOOSE;
@@ -239,24 +248,60 @@ static void queues(Journey *j, uint32_t step) {
     }
 }
 
-/* People spread over an area before they stand: each goes to a spot that is drawn once, as far as
-   it gets. */
-static void look(Journey *j, int32_t place, char when[256]) {
-    const JoxPlace *area = &j->reader->load->scene->places[place];
-    JoxV2 low, high;
-    jox_bounds(area->points, area->count, &low, &high);
-    jox_text_printf(
-        &j->text,
-        " lasts = 60,\n      steer = drift(%.9g + %.9g * own.spot_u - now.x, %.9g + %.9g * "
-        "own.spot_v - now.y),",
-        (double)low.x, (double)(high.x - low.x), (double)low.y, (double)(high.y - low.y));
-    snprintf(when, 256, "lasted | stuck(3) | now.speed:below(0.15) & after(1) | ~inside \"%.100s\"",
-             area->name);
+static JoxV2 centre_of(const Journey *j, int32_t place) {
+    return j->reader->load->scene->places[place].centre;
+}
+
+/* From where people come to a step: the place of the last step before that has one, or the middle
+   of where they start. False: neither is known. */
+static bool find_origin(const Journey *j, uint32_t step, JoxV2 *from) {
+    const JoxGroup *g = j->group;
+    while (step-- > 0) {
+        const JoxJourneyStep *s = &g->journey[step];
+        if (s->to < 0 && !s->queue_count)
+            continue;
+        *from = centre_of(j, s->queue_count ? (int32_t)s->queues[0] : s->to);
+        return true;
+    }
+    JoxV2 sum = {0.0f, 0.0f};
+    for (uint32_t k = 0; k < g->count; k++)
+        sum = jox_add(sum, g->positions[k]);
+    *from = jox_scale(sum, g->count ? 1.0f / (float)g->count : 0.0f);
+    return g->count > 0;
+}
+
+/* Where the front of the area of a step lies, degrees anti-clockwise from +x: towards what people
+   look at, else away from where they come, else from where they leave, else +y. */
+static double front_of(const Journey *j, uint32_t step) {
+    const JoxGroup *g = j->group;
+    const JoxJourneyStep *s = &g->journey[step];
+    const JoxV2 middle = centre_of(j, s->to);
+    JoxV2 ahead = {0.0f, 0.0f}, from;
+    if (s->front >= 0)
+        ahead = jox_sub(centre_of(j, s->front), middle);
+    if (jox_length2(ahead) < 1.0f && find_origin(j, step, &from))
+        ahead = jox_sub(middle, from);
+    for (uint32_t k = step; jox_length2(ahead) < 1.0f && k < g->journey_count; k++)
+        if (g->journey[k].exit >= 0)
+            ahead = jox_sub(middle, centre_of(j, g->journey[k].exit));
+    return jox_length2(ahead) < 1.0f ? 90.0 : atan2(ahead.y, ahead.x) / DEGREE;
+}
+
+/* Who waits in an area fills it from its front; elsewhere people stand. */
+static void stand(Journey *j, uint32_t step) {
+    const JoxJourneyStep *s = &j->group->journey[step];
+    if (gathers(j, s))
+        jox_text_printf(&j->text, " steer = gather(\"%s\", %.6g),", place_name(j, s->to),
+                        front_of(j, step));
+    else
+        jox_text_add(&j->text, " steer = hold,");
+    if (s->front >= 0)
+        jox_text_printf(&j->text, " face = \"%s\",", place_name(j, s->front));
 }
 
 static void write_part(Journey *j, uint32_t step, Part part) {
     const JoxJourneyStep *s = &j->group->journey[step];
-    char when[384];
+    char when[512];
     if (part == CHOOSE) {
         queues(j, step);
         return;
@@ -268,20 +313,34 @@ static void write_part(Journey *j, uint32_t step, Part part) {
         arrived(j, s->to, when);
         snprintf(when + strlen(when), sizeof when - strlen(when),
                  " | near(\"%.80s\", 2.5) & stuck(3)", place_name(j, s->to)); /* others are there */
+        if (gathers(j, s)) /* it is full: nobody presses into it */
+            snprintf(when + strlen(when), sizeof when - strlen(when),
+                     " | near(\"%.80s\", 2.5) & density(\"%.80s\"):above(3.8)",
+                     place_name(j, s->to), place_name(j, s->to));
+        if (s->until && !s->wait) { /* who hears it on the way need not get there */
+            char signal[256];
+            snprintf(signal, sizeof signal, "heard \"%.100s\"", s->until);
+            lead_on(j, step, UNTIL, signal);
+        }
         break;
     case LOOK:
-        look(j, s->to, when);
+        jox_text_add(&j->text, " lasts = 60,");
+        stand(j, step);
+        snprintf(when, sizeof when,
+                 "lasted | stuck(3) | now.speed:below(0.15) & after(1) | ~inside \"%.100s\"",
+                 place_name(j, s->to));
         break;
     case WAIT:
-        jox_text_printf(&j->text, " steer = hold, lasts = %s,", s->wait);
+        stand(j, step);
+        jox_text_printf(&j->text, " lasts = %s,", s->wait);
         snprintf(when, sizeof when, "lasted");
         break;
     case UNTIL:
-        jox_text_add(&j->text, " steer = hold,");
+        stand(j, step);
         snprintf(when, sizeof when, "heard \"%.100s\"", s->until);
         break;
     case OPEN:
-        jox_text_add(&j->text, " steer = hold,");
+        stand(j, step);
         snprintf(when, sizeof when, "open \"%.100s\"", s->gate);
         break;
     default:
@@ -307,9 +366,9 @@ static void write_head(Journey *j) {
                     "  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = "
                     "crowd.time_gap, perception = 3, radius = 0.19 },\n",
                     j->group->name, j->group->name);
-    jox_text_add(&j->text, "  own = { spot_u = uniform(0, 1), spot_v = uniform(0, 1)");
+    jox_text_add(&j->text, "  own = {");
     for (uint32_t q = 0; q < most; q++)
-        jox_text_printf(&j->text, ", whim_%u = uniform(0, 2)", q + 1);
+        jox_text_printf(&j->text, "%s whim_%u = uniform(0, 2)", q ? "," : "", q + 1);
     jox_text_add(&j->text, " },\n");
     jox_text_add(&j->text, "  states = {\n");
 }

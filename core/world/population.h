@@ -42,6 +42,7 @@ typedef struct JoxProfile {
 typedef struct JoxJourneyStep {
     double share;     /* of people who do it, 0 to 1 */
     int32_t to, exit; /* where they walk; where they leave */
+    int32_t front;    /* what they look at while they wait, and gather before */
     uint32_t *queues; /* one of which they stand in: the one that takes them least time */
     uint32_t queue_count;
     char *service, *wait, *until,

@@ -51,6 +51,7 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
     machines->objects = &w->scratch.objects;
     machines->places = w->model.places;
     machines->place_count = w->model.place_count;
+    machines->walls_version = w->state.walls_version;
     machines->tick = (uint32_t)w->state.tick;
     machines->inputs = w->state.input.present;
     machines->input_count = w->state.input.present_count;

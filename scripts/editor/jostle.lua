@@ -423,6 +423,12 @@ function wander(a1) end
 ---@return jostle.Steering
 function formation(a1, a2) end
 
+--- `gather(place [, degrees])`: to the agent's spot among those who wait in a polygon: they fill it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or closer, to 0.53 m, where they are many; those for whom there is no room stand where they are
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2? number
+---@return jostle.Steering
+function gather(a1, a2) end
+
 --- `spread`: away from the neighbours
 ---@type jostle.Steering
 spread = nil

@@ -22,7 +22,8 @@ typedef enum {
     JOX_DRAW_PROFILE,  /* which profile of a group */
     JOX_DRAW_DOOR,     /* by which place of a set somebody comes in */
     JOX_DRAW_ARRIVAL,  /* how long after another somebody comes by a source */
-    JOX_DRAW_ASIDE     /* how far an agent that stands before others turns aside */
+    JOX_DRAW_ASIDE,    /* how far an agent that stands before others turns aside */
+    JOX_DRAW_SWAY      /* how agents that wait shift about their spots */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */

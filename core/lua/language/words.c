@@ -252,7 +252,8 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
             node->a = arguments[0], node->b = arguments[1];
         else
             node->target = arguments[0];
-        if (word->op == JOX_STEER_FOLLOW || word->op == JOX_STEER_FORMATION)
+        if (word->op == JOX_STEER_FOLLOW || word->op == JOX_STEER_FORMATION ||
+            word->op == JOX_STEER_GATHER)
             node->term.args[0] =
                 count > 1 ? arguments[1]->number : jox_word_number(word->name, 0)->standard;
         break;

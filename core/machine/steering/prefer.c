@@ -209,6 +209,7 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
         return;
     JOX_CHECK(jox_groups_check(run));
     jox_rows_form(run);
+    jox_gatherings_form(run);
     Prefer prefer = {run, &KERNELS[jox_isa_resolve(run->isa)]};
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
     ask_functions(run);

@@ -183,6 +183,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
     case JOX_STEER_WANDER:
         return jox_steer_wander(run, i, term->target);
     case JOX_STEER_FORMATION:
+    case JOX_STEER_GATHER:
         return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, run->scratch->row[i],
                                 jox_param(a, JOX_PARAM_speed, i));
     case JOX_STEER_SPREAD:

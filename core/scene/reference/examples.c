@@ -193,7 +193,7 @@ const JoxExample jox_scene_examples[] = {
      "      - {until: go}\n"
      "      - {to: kiosk, wait: 'uniform(2, 5)', share: 0.3}\n"
      "      - {queue: [gate_1, gate_2], service: 'uniform(1, 3)'}\n"
-     "      - {to: platform, open: doors}\n"
+     "      - {to: platform, front: train, open: doors}\n"
      "      - {exit: train}\n"
      "events: [{at: 1, signal: go}, {at: 40, open: doors}]\n"},
     {"group", OPENING
