@@ -260,6 +260,9 @@ bool cli_scenes(const CliCommand *command, CliList *list);
 void cli_scenes_free(void);
 /* Whether there is such a scene by its name alone. */
 bool cli_is_scene(const char *name);
+/* The folder of a mod that is named by it, or by its name where it lies in mods/, scenes/mods/ or
+   the user's data directory. Holds until cli_free; NULL where there is none. */
+const char *cli_mod_folder(const char *mod);
 /* Whether there is such a file or folder, or recording; else says what may be meant. */
 bool cli_is_there(const CliCommand *command, const char *given);
 bool cli_recording(const CliCommand *command, const char *given);

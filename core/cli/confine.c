@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/confine.h"
+#include "base/file.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/text.h"
@@ -78,6 +79,57 @@ void cli_reach_folder(CliReach *reach, const char *path) {
         put(&reach->reads, jox_strdup(path));
 }
 
+/* What mods in a folder may need: the project P, as its scenes do, where that is P/mods; else one
+   another. */
+static void reach_mods_in(CliReach *reach, const char *folder) {
+    static const char *const PARTS[] = {"..", "../../behaviours", "../../scripts"};
+    const bool project = !strcmp(jox_path_name(folder), "mods");
+    for (size_t p = 0; project && p < sizeof PARTS / sizeof *PARTS; p++) {
+        JoxText text = {0};
+        jox_text_printf(&text, "%s/%s", folder, PARTS[p]);
+        put(&reach->reads, text.data);
+    }
+    char **names = project ? NULL : jox_folder_names(folder, false);
+    for (char **name = names; name && *name; name++) {
+        JoxText mod = {0}, sheet = {0};
+        jox_text_printf(&mod, "%s/%s", folder, *name);
+        jox_text_printf(&sheet, "%s/mod.yaml", mod.data);
+        if (access(sheet.data, F_OK) == 0)
+            put(&reach->reads, mod.data);
+        else
+            jox_text_free(&mod);
+        jox_text_free(&sheet);
+    }
+    jox_free(names);
+}
+
+/* The same of a path that is a mod, lies in one or is P/mods. */
+static void reach_mods(CliReach *reach, const char *path) {
+    static const char *const UP[] = {"", "/..", "/../.."};
+    for (size_t u = 0; u < sizeof UP / sizeof *UP; u++) {
+        JoxText folder = {0};
+        jox_text_printf(&folder, "%.*s%s%s",
+                        is_folder(path) ? (int)strlen(path) : (int)jox_path_folder(path), path,
+                        is_folder(path) ? "" : ".", UP[u]);
+        char *real = realpath(folder.data, NULL);
+        JoxText sheet = {0};
+        jox_text_printf(&sheet, "%s/mod.yaml", folder.data);
+        const bool is_mod = access(sheet.data, F_OK) == 0;
+        char *slash = real ? strrchr(real, '/') : NULL;
+        if (is_mod && slash && slash > real) {
+            *slash = 0;
+            reach_mods_in(reach, real);
+        } else if (real && !u && !strcmp(jox_path_name(real), "mods")) {
+            reach_mods_in(reach, real);
+        }
+        free(real);
+        jox_text_free(&folder);
+        jox_text_free(&sheet);
+        if (is_mod)
+            return;
+    }
+}
+
 void cli_reach_scene(CliReach *reach, const char *path) {
     if (!path)
         return;
@@ -92,13 +144,17 @@ void cli_reach_scene(CliReach *reach, const char *path) {
             put_beside(&reach->reads, path, BESIDE[b]);
         }
     }
+    reach_mods(reach, path);
 }
 
 void cli_reach_def(CliReach *reach, const JoSceneDef *def) {
     cli_reach_scene(reach, def->path);
     cli_reach_folder(reach, def->input_log);
-    for (size_t m = 0; m < def->mod_count; m++)
+    for (size_t m = 0; m < def->mod_count; m++) {
         cli_reach_folder(reach, def->mods[m]);
+        if (is_folder(def->mods[m]))
+            reach_mods(reach, def->mods[m]);
+    }
 }
 
 void cli_reach_output(CliReach *reach, const char *path) {

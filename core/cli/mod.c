@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/cli.h"
 
@@ -168,8 +169,8 @@ static int why_now(const Mods *options, const char *name) {
         cli_failed(&cli_mod, &error, false);
     } else if (agent.generation) {
         const JoAgentState is = jo_agent_state(world, agent);
-        printf("%s of agent %u at %.2f s, in state %s: %.6g\n", name, is.id, jo_world_time(world),
-               is.state, value);
+        printf("%s of agent %u at %.2f s, in state %s: %s\n", name, is.id, jo_world_time(world),
+               is.state, settings->now);
         print_settings(settings);
     } else {
         say_gone(world, options->agent, left);
@@ -257,9 +258,14 @@ static int run_verb(Mods *options, const CliList *plain) {
     options->def.mods = options->mods.items;
     options->def.mod_count = options->mods.count;
     if (verb->scene && verb->most == plain->count - 1) {
-        options->def.path = cli_scene(&cli_mod, plain->items[plain->count - 1], NULL);
+        options->def.path = cli_scene(&cli_mod, plain->items[plain->count - 1], &options->mods);
         if (!options->def.path)
             return JO_INPUT;
+    }
+    for (size_t p = 1; p < plain->count && !strcmp(name, "check"); p++) {
+        const char *folder =
+            access(plain->items[p], F_OK) == 0 ? NULL : cli_mod_folder(plain->items[p]);
+        plain->items[p] = folder ? folder : plain->items[p];
     }
     confine(options, verb, plain);
     return !strcmp(name, "list")      ? list(&options->def)

@@ -57,7 +57,7 @@ static int run(int argc, char **argv) {
     if (status == CLI_GO_ON) {
         const char *what = plain.count ? plain.items[0] : "behaviours";
         const char *given = plain.count > 1 ? plain.items[1] : NULL;
-        const char *scene = given ? cli_scene(&cli_reference, given, NULL) : NULL;
+        const char *scene = given ? cli_scene(&cli_reference, given, &options.mods) : NULL;
         status = given && !scene ? JO_INPUT
                  : strcmp(what, "mods") != 0 && (scene || options.mods.count)
                      ? cli_misused(&cli_reference, "a scene and --mod go with 'mods' alone")

@@ -174,7 +174,7 @@ static int run(int argc, char **argv) {
     CliList plain = {0};
     int status = cli_parse(&cli_render, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
-        wanted.path = cli_scene(&cli_render, plain.items[0], NULL);
+        wanted.path = cli_scene(&cli_render, plain.items[0], &wanted.mods);
         status = wanted.path && find_plan(&wanted) ? draw(&wanted) : JO_INPUT;
     }
     cli_free(&cli_render, &wanted, &plain);

@@ -364,7 +364,7 @@ static int run_scene(int argc, char **argv) {
     int status = cli_parse(&cli_run, argc, argv, &run, &plain);
     if (status == CLI_GO_ON) {
         const char *why = misuse(&run);
-        run.def.path = why ? NULL : cli_scene(&cli_run, plain.items[0], NULL);
+        run.def.path = why ? NULL : cli_scene(&cli_run, plain.items[0], &run.mods);
         run.def.overrides = run.sets.items;
         run.def.override_count = run.sets.count;
         run.def.mods = run.mods.items;
@@ -383,8 +383,9 @@ const CliCommand cli_run = {
     .name = "run",
     .what = "simulate a scene",
     .usage = "SCENE [options]",
-    .about = "SCENE is a file, or the name alone of one that lies here, in scenes/, or came with "
-             "Jostle: `jostle` lists some.",
+    .about =
+        "SCENE is a file, or the name alone of one that lies here, in scenes/, in scenes/ of a mod "
+        "of --mod, or came with Jostle: `jostle` lists some. MOD:NAME is that of the mod.",
     .notes =
         "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), "
         "walls keep people from their goal, or a function of a behaviour failed in a tenth of its "

@@ -61,8 +61,7 @@ static const char *join(const char *folder, const char *name, const char *ending
     return keep(path.data);
 }
 
-/* The folder of a mod that was named, or NULL. */
-static const char *find_mod(const char *mod) {
+const char *cli_mod_folder(const char *mod) {
     const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
     if (is_folder(mod))
         return mod;
@@ -90,7 +89,13 @@ typedef struct Found {
 
 static void add_found(Found *found, const char *folder, const char *name) {
     const char *path = join(folder, name, ".yaml");
-    if (jox_is_file(path) && found->count < sizeof found->paths / sizeof *found->paths)
+    struct stat info, other;
+    bool known = !jox_is_file(path) || stat(path, &info) != 0 ||
+                 found->count == sizeof found->paths / sizeof *found->paths;
+    for (size_t f = 0; f < found->count && !known; f++)
+        known = stat(found->paths[f], &other) == 0 && other.st_dev == info.st_dev &&
+                other.st_ino == info.st_ino;
+    if (!known)
         found->paths[found->count++] = path;
 }
 
@@ -101,7 +106,7 @@ static Found find_scene(const char *given, const CliList *mods) {
     for (size_t p = 0; !colon && !found.count && p < sizeof PLACES / sizeof *PLACES; p++)
         add_found(&found, PLACES[p], name);
     for (size_t m = 0; mods && m < mods->count; m++) {
-        const char *folder = find_mod(mods->items[m]);
+        const char *folder = cli_mod_folder(mods->items[m]);
         const char *last = folder ? strrchr(folder, '/') : NULL;
         last = last ? last + 1 : folder;
         if (folder && (!colon || (strlen(last) == (size_t)(colon - given) &&
@@ -135,8 +140,8 @@ static void say_missing(const CliCommand *command, const char *given, bool scene
     for (size_t p = 0; scene && p < sizeof PLACES / sizeof *PLACES; p++)
         add_names(&names, PLACES[p], true);
     for (size_t m = 0; scene && mods && m < mods->count; m++)
-        if (find_mod(mods->items[m]))
-            add_names(&names, join(find_mod(mods->items[m]), "scenes", ""), true);
+        if (cli_mod_folder(mods->items[m]))
+            add_names(&names, join(cli_mod_folder(mods->items[m]), "scenes", ""), true);
     if (!scene)
         add_names(&names, before ? folder.data : ".", false);
     const char *near =

@@ -219,7 +219,7 @@ static int run(int argc, char **argv) {
         sweep.def.seeds = (uint32_t)sweep.seeds;
         sweep.def.only = (uint32_t)sweep.only;
         if (!sweep.merge && !why)
-            sweep.def.scene.path = path = cli_scene(&cli_sweep, plain.items[0], NULL);
+            sweep.def.scene.path = path = cli_scene(&cli_sweep, plain.items[0], &sweep.mods);
         const char *outputs[] = {sweep.def.out, sweep.csv}, *inputs[] = {path};
         status = why                     ? cli_misused(&cli_sweep, why)
                  : !path && !sweep.merge ? JO_INPUT

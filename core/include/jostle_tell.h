@@ -190,6 +190,8 @@ typedef void JoSetVisit(void *context, const JoSetting *setting);
 typedef struct JoSettings {
     const JoSetting *items; /* in their order: the last one counts */
     uint32_t count;
+    const char *now; /* of jo_agent_why: the value as text: a number, true or false, or the name of
+                        a place; else "" */
 } JoSettings;
 /* Who sets a value: "tawaf.Circle.push" of a behaviour, or "groups.red.count" of the scene. NULL
    with `error` where there is no such path. */

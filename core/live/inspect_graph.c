@@ -37,7 +37,8 @@ JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, co
     } else if (value->line > 0) {
         found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
         if (!found) /* made by a function: no text says so */
-            written = (JoxWritten){.file = machine->path, .line = value->line};
+            written =
+                (JoxWritten){.file = jox_machine_file(machine, value->source), .line = value->line};
         print_setting(kind, &written, &by.where);
     } else {
         jox_text_add(&by.where, "engine");
@@ -190,7 +191,8 @@ bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *st
         snprintf(path, sizeof path, "%s%.120s", choice.state >= 0 ? "states." : "", state);
         bool there = jox_lua_written(scene->lua, found, path, &scene->scope, &written);
         int line = choice.state >= 0 ? found->states[choice.state].line : 1;
-        jox_text_printf(out, "%s:%d", there ? written.file : found->path,
+        uint32_t source = choice.state >= 0 ? found->states[choice.state].source : 0;
+        jox_text_printf(out, "%s:%d", there ? written.file : jox_machine_file(found, source),
                         there ? written.line : line);
     }
     jox_text_free(&written.text);

@@ -26,10 +26,11 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
         return;
     }
     if (lua_type(L, -1) == LUA_TBOOLEAN) {
-        assign->value = (JoxValue){JOX_VALUE_CONST, lua_toboolean(L, -1), 0, 0};
+        assign->value = (JoxValue){JOX_VALUE_CONST, lua_toboolean(L, -1), 0, 0, 0};
         lua_pop(L, 1);
     } else if (node && node->kind == JOX_NODE_CONDITION) {
-        assign->value = (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_read_condition(b, path, NULL), 0};
+        assign->value =
+            (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_read_condition(b, path, NULL), 0, 0};
         if (assign->value.index < 0)
             assign->value.kind = JOX_VALUE_UNSET;
     } else {

@@ -18,7 +18,7 @@ static void read_defaults(JoxBuild *b, int index) {
         known[p] = info->name;
         int32_t slot = jox_build_own(b, info->name);
         b->machine->own[slot].dist = jox_dist_constant(info->value);
-        b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0};
+        b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0, 0};
     }
     if (jox_read_field(L, index, "defaults") == LUA_TTABLE) {
         int table = lua_gettop(L);
@@ -34,6 +34,7 @@ static void read_defaults(JoxBuild *b, int index) {
             }
             JoxValue value = jox_read_value(b, path, &jox_parameters[p], &is_dist, &dist);
             b->machine->defaults[p].line = value.line;
+            b->machine->defaults[p].source = value.source;
             if (is_dist)
                 b->machine->own[p].dist = dist;
             else if (value.kind == JOX_VALUE_CONST)
@@ -207,6 +208,9 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     m->version = 1;
     m->vm = -1;
     m->path = jox_strdup(source->path);
+    m->files = jox_alloc(script->vm.source_count, sizeof *m->files);
+    for (; m->file_count < script->vm.source_count; m->file_count++)
+        m->files[m->file_count] = jox_strdup(script->vm.sources[m->file_count]->path);
     lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
     int table = lua_gettop(L);
     for (uint32_t i = 0; i < script->memory_count; i++) {

@@ -48,6 +48,16 @@ JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
     return jox_outline_at(source, there);
 }
 
+int32_t jox_read_line(const JoxBuild *b, const char *path, uint16_t *source) {
+    char there[512];
+    const JoxSource *in = locate(b, path, there);
+    *source = 0;
+    for (size_t s = 0; s < b->script->vm.source_count; s++)
+        if (b->script->vm.sources[s] == in)
+            *source = (uint16_t)s;
+    return jox_outline_at(in, there).line;
+}
+
 const JoxPath *jox_read_span(const JoxBuild *b, const char *path, const JoxSource **source) {
     char there[512];
     *source = locate(b, path, there);

@@ -120,7 +120,8 @@ JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *i
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(info->least <= info->greatest && lua_gettop(L) > 0);
     JoxPosition position = jox_read_at(b, path);
-    JoxValue value = {.kind = JOX_VALUE_UNSET, .line = position.line};
+    JoxValue value = {.kind = JOX_VALUE_UNSET};
+    value.line = jox_read_line(b, path, &value.source);
     JoxNode *node = jox_node_get(L, -1);
     *is_dist = false;
     if (lua_type(L, -1) == LUA_TNUMBER) {

@@ -12,13 +12,14 @@
 static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) {
     JoxValue value = {.kind = JOX_VALUE_UNSET};
     if (weight && weight->kind == JOX_NODE_NUMBER && weight->op == JOX_OP_CONST) {
-        value = (JoxValue){JOX_VALUE_CONST, weight->number, 0, 0};
+        value = (JoxValue){JOX_VALUE_CONST, weight->number, 0, 0, 0};
         if (!(fabs(weight->number) <= JOX_MOST_WEIGHT))
             jox_build_error(b, position, "out-of-range", NULL,
                             "a weight must be from %d to %d, not %g", -JOX_MOST_WEIGHT,
                             JOX_MOST_WEIGHT, weight->number);
     } else if (weight) {
-        value = (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_build_expression(b, weight, position), 0};
+        value =
+            (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_build_expression(b, weight, position), 0, 0};
         if (value.index < 0)
             value = (JoxValue){.kind = JOX_VALUE_UNSET};
     }
@@ -202,7 +203,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     const char *known[16];
     char full[256];
     *t = jox_transition_blank(jox_strdup(id));
-    t->line = jox_read_at(b, path).line;
+    t->line = jox_read_line(b, path, &t->source);
     jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
                    false);
     t->to = read_to(b, index, path);
@@ -266,7 +267,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
     jox_read_check(b, index, path, known, jox_table_key_names("state", true, known, 96), true);
-    state->line = jox_read_at(b, path).line;
+    state->line = jox_read_line(b, path, &state->source);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_read_join(full, path, jox_parameters[p].name);
         if (jox_read_field(L, index, jox_parameters[p].name) == LUA_TNIL)

@@ -115,6 +115,7 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
         const char *rest;
         if (!jox_patch_leads(change, canonical, &rest))
             continue;
+        rest = change->removes ? "" : rest; /* the whole of it went there */
         snprintf(path, sizeof path, "%.250s%s%.250s", change->from,
                  *rest && *change->from ? "." : "", rest);
         count += take_place(script, change->source, path, change->mod, change->removes, to);

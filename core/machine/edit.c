@@ -15,7 +15,7 @@ static int32_t slot_of(const JoxMachine *machine, int32_t state, int parameter) 
 }
 
 static void apply(JoxMachine *machine, const JoxParameterEdit *edit) {
-    const JoxValue set = {JOX_VALUE_CONST, edit->value, 0, JOX_LINE_LIVE};
+    const JoxValue set = {JOX_VALUE_CONST, edit->value, 0, JOX_LINE_LIVE, 0};
     int32_t slot = slot_of(machine, edit->state, edit->parameter);
     JOX_ASSERT(edit->state < (int32_t)machine->state_count);
     if (slot >= 0)

@@ -145,7 +145,7 @@ void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxTe
     jox_text_printf(out, "t=%.2f agent %u %s: %s -> %s (transition %u '%s', %s:%d)\n",
                     run->tick * run->dt, taken->agent_id, machine->name,
                     machine->states[taken->from].name, machine->states[taken->to].name,
-                    taken->transition + 1u, t->id, machine->path, t->line);
+                    taken->transition + 1u, t->id, jox_machine_file(machine, t->source), t->line);
     uint32_t agent = jox_agents_find(run->agents, taken->agent_id);
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;

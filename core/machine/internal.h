@@ -20,6 +20,7 @@ typedef struct JoxOdd {
     uint16_t machine, state;
     uint32_t agent_id;
     int32_t parameter, line;
+    uint32_t source; /* number of the file of the line */
     double value;
 } JoxOdd;
 

@@ -108,6 +108,9 @@ void jox_machine_free(JoxMachine *m) {
     jox_free(m->memory);
     jox_free(m->counters);
     jox_free(m->renamed);
+    for (uint32_t f = 0; f < m->file_count; f++)
+        jox_free(m->files[f]);
+    jox_free(m->files);
     jox_free(m->name);
     jox_free(m->path);
     jox_free(m);

@@ -151,9 +151,10 @@ typedef enum JoxValueKind {
 } JoxValueKind;
 typedef struct JoxValue {
     JoxValueKind kind;
-    double number; /* CONST */
-    int32_t index; /* own slot, or expression */
-    int32_t line;  /* where it was set; 0 default; JOX_LINE_LIVE: by a person, in a run */
+    double number;   /* CONST */
+    int32_t index;   /* own slot, or expression */
+    int32_t line;    /* where it was set; 0 default; JOX_LINE_LIVE: by a person, in a run */
+    uint16_t source; /* number of the machine's file that the line is of */
 } JoxValue;
 enum { JOX_LINE_LIVE = -1 };
 
@@ -219,6 +220,7 @@ typedef struct JoxTransition {
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
     int32_t line;
+    uint16_t source; /* number of the machine's file that the line is of */
 } JoxTransition;
 
 typedef struct JoxState {
@@ -256,6 +258,7 @@ typedef struct JoxState {
     int32_t become_line, become_column;
     int32_t on_enter, on_exit; /* hooks; -1 none */
     int32_t line;
+    uint16_t source; /* number of the machine's file that the line is of */
 } JoxState;
 
 typedef struct JoxOwnSlot {
@@ -328,6 +331,8 @@ enum { JOX_MOST_SET_TEAMS = 64, JOX_FIRST_SET_TEAM = 65536 - JOX_MOST_SET_TEAMS 
 
 typedef struct JoxMachine {
     char *name, *path;
+    char **files; /* paths of all files that it was made of, `path` first; may be none */
+    uint32_t file_count;
     uint32_t version;
     uint16_t start;
     JoxValue defaults[JOX_PARAM_COUNT];
@@ -362,6 +367,12 @@ typedef struct JoxMachine {
 /* Gives tags and teams other numbers: numbers[n] is that of belongings[n]. Of a machine that does
    not run yet. */
 void jox_machine_renumber(JoxMachine *machine, const uint16_t *numbers);
+
+/* The file that a line of the machine is of. */
+static inline const char *jox_machine_file(const JoxMachine *machine, uint32_t source) {
+    return source < machine->file_count ? machine->files[source] : machine->path;
+}
+
 /* A state, and a transition, that do nothing yet: every index is -1. The names are taken over. */
 JoxState jox_state_blank(char *name);
 JoxTransition jox_transition_blank(char *id);

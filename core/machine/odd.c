@@ -24,28 +24,32 @@ static bool was_told(const JoxMachineRun *run, const JoxOdd *odd) {
     for (uint32_t n = 0; n < run->told_count; n++) {
         const JoxTold *told = &run->told[n];
         if (told->machine == odd->machine && told->version == version && told->line == odd->line &&
-            told->parameter == odd->parameter)
+            told->source == odd->source && told->parameter == odd->parameter)
             return true;
     }
     return false;
 }
 
-/* The line that says what a parameter is. */
-static int32_t line_of(const JoxMachine *machine, const JoxValue *value) {
-    return value->line <= 0 && value->kind == JOX_VALUE_OWN ? machine->own[value->index].line
-                                                            : value->line;
+/* The line that says what a parameter is, and the number of its file. */
+static int32_t line_of(const JoxMachine *machine, const JoxValue *value, uint32_t *source) {
+    const bool own = value->line <= 0 && value->kind == JOX_VALUE_OWN;
+    *source = own ? machine->own[value->index].source : value->source;
+    return own ? machine->own[value->index].line : value->line;
 }
 
 static JoxOdd odd_of(const JoxMachineRun *run, uint32_t i, int parameter, double value) {
     const JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[a->state[i]];
+    uint32_t source;
+    const int32_t line = line_of(machine, jox_state_parameter(machine, state, parameter), &source);
     return (JoxOdd){.found = true,
                     .agent_id = a->id[i],
                     .machine = a->machine[i],
                     .state = a->state[i],
                     .parameter = parameter,
-                    .line = line_of(machine, jox_state_parameter(machine, state, parameter)),
+                    .line = line,
+                    .source = source,
                     .value = value};
 }
 
@@ -85,12 +89,13 @@ void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
         &run->notes,
         "%s:%d: t = %.2f s: %s of agent %u (machine %.60s, state %.60s) came out as %g; "
         "%g %s is taken. Keep it within bounds, as by clamp(x, %g, %g)\n",
-        machine->path, odd->line > 0 ? (int)odd->line : 1, run->tick * run->dt, info->name,
-        odd->agent_id, machine->name, machine->states[odd->state].name, odd->value, taken,
-        info->unit, info->least, info->greatest);
+        jox_machine_file(machine, odd->source), odd->line > 0 ? (int)odd->line : 1,
+        run->tick * run->dt, info->name, odd->agent_id, machine->name,
+        machine->states[odd->state].name, odd->value, taken, info->unit, info->least,
+        info->greatest);
     JOX_RESERVE(run->told, run->told_capacity, run->told_count + 1);
     run->told[run->told_count++] =
-        (JoxTold){odd->machine, machine->version, odd->line, odd->parameter};
+        (JoxTold){odd->machine, machine->version, odd->source, odd->line, odd->parameter};
 }
 
 void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, double value) {

@@ -76,7 +76,9 @@ static double extreme(const JoScene *scene, uint32_t number, const JoxState *sta
 
 static JoxPosition position_of(const JoxMachine *machine, const JoxState *state,
                                const JoxValue *value) {
-    return (JoxPosition){machine->path, value->line > 0 ? value->line : state->line, 0, 0};
+    return value->line > 0
+               ? (JoxPosition){jox_machine_file(machine, value->source), value->line, 0, 0}
+               : (JoxPosition){jox_machine_file(machine, state->source), state->line, 0, 0};
 }
 
 /* Of one state: whether somebody goes past a person, or is pushed past one, within a step. */

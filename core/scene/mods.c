@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/format/path.h"
 #include "base/mem.h"
 #include "scene/mods_on.h"
 #include "scene/mods_parts.h"
@@ -49,6 +50,49 @@ static void look_everywhere(JoxModsFind *f) {
         snprintf(folder, sizeof folder, "%.900s/.local/share/jostle/mods", user ? user : "");
     if ((home && *home) || user)
         look_into(f, folder);
+}
+
+/* Looks for a mod that is asked for beside a folder that holds one; whether it is there. */
+static bool look_beside(JoxModsFind *f, const char *folder, const char *name) {
+    char path[1200];
+    struct stat info;
+    snprintf(path, sizeof path, "%.900s/../%.80s/mod.yaml", folder, name);
+    if (stat(path, &info) != 0)
+        return false;
+    path[strlen(path) - strlen("/mod.yaml")] = 0;
+    jox_path_clean(path);
+    jox_mods_read_folder(f, path, false);
+    return jox_mods_index(f->mods, name) >= 0;
+}
+
+/* What is named, and what a mod needs, may lie beside the mod whose scene it is, or that needs it:
+   not every mod lies in the mods/ of its scene. */
+static void look_for_others(JoxModsFind *f) {
+    const JoxMods *mods = f->mods;
+    char own[1024] = "";
+    struct stat info;
+    if (f->def->scene) { /* of a mod, whose scenes lie in a folder of it */
+        char sheet[1200];
+        snprintf(own, sizeof own, "%.*s..", (int)jox_path_folder(f->def->scene), f->def->scene);
+        snprintf(sheet, sizeof sheet, "%s/mod.yaml", own);
+        own[stat(sheet, &info) == 0 ? strlen(own) : 0] = 0;
+    }
+    for (uint32_t n = 0; n < f->def->named_count; n++) {
+        const char *name = f->def->named[n];
+        bool found =
+            strchr(name, '/') || jox_mods_is_folder(name) || jox_mods_index(mods, name) >= 0;
+        found = found || (*own && look_beside(f, own, name));
+        for (uint32_t k = 0; k < f->def->named_count && !found; k++)
+            found = jox_mods_is_folder(f->def->named[k]) && look_beside(f, f->def->named[k], name);
+    }
+    for (uint32_t m = 0; m < mods->found_count; m++) /* those found here, too */
+        for (uint32_t d = 0; d < f->needs[m].depend_count; d++) {
+            char name[64];
+            const char *version;
+            jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+            if (jox_mods_index(mods, name) < 0)
+                look_beside(f, mods->found[m].folder, name);
+        }
 }
 
 /* Those that a person turned on. */
@@ -169,6 +213,7 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     f->reader =
         (JoxReader){.arena = mods->memory, .diagnostics = diagnostics, .format = &jox_scene_format};
     look_everywhere(f);
+    look_for_others(f);
     choose(f);
     choose_on(f);
     set_settings(f);

@@ -232,8 +232,11 @@ void jox_mods_missing(JoxModsFind *f, JoxPosition at, const char *name, const ch
     const char *names[JOX_MOST_MODS];
     for (uint32_t m = 0; m < f->mods->found_count; m++)
         names[m] = f->mods->found[m].name;
+    const char *near = jox_scene_suggest(&f->reader, name, names, f->mods->found_count);
     jox_diag_error(f->reader.diagnostics, at, "missing-mod",
-                   jox_scene_suggest(&f->reader, name, names, f->mods->found_count),
+                   near ? near
+                        : "Mods are found by name in the mods/ beside the scene; give the "
+                          "folder of another: --mod DIR",
                    "there is no mod '%.60s'%s%s", name, *whose ? ", which is needed by " : "",
                    whose);
 }

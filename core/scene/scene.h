@@ -174,6 +174,9 @@ bool jox_scene_why_set(const JoxSceneSpec *scene, const char *path, JoSetVisit *
                        void *context);
 bool jox_scene_why_default(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
                            void *context);
+/* Appends the value that a change of a mod gives to what follows its path, as it is written on one
+   line. False where the change says nothing of that. */
+bool jox_scene_why_change(const JoxPatchChange *change, const char *rest, JoxText *out);
 /* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
  */
 void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);

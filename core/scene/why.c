@@ -25,15 +25,39 @@ static const JoxYaml *find(const JoxYaml *node, const char *path) {
     return node;
 }
 
+enum { LONGEST = 400 }; /* bytes of a value that are told */
+
+/* Appends a value as it is written, on one line. */
+static void print(const JoxYaml *node, JoxText *out) {
+    const bool map = node->kind == JOX_YAML_MAP;
+    if (node->kind == JOX_YAML_SCALAR) {
+        jox_text_add(out, node->text);
+        return;
+    }
+    jox_text_add(out, map ? "{" : "[");
+    for (uint32_t k = 0; k < node->count && out->length < LONGEST; k++) {
+        jox_text_printf(out, "%s%s%s", k ? ", " : "", map ? node->keys[k] : "", map ? ": " : "");
+        print(node->items[k], out);
+    }
+    jox_text_add(out, map ? "}" : "]");
+}
+
+bool jox_scene_why_change(const JoxPatchChange *change, const char *rest, JoxText *out) {
+    const JoxYaml *node = find(change->value, rest);
+    if (node)
+        print(node, out);
+    return node != NULL;
+}
+
 static void tell(const JoxYaml *node, JoSetBy by, JoSetVisit *visit, void *context) {
-    char list[40];
-    snprintf(list, sizeof list, "%s of %u", node->kind == JOX_YAML_MAP ? "a table" : "a list",
-             node->count);
+    JoxText value = {0};
+    print(node, &value);
     visit(context, &(JoSetting){.by = by,
-                                .value = node->kind == JOX_YAML_SCALAR ? node->text : list,
+                                .value = value.data,
                                 .file = node->position.file,
                                 .line = node->position.line,
                                 .column = node->position.column});
+    jox_text_free(&value);
 }
 
 bool jox_scene_why(const JoxSceneSpec *spec, const char *path, JoSetVisit *visit, void *context) {

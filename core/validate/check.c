@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/file.h"
 #include "base/format/noun.h"
+#include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -178,8 +179,8 @@ static void check_claim(const char *path, JoxDiagnostics *all) {
 
 /* The file that a patch changes: of a mod for "mod:name"; else of the tree that the mods lie in, or
    of the library. */
-static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
-                        char path[1024]) {
+static bool look_for_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                            char path[1024]) {
     const char *kind = patch->lua ? "behaviours" : "scenes", *end = patch->lua ? "lua" : "yaml";
     const char *colon = strchr(patch->target, ':');
     for (uint32_t m = 0; colon && m < mods->found_count; m++) {
@@ -201,6 +202,13 @@ static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatc
         return true;
     snprintf(path, 1024, "%s/%s/%.200s.%s", JOX_DATADIR, kind, patch->target, end);
     return is_file(path);
+}
+
+static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                        char path[1024]) {
+    const bool found = look_for_target(mods, mod, patch, path);
+    jox_path_clean(path);
+    return found;
 }
 
 /* What a mod's patches make of the files that they change. */
@@ -233,8 +241,11 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
     def.mod_count = 1;
     def.named_mods_only = def.needed_mods_too = true;
     JoxMods *mods = jox_run_find_mods(&def, 0, all);
+    struct stat asked, info;
+    const bool there = stat(folder, &asked) == 0;
     for (uint32_t m = 0; m < mods->count; m++)
-        if (strcmp(mods->items[m].folder, folder) == 0)
+        if (there && stat(mods->items[m].folder, &info) == 0 && info.st_dev == asked.st_dev &&
+            info.st_ino == asked.st_ino)
             check_patches(mods, &mods->items[m], all);
     jox_mods_free(mods);
 }
@@ -243,9 +254,10 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
 
 /* What is no folder; `mod` as of check_path. */
 static void check_file(const char *path, bool named, const char *mod, JoxDiagnostics *own) {
-    if (ends_with(path, "/mod.yaml")) {
+    if (strcmp(jox_path_name(path), "mod.yaml") == 0) {
         char folder[1024];
-        snprintf(folder, sizeof folder, "%.*s", (int)(strlen(path) - 9), path);
+        const size_t length = jox_path_folder(path);
+        snprintf(folder, sizeof folder, "%.*s", length ? (int)length : 1, length ? path : ".");
         if (named)
             check_mod(folder, own);
     } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
@@ -329,10 +341,57 @@ static void print(const JoxDiagnostics *all, JoxText *out) {
     jox_text_add(out, "\n");
 }
 
+/* The folder of the mod that a named path lies in, but is not; "" where it lies in none. */
+static void find_mod(const char *path, char folder[1024]) {
+    static const char *const UP[] = {"", "/..", "/../.."};
+    char above[1024];
+    snprintf(above, sizeof above, "%.900s", path);
+    *folder = 0;
+    struct stat info;
+    const bool is_folder = stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    char *const slash = strrchr(above, '/');
+    if (!is_folder && slash)
+        slash[1] = 0;
+    else if (!is_folder)
+        snprintf(above, sizeof above, ".");
+    for (int up = is_folder; up <= 2; up++) {
+        char sheet[1024];
+        snprintf(folder, 1024, "%.900s%s", above, UP[up]);
+        snprintf(sheet, sizeof sheet, "%.900s/mod.yaml", folder);
+        if (is_file(sheet))
+            return;
+    }
+    *folder = 0;
+}
+
+/* One that is named: what lies in a mod is checked as a part of it, and of its patches, the mod. */
+static void check_named(const char *path, JoxDiagnostics *all) {
+    char mod[1024], sheet[1024], patches[1024];
+    struct stat info, other;
+    find_mod(path, mod);
+    snprintf(sheet, sizeof sheet, "%.900s/mod.yaml", path);
+    if (!*mod || is_file(sheet) || strcmp(jox_path_name(path), "mod.yaml") == 0) {
+        check_path(path, true, 0, NULL, all);
+        return;
+    }
+    const size_t folder = jox_path_folder(path);
+    char above[1024];
+    snprintf(above, sizeof above, "%.*s.", (int)folder, path);
+    snprintf(patches, sizeof patches, "%.900s/patches", mod);
+    const bool is_patch =
+        stat(patches, &info) == 0 &&
+        ((stat(path, &other) == 0 && info.st_dev == other.st_dev && info.st_ino == other.st_ino) ||
+         (stat(above, &other) == 0 && info.st_dev == other.st_dev && info.st_ino == other.st_ino));
+    if (is_patch)
+        check_mod(mod, all);
+    else
+        check_path(path, true, 0, mod, all);
+}
+
 JoxDiagnostics jox_check_paths(const char *const *paths, size_t count) {
     JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
     for (size_t p = 0; p < count; p++)
-        check_path(paths[p], true, 0, NULL, &all);
+        check_named(paths[p], &all);
     return all;
 }
 

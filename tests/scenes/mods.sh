@@ -17,7 +17,7 @@ says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/ge
 says "why: the behaviour's own line" 0 ":87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
-says "why: of a scene, its own line too" 0 "scenes/dodgeball.yaml:24:9: a list of 1" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
+says "why: of a scene, its own line too" 0 "scenes/dodgeball.yaml:24:9: [[" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
 says "why: of a body, by its name" 0 "scenes/dodgeball.yaml:17:11: 0.4" "$JOSTLE" mod why bodies.ball.mass scenes/dodgeball.yaml
 says "why: of a body, by its number" 0 "the default: 0.6" "$JOSTLE" mod why bodies.0.friction scenes/dodgeball.yaml
 says "why: of a table that the scene leaves out" 0 "the default: physical" "$JOSTLE" mod why forces.mode scenes/dodgeball.yaml
@@ -222,6 +222,50 @@ on
 says "why: in a state that another mod wrote" 0 "one/patches/stander.lua:3:18: after(5)   (mod one 1.0)" "$program" mod why stander.Go.Stand.when "$tree/scenes/yard.yaml"
 says "a removed transition's id is free" 0 "three/patches/stander.lua:1:69: after(4)   (mod three 1.0)" "$program" mod why "stander.Stand.Go#2.when" "$tree/scenes/yard.yaml"
 says "and the next one's stays" 0 "one/patches/stander.lua:4:100: after(3)   (mod one 1.0)" "$program" mod why "stander.Stand.Go#3.when" "$tree/scenes/yard.yaml"
+# What is removed and appended in one change: the live one is told, and who removed the other.
+rm -rf "$tree/scenes/mods"/*
+cat >"$tree/behaviours/goer.lua" <<'END'
+return machine { name = "goer", version = 10, start = "Go", states = {
+  Go = { steer = seek(own.goal), lasts = 1,
+    { to = "Stay", when = lasted } },
+  Stay = { steer = hold, lasts = 2,
+    { to = "Go", when = lasted } } } }
+END
+sed 's/stander.lua/goer.lua/; s/at: \[\[0, 0\], \[2, 0\]\]/at: [[0, 0]], set: {goal: goal}/' "$tree/scenes/yard.yaml" >"$tree/scenes/going.yaml"
+mod later "" goer.lua 'return patch "goer" {
+ states = { Stay = { remove = { "Go" },
+ append = { { to = "Go", when = after(7) } } },
+ Go = (function() return { speed = 2, append = { { to = "Stay", id = "tired", when = after(3) } } } end)() } }'
+printf 'patch: going\nplaces: {far: {point: [90, 2]}}\ngroups: {g: {set: {goal: far}}}\n' >"$tree/scenes/mods/later/patches/going.yaml"
+going=("$tree/scenes/going.yaml" --mod later)
+says "why: of a transition that was removed and appended" 0 "later/patches/goer.lua:3:26: after(7)   (mod later 1.0)" "$program" mod why goer.Stay.Go.when "${going[@]}"
+[ "$(grep -c 'goer.lua:5:\|later/patches/goer.lua:2:22: taken away' "$work/out")" = 2 ] && tail -2 "$work/out" | head -1 | grep -q 'after(7)'; verdict "  with who removed the other" $?
+says "  of the whole transition" 0 "taken away   (mod later 1.0)" "$program" mod why goer.Stay.Go "${going[@]}"
+says "why: a value of a scene that a mod sets, as it is written" 0 "going.yaml:3:20: far   (mod later 1.0)" "$program" mod why groups.g.set.goal "${going[@]}"
+says "  a list" 0 "[90, 2]   (mod later 1.0)" "$program" mod why places.far.point "${going[@]}"
+says "  a place of somebody, by its name" 0 "goal of agent 0 at 1.00 s, in state Go: far" "$program" mod why goal "${going[@]}" --agent 0 --at 1
+grep -qF "going.yaml:3:20: far   (groups.g)" "$work/out"; verdict "    as the scene writes it" $?
+says "  a value that a function of a mod made, in the mod's file" 0 "later/patches/goer.lua:4:" "$program" mod why speed "${going[@]}" --agent 0 --at 0.5
+says "a transition of a mod is traced to the mod's file" 0 "patches/goer.lua:3)" "$program" run "${going[@]}" --trace 0 --for 12 --quiet
+# A mod in mods/ is checked alike from within and from above, with what lies beside it; so are its parts.
+mod needy "depends: [later]" stander.lua 'return patch "stander" { defaults = { radius = 0.2 } }'
+mkdir -p "$tree/scenes/mods/needy/scenes"; cp "$tree/scenes/yard.yaml" "$tree/scenes/mods/needy/scenes/own.yaml"
+says "a mod is checked by its name" 0 "nothing wrong" bash -c 'cd "$tree" && "$program" mod check needy'
+for from in . scenes scenes/mods scenes/mods/needy scenes/mods/needy/patches; do
+    for to in scenes/mods/needy scenes/mods/needy/ scenes/mods scenes/mods/needy/patches scenes/mods/needy/mod.yaml scenes/mods/needy/scenes/own.yaml; do
+        path=$(realpath --relative-to="$tree/$from" "$tree/$to")
+        says "mod check $path from $from" 0 "nothing wrong" bash -c "cd '$tree/$from' && '$program' mod check $path"
+    done
+done
+says "a mistake in a patch is found at a slash, too" 3 "radius must be" bash -c 'cd "$tree" && sed -i "s/0.2/99/" scenes/mods/needy/patches/stander.lua && "$program" mod check scenes/mods/needy/'
+mod needy "depends: [later]" stander.lua 'return patch "stander" { defaults = { radius = 0.2 } }'
+# A mod's scenes go by their names.
+for from in . scenes scenes/mods scenes/mods/needy; do
+    says "a scene of a mod by its name, from $from" 0 '"steps": 2' bash -c "cd '$tree/$from' && '$program' run own --mod $([ $from = scenes/mods/needy ] && echo ../)needy --mod $([ $from = scenes/mods/needy ] && echo ../)later --steps 2 --quiet --summary -"
+done
+cp "$tree/scenes/yard.yaml" "$tree/scenes/own.yaml"
+says "one that there is twice is refused" 3 "scenes/own.yaml or scenes/mods/needy/scenes/own.yaml" bash -c 'cd "$tree" && "$program" run own --mod needy --mod later --steps 2'
+says "  unless its mod is said" 0 '"steps": 2' bash -c 'cd "$tree" && "$program" run needy:own --mod needy --mod later --steps 2 --quiet --summary -'
 # Order, in large and in circles.
 rm -rf "$tree/scenes/mods"/*
 names=; for i in $(seq 10 49); do mod m$i "depends: [$names]"; names="$names${names:+, }m$i"; done

@@ -125,7 +125,7 @@ static void operators_compute(void **state) {
             {.op = JOX_OP_CONST, .to = 1, .number = 10, .target = -1, .place = -1},
             {.op = JOX_OP_ADD, .a = 0, .b = 1, .target = -1, .place = -1}};
         m->states[0].param[JOX_PARAM_push] =
-            (JoxValue){JOX_VALUE_EXPRESSION, 0, add_expression(m, code, 6), 0};
+            (JoxValue){JOX_VALUE_EXPRESSION, 0, add_expression(m, code, 6), 0, 0};
         Fixture f;
         begin(&f, m, 1);
         think(&f);
@@ -155,7 +155,7 @@ static void the_first_transition_that_holds_wins(void **state) {
 static void chance_is_rolled_once_each_time_the_condition_turns_true(void **state) {
     (void)state;
     JoxMachine *m = new_machine(2);
-    add_transition(m, 0, 1, after(m, 0.1))->chance = (JoxValue){JOX_VALUE_CONST, 0.3, 0, 0};
+    add_transition(m, 0, 1, after(m, 0.1))->chance = (JoxValue){JOX_VALUE_CONST, 0.3, 0, 0, 0};
     Fixture f;
     begin(&f, m, 2000);
     for (int i = 0; i < 50; i++)
@@ -406,7 +406,7 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
     m->targets[1] = (JoxTarget){.kind = JOX_TARGET_NEAREST, .arg = 4, .name = jox_strdup("ball")};
     m->target_count = 2;
     m->states[0].kick = 1;
-    m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0};
+    m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0, 0};
     Fixture f;
     begin(&f, m, 1);
     f.machines.places = &place;

@@ -96,7 +96,7 @@ static void keep(const JoxPatch *p, const char *path, const JoxPatchPlace *at, b
     const JoxPatchTree *t = p->tree;
     jox_patch_keep(p->changes,
                    (JoxPatchChange){(char *)path, (char *)at->from, p->source, p->mod, removes,
-                                    t->position(t->context, at)},
+                                    t->position(t->context, at), at->value},
                    p->mods, p->diagnostics);
 }
 
@@ -262,31 +262,45 @@ static void put_items(const JoxPatch *p, void *copy, void *change, const char *p
     }
 }
 
+/* Merges one key of a change; `by_id`: into a node whose items go by ids. */
+static void merge_one(const JoxPatch *p, void *copy, const char *path, const JoxPatchPlace *at,
+                      bool by_id, int depth) {
+    const JoxPatchTree *t = p->tree;
+    const bool list = by_id && t->keys_are_ids;
+    const int verb = by_id ? verb_of(p, at->key) : JOX_PATCH_VERBS;
+    char whole[JOX_PATCH_PATH];
+    jox_patch_join(whole, path, at->key);
+    if (t->skips(t->context, copy, at, depth))
+        return;
+    if (verb < JOX_PATCH_VERBS)
+        merge_verb(p, (JoxPatchVerb)verb, copy, path, at, depth);
+    else if (list && t->kind(t->context, at->value) == JOX_PATCH_NOTHING)
+        take_item(p, copy, path, at->key, at);
+    else if (list)
+        merge_item(p, JOX_PATCH_CHANGE, copy, path, at, depth);
+    else
+        merge_key(p, copy, whole, at, depth);
+}
+
+/* What is appended comes last, whatever the order of the keys: the id of an item that the same
+   change removes is free for it. */
 static void *merge_into(const JoxPatch *p, void *copy, void *change, const char *path,
                         const char *from, int depth) {
     const JoxPatchTree *t = p->tree;
     JOX_ASSERT(depth <= t->deepest);
     const bool by_id = t->enter(t->context, copy, change, path, from, depth);
-    const bool list = by_id && t->keys_are_ids;
     const char *const *keys;
     const uint32_t count = t->keys(t->context, change, path, from, &keys);
-    for (uint32_t k = 0; k < count; k++) {
-        char whole[JOX_PATCH_PATH], there[JOX_PATCH_PATH];
-        jox_patch_join(whole, path, keys[k]);
-        jox_patch_join(there, from, keys[k]);
-        const JoxPatchPlace at = {there, change, t->get(t->context, change, keys[k]), keys[k]};
-        const int verb = by_id ? verb_of(p, keys[k]) : JOX_PATCH_VERBS;
-        if (t->skips(t->context, copy, &at, depth))
-            continue;
-        if (verb < JOX_PATCH_VERBS)
-            merge_verb(p, (JoxPatchVerb)verb, copy, path, &at, depth);
-        else if (list && t->kind(t->context, at.value) == JOX_PATCH_NOTHING)
-            take_item(p, copy, path, keys[k], &at);
-        else if (list)
-            merge_item(p, JOX_PATCH_CHANGE, copy, path, &at, depth);
-        else
-            merge_key(p, copy, whole, &at, depth);
-    }
+    for (int pass = 0; pass < (by_id ? 2 : 1); pass++)
+        for (uint32_t k = 0; k < count; k++) {
+            char there[JOX_PATCH_PATH];
+            jox_patch_join(there, from, keys[k]);
+            const int own = by_id && verb_of(p, keys[k]) == JOX_PATCH_APPEND;
+            if (own != pass)
+                continue;
+            const JoxPatchPlace at = {there, change, t->get(t->context, change, keys[k]), keys[k]};
+            merge_one(p, copy, path, &at, by_id, depth);
+        }
     if (by_id)
         t->sweep(t->context, copy);
     else if (t->lists_merge)

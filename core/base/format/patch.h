@@ -20,6 +20,7 @@ typedef struct JoxPatchChange {
     int32_t mod; /* index, or -1: what is patched itself */
     bool removes;
     JoxPosition position;
+    const void *value; /* node of the tree that set it, as long as the tree's memory */
 } JoxPatchChange;
 
 typedef struct JoxPatchChanges {

@@ -5,8 +5,9 @@
 #include "base/pack.h"
 #include "run/run.h"
 
-/* Begins the list in a pack. */
-void jox_settings_begin(JoxPack *pack);
+/* Begins the list in a pack; and what the value is now, as text. */
+JoSettings *jox_settings_begin(JoxPack *pack);
+void jox_settings_now(JoxPack *pack, JoSettings *head, const char *text);
 /* Adds one (a JoSetVisit; the context is the pack). */
 void jox_settings_add(void *pack, const JoSetting *setting);
 /* Ends it; the caller's. */

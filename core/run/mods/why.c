@@ -11,9 +11,14 @@
 
 enum { HEAD, ITEMS }; /* parts of a pack */
 
-void jox_settings_begin(JoxPack *pack) {
+JoSettings *jox_settings_begin(JoxPack *pack) {
     JoSettings *head = jox_pack_add(pack, HEAD, sizeof *head);
     jox_pack_list(pack, HEAD, &head->items, ITEMS);
+    return head;
+}
+
+void jox_settings_now(JoxPack *pack, JoSettings *head, const char *text) {
+    jox_pack_text(pack, HEAD, &head->now, text);
 }
 
 JoSettings *jox_settings_end(JoxPack *pack) {
@@ -49,14 +54,18 @@ static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
         if (!jox_patch_leads(change, path, &rest))
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
+        JoxText value = {0};
+        if (!change->removes && !jox_scene_why_change(change, rest, &value))
+            continue;
         jox_settings_add(pack, &(JoSetting){.by = JO_SET_MOD,
-                                            .value = change->removes ? "" : "set",
+                                            .value = value.data,
                                             .file = change->position.file,
                                             .line = change->position.line,
                                             .column = change->position.column,
                                             .mod = mod->name,
                                             .version = mod->version,
                                             .removes = change->removes});
+        jox_text_free(&value);
         found = true;
     }
     found |= jox_scene_why_set(spec, path, jox_settings_add, pack);
@@ -66,6 +75,7 @@ static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
 /* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
 static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
     const JoxMachineRun *machines = &scene->world->machines;
+    name = strchr(name, ':') ? strchr(name, ':') + 1 : name; /* "mod:name" */
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const char *stem = jox_path_name(machines->set->items[m]->path);
         size_t n = strlen(name);
@@ -84,6 +94,7 @@ static void not_set(const JoScene *scene, const char *path, const char *name, bo
     for (uint32_t m = 0; m < machines->set->count; m++)
         names[m] = machines->set->items[m]->name;
     const char *near = jox_suggest(name, names, machines->set->count);
+    near = near && strcmp(near, name) != 0 ? near : NULL; /* it is the rest that is wrong */
     jox_error(error, JO_INPUT,
               of_behaviour ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
                              "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
@@ -106,7 +117,7 @@ JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error)
     snprintf(name, sizeof name, "%.*s", (int)(n < 127 ? n : 127), path);
     const JoxMachine *machine = find_behaviour(scene, name);
     JoxPack pack = {0};
-    jox_settings_begin(&pack);
+    jox_settings_now(&pack, jox_settings_begin(&pack), "");
     const bool found = machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1,
                                                         &scene->scope, jox_settings_add, &pack)
                                : why_scene(scene, path, &pack);

@@ -17,6 +17,7 @@ typedef struct Now {
     const JoxState *state;
     const JoxWatched *watched;
     JoxPack *pack;
+    JoSettings *head;  /* of what is listed, in the pack */
     const char *where; /* of places that are visited */
 } Now;
 
@@ -56,6 +57,11 @@ static const JoxGroupValue *group_value(const Now *now, const char *name, bool m
     return NULL;
 }
 
+static const char *place_name(const JoxSceneSpec *spec, int32_t place) {
+    return place >= 0 && (uint32_t)place < spec->place_count ? spec->places[place].name
+                                                             : "no place";
+}
+
 static bool add_group(const Now *now, const JoxGroupValue *value, const char *profile) {
     const JoxSceneSpec *spec = now->scene->spec;
     char where[200];
@@ -67,6 +73,9 @@ static bool add_group(const Now *now, const JoxGroupValue *value, const char *pr
              profile ? ".profiles." : "", profile ? profile : "");
     if (value->kind == JOX_SET_NUMBER)
         jox_dist_print(&value->dist, &text);
+    else
+        jox_text_add(&text,
+                     value->kind == JOX_SET_ANTIPODE ? "antipode" : place_name(spec, value->place));
     jox_settings_add(now->pack,
                      &(JoSetting){.by = JO_SET_SCENE,
                                   .value = text.data,
@@ -122,7 +131,9 @@ static void add_set(const Now *now, const JoxWrote *wrote, const char *name, dou
         snprintf(where, sizeof where, "state %.120s", state->name);
     }
     if (!jox_lua_written(now->scene->lua, now->machine, path, &now->scene->scope, &written))
-        written = (JoxWritten){.file = now->machine->path, .line = taken ? t->line : state->line};
+        written =
+            (JoxWritten){.file = jox_machine_file(now->machine, taken ? t->source : state->source),
+                         .line = taken ? t->line : state->line};
     add_written(now, JO_SET_BEHAVIOUR, &written, where, time);
 }
 
@@ -160,7 +171,8 @@ static void add_value(Now *now, const JoxValue *value, const char *path, const c
         add_unplaced(now, JO_SET_PROGRAM, where);
     } else if (value->line > 0 && !jox_lua_written(lua, now->machine, path, scope, &written)) {
         /* made by a function: no text says so */
-        written = (JoxWritten){.file = now->machine->path, .line = value->line};
+        written = (JoxWritten){.file = jox_machine_file(now->machine, value->source),
+                               .line = value->line};
         add_written(now, JO_SET_BEHAVIOUR, &written, where, (double)NAN);
     } else {
         jox_text_free(&written.text);
@@ -229,6 +241,16 @@ static void add_own(Now *now, const char *name, double value) {
     add_given(now, name, value);
 }
 
+/* Keeps what the value is now, as text. */
+static void say_value(const Now *now, double value, bool truth, bool place) {
+    char number[32];
+    snprintf(number, sizeof number, "%.6g", value);
+    jox_settings_now(now->pack, now->head,
+                     place   ? place_name(now->scene->spec, (int32_t)value)
+                     : truth ? (value != 0.0 ? "true" : "false")
+                             : number);
+}
+
 /* Whether the agent has such a value, which is then listed. */
 static bool list(Now *now, const char *name, double *value) {
     const JoxAgents *a = &now->scene->world->state.agents;
@@ -236,17 +258,20 @@ static bool list(Now *now, const char *name, double *value) {
     const int32_t slot = jox_machine_memory(now->machine, name);
     if (slot >= 0) {
         *value = a->memory[(size_t)now->i * a->memory_stride + (uint32_t)slot];
+        say_value(now, *value, now->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN, false);
         add_memory(now, (uint32_t)slot);
         return true;
     }
     if (p >= 0) {
         *value = jox_parameter_value((JoxParameter)p, jox_param(a, p, now->i));
+        say_value(now, *value, false, false);
         add_parameter(now, p);
         return true;
     }
     for (uint32_t s = 0; s < now->machine->own_count; s++)
         if (strcmp(now->machine->own[s].name, name) == 0) {
             *value = jox_own(a, now->i, s);
+            say_value(now, *value, false, now->machine->own[s].is_place);
             add_own(now, name, *value);
             return true;
         }
@@ -272,8 +297,8 @@ static void not_there(const Now *now, const char *name, JoError *error) {
 static Now now_of(JoScene *scene, uint32_t i, const JoxWatched *watched, JoxPack *pack) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = scene->world->machines.set->items[a->machine[i]];
-    jox_settings_begin(pack);
     return (Now){.scene = scene,
+                 .head = jox_settings_begin(pack),
                  .i = i,
                  .machine = machine,
                  .state = &machine->states[a->state[i]],

@@ -62,7 +62,8 @@ static void add(const Judged *j, JoHintKind kind, const JoxState *from, const Jo
         hint->line = found ? written.line : t->line;
         jox_text_clean(text->data);
         jox_pack_text(j->pack, ITEMS, &hint->behaviour, j->machine->name);
-        jox_pack_text(j->pack, ITEMS, &hint->file, found ? written.file : j->machine->path);
+        jox_pack_text(j->pack, ITEMS, &hint->file,
+                      found ? written.file : jox_machine_file(j->machine, t->source));
         jox_pack_text(j->pack, ITEMS, &hint->text, text->data);
         jox_pack_text(j->pack, ITEMS, &hint->way_out, way_out);
         j->head->count++;
