@@ -58,6 +58,11 @@ static void print_cost(const JoLuaCost *cost, double stepping) {
 
 void cli_profile(const JoScene *scene) {
     JoLuaCosts *costs = jo_scene_lua_costs(scene);
+    if (costs && costs->count)
+        fprintf(stderr,
+                "Plain Lua functions, each with its share of the %.2f ms that the steps took, with "
+                "the functions called as people come in:\n",
+                costs->stepping * 1e3);
     for (uint32_t first = 0, last; costs && first < costs->count; first = last) {
         const JoLuaCost *items = costs->items;
         uint64_t calls = 0;

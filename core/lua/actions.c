@@ -125,6 +125,10 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
             jox_build_error(b, jox_read_at(b, full), "out-of-range", NULL,
                             "every must be a plain number from %g to %g %s", info.least,
                             info.greatest, info.unit);
+        if (lua_rawlen(L, top) > 1)
+            jox_build_error(b, jox_read_at(b, full), "bad-value",
+                            "Call out a name for each, or keep it in memory that is `public`",
+                            "a signal is a name and carries no value");
         lua_rawgeti(L, top, 1);
         type = lua_type(L, -1);
     }

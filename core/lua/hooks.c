@@ -10,7 +10,7 @@
 #include "lua/language/script.h"
 #include "lua/loader.h"
 
-enum { TIMED = 16 }; /* one call in so many is timed */
+enum { TIMED = 16 }; /* the first so many calls are timed, then one in so many */
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     JOX_ASSERT(!machines || machines->agents);
@@ -140,8 +140,9 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         return false;
     JoxHook *hook = &script->hooks[number];
     lua_State *L = script->vm.L;
-    bool timed = hook->calls++ % TIMED == 0;
-    double begun = timed ? jox_clock_wall() : 0.0;
+    const bool first = hook->calls < TIMED, timed = first || hook->calls % TIMED == 0;
+    const double begun = timed ? jox_clock_thread() : 0.0;
+    hook->calls++;
     script->machine = machine;
     script->agent = agent;
     script->draws = script->read_count = 0;
@@ -176,8 +177,10 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         good = false;
     }
     if (timed) {
-        hook->seconds += jox_clock_wall() - begun;
-        hook->timed++;
+        const double took = jox_clock_thread() - begun;
+        *(first ? &hook->first : &hook->seconds) += took;
+        hook->timed += !first;
+        lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED) * took : 0.0;
     }
     if (!good)
         report(lua, script, hook, why, line);
@@ -273,6 +276,17 @@ void jox_lua_bracket(void *context, bool begins) {
 
 /* ---- costs ---- */
 
+/* s, of all its calls; those that were not timed take what those that were take. */
+static double estimate(const JoxHook *hook) {
+    return hook->first + (hook->timed
+                              ? hook->seconds / (double)hook->timed * (double)(hook->calls - TIMED)
+                              : 0.0);
+}
+
+double jox_lua_arriving(const JoxLua *lua) {
+    return lua->arriving;
+}
+
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
     const JoxScript *script = jox_lua_script(lua, machine);
     double seconds = 0.0;
@@ -280,8 +294,7 @@ double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *c
     for (uint32_t h = 0; script && h < script->hook_count; h++) {
         const JoxHook *hook = &script->hooks[h];
         *calls += hook->calls;
-        if (hook->timed)
-            seconds += hook->seconds / (double)hook->timed * (double)hook->calls;
+        seconds += estimate(hook);
     }
     return seconds;
 }
@@ -291,13 +304,12 @@ bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLu
     if (!script || n >= script->hook_count)
         return false;
     const JoxHook *hook = &script->hooks[n];
-    *cost = (JoLuaCost){
-        .behaviour = machine->name,
-        .file = machine->path,
-        .where = hook->where,
-        .calls = hook->calls,
-        .failures = hook->failures,
-        .seconds = hook->timed ? hook->seconds / (double)hook->timed * (double)hook->calls : 0.0,
-        .suspended = hook->suspended};
+    *cost = (JoLuaCost){.behaviour = machine->name,
+                        .file = machine->path,
+                        .where = hook->where,
+                        .calls = hook->calls,
+                        .failures = hook->failures,
+                        .seconds = estimate(hook),
+                        .suspended = hook->suspended};
     return true;
 }

@@ -102,8 +102,10 @@ void jox_lua_bracket(void *lua, bool begins);
 /* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, how often they
    have failed in the present second and, outside of the hash, were called and failed in all. */
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
-/* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
- */
+/* Processor time of the calls as people come in, s: no step has it. */
+double jox_lua_arriving(const JoxLua *lua);
+/* Processor time that a machine's functions took, s, estimated from the first 16 calls of each and
+   one in 16 of the others, and how many there were. */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
 /* What its n-th function cost, with texts of the machine; false behind the last. */
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);

@@ -60,6 +60,22 @@ static bool print_infix(const JoxInstruction *in, const Written *registers, Writ
     return false;
 }
 
+/* What is asked of those that a target means: ":in_state("Wait")". */
+static void print_whose(const JoxMachine *machine, const JoxWhose *whose, JoxText *out) {
+    if (!whose->some)
+        return;
+    if (whose->state >= 0)
+        jox_text_printf(out, ":in_state(\"%s\")", machine->names[whose->state].text);
+    if (whose->machine >= 0)
+        jox_text_printf(out, ":of_machine(\"%s\")", machine->names[whose->machine].text);
+    if (whose->group >= 0)
+        jox_text_printf(out, ":of_group(number %d)", whose->group);
+    if (whose->memory < 0)
+        return;
+    jox_text_printf(out, ":where(\"%s\", %.6g", machine->names[whose->memory].text, whose->least);
+    jox_text_printf(out, isinf(whose->greatest) ? ")" : ", %.6g)", whose->greatest);
+}
+
 /* A word with what it is about: distance(stone), near(ball, 1.2), heard("go"). */
 static void print_word(const JoxMachine *machine, const JoxInstruction *in,
                        const Written *registers, JoxText *out) {
@@ -71,6 +87,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
     for (int k = 0; k < 2; k++)
         if (targets[k] >= 0) {
             jox_text_printf(out, "%s%s", before, machine->targets[targets[k]].name);
+            print_whose(machine, &machine->targets[targets[k]].whose, out);
             before = ", ";
         }
     if (in->name >= 0) {

@@ -1,4 +1,5 @@
 /* Values set from the command line, in the tree before it is read. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,6 +24,26 @@ JoxYaml **jox_load_slot(const JoxYaml *node, const char *key) {
     return NULL;
 }
 
+/* Where a path stands in the table of keys: whose keys come next, or, of "group*", names. */
+typedef struct Owner {
+    char name[32];
+    bool items; /* the next part is the name or number of an item */
+} Owner;
+
+/* Goes on by one part; whether that is a table that may be left out, and so be made. */
+static bool follow(const JoxFormat *format, Owner *owner, const char *part) {
+    const JoxKey *key = owner->items ? NULL : jox_key_find(format, owner->name, part);
+    const bool was_item = owner->items;
+    owner->items = false;
+    if (was_item)
+        return false;
+    const char *of = key && key->of ? key->of : "";
+    const size_t plain = strcspn(of, "*[");
+    snprintf(owner->name, sizeof owner->name, "%.*s", (int)plain, of);
+    owner->items = of[plain] != 0;
+    return key && (key->type == JOX_TYPE_TABLE || of[plain] == '*');
+}
+
 /* Sets PATH=VALUE in the tree; the path must exist or be a key of the format. */
 void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
     JoxPosition at = {JOX_LOAD_OVERRIDE, 1, 1, (int)strlen(set) + 1};
@@ -34,6 +55,7 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
         return;
     }
     const char *part = set;
+    Owner owner = {"scene", false};
     for (JoxYaml **slot;;) {
         size_t n = strcspn(part, ".=");
         char *key = jox_arena_take(l->reader.arena, n + 1, 1);
@@ -55,8 +77,7 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
         }
         slot = jox_load_slot(map, key);
         JoxYaml *next = slot ? *slot : NULL;
-        const JoxKey *known = map == root ? jox_key_find(l->reader.format, "scene", key) : NULL;
-        if (!next && known && known->type == JOX_TYPE_TABLE) {
+        if (follow(l->reader.format, &owner, key) && !next && map->kind == JOX_YAML_MAP) {
             /* A table left at its defaults. */
             next = jox_arena_take(l->reader.arena, 1, sizeof *next);
             *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};

@@ -179,6 +179,22 @@ hostile "a misspelt word" 3 "Did you mean 'stuck'" 'return machine { name = "m",
 sheet 'return false' >"$work/s/cost.lua"; scene cost.lua
 expect "what functions cost is said" 0 "plain Lua functions: 63 calls" "$JOSTLE" run "$work/s/scene.yaml" --steps 20
 
+# Traces, profiles, signals, and values for what the scene leaves out.
+printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [5, 0], [5, 5], [0, 5]]}}\ngroups: {g: {behaviour: told.lua, count: 30, fill: grid, in: yard}}\n' >"$work/s/told.yaml"
+cat >"$work/s/told.lua" <<'END'
+return machine { name = "told", start = "Go", defaults = { speed = 1 }, states = {
+  Go = { steer = hold, on_enter = function(me) local s = 0 for i = 1, 2000 do s = s + i end end,
+    { to = "Stay", when = near(nearest("anyone"):in_state("Go"), 3) & after(0.2) } },
+  Stay = { steer = hold, on_enter = function(me) me.signal("money", 5) end } } }
+END
+expect "a trace has the whole condition" 1 'when near(anyone:in_state("Go"), 3) is true and after(0.2) is true' "$JOSTLE" run "$work/s/told.yaml" --for 0.5 --trace 1 --quiet
+grep -qF "told.lua:4: a signal is a name and carries no value" "$work/out"; verdict "a signal with a value is refused, with its line" $?
+"$JOSTLE" run "$work/s/told.yaml" --steps 1 --quiet --profile-lua 2>&1 | sed -n "s/.*told.lua): .* \([0-9.]*\) % of the steps/\1/p" | awk '{exit !($1 > 0 && $1 <= 100)}'
+verdict "shares of functions add up, also those called as people come in" $?
+expect "a value in a table that the scene leaves out" 0 "speed of agent 1 at 0.00 s, in state Go: 1" "$JOSTLE" mod why speed "$work/s/told.yaml" --agent 1
+expect "  is set" 0 '"agents": 30' "$JOSTLE" run "$work/s/told.yaml" --for 0.1 --quiet --summary - --set groups.g.set.speed=2
+expect "  or refused as any, with its name" 3 "Did you mean 'speed'" "$JOSTLE" run "$work/s/told.yaml" --for 0.1 --quiet --set groups.g.set.sped=2
+
 # Reload while running: a valid change goes live, an invalid one leaves the old running.
 cp behaviours/stander.lua "$work/s/live.lua"; scene live.lua
 "$JOSTLE" run "$work/s/scene.yaml" --steps 900000000 --watch --quiet >"$work/watch" 2>&1 &

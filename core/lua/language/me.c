@@ -197,6 +197,10 @@ static int me_signal(lua_State *L) {
         return luaL_error(L, "signals are given while the crowd runs");
     if (lua_type(L, at) != LUA_TSTRING)
         return luaL_error(L, "a signal is a name");
+    if (lua_gettop(L) > at)
+        return luaL_error(L,
+                          "a signal is a name and carries no value: call out a name for each, or "
+                          "keep it in memory that is `public`, which others read");
     const char *name = lua_tostring(L, at);
     jox_vm_charge(L, 20 + (script->machine->name_count + script->owner->machines->set->name_count) /
                               8);

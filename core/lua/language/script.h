@@ -148,7 +148,8 @@ typedef struct JoxHook {
     char *where;                           /* "state Circle > transition 2 (to Exit) > on_take" */
     uint32_t first_upvalue, upvalue_count; /* that it could change */
     uint64_t calls, failures, timed;
-    double seconds;           /* of the calls that were timed */
+    double first;             /* s, of the first calls, all of which are timed */
+    double seconds;           /* of later ones that were timed */
     uint32_t second;          /* simulated, of the failures that follow */
     uint32_t second_failures; /* in that second */
     uint64_t repeated;        /* failures like the last that were not said */
@@ -215,6 +216,7 @@ struct JoxLua {
     size_t script_capacity;
     JoxMachineRun *machines;
     uint64_t failures;
+    double arriving; /* s of calls as people come in, outside of steps; estimated */
     /* Agents as they were before the step, for hooks that look at others. */
     uint16_t *before_state, *before_machine;
     double *before_memory;

@@ -171,7 +171,7 @@ static void add_lua(JoxJson *json, const JoScene *scene) {
         seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &own);
         calls += own;
     }
-    double wall = world->state.statistics.wall_s;
+    double wall = world->state.statistics.wall_s + jox_lua_arriving(scene->lua);
     jox_json_object(json, "lua");
     jox_json_whole(json, "calls", calls);
     jox_json_digits(json, "seconds", seconds, 6);

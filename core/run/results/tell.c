@@ -74,7 +74,7 @@ JoLuaCosts *jo_scene_lua_costs(const JoScene *scene) {
     JoxPack pack = {0};
     JoLuaCosts *head = jox_pack_add(&pack, HEAD, sizeof *head);
     jox_pack_list(&pack, HEAD, &head->items, ITEMS);
-    head->stepping = scene->world->state.statistics.wall_s;
+    head->stepping = scene->world->state.statistics.wall_s + jox_lua_arriving(scene->lua);
     for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         JoLuaCost cost;
         for (uint32_t h = 0;
