@@ -50,7 +50,7 @@ SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
 endif
 SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
-SRC_CLI := $(sort $(wildcard core/cli/*.c))
+SRC_CLI := $(sort $(wildcard core/cli/*.c core/cli/bench/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))

@@ -8,7 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/sort.h"
-#include "cli/bench.h"
+#include "cli/bench/bench.h"
 
 enum { CPU_LENGTH = 100 };
 #ifdef __clang__

@@ -4,8 +4,7 @@
 
 #include "base/clock.h"
 #include "base/mem.h"
-#include "cli/bench.h"
-#include "cli/cli.h"
+#include "cli/bench/bench.h"
 
 static const double SPACING = 0.7; /* m, between people at the beginning */
 enum { STEPS_A_WAY = 10 };         /* that everybody keeps on in a direction */
