@@ -24,7 +24,6 @@ static const char *agents_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
     JOX_MUST(w->state.tick < UINT32_MAX && w->machines.tick <= w->state.tick);
     const uint32_t bodies = jox_bodies_rows(w->state.bodies);
-    JOX_MUST(w->state.settled || w->state.first_unsettled <= a->next_id);
     JOX_MUST(a->count <= a->capacity && a->count <= a->next_id);
     JOX_MUST(a->count + a->free_count == a->slot_count);
     for (uint32_t r = 0; r < a->count; r++) {

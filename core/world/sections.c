@@ -51,8 +51,6 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     JOX_SECTION(s, "walls_came", w->state.walls_came);
     for (uint32_t v = 0; w->state.walls_came && v < own; v++) /* of made walls they say it */
         JOX_SECTION(s, "came", walls->vertices[v].came);
-    JOX_SECTION(s, "settled", w->state.settled);
-    JOX_SECTION(s, "first_unsettled", w->state.first_unsettled);
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && w->state.walls_set) {
         w->state.walls_set = false;
         jox_world_raise_walls(w);

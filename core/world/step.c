@@ -231,7 +231,6 @@ bool jox_world_step(JoWorld *w) {
     jox_world_sources(w);
     jox_world_starts(w);
     jox_nav_end_births(w->scratch.nav);
-    w->state.settled = true;
     JOX_CHECK(jox_world_model_check(w));
     JOX_CHECK(jox_world_agents_check(w));
     const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;

@@ -40,7 +40,6 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->machines.walls = &world->model.all_walls;
     world->state.routes = jox_routes_create();
     world->state.walls_set = true;
-    world->state.settled = true;
     return world;
 }
 
@@ -150,9 +149,6 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint
 }
 
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {
-    if (world->state.settled)
-        world->state.first_unsettled = world->state.agents.next_id;
-    world->state.settled = false;
     uint32_t i = jox_agents_add_alike(&world->state.agents);
     JoxAgents *a = &world->state.agents;
     a->x[i] = a->prev_x[i] = a->still_x[i] = x;

@@ -88,9 +88,6 @@ typedef struct JoxWorldState {
     JoxMadeWall *made;      /* walls that were added to those of the model, in order */
     uint32_t made_count;
     size_t made_capacity;
-    uint32_t
-        first_unsettled; /* unless settled: id of the first agent added since the last settling */
-    bool settled;
     bool walls_set;  /* scratch.walls, nav and bodies are as all_walls says */
     bool walls_came; /* some edges of walls are marked as such, and people may stand there */
     JoxExits exits;  /* figures of the run, which no step reads */

@@ -393,8 +393,6 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     REFUSED(world->state.tick, (uint64_t)1 << 40);
     REFUSED(world->state.statistics.removed, 1u << 30);
     REFUSED(world->state.statistics.failures, UINT64_MAX);
-    world->state.settled = false; /* from here on somebody is to be settled before the next step */
-    REFUSED(world->state.first_unsettled, 1u << 30);
     REFUSED_AS("machines.state", a->was_true[3], UINT32_MAX);
     REFUSED_AS("machines.state", a->given[3], UINT64_MAX);
     until_called(scene);
