@@ -28,6 +28,19 @@ def nothing_is_zero(browser):
     expect(not browser.find("#loading").is_displayed() and browser.find("#picture").is_displayed(), "the loading note stays")
 
 
+@served("run", "scenes/circle.yaml", "--view")
+def tabs_keep_their_places(browser):
+    """tabs keep their places when others are selected and when a person is chosen"""
+    places = "return [...document.querySelectorAll('#tabs button')].filter((tab) => !tab.hidden).map((tab) => tab.getBoundingClientRect().left + ',' + tab.getBoundingClientRect().top + ',' + tab.offsetWidth)"
+    before = browser.run(places)
+    expect(len(before) > 4, f"there are {len(before)} tabs")
+    for name in ("machine", "charts", "scene"):
+        browser.run(f"page.panel.show('{name}')")
+        expect(browser.run(places) == before, f"with {name} selected they are at {browser.run(places)}, before at {before}")
+    browser.run("page.inspect(0)")
+    expect(browser.run(places) == before, "with a person chosen they lie elsewhere")
+
+
 def recordings_say_about(browser):
     """the page of a recording with its scene says what that is about"""
     folder = temporary_copy({})
@@ -43,4 +56,4 @@ def recordings_say_about(browser):
         session.stop()
 
 
-TESTS = [materials_stay, nothing_is_zero, recordings_say_about]
+TESTS = [materials_stay, nothing_is_zero, tabs_keep_their_places, recordings_say_about]

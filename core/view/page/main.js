@@ -185,7 +185,7 @@ class Page {
         byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
         for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
-        this.panel.offer("agent", this.slot !== null);
+        this.enablePerson(this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
         const live = scene.session !== "replay";
         this.panel.offer("engine", live);
@@ -224,7 +224,7 @@ class Page {
         if (!agent) {
             this.slot = this.overlay.chosen = this.overlay.forces = this.person = null;
             this.messages.say("The person that was chosen is gone.");
-            this.panel.offer("agent", false);
+            this.enablePerson(false);
         } else {
             if (this.person?.id !== agent.id) announce(byId("described"), agent);
             this.person = agent;
@@ -272,13 +272,17 @@ class Page {
         }
     }
 
+    enablePerson(chosen) {
+        this.panel.enable("agent", chosen, "Click a person");
+    }
+
     inspect(slot) {
         if (slot === this.slot) return;
         this.slot = this.overlay.chosen = slot;
         this.person = this.overlay.forces = null;
         if (this.recorded()) this.seePerson();
         else this.connection.send({ do: "inspect", slot });
-        this.panel.offer("agent", slot !== null);
+        this.enablePerson(slot !== null);
         if (slot === null) this.agentPage.none();
         else if (this.view.tool === "select") this.panel.show("agent");
         if (slot === null) this.follow(false);

@@ -10,7 +10,7 @@ export class Panel {
         this.pages = {};
         this.tabs = {};
         for (const [name, text] of Object.entries(NAMES)) {
-            const tab = el("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `page-${name}`,
+            const tab = el("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `page-${name}`, "data-name": text,
                 onclick: () => this.show(name), onkeydown: (event) => this.key(event, name) }, text);
             const page = el("div", { className: "page", id: `page-${name}`, role: "tabpanel", tabIndex: 0, "aria-labelledby": `tab-${name}`, hidden: true });
             this.tabs[name] = tab;
@@ -27,8 +27,16 @@ export class Panel {
         this.show("scene");
     }
 
+    /** A tab that the scene has no use for is not there. */
     offer(name, on) {
         this.tabs[name].hidden = !on;
+        if (!on && this.front === name) this.show("scene");
+    }
+
+    /** A tab whose page is empty at times keeps its place, or the others would jump. */
+    enable(name, on, hint) {
+        this.tabs[name].disabled = !on;
+        this.tabs[name].title = on ? "" : hint;
         if (!on && this.front === name) this.show("scene");
     }
 
@@ -43,7 +51,7 @@ export class Panel {
     }
 
     key(event, name) {
-        const names = Object.keys(NAMES).filter((n) => !this.tabs[n].hidden), at = names.indexOf(name);
+        const names = Object.keys(NAMES).filter((n) => !this.tabs[n].hidden && !this.tabs[n].disabled), at = names.indexOf(name);
         const next = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: names.length - 1 }[event.key];
         if (next === undefined) return;
         event.preventDefault();
