@@ -15,8 +15,8 @@ typedef struct JoxLiveSetBy {
 JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
                              int parameter);
 void jox_live_set_by_free(JoxLiveSetBy *by);
-/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
-   parameters; transitions with their conditions as written. */
+/* Writes the scene's machines, an array: name, path, version, reloads, start; defaults and states
+   with their parameters; transitions with their conditions as written. */
 void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key);
 /* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
 bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json);

@@ -134,7 +134,8 @@ static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxJson
     jox_json_object(json, NULL);
     jox_json_string(json, "name", machine->name);
     jox_json_string(json, "path", machine->path);
-    jox_json_whole(json, "version", machine->version);
+    jox_json_number(json, "version", machine->version);
+    jox_json_whole(json, "reloads", machine->reloads);
     jox_json_string(json, "start", machine->states[machine->start].name);
     add_parameters(scene, machine, NULL, json, "defaults");
     jox_json_array(json, "states");

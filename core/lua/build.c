@@ -1,4 +1,5 @@
 /* The returned table becomes a JoxMachine. Everything wrong is reported, not only the first. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -108,6 +109,19 @@ static void read_states(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
+/* The author's number of the file, which messages give. */
+static void read_version(JoxBuild *b, int index) {
+    lua_State *L = b->script->vm.L;
+    const int type = jox_read_field(L, index, "version");
+    if (type == LUA_TNUMBER && isfinite(lua_tonumber(L, -1)))
+        b->machine->version = lua_tonumber(L, -1);
+    else if (type != LUA_TNIL)
+        jox_build_error(b, jox_read_at(b, "version"), "bad-value", "version = 1",
+                        "version must be a finite number, not %s",
+                        type == LUA_TNUMBER ? "this one" : lua_typename(L, type));
+    lua_pop(L, 1);
+}
+
 static void read_start(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(b->machine->start == 0);
@@ -205,7 +219,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     }
     size_t errors = script->diagnostics->errors;
     JoxMachine *m = build.machine = script->built = jox_alloc(1, sizeof *m);
-    m->version = 1;
+    m->version = (double)NAN;
     m->vm = -1;
     m->path = jox_strdup(source->path);
     m->files = jox_alloc(script->vm.source_count, sizeof *m->files);
@@ -231,6 +245,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         jox_build_error(&build, jox_read_at(&build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);
+    read_version(&build, table);
     read_defaults(&build, table);
     jox_read_own(&build, table);
     read_states(&build, table);

@@ -1,5 +1,7 @@
 #include "machine/machine.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -10,6 +12,22 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
         if (strcmp(machine->states[s].name, name) == 0)
             return (int)s;
     return -1;
+}
+
+const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]) {
+    char version[JOX_VERSION_TEXT / 2] = "", reload[JOX_VERSION_TEXT / 2] = "";
+    if (!isnan(machine->version))
+        snprintf(version, sizeof version, "version %.15g", machine->version);
+    if (machine->reloads > 0)
+        snprintf(reload, sizeof reload, "reload %u", machine->reloads);
+    if (*version && *reload)
+        snprintf(out, JOX_VERSION_TEXT, "%s (%s)", version, reload);
+    else
+        snprintf(out, JOX_VERSION_TEXT, "%s",
+                 *version  ? version
+                 : *reload ? reload
+                           : "the first version");
+    return out;
 }
 
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name) {

@@ -333,7 +333,8 @@ typedef struct JoxMachine {
     char *name, *path;
     char **files; /* paths of all files that it was made of, `path` first; may be none */
     uint32_t file_count;
-    uint32_t version;
+    double version;   /* the author's; NaN: the file has none */
+    uint32_t reloads; /* machines that it replaced, one after the other */
     uint16_t start;
     JoxValue defaults[JOX_PARAM_COUNT];
     JoxState *states;
@@ -390,6 +391,10 @@ typedef enum { JOX_PART_STATE, JOX_PART_OWN, JOX_PART_MEMORY } JoxPart;
 bool jox_machine_has(const JoxMachine *machine, JoxPart part, const char *name);
 /* What it calls the part now that was called `name`, which it has no longer; else NULL. */
 const char *jox_machine_renamed(const JoxMachine *machine, JoxPart part, const char *name);
+enum { JOX_VERSION_TEXT = 64 };
+/* Writes what messages call the text that a machine was made of: "version 10 (reload 3)", without
+   what it lacks; a first text without a version is "the first version". Returns `out`. */
+const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]);
 /* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */
 void jox_machine_free(JoxMachine *machine);
 

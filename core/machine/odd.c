@@ -20,10 +20,10 @@ static bool comes_before(const JoxOdd *a, const JoxOdd *b) {
 }
 
 static bool was_told(const JoxMachineRun *run, const JoxOdd *odd) {
-    const uint32_t version = run->set->items[odd->machine]->version;
+    const uint32_t reloads = run->set->items[odd->machine]->reloads;
     for (uint32_t n = 0; n < run->told_count; n++) {
         const JoxTold *told = &run->told[n];
-        if (told->machine == odd->machine && told->version == version && told->line == odd->line &&
+        if (told->machine == odd->machine && told->reloads == reloads && told->line == odd->line &&
             told->source == odd->source && told->parameter == odd->parameter)
             return true;
     }
@@ -95,7 +95,7 @@ void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
         info->greatest);
     JOX_RESERVE(run->told, run->told_capacity, run->told_count + 1);
     run->told[run->told_count++] =
-        (JoxTold){odd->machine, machine->version, odd->source, odd->line, odd->parameter};
+        (JoxTold){odd->machine, machine->reloads, odd->source, odd->line, odd->parameter};
 }
 
 void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, double value) {

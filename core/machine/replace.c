@@ -335,7 +335,7 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
     JoxMachineCounts *counts = &run->state->counts[index], was = *counts;
     JOX_ASSERT(r->old == old || r->old == built); /* prepared for what runs */
     *counts = (JoxMachineCounts){0};
-    next->version = old->version + 1;
+    next->reloads = old->reloads + 1;
     jox_machines_put(run, index, next);
     carry_counts(r, old, &was, counts);
     JOX_CHECK(jox_counts_carried_check(&was, counts));

@@ -218,7 +218,7 @@ typedef struct JoxMachineRun {
        Each place in a machine is told of once. */
     JoxText notes;
     struct JoxTold {
-        uint32_t machine, version, source;
+        uint32_t machine, reloads, source;
         int32_t line, parameter;
     } * told;
     uint32_t told_count, told_capacity;

@@ -1,4 +1,5 @@
 /* The swapping half of a reload, between two steps. */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,8 +31,11 @@ static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char
         if (batch->changes[c].added)
             continue;
         const JoxMachine *machine = machines->set->items[batch->changes[c].index];
-        jox_run_say(scene, " Version %u%s%s keeps running; %s unaffected.\n", machine->version,
-                    batch->count > 1 ? " of " : "", batch->count > 1 ? machine->name : "",
+        char version[JOX_VERSION_TEXT];
+        jox_machine_version(machine, version);
+        jox_run_say(scene, " %c%s%s%s keeps running; %s unaffected.\n",
+                    toupper((unsigned char)*version), version + 1, batch->count > 1 ? " of " : "",
+                    batch->count > 1 ? machine->name : "",
                     jox_noun(number, machines->agents->count, "agent"));
     }
     if (batch->count == 0)
@@ -101,15 +105,15 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         jox_lua_adopt(scene->lua, change->loaded);
         jox_machines_people(machines, change->index, after);
         uint32_t people = 0;
-        char number[JOX_NOUN];
+        char number[JOX_NOUN], version[JOX_VERSION_TEXT];
         for (uint32_t s = 0; s < next->state_count; s++)
             people += after[s];
         if (!same_states(old, next)) /* the recording names those of the new version too */
             jox_run_tell_replaced(scene, change->index);
         double took = jox_clock_wall() - begun;
         scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;
-        jox_text_printf(&text, "%s: version %u is live from t = %.2f s", next->path, next->version,
-                        jo_world_time(scene->world));
+        jox_text_printf(&text, "%s: %s is live from t = %.2f s", next->path,
+                        jox_machine_version(next, version), jo_world_time(scene->world));
         if (batch->written > 0.0)
             jox_text_printf(&text, " (saved %.0f ms ago, swapped in %.2f ms)",
                             (jox_clock_date() - batch->written) * 1e3, took * 1e3);

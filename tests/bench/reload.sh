@@ -28,7 +28,7 @@ edit() { # NUMBER: what is changed in the file, of which the original is on stdi
 }
 for i in $(seq "$EDITS"); do
     edit "$i" <behaviours/tawaf.lua >"$file"
-    until grep -q "version $((i + 1)) is live" "$work/said"; do
+    until grep -q "version 1 (reload $i) is live" "$work/said"; do
         kill -0 $pid 2>/dev/null && ! grep -q 'keeps running' "$work/said" || { tail "$work/said"; exit 1; }
         sleep 0.01
     done

@@ -209,10 +209,10 @@ if command -v script >/dev/null; then
     pid=$!
     sleep 1; sed -i 's/perception = 1.5/perception = 2.5/' "$work/s/live.lua"
     wait $pid
-    grep -q 'version 2 is live' "$work/terminal"; verdict "on a terminal files are watched" $?
+    grep -q 'version 1 (reload 1) is live' "$work/terminal"; verdict "on a terminal files are watched" $?
 fi
-grep -q 'version 2 is live' "$work/watch"; verdict "a valid change goes live" $?
-grep -q 'Version 2 keeps running' "$work/watch"; verdict "an invalid one leaves the old running" $?
+grep -q 'version 1 (reload 1) is live' "$work/watch"; verdict "a valid change goes live" $?
+grep -q 'Version 1 (reload 1) keeps running' "$work/watch"; verdict "an invalid one leaves the old running" $?
 
 # The last lines of a run say what it came to; what goes wrong on the way is said when it does.
 printf 'jostle: 1\ntitle: One\nduration: 12\nplaces: {yard: {polygon: [[0, 0], [4, 0], [4, 4], [0, 4]]}, out: {point: [9, 2], radius: 1}}\ngroups: {g: {behaviour: walker.lua, at: [[1, 1]], set: {goal: out}}}\nsinks: [{at: out}]\n' >"$work/one.yaml"

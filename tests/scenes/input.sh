@@ -55,12 +55,12 @@ for i in $(seq 200); do
     sleep 0.05
 done
 sleep 0.2
-sed -i 's/push = shove/push = 33/' "$sheet"; lives "a saved behaviour" "version 2 is live"
+sed -i 's/push = shove/push = 33/' "$sheet"; lives "a saved behaviour" "version 1 (reload 1) is live"
 sed -i 's/push = 33/puhs = 33/' "$sheet"; lives "one that does not load" "unknown key 'puhs'"
 echo 'return 2.5' >"$tree/behaviours/extra.lua"
 sed -i 's/^return machine/local extra = require "extra"\nreturn machine/; s/puhs = 33/push = extra/' "$sheet"
-lives "one that requires a new file" "version 3 is live"
-echo 'return 90' >"$tree/behaviours/extra.lua"; lives "what it requires" "version 4 is live"
+lives "one that requires a new file" "version 1 (reload 2) is live"
+echo 'return 90' >"$tree/behaviours/extra.lua"; lives "what it requires" "version 1 (reload 3) is live"
 sed -i 's/^events:/events:\n  - {at: 1, every: 0.5, signal: hello}/' "$scene"
 grep -q '^events:' "$scene" || printf 'events:\n  - {at: 1, every: 0.5, signal: hello}\n' >>"$scene"
 lives "the scene" "events changed, live"

@@ -185,7 +185,7 @@ for kind in --watch --view=8791; do
     await "edited.lua: reading this file broke the process that read it (Aborted)"; verdict "$kind:   whose end is told" $?
     echo "-- good again
 $rest" >behaviours/edited.lua
-    await "version 2 is live"; verdict "$kind:   and what is saved then goes live" $?
+    await "reload 1 is live"; verdict "$kind:   and what is saved then goes live" $?
     grep -qF -- "-- good again" log; verdict "$kind:   from the bytes that were read" $?
     echo "while true do end $rest" >behaviours/edited.lua
     reader; began=$(date +%s%N); kill -INT $run; wait $run; status=$?

@@ -71,7 +71,7 @@ version=1 edits=0
 live() { # HOW SPEED: saves a sheet that is good; false if it does not go live
     sheet "$2" | "save_$1" "$file" "$2"
     version=$((version + 1)) edits=$((edits + 1))
-    says "version $version is live"
+    says "version 1 (reload $((version - 1))) is live"
 }
 # 100 edits, every tenth of them broken
 bad=""
@@ -83,7 +83,7 @@ for round in $(seq 12); do
     how=$(echo vim code cat mv emacs pause | cut -d' ' -f$((round % 6 + 1)))
     sheet 1.5 | sed 's/steer/stear/' | "save_$how" "$file" 1.5
     edits=$((edits + 1))
-    says "Did you mean 'steer'?" $round && says "Version $version keeps running" || bad="$bad broken:$how"
+    says "Did you mean 'steer'?" $round && says "Version 1 (reload $((version - 1))) keeps running" || bad="$bad broken:$how"
     [ "$(count 'keeps running')" -gt "$refused" ] || bad="$bad silent:$how"
 done
 [ -z "$bad" ]; verdict "$edits edits as editors make them$bad" $?
@@ -93,7 +93,7 @@ lines=$(wc -l <"$said")
 sheet 1.9 >"$file"; sheet 1.9 | save_vim "$file"; touch "$file"; sheet 1.9 | save_mv "$file"
 quiet "what is saved without a change is left alone" "$lines"
 rm "$file"; sleep 0.1; sheet 1.95 >"$file"; version=$((version + 1))
-expect "a file that was away for a while" "version $version is live"
+expect "a file that was away for a while" "version 1 (reload $((version - 1))) is live"
 : >"$work/behaviours/stop"
 ( while [ -e "$work/behaviours/stop" ]; do : >"$work/behaviours/walker.log"; sleep 0.002; done ) &
 noise=$!
@@ -103,11 +103,18 @@ lines=$(wc -l <"$said")
 sheet 1.3 >"$work/behaviours/.walker.lua.swp"; sheet 1.3 >"$file~"; sheet 1.3 >"$work/behaviours/walker.lua.bak"
 quiet "backups and swap files are not looked at" "$lines"
 rm -f "$file~"
-sheet 1.4 ', Later = { steer = hold }' >"$file"; says "version $((version + 1)) is live"
+sheet 1.4 ', Later = { steer = hold }' >"$file"; says "version 1 (reload $version) is live"
 sed -i 's/start = "Walk"/start = "Later"/; s/Walk = /Stroll = /' "$file"
 expect "people cannot lose their state" "20 agents are in 'Walk', which this version lacks"
 sed -i 's/start = "Later",/start = "Later", renamed = { Walk = "Stroll" },/' "$file"
 expect "a state is renamed" "after:   Stroll 20"
+version=$((version + 2))
+sed -i 's/version = 1,/version = 10,/' "$file"
+expect "the version that the file gives is said, with the count of reloads" "walker.lua: version 10 (reload $version) is live"
+sed -i 's/start = "Later"/start = "Late"/' "$file"
+expect "and which one goes on" "Version 10 (reload $version) keeps running"
+sed -i 's/version = 10, //; s/start = "Late"/start = "Later"/' "$file"
+expect "a file without a version is told by the count" "walker.lua: reload $((version + 1)) is live"
 end "a run that was edited ends well"
 
 # ---- files that are required ----
@@ -119,41 +126,41 @@ pace 0.5 >"$lib"; user 1 >"$work/behaviours/a.lua"; user 1 >"$work/behaviours/b.
 scene "a b c" >"$dir/scene.yaml"
 begin
 pace 0.6 | save_vim "$lib"
-says "a.lua: version 2 is live" && says "b.lua: version 2 is live"; verdict "all that require a file go live with it" $?
+says "a.lua: version 1 (reload 1) is live" && says "b.lua: version 1 (reload 1) is live"; verdict "all that require a file go live with it" $?
 echo 'local pace = {' >"$lib"
-says "pace.lua:" && says "Version 2 of walker keeps running" 2; verdict "a required file that is broken" $?
+says "pace.lua:" && says "Version 1 (reload 1) of walker keeps running" 2; verdict "a required file that is broken" $?
 pace 0.7 >"$lib"
-says "a.lua: version 3 is live" && says "b.lua: version 3 is live"; verdict "and mended" $?
+says "a.lua: version 1 (reload 2) is live" && says "b.lua: version 1 (reload 2) is live"; verdict "and mended" $?
 [ "$(count 'c.lua: version')" = 0 ]; verdict "what does not require it is left alone" $?
 
 # One of two cannot go on: neither does, until it is mended.
 sheet 1.5 >"$work/behaviours/c.lua"; user 2 >"$work/behaviours/b.lua"; pace 0.75 >"$lib"; echo 'return machine {' >"$work/behaviours/a.lua"
-says "Version 3 of walker keeps running" 2 && [ "$(count 'b.lua: version 4')" = 0 ]; verdict "good files saved together with a broken one that they hang together with" $?
-expect "one that has nothing to do with it goes live" "c.lua: version 2 is live"
+says "Version 1 (reload 2) of walker keeps running" 2 && [ "$(count 'b.lua: version 1 (reload 3)')" = 0 ]; verdict "good files saved together with a broken one that they hang together with" $?
+expect "one that has nothing to do with it goes live" "c.lua: version 1 (reload 1) is live"
 user 2 >"$work/behaviours/a.lua"
-says "a.lua: version 4 is live" && says "b.lua: version 4 is live"; verdict "they go live with it, mended" $?
+says "a.lua: version 1 (reload 3) is live" && says "b.lua: version 1 (reload 3) is live"; verdict "they go live with it, mended" $?
 pace 0.8 >"$lib"; sed -i 's/Walk/Run/g' "$work/behaviours/b.lua"
-says "20 agents are in 'Walk'" && [ "$(count 'a.lua: version 5')" = 0 ]; verdict "one of two is refused for its people" $?
+says "20 agents are in 'Walk'" && [ "$(count 'a.lua: version 1 (reload 4)')" = 0 ]; verdict "one of two is refused for its people" $?
 sed -i 's/start = "Run"/start = "Run", renamed = { Walk = "Run" }/' "$work/behaviours/b.lua"
-says "b.lua: version 5 is live" && says "a.lua: version 5 is live"; verdict "both go live when it says what becomes of them" $?
+says "b.lua: version 1 (reload 4) is live" && says "a.lua: version 1 (reload 4) is live"; verdict "both go live when it says what becomes of them" $?
 
 # Requiring what is not there yet.
 sed -i 's/require "pace"/require "gait"/' "$work/behaviours/a.lua"
 expect "a required file that is missing" "cannot require 'gait'"
 pace 0.9 >"$work/behaviours/gait.lua"
-expect "and is written then" "a.lua: version 6 is live"
+expect "and is written then" "a.lua: version 1 (reload 5) is live"
 pace 0.4 >"$work/behaviours/gait.lua"
-expect "and is watched from then on" "a.lua: version 7 is live"
+expect "and is watched from then on" "a.lua: version 1 (reload 6) is live"
 sed -i 's/require "gait"/require "gaits\/slow"/' "$work/behaviours/a.lua"
 expect "a required file in a folder that is missing" "cannot require 'gaits/slow'"
 mkdir "$work/behaviours/gaits"; sleep 0.1; pace 0.9 >"$work/behaviours/gaits/slow.lua"
-expect "and is made then" "a.lua: version 8 is live"
+expect "and is made then" "a.lua: version 1 (reload 7) is live"
 mv "$work/behaviours/gaits" "$work/other/gaits"; sleep 0.05
 mkdir "$work/behaviours/gaits"; pace 0.2 >"$work/behaviours/gaits/slow.lua"
-expect "a folder that another one replaces" "a.lua: version 9 is live"
+expect "a folder that another one replaces" "a.lua: version 1 (reload 8) is live"
 rm -r "$work/behaviours/gaits"; sleep 0.05
 mkdir "$work/behaviours/gaits"; pace 0.1 >"$work/behaviours/gaits/slow.lua"
-expect "a folder that is removed and made again" "a.lua: version 10 is live"
+expect "a folder that is removed and made again" "a.lua: version 1 (reload 9) is live"
 lines=$(wc -l <"$said")
 pace 0.3 >"$work/behaviours/gait.lua"
 quiet "what is no longer required is left alone" "$lines"
@@ -162,10 +169,10 @@ quiet "what is no longer required is left alone" "$lines"
 printf 'print("hello from c")\nreturn machine { name = "walker", start = "Walk",\n states = { Walk = { steer = hold, { to = "Leave", when = after(0.2) } },\n  Leave = { become = "d" } } }\n' >"$work/behaviours/c.lua"
 expect "a behaviour begins to become another that is missing" "there is no behaviour 'd'"
 sheet 1 >"$work/behaviours/d.lua"
-expect "and is written then" "c.lua: version 3 is live"
+expect "and is written then" "c.lua: reload 2 is live"
 grep -q 'hello from c' "$said"; verdict "what it prints while loading is said" $?
 sheet 0.5 >"$work/behaviours/d.lua"
-says "d.lua: version 2 is live" && says "before:  Walk 20" ; verdict "and the other one is watched" $?
+says "d.lua: version 1 (reload 1) is live" && says "before:  Walk 20" ; verdict "and the other one is watched" $?
 end "a run whose files require each other ends well"
 
 # ---- mods ----
@@ -176,9 +183,9 @@ patch 20 >"$work/slow/patches/walker.lua"
 sheet 1 >"$file"; scene walker >"$dir/scene.yaml"
 begin --mod "$work/slow"
 patch 30 | save_vim "$work/slow/patches/walker.lua"
-expect "a patch of a mod goes live" "walker.lua: version 2 is live"
+expect "a patch of a mod goes live" "walker.lua: version 1 (reload 1) is live"
 patch '"x"' >"$work/slow/patches/walker.lua"
-expect "a patch that is wrong does not" "Version 2 keeps running"
+expect "a patch that is wrong does not" "Version 1 (reload 1) keeps running"
 end "a run with a mod ends well"
 
 # ---- the scene's own file ----
@@ -206,7 +213,7 @@ expect "a place moves meanwhile" "places changed, live from" 3
 cp "$work/kept.yaml" "$dir/scene.yaml"; gate 4 >"$dir/more.yaml"
 expect "and back" "places changed, live from" 4
 sheet 1.2 >"$file"
-expect "a behaviour after the scene" "version 2 is live"
+expect "a behaviour after the scene" "version 1 (reload 1) is live"
 sheet 1.2 ', At = { steer = seek(own.goal) }' >"$file"
 expect "a value that the scene does not set" "'goal' is no parameter, and no group that runs walker sets it"
 expect "is shown where it stands" "own.goal"
@@ -214,7 +221,7 @@ sed -i 's/speed: 0.4/speed: 0.4, goal: gate/' "$dir/scene.yaml"
 expect "the scene sets it" "values that groups set changed" 2
 sheet 1.2 ', At = { steer = seek(own.goal), { to = "Gone", when = near(own.goal, 1) } }, Gone = { removes = true }' |
     sed 's/hold/hold, { to = "At", when = after(0) }/' >"$file"
-expect "then it is taken" "version 3 is live"
+expect "then it is taken" "version 1 (reload 2) is live"
 sleep 0.5; sed -i 's/after(0)/after(0.01)/' "$file"
-says "version 4 is live" && ! grep -A1 'version 4 is live' "$said" | grep -q 'before:.* 20$'; verdict "and people get where it is" $?
+says "version 1 (reload 3) is live" && ! grep -A1 'version 1 (reload 3) is live' "$said" | grep -q 'before:.* 20$'; verdict "and people get where it is" $?
 end "a run whose scene was edited ends well"

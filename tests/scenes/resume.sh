@@ -54,7 +54,7 @@ cmp -s "$work/live/log" "$work/live/whole.log"; verdict "  and the log that is w
 (cd "$work/live" && exec "$program" run scene.yaml --quiet --steps 900000000 --watch --log-input log --checkpoint 5 --checkpoint-dir reloaded) 2>"$work/live/said" & pid=$!
 for _ in $(seq 100); do [ -s "$work/live/reloaded/before.checkpoint" ] && break; sleep 0.1; done
 sed -i 's/perception = 1.5/perception = 2.5/' "$work/live/live.lua"
-for _ in $(seq 100); do grep -q 'version 2 is live' "$work/live/said" && break; sleep 0.1; done
+for _ in $(seq 100); do grep -q 'version 1 (reload 1) is live' "$work/live/said" && break; sleep 0.1; done
 sleep 0.5; kill -KILL $pid; wait $pid 2>/dev/null
 sed -i 's/perception = 2.5/perception = 0.5/' "$work/live/live.lua"
 cp "$work/live/log" "$work/live/until"; rm -f "$work/live/whole.json" "$work/live/rest.json"

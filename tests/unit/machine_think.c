@@ -26,7 +26,6 @@ static JoxMachine *new_machine(uint32_t states) {
     JoxMachine *m = jox_alloc(1, sizeof *m);
     m->name = jox_strdup("m");
     m->path = jox_strdup("m.lua");
-    m->version = 1;
     m->vm = -1;
     m->state_count = states;
     m->states = jox_alloc(states, sizeof *m->states);
@@ -345,7 +344,7 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     assert_true(memory[0] == 2.0 && memory[1] == 6.0);
     assert_int_equal(f.agents.state[3], 1);
     assert_int_equal(f.agents.entered[3], entered);
-    assert_int_equal(f.set.items[0]->version, 2);
+    assert_int_equal(f.set.items[0]->reloads, 1);
     end(&f);
 }
 

@@ -108,7 +108,7 @@ static void a_state_with_people_cannot_disappear(void **state) {
     assert_non_null(strstr(why, "312 agents are in 'Greet', which this version lacks"));
     assert_non_null(strstr(why, "renamed"));
     assert_int_equal(jo_world_hash(scene->world), before);
-    assert_int_equal(scene->world->model.machines.items[0]->version, 2);
+    assert_int_equal(scene->world->model.machines.items[0]->reloads, 1);
     step(scene, 8);
     assert_string_equal(state_of(scene, 311), "Greet");
     jo_scene_free(scene);

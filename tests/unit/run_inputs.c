@@ -383,12 +383,12 @@ static void files_of_a_log_go_live(void **state) {
     assert_true((float)speed_of(scene, 0) == 0.7f);
     step(scene, 1);
     assert_true((float)speed_of(scene, 0) == 0.9f);
-    assert_non_null(strstr(said.data, "version 2 is live from t = 0.15 s\n"));
+    assert_non_null(strstr(said.data, "reload 1 is live from t = 0.15 s\n"));
     assert_null(strstr(said.data, "ms ago"));
     step(scene, 3);
     assert_non_null(
         strstr(said.data, "files.input:10: t = 0.30 s: the files that follow were not"));
-    assert_non_null(strstr(said.data, "Version 2 keeps running"));
+    assert_non_null(strstr(said.data, "Reload 1 keeps running"));
     assert_true((float)speed_of(scene, 0) == 0.9f);
     JoError error = {0};
     assert_false(jo_scene_watch(scene, &error));
