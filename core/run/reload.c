@@ -111,6 +111,11 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     }
     for (uint32_t f = 0; f < scene->spec_file_count; f++)
         use_first(r, JOX_PART_SCENE, scene->spec_files[f]);
+    for (uint32_t m = 0; m < scene->mods->count; m++) {
+        char path[JOX_LONGEST_PATH];
+        jox_reload_mod_file(scene, m, path);
+        use_first(r, JOX_PART_MODS, path);
+    }
     scene->reload = r;
     return r;
 }

@@ -41,6 +41,11 @@ static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
     }
     for (uint32_t f = 0; batch->spec_files.count > f; f++)
         jox_reload_use(r, JOX_PART_SCENE, batch->spec_files.paths[f]);
+    for (uint32_t m = 0; batch->parts[JOX_PART_MODS] && m < r->scene->mods->count; m++) {
+        char path[JOX_LONGEST_PATH];
+        jox_reload_mod_file(r->scene, m, path);
+        jox_reload_use(r, JOX_PART_MODS, path);
+    }
 }
 
 void jox_reload_free_retired(JoxReload *r) {
@@ -138,6 +143,24 @@ static void load_plan(JoxReload *r, JoxBatch *batch) {
     batch->failed |= !batch->spec;
     for (uint32_t f = 0; batch->spec && f < batch->spec->file_count; f++)
         jox_files_add(&batch->spec_files, batch->spec->files[f].path);
+}
+
+void jox_reload_mod_file(const JoScene *scene, uint32_t mod, char path[JOX_LONGEST_PATH]) {
+    snprintf(path, JOX_LONGEST_PATH, "%s/mod.yaml", scene->mods->items[mod].folder);
+}
+
+/* Names each mod.yaml that was edited: which mods there are, in what order and with what settings
+   is settled when a scene begins. */
+static void say_mods(const JoxReload *r, JoxBatch *batch) {
+    for (uint32_t m = 0; m < r->scene->mods->count; m++) {
+        char path[JOX_LONGEST_PATH];
+        jox_reload_mod_file(r->scene, m, path);
+        if (jox_changes_has(&r->changes, JOX_PART_MODS, path))
+            jox_text_printf(&batch->said,
+                            "%s changed; what it says of the mod, as of its settings, takes effect "
+                            "at the next start\n",
+                            path);
+    }
 }
 
 /* Works out what it takes to put the new version in the place of the old. */
@@ -262,7 +285,9 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
         if (parts[m])
             add_change(batch, m, machines->set->items[m]->path);
-    if (r->watch && scene->vetter)
+    if (parts[JOX_PART_MODS])
+        say_mods(r, batch);
+    if (r->watch && scene->vetter && (batch->count || parts[JOX_PART_SCENE]))
         load_vetted(r, batch);
     else
         load_parts(r, batch);

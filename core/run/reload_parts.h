@@ -68,6 +68,8 @@ void jox_batch_free(JoxBatch *batch);
 void jox_reload_free_retired(JoxReload *reload);
 /* A part is made of a file. False with errno if the file cannot be watched. */
 bool jox_reload_use(JoxReload *reload, uint32_t part, const char *path);
+/* Writes the path of the mod.yaml of one of the scene's mods. */
+void jox_reload_mod_file(const JoScene *scene, uint32_t mod, char path[JOX_LONGEST_PATH]);
 /* reload_swap.c: on the stepping thread, between two steps: all of a batch goes live, or nothing of
    it and people are told why. It is handed back through `retired`. True if it is live. */
 bool jox_batch_take(JoScene *scene, JoxBatch *batch);

@@ -186,6 +186,13 @@ patch 30 | save_vim "$work/slow/patches/walker.lua"
 expect "a patch of a mod goes live" "walker.lua: version 1 (reload 1) is live"
 patch '"x"' >"$work/slow/patches/walker.lua"
 expect "a patch that is wrong does not" "Version 1 (reload 1) keeps running"
+sed 's/title: Slow/title: Slower/' "$work/slow/mod.yaml" | save_vim "$work/slow/mod.yaml"
+expect "a mod.yaml that is edited is told" "slow/mod.yaml changed; what it says of the mod, as of its settings, takes effect at the next start"
+patch 35 >"$work/slow/patches/walker.lua"
+expect "what is mended goes live as before" "walker.lua: version 1 (reload 2) is live"
+echo 'settings: {weight: {value: 2}}' >>"$work/slow/mod.yaml"
+expect "and is told once more" "slow/mod.yaml changed; what it says" 2
+[ "$(count 'slow/mod.yaml changed')" = 2 ]; verdict "each time once" $?
 end "a run with a mod ends well"
 
 # ---- the scene's own file ----

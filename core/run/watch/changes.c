@@ -48,6 +48,13 @@ static void forget(JoxChanges *changes, uint32_t file) {
     changes->files[file] = changes->files[--changes->count];
 }
 
+bool jox_changes_has(const JoxChanges *changes, uint32_t part, const char *path) {
+    for (uint32_t f = 0; f < changes->count; f++)
+        if (strcmp(changes->files[f].path, path) == 0)
+            return holds(&changes->made_of[part], path);
+    return false;
+}
+
 void jox_changes_drop(JoxChanges *changes, const char *path) {
     for (uint32_t f = changes->count; f-- > 0;)
         if (strcmp(changes->files[f].path, path) == 0)

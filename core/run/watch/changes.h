@@ -9,8 +9,9 @@
 
 #include "machine/run.h"
 
-/* Parts are machines by their index, and the scene's specification. */
-enum { JOX_PART_SCENE = JOX_MOST_MACHINES, JOX_PARTS };
+/* Parts are machines by their index, the scene's specification, and the mod.yaml files of its mods.
+ */
+enum { JOX_PART_SCENE = JOX_MOST_MACHINES, JOX_PART_MODS, JOX_PARTS };
 
 typedef struct JoxFiles {
     char **paths;
@@ -39,6 +40,8 @@ typedef struct JoxChanges {
 /* A part uses a file too. */
 void jox_changes_uses(JoxChanges *changes, uint32_t part, const char *path);
 void jox_changes_file(JoxChanges *changes, const char *path, double written);
+/* Whether a part uses a file that has changed and is not live. */
+bool jox_changes_has(const JoxChanges *changes, uint32_t part, const char *path);
 /* The file is live as it is: it has not changed. */
 void jox_changes_drop(JoxChanges *changes, const char *path);
 /* Whether a file has changed that was not tried yet. */
