@@ -8,8 +8,8 @@
 const char *const jox_danger_names[] = {"density", "pressure", "compression",
                                         "load",    "dose",     "voronoi"};
 const char *const jox_danger_titles[] = {
-    "density " JOX_DENSITY_BY, "crowd pressure", "compression",
-    "load from one side",      "dose of load",   "Voronoi density of a person (cell within 1 m)"};
+    ("density " JOX_DENSITY_BY), "crowd pressure", "compression",
+    "load from one side",        "dose of load",   "Voronoi density of a person (cell within 1 m)"};
 const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m", "N", "", "1/m2"};
 
 const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
