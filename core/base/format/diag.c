@@ -146,7 +146,7 @@ void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
         if (item->hint)
             jox_text_printf(out, ". %s", item->hint);
         jox_text_append(out, "\n", 1);
-        if (item->source && item->line > 0)
+        if (item->source && item->line > 0 && item->severity != JOX_SEVERITY_NOTE)
             print_source(item, out);
         if (item->context)
             jox_text_printf(out, " %s\n", item->context);
