@@ -25,11 +25,6 @@ bool jox_mods_is_folder(const char *path) {
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-static bool same_folder(const char *a, const char *b) {
-    struct stat x, y;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
 char *jox_mods_join(JoxArena *arena, const char *folder, const char *name) {
     char *path = jox_arena_take(arena, strlen(folder) + strlen(name) + 2, 1);
     sprintf(path, "%s/%s", folder, name);
@@ -165,7 +160,7 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     JoxMods *mods = f->mods;
     const JoxReader *r = &f->reader;
     for (uint32_t m = 0; m < mods->found_count; m++)
-        if (same_folder(mods->found[m].folder, folder)) {
+        if (jox_path_same(mods->found[m].folder, folder)) {
             f->needs[m].wanted |= wanted;
             return;
         }

@@ -65,7 +65,7 @@ static bool is_required_in(const char *folder, const char *module, const char *b
         char path[2048];
         size_t length;
         snprintf(path, sizeof path, "%s/%s", folder, *name);
-        char *text = ends_with(*name, ".lua") && strcmp(path, but) != 0
+        char *text = ends_with(*name, ".lua") && !jox_path_same(path, but)
                          ? jox_read_file(path, (size_t)1 << 20, &length)
                          : NULL;
         found = text && requires(text, module);
@@ -312,6 +312,7 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     for (char **name = names; name && *name; name++) {
         char inner[1024];
         snprintf(inner, sizeof inner, "%s/%s", path, *name);
+        jox_path_clean(inner); /* as scenes name it that lie beside it */
         bool patches = mod && strcmp(*name, "patches") == 0; /* looked at above */
         if (!patches)
             check_path(inner, false, depth + 1, mod, all);

@@ -4,12 +4,12 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/assert.h"
 #include "base/file.h"
 #include "base/format/noun.h"
+#include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -41,13 +41,6 @@ static bool is_given(const Migration *m, const char *file) {
             return true;
     }
     return false;
-}
-
-/* Two ways to write the path of one file. */
-static bool is_same_file(const char *a, const char *b) {
-    struct stat x, y;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino);
 }
 
 /* Whether a diagnostic is of a name that was changed, in a file. */
@@ -190,7 +183,7 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
 static size_t first_of_file(const JoxDiagnostics *all, size_t i) {
     size_t first = 0;
     while (first < i && !(is_renamed(&all->items[first]) &&
-                          is_same_file(all->items[first].file, all->items[i].file)))
+                          jox_path_same(all->items[first].file, all->items[i].file)))
         first++;
     return first;
 }

@@ -258,6 +258,18 @@ sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/
 expect "people in walls are told before the first step" 0 "of the 3 people of group 'g' were placed at a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
 "$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check that warns does not say that nothing is wrong" $?
+# A behaviour that a scene names, too, is one file however it is reached.
+twice=$work/twice program=$(realpath "$JOSTLE")
+mkdir -p "$twice/lib"
+printf 'local pace = require "lib/pace"\nreturn machine { name = "w", start = "A", states = {\n  A = { steer = hold, speed = pace },\n  Lost = { steer = hold } } }\n' >"$twice/w.lua"
+echo 'return 1.2' >"$twice/lib/pace.lua"
+printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: w.lua, at: [[0, 0]]}}\n' >"$twice/a.yaml"
+for paths in . "a.yaml ." ". a.yaml" ". $twice" "w.lua ./w.lua ." "../twice ."; do
+    (cd "$twice" && "$program" check $paths) >"$work/out" 2>&1
+    [ "$(grep -c "nothing leads to state 'Lost'" "$work/out")" = 1 ] && tail -1 "$work/out" | grep -q '^0 errors, 1 warning'; verdict "check tells a warning once: $paths" $?
+    cp "$twice/a.yaml" "$twice/b.yaml"
+done
+(cd "$twice" && "$program" check .) | grep -q '^w.lua:4:3: warning:'; verdict "  by the path that scenes have" $?
 
 printf 'return machine { name = "asks", start = "A", states = { A = { steer = hold,\n  { to = "B", when = near(nearest("people"):in_state("Aa"), 2) } }, B = { removes = true } } }\n' >"$work/asks.lua"
 printf 'jostle: 1\ngroups: {g: {behaviour: asks.lua, at: [[0, 0], [3, 0]], tags: [people]}}\n' >"$work/asks.yaml"

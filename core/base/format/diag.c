@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/format/json_writer.h"
+#include "base/format/path.h"
 #include "base/mem.h"
 
 enum { KEPT = 20, SOURCE_SHOWN = 200 };
@@ -26,6 +27,11 @@ bool jox_diag_has_room(const JoxDiagnostics *d, JoxSeverity severity) {
     return (error ? d->kept_errors : d->count - d->kept_errors) < (d->limit ? d->limit : KEPT);
 }
 
+/* Two paths may lead to one file, as "./a.lua" and "a.lua" do. */
+static bool is_same_file(const char *a, const char *b) {
+    return a == b || (a && b && jox_path_same(a, b));
+}
+
 /* Whether the same was said already: a file that is loaded for several reasons. */
 static bool is_known(const JoxDiagnostics *d, JoxPosition position, const char *code,
                      const char *message) {
@@ -33,7 +39,7 @@ static bool is_known(const JoxDiagnostics *d, JoxPosition position, const char *
         const JoxDiagnostic *item = &d->items[i];
         if (item->line == position.line && item->column == position.column &&
             !strcmp(item->code, code) && !strcmp(item->message, message) &&
-            !strcmp(item->file ? item->file : "", position.file ? position.file : ""))
+            is_same_file(item->file, position.file))
             return true;
     }
     return false;

@@ -75,11 +75,10 @@ bool jox_path_is_foreign(const char *file, const char *path) {
     return !jox_path_below(path, folder);
 }
 
-static bool same_file(const char *a, const char *b) {
+bool jox_path_same(const char *a, const char *b) {
     struct stat x, y;
-    if (jox_overlay_file(b))
-        return true;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino);
 }
 
 void jox_path_clean(char *path) {
@@ -107,7 +106,7 @@ void jox_path_clean(char *path) {
     }
     while (used > 1 && clean[used - 1] == '/')
         clean[--used] = 0;
-    if (used > 0 && used <= length && same_file(path, clean))
+    if (used > 0 && used <= length && (jox_overlay_file(clean) || jox_path_same(path, clean)))
         memcpy(path, clean, used + 1);
     jox_free(clean);
 }

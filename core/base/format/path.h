@@ -23,6 +23,8 @@ bool jox_path_beside(const char *file, const char *name, char path[JOX_LONGEST_P
 bool jox_path_find(const char *file, const char *name, const char *ending,
                    const char *const *folders, char path[JOX_LONGEST_PATH]);
 
+/* Whether two paths are equal, or lead to one file or folder that is there. */
+bool jox_path_same(const char *a, const char *b);
 /* Takes "folder/.." and "." out of a path, in place, where that is the same file: two ways to write
    a file's path become one. */
 void jox_path_clean(char *path);
