@@ -135,8 +135,8 @@ void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* wall_checks.c: sources at which walls keep some or all from coming in. */
 void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* Goals to which walls leave no way, also with all gates open. The scene is not to be
-   stepped from then on. */
+/* Goals to which walls leave no way, also with all gates open, and those of journeys that lie in
+   walls. The scene is not to be stepped from then on. */
 void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);

@@ -189,11 +189,57 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
     jox_field_free(field);
 }
 
+/* ---- goals in walls ---- */
+
+/* Whether walls fill an area: nobody is ever inside. Lines and queues are reached from beside. */
+static bool is_filled(JoxWallGrid *grid, const JoxPlace *place) {
+    if (place->kind != JOX_PLACE_POINT && place->kind != JOX_PLACE_POLYGON)
+        return false;
+    JoxEntrance entrance;
+    jox_entrance_make(&entrance, grid, place);
+    const bool filled = entrance.outside == 0.0 && entrance.blocked > 1.0 - WORTH;
+    jox_entrance_free(&entrance);
+    return filled;
+}
+
+/* Of a step of a journey, whose people go on once they are inside; `goal` may be -1. */
+static void check_inside(const JoScene *scene, JoxPosition position, int32_t goal,
+                         JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
+    const JoxPlace *places = scene->world->model.places;
+    if (goal < 0)
+        return;
+    const bool set = places[goal].kind == JOX_PLACE_SET;
+    for (uint32_t m = 0; m < (set ? places[goal].member_count : 1); m++) {
+        const JoxPlace *place = set ? &places[places[goal].members[m]] : &places[goal];
+        if (is_filled(grid, place))
+            jox_diag_warn(diagnostics, position, "goal-in-wall",
+                          "Move it to where people can stand, or widen it beyond the wall",
+                          "nobody can be inside '%.60s': it lies in a wall", place->name);
+    }
+}
+
+static void check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    JoxWalls walls = {0};
+    JoxWallGrid grid = {.walls = &walls};
+    jox_walls_standing(&walls, &scene->world->model.all_walls, false); /* gates may open */
+    for (uint32_t g = 0; g < scene->spec->group_count; g++) {
+        const JoxGroup *group = &scene->spec->groups[g];
+        for (uint32_t s = 0; s < group->journey_count; s++) {
+            const JoxJourneyStep *step = &group->journey[s];
+            check_inside(scene, step->position, step->to, &grid, diagnostics);
+            check_inside(scene, step->position, step->exit, &grid, diagnostics);
+        }
+    }
+    jox_wall_grid_free(&grid);
+    jox_walls_free(&walls);
+}
+
 void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     Goals goals = {.count = 0};
     uint32_t *source_of;
     if (scene->world->model.all_walls.count == 0)
         return;
+    check_journeys(scene, diagnostics);
     const uint32_t first = add_from_sources(scene, &source_of);
     list_goals(scene->world, &goals);
     for (uint32_t n = 0; n < goals.count; n++)

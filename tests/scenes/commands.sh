@@ -241,6 +241,17 @@ for who in 'at: [[1, 0.5], [20, 0.5]]|1 of the 2 people of group' 'count: 0|who 
     sed "s/count: 14, fill: random, in: lane/${who%%|*}/; \$ a sources: [{at: lane, like: g, rate: 1}]" "$work/shut.yaml" >"$work/some.yaml"
     expect "  of some, and of sources: ${who#*|}" 0 "warning: ${who#*|}" "$JOSTLE" check "$work/some.yaml"
 done
+cat >"$work/pillar.yaml" <<'END'
+jostle: 1
+places: {hall: {polygon: [[0, 0], [4, 0], [4, 4], [0, 4]]}, pillar: {polygon: [[7, 1], [9, 1], [9, 3], [7, 3]]}}
+walls: [{solid: [[6.5, 0.5], [9.5, 0.5], [9.5, 3.5], [6.5, 3.5]]}]
+groups: {people: {count: 3, in: hall, journey: [{exit: pillar}]}}
+END
+expect "a goal that lies in a wall is told" 0 "pillar.yaml:4:49: warning: nobody can be inside 'pillar': it lies in a wall" "$JOSTLE" check "$work/pillar.yaml"
+for other in 's/9.5, 3.5\], \[6.5/8.9, 3.5], [6.5/; s/9.5, 0.5/8.9, 0.5/|a part of which is free' 's/3.5\]\]}/3.5]], name: gate}/|that opens'; do
+    sed "${other%%|*}" "$work/pillar.yaml" >"$work/free.yaml"
+    expect "  not of one ${other#*|}" 0 "nothing wrong" "$JOSTLE" check "$work/free.yaml"
+done
 sed 's/walker.lua/stander.lua/; s/, set: {goal: street}//' "$work/shut.yaml" >"$work/stay.yaml"
 cp behaviours/stander.lua "$work"
 expect "  not of people who go nowhere" 0 "nothing wrong" "$JOSTLE" check "$work/stay.yaml"
