@@ -79,12 +79,22 @@ static void drop_oldest(JoxMachine *machine) {
     machine->memory_count = kept;
 }
 
+/* Name of the memory that the new version renames to a dormant slot's name, in whose place it
+   comes; NULL: there is none. */
+static const char *replaced_by(const JoxMachine *old, const JoxMachine *next,
+                               const JoxMemorySlot *slot) {
+    const char *is = jox_memory_identity(slot);
+    const char *name = is + (*is == *JOX_IDENTITY_ANGLE || *is == *JOX_IDENTITY_BEGUN);
+    const char *before = jox_name_before(old, next, JOX_PART_MEMORY, name);
+    return slot->dormant && strcmp(before, name) != 0 ? before : NULL;
+}
+
 void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
     for (int dormant = 1; dormant >= 0; dormant--) /* the oldest first */
         for (uint32_t s = 0; s < old->memory_count; s++) {
             const JoxMemorySlot *slot = &old->memory[s];
             if (slot->dormant == (dormant != 0) && *jox_memory_identity(slot) &&
-                !goes_on(old, next, s))
+                !goes_on(old, next, s) && !replaced_by(old, next, slot))
                 jox_dormant_add(next, jox_memory_identity(slot), slot->kind, slot->initial);
         }
     drop_oldest(next);
@@ -101,13 +111,43 @@ static const char *kind_of(const JoxMemorySlot *slot) {
     return slot->kind == JOX_MEMORY_BOOLEAN ? "true or false" : "a number";
 }
 
-/* Slot of the new version with the name of an old one that it does not go on from. */
-static const JoxMemorySlot *of_other_kind(const JoxMachine *next, const JoxMemorySlot *slot) {
+/* Slot of the new version with the name of an old one that it does not go on from; -1: none. */
+static int32_t of_other_kind(const JoxMachine *next, const JoxMemorySlot *slot) {
     for (uint32_t s = 0; s < next->memory_count; s++)
         if (*next->memory[s].name && strcmp(next->memory[s].name, jox_memory_identity(slot)) == 0 &&
             next->memory[s].kind != slot->kind)
-            return &next->memory[s];
-    return NULL;
+            return (int32_t)s;
+    return -1;
+}
+
+/* Tells of a memory that is now of another kind, which people may have had of that kind before. */
+static void tell_of_kind(const JoxMachine *old, const JoxMachine *next, const JoxMemorySlot *now,
+                         uint32_t other, const char *people, JoxText *out) {
+    jox_text_printf(out, " memory '%.60s' was %s and is %s now: ", jox_memory_identity(now),
+                    kind_of(now), kind_of(&next->memory[other]));
+    if (jox_memory_before(old, next, other) < 0)
+        jox_text_printf(out, "%s begin with what it begins with, and ", people);
+    jox_text_printf(out, "what they had is kept until it is %s again\n", kind_of(now));
+}
+
+/* Tells of dormant memory that the new version no longer keeps. */
+static void tell_of_dropped(const JoxMachine *old, const JoxMachine *next, JoxText *out) {
+    for (uint32_t s = 0; s < old->memory_count; s++) {
+        const JoxMemorySlot *slot = &old->memory[s];
+        if (!slot->dormant || !is_written(slot) || goes_on(old, next, s))
+            continue;
+        const char *by = replaced_by(old, next, slot);
+        const char *name = jox_memory_identity(slot);
+        if (by)
+            jox_text_printf(out,
+                            " memory '%.60s' that was kept is dropped: '%.60s' is renamed to it\n",
+                            name, by);
+        else
+            jox_text_printf(out,
+                            " memory '%.60s', which no version named for long, is dropped: at most "
+                            "%d are kept\n",
+                            name, JOX_MOST_DORMANT);
+    }
 }
 
 void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char *people,
@@ -119,12 +159,9 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
         if (!was || was->dormant == now->dormant || !is_written(now))
             continue;
         const char *name = jox_memory_identity(now);
-        const JoxMemorySlot *other = now->dormant ? of_other_kind(next, now) : NULL;
-        if (other)
-            jox_text_printf(out,
-                            " memory '%.60s' was %s and is %s now: %s begin with what it begins "
-                            "with, and what they had is kept until it is %s again\n",
-                            name, kind_of(now), kind_of(other), people, kind_of(now));
+        const int32_t other = now->dormant ? of_other_kind(next, now) : -1;
+        if (other >= 0)
+            tell_of_kind(old, next, now, (uint32_t)other, people, out);
         else if (now->dormant)
             jox_text_printf(out, " memory '%.60s' of %s is kept until a version names it again\n",
                             name, people);
@@ -132,10 +169,5 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
             jox_text_printf(out, " memory '%.60s' of %s is what it was when it was last named\n",
                             name, people);
     }
-    for (uint32_t s = 0; s < old->memory_count; s++)
-        if (old->memory[s].dormant && is_written(&old->memory[s]) && !goes_on(old, next, s))
-            jox_text_printf(out,
-                            " memory '%.60s', which no version named for long, is dropped: at most "
-                            "%d are kept\n",
-                            jox_memory_identity(&old->memory[s]), JOX_MOST_DORMANT);
+    tell_of_dropped(old, next, out);
 }

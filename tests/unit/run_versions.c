@@ -255,6 +255,41 @@ static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
     jo_scene_free(scene);
 }
 
+/* A version whose memory of the name `laps` is what it says. */
+#define NAMES(memory, keys) "memory { " memory " }\n" HEAD "\"A\", " keys STEER_ALONE
+#define STEER_ALONE "states = { A = { steer = hold } } }\n"
+
+static void memory_that_is_back_is_not_told_to_begin(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO, NAMES("laps = 5", ""));
+    save_live(scene, NAMES("laps = false", ""));
+    assert_non_null(strstr(said.data, "'laps' was a number and is true or false now: 2 people "
+                                      "begin with what it begins with, and what they had"));
+    save_live(scene, NAMES("laps = 0", ""));
+    assert_true(remembered(scene, 0, "laps") == 5.0);
+    assert_non_null(strstr(said.data, "'laps' of 2 people is what it was when it was last named"));
+    assert_non_null(strstr(said.data, "'laps' was true or false and is a number now: what they had "
+                                      "is kept until it is true or false again"));
+    assert_null(strstr(said.data, "begins with"));
+    jo_scene_free(scene);
+}
+
+static void renamed_memory_comes_in_place_of_what_was_kept(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO, NAMES("loops = 3", ""));
+    save_live(scene, NAMES("laps = 5", ""));
+    save_live(scene, NAMES("loops = 0", "renamed = { laps = \"loops\" }, "));
+    assert_true(remembered(scene, 0, "loops") == 5.0);
+    assert_non_null(strstr(said.data, "memory 'loops' that was kept is dropped: "
+                                      "'laps' is renamed to it"));
+    assert_null(strstr(said.data, "at most"));
+    save_live(scene, RESTING);
+    assert_null(strstr(said.data, "dropped")); /* nothing is kept twice */
+    save_live(scene, NAMES("loops = 0", ""));
+    assert_true(remembered(scene, 0, "loops") == 5.0);
+    jo_scene_free(scene);
+}
+
 static int remove_all(void **state) {
     static const char *const NAMES[] = {"latest.checkpoint", "before.checkpoint"};
     char path[340];
@@ -278,6 +313,8 @@ int main(void) {
         cmocka_unit_test(counter_goes_on_where_it_was),
         cmocka_unit_test(run_with_dormant_memory_resumes_exactly),
         cmocka_unit_test(oldest_of_too_many_names_is_dropped_and_told),
+        cmocka_unit_test(memory_that_is_back_is_not_told_to_begin),
+        cmocka_unit_test(renamed_memory_comes_in_place_of_what_was_kept),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_all);
 }
