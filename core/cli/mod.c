@@ -57,6 +57,8 @@ static int list(const JoSceneDef *def) {
     }
     if (mods && mods->count == 0)
         puts("no mods found");
+    if (!mods)
+        fputs("jostle mod: out of memory\n", stderr);
     const int status = !mods ? JO_FAILED : mods->errors ? JO_INPUT : JO_OK;
     jo_free(mods);
     return status;

@@ -40,9 +40,8 @@ cat >"$work/was/scenes/mods/bold/patches/lib.lua" <<'LUA'
 return patch "lib" {
   own = { courage = 0.9 },
   states = {
-    Amble = { change = { Gone = { chance = 0.5 } } },
+    Amble = { change = { Gone = { chance = 0.5 } }, perception = 5 + own.courage },
     Gone = { append = { { to = "Amble", when = after(9), id = "Amble" } } },
-    Stroll = { perception = 5 + own.courage },
   },
 }
 LUA
@@ -62,7 +61,7 @@ told "a state of others" "behaviours/other.lua:2:41: 'Amble' is now 'Stroll'"
 told "memory of others, of a condition" "behaviours/other.lua:2:57: 'laps' is now 'laps_done'"
 told "  and theirs" "'laps' is now 'laps_done'"
 told "an own value that a mod sets" "scenes/mods/bold/patches/lib.lua:2:11: 'courage' is now 'bravery'"
-told "  and uses" "scenes/mods/bold/patches/lib.lua:6:37: 'courage' is now 'bravery'"
+told "  and uses" "scenes/mods/bold/patches/lib.lua:4:75: 'courage' is now 'bravery'"
 told "a state that a mod changes" "scenes/mods/bold/patches/lib.lua:4:5: 'Amble' is now 'Stroll'"
 told "where a mod's transition leads" "scenes/mods/bold/patches/lib.lua:5:32: 'Amble' is now 'Stroll'"
 told "the state of a tally" "scenes/yard.yaml:14:20: 'Amble' is now 'Stroll'"
