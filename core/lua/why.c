@@ -123,6 +123,39 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
     return count;
 }
 
+/* Whether the machine has what a path names: a state, a transition of it, a parameter that the state
+   sets. */
+static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
+    char state[128], id[128];
+    const size_t n = strcspn(path, ".");
+    snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
+    const int number = jox_machine_state(machine, state);
+    if (number < 0)
+        return false;
+    const JoxState *of = &machine->states[number];
+    if (!path[n] || (parameter >= 0 && of->param[parameter].kind != JOX_VALUE_UNSET))
+        return true;
+    snprintf(id, sizeof id, "%.*s", (int)strcspn(path + n + 1, "."), path + n + 1);
+    for (uint32_t t = 0; t < of->transition_count; t++)
+        if (strcmp(of->transitions[t].id, id) == 0)
+            return true;
+    return false;
+}
+
+/* Finds the place that something built by a function comes from: the nearest that is written out of
+   what it is part of, as `A = lib.stand(2)` of the speed of A. */
+static int take_nearest(const JoxScript *script, const JoxMachine *machine, const char *canonical,
+                        Settings *to) {
+    char path[256];
+    int count = 0;
+    snprintf(path, sizeof path, "%s", canonical);
+    for (char *dot; !count && (dot = strrchr(path, '.'));) {
+        *dot = 0;
+        count = take_all(script, machine, path, to);
+    }
+    return count;
+}
+
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
                  const JoxScope *scope, JoSetVisit *visit, void *context) {
     const JoxScript *script = jox_lua_script(lua, machine);
@@ -141,6 +174,10 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
     if (!count && rest)
         count = take_all(script, machine, canonical, &to);
     int parameter = jox_parameter_find(last ? last + 1 : path);
+    if (!count && has_part(machine, path, parameter)) {
+        snprintf(canonical, sizeof canonical, "states.%.240s", path);
+        count = take_nearest(script, machine, canonical, &to);
+    }
     if (parameter < 0)
         return count > 0;
     snprintf(canonical, sizeof canonical, "defaults.%.100s", jox_parameters[parameter].name);
@@ -150,6 +187,8 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
         if (jox_machine_state(machine, state) < 0 && strncmp(path, "defaults.", 9) != 0)
             return false;
         count = take_all(script, machine, canonical, &to);
+        if (!count && machine->defaults[parameter].line > 0)
+            count = take_nearest(script, machine, canonical, &to);
     }
     if (!count) {
         char number[32];

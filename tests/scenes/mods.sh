@@ -223,6 +223,35 @@ says "why: in a state that another mod wrote" 0 "one/patches/stander.lua:3:18: a
 says "a removed transition's id is free" 0 "three/patches/stander.lua:1:69: after(4)   (mod three 1.0)" "$program" mod why "stander.Stand.Go#2.when" "$tree/scenes/yard.yaml"
 says "and the next one's stays" 0 "one/patches/stander.lua:4:100: after(3)   (mod one 1.0)" "$program" mod why "stander.Stand.Go#3.when" "$tree/scenes/yard.yaml"
 # What is removed and appended in one change: the live one is told, and who removed the other.
+# What a library builds comes from the line that asks for it.
+mkdir -p "$work/built"
+cat >"$work/built/w.lua" <<'END'
+local lib = require "lib"
+return machine { name = "w", start = "A", defaults = lib.slow,
+  states = {
+    A = lib.stand(1),
+    B = lib.stand(2),
+    C = { steer = hold, lib.leave("A") } } }
+END
+cat >"$work/built/lib.lua" <<'END'
+return { slow = { max_speed = 1.5 },
+  stand = function(s) return { steer = hold, speed = s, { to = "C", when = after(s) } } end,
+  leave = function(to) return { to = to, when = after(1) } end }
+END
+printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: w.lua, at: [[0, 0]]}}\n' >"$work/built/s.yaml"
+while read -r path text; do
+    says "why: what a library built: $path" 0 "$text" "$JOSTLE" mod why "$path" "$work/built/s.yaml"
+done <<'END'
+w.A.speed w.lua:4:5: lib.stand(1)
+w.B.speed w.lua:5:5: lib.stand(2)
+w.B.C w.lua:5:5: lib.stand(2)
+w.B.C.when w.lua:5:5: lib.stand(2)
+w.C.A w.lua:6:25: lib.leave("A")
+w.C.max_speed w.lua:2:43: lib.slow
+w.C.speed the default: 1.3 m/s
+w.A.push the default: 0 N
+END
+
 rm -rf "$tree/scenes/mods"/*
 cat >"$tree/behaviours/goer.lua" <<'END'
 return machine { name = "goer", version = 10, start = "Go", states = {
