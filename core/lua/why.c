@@ -123,8 +123,8 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
     return count;
 }
 
-/* Whether the machine has what a path names: a state, a transition of it, a parameter that the state
-   sets. */
+/* Whether the machine has what a path names: a state, a transition of it, or a parameter that the
+   state sets. */
 static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
     char state[128], id[128];
     const size_t n = strcspn(path, ".");
