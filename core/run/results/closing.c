@@ -76,15 +76,15 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {jox_lua_failures(scene->lua),
          "failed call of a function of a behaviour|failed calls of functions of "
          "behaviours"}};
-    const char *before = " There were ";
+    bool any = false;
     for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
         if (events[e].count == 0)
             continue;
-        jox_text_add(out, before);
+        jox_text_add(out, any ? ", " : events[e].count == 1 ? " There was " : " There were ");
         jox_text_noun(out, events[e].count, events[e].noun);
-        before = ", ";
+        any = true;
     }
-    if (*before == ',')
+    if (any)
         jox_text_add(out, ".");
 }
 
