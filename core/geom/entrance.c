@@ -115,24 +115,12 @@ static uint32_t count_rooms(const JoxWalls *walls, JoxV2 p) {
     return rooms;
 }
 
-static bool is_near_edge(const JoxWallGrid *grid, JoxV2 p) {
-    uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[k]];
-        const JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
-        if (jox_length2(jox_sub(p, q)) < CLEAR * CLEAR)
-            return true;
-    }
-    return false;
-}
-
 static JoxFloorCell judge_cell(const JoxEntrance *e, bool outlined, JoxV2 p) {
     const JoxWalls *walls = e->grid->walls;
     if (!is_of_floor(e, p))
         return JOX_FLOOR_NONE;
     if (!jox_area_contains(e->index, p))
-        return is_near_edge(e->grid, p) ? JOX_FLOOR_TIGHT : JOX_FLOOR_SOLID;
+        return jox_wall_grid_is_near(e->grid, p, CLEAR) ? JOX_FLOOR_TIGHT : JOX_FLOOR_SOLID;
     return outlined && !jox_walls_outline_all(walls, &p, 1) ? JOX_FLOOR_OUTSIDE : JOX_FLOOR_BEYOND;
 }
 

@@ -114,6 +114,18 @@ void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
         jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
 }
 
+bool jox_wall_grid_is_near(const JoxWallGrid *grid, JoxV2 p, float clear) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t e = 0; e < count; e++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[e]];
+        const JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
+        if (jox_length2(jox_sub(p, q)) < clear * clear)
+            return true;
+    }
+    return false;
+}
+
 bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 p) {
     const struct JoxWallRing *r = &walls->rings[ring];
     bool inside = false;

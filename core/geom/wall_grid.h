@@ -56,6 +56,8 @@ JOX_ISAS(X)
 /* Whether the ways p -> q and a -> b cross; where one ends on the other is on its right. */
 bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b);
 void jox_wall_grid_free(JoxWallGrid *grid);
+/* Whether an edge lies nearer to a point than `clear` m; the grid reaches as far. */
+bool jox_wall_grid_is_near(const JoxWallGrid *grid, JoxV2 point, float clear);
 /* Point inside a ring (crossing number). */
 bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 point);
 /* Point inside a solid. */

@@ -89,21 +89,9 @@ static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
     return false;
 }
 
-static bool is_near_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
-    uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    for (uint32_t e = 0; e < count; e++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[e]];
-        const JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
-        if (jox_length2(jox_sub(p, q)) < clear * clear)
-            return true;
-    }
-    return false;
-}
-
 bool jox_spots_is_free(const JoxSpots *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
     JOX_ASSERT(2.0f * jox_maxf(radius, t->widest) <= t->cell * 1.001f);
-    return !is_taken(t, p, radius) && !is_near_edge(grid, p, TOUCHING * radius);
+    return !is_taken(t, p, radius) && !jox_wall_grid_is_near(grid, p, TOUCHING * radius);
 }
 
 /* ---- walls between ---- */
