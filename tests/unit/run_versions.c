@@ -12,8 +12,9 @@
 
 /* As an input log, or the watch, swaps the file: the way that a run takes it. */
 static bool save(JoScene *scene, const char *text, JoError *error) {
-    const char *path = scene->world->model.machines.items[0]->path;
-    JoxInputFile file = {.path = (char *)path, .text = (char *)text, .length = strlen(text)};
+    char path[300]; /* its own: that of the machine goes with the machine */
+    snprintf(path, sizeof path, "%s", scene->world->model.machines.items[0]->path);
+    JoxInputFile file = {.path = path, .text = (char *)text, .length = strlen(text)};
     JoxInputEntry entry = {.number = 1, .files = &file};
     jox_overlay_put(&scene->overlay, path, text, file.length);
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
