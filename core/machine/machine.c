@@ -15,7 +15,7 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
 }
 
 const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]) {
-    char version[JOX_VERSION_TEXT / 2] = "", reload[JOX_VERSION_TEXT / 2] = "";
+    char version[40] = "", reload[20] = ""; /* both and their joint fit into `out` */
     if (!isnan(machine->version))
         snprintf(version, sizeof version, "version %.15g", machine->version);
     if (machine->reloads > 0)
