@@ -53,6 +53,8 @@ static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirth
     const bool found = !wish->stays && jox_spots_find(t, grid, &search, spot);
     JOX_ASSERT(!found || !grid->walls ||
                !jox_walls_lie_between(grid->walls, wish->at, *spot, NULL));
+    if (!found) /* what the search looked at last is taken */
+        *spot = wish->at;
     return found ? JOX_BIRTH_SHIFTED : JOX_BIRTH_NO_ROOM;
 }
 
