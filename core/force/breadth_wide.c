@@ -61,7 +61,7 @@ void JOX_WIDE(jox_breadth_packets)(const JoxForces *f, uint32_t begin, uint32_t 
     const JoxFloats least2 = jf_set(JOX_STANDS * JOX_STANDS), zero = jf_set(0.0f);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats x = jf_load(a->pref_x + i), y = jf_load(a->pref_y + i);
-        const JoxMask stands = jf_lt(jf_add(jf_mul(x, x), jf_mul(y, y)), least2);
+        const JoxMask stands = jf_lt(x * x + y * y, least2);
         const JoxFloats turn = f->step.turning ? jox_param_lanes(a, JOX_PARAM_turn, i) : zero;
         float out[JOX_WIDTH], turned[JOX_WIDTH];
         jf_store(turned, jf_select(stands, zero, turn)); /* who stands does not turn */

@@ -42,31 +42,31 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
     JoxFloats motion[4], build[4];
     jf_records_at(motions, others, motion);
-    m->x = jf_sub(self->x, motion[0]);
-    m->y = jf_sub(self->y, motion[1]);
+    m->x = self->x - motion[0];
+    m->y = self->y - motion[1];
     if (self->period.x > 0.0f || self->period.y > 0.0f) {
         m->x = jf_wrap(m->x, self->period.x);
         m->y = jf_wrap(m->y, self->period.y);
     }
-    m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
-    const JoxFloats whole = jf_add(self->radius, jox_param_of(radius, others));
-    const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));
-    lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
+    m->distance2 = m->x * m->x + m->y * m->y;
+    const JoxFloats whole = self->radius + jox_param_of(radius, others);
+    const JoxFloats most = whole + least + JOX_TOUCH_MOST;
+    lanes &= jm_bits(jf_lt(m->distance2, most * most));
     if (!lanes)
         return 0;
     jf_records_at(&f->builds[0].breadth, others, build);
     lanes &= ~jm_bits(ji_less(jf_bits(build[3]), self->id));
-    const JoxFloats sum = jf_add(self->breadth, build[0]), slack = jf_sub(whole, sum);
+    const JoxFloats sum = self->breadth + build[0], slack = whole - sum;
     m->distance = jf_sqrt(m->distance2);
-    m->gap = jf_sub(m->distance, sum);
-    JoxFloats into = jf_sub(whole, m->distance);
+    m->gap = m->distance - sum;
+    JoxFloats into = whole - m->distance;
     into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
-    m->squeeze = jf_mul(jf_set(JOX_SQUEEZE), into);
-    m->velocity = (JoxVector){jf_sub(self->vx, motion[2]), jf_sub(self->vy, motion[3])};
+    m->squeeze = JOX_SQUEEZE * into;
+    m->velocity = (JoxVector){self->vx - motion[2], self->vy - motion[3]};
     m->mass = build[2];
     JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
-    closing = jf_mul(closing, jf_set((float)f->step.dt));
-    const JoxFloats reach = jf_add(least, jf_min(jf_set(JOX_TOUCH_MOST), closing));
+    closing *= (float)f->step.dt;
+    const JoxFloats reach = least + jf_min(jf_set(JOX_TOUCH_MOST), closing);
     const JoxMask apart = jm_and(jf_lt(least, m->gap), jf_lt(reach, m->gap));
     return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
 }
@@ -75,7 +75,7 @@ static uint32_t meet(const JoxForces *f, const Self *self, const uint32_t *other
 static JoxFloats targets_of(const JoxForces *f, const Self *self, const uint32_t *others,
                             const Meeting *m, JoxVector normal) {
     const JoxFloats zero = jf_set(0.0f);
-    const JoxFloats closes = jf_div(jf_neg(m->gap), jf_set((float)f->step.dt));
+    const JoxFloats closes = -m->gap / (float)f->step.dt;
     const JoxFloats target = jf_select(jf_lt(zero, m->gap), closes, zero);
     if (!jm_bits(jf_lt(zero, self->restitution)))
         return target;
@@ -83,17 +83,17 @@ static JoxFloats targets_of(const JoxForces *f, const Self *self, const uint32_t
     const JoxFloats restitution = jf_min(self->restitution, jox_param_of(column, others));
     const JoxFloats speed = jv_dot(m->velocity, normal);
     const JoxMask bounces = jm_and(jf_lt(zero, restitution), jf_lt(speed, target));
-    return jf_select(bounces, jf_max(target, jf_mul(jf_neg(restitution), speed)), target);
+    return jf_select(bounces, jf_max(target, -restitution * speed), target);
 }
 
 static void note(Packet *p, const Self *self, uint32_t lanes, const uint32_t *other,
                  const Meeting *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
-    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = jf_div(one, m->distance);
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = one / m->distance;
     const JoxMask together = jf_le(m->distance, zero); /* they part along x */
-    const JoxVector normal = {jf_select(together, one, jf_mul(m->x, by)),
-                              jf_select(together, zero, jf_mul(m->y, by))};
+    const JoxVector normal = {jf_select(together, one, m->x * by),
+                              jf_select(together, zero, m->y * by)};
     float x[JOX_WIDTH], y[JOX_WIDTH], nx[JOX_WIDTH], ny[JOX_WIDTH], gap[JOX_WIDTH];
     float squeeze[JOX_WIDTH], target[JOX_WIDTH], mass[JOX_WIDTH];
     jf_store(x, m->x);
@@ -102,7 +102,7 @@ static void note(Packet *p, const Self *self, uint32_t lanes, const uint32_t *ot
     jf_store(gap, m->gap);
     jf_store(squeeze, m->squeeze);
     jf_store(target, targets_of(f, self, other, m, normal));
-    jf_store(mass, jf_div(jf_mul(self->mass, m->mass), jf_add(self->mass, m->mass)));
+    jf_store(mass, self->mass * m->mass / (self->mass + m->mass));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(lanes >> lane & 1))
@@ -209,7 +209,7 @@ static void find_packet(Packet *p) {
     p->walls = p->walled = 0;
     if (f->step.walls) {
         const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
-        const JoxFloats reach = jf_add(jf_load(a->breadth + p->first), touch);
+        const JoxFloats reach = jf_load(a->breadth + p->first) + touch;
         p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
                                                     jf_load(a->y + p->first)));
         p->walled = p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->step.clear2, p->first, reach));

@@ -14,7 +14,7 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        const JoxFloats lightness = jf_div(jf_set(1.0f), jox_param_lanes(a, JOX_PARAM_mass, i));
+        const JoxFloats lightness = 1.0f / jox_param_lanes(a, JOX_PARAM_mass, i);
         const JoxVector unheld =
             jox_unheld_lanes(a, i, jox_others_lanes(a, i), jox_stands_lanes(a, i));
         const JoxVector force = jv_add(jv_load(a->ext_x, a->ext_y, i), unheld);

@@ -21,16 +21,16 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVec
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats lightness = jf_div(one, jox_param_lanes(a, JOX_PARAM_mass, i));
+    const JoxFloats lightness = one / jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxVector others = jox_others_lanes(a, i);
     const JoxVector held = jv_sub(others, jox_unheld_lanes(a, i, others, jox_stands_lanes(a, i)));
     const JoxVector taken =
         jv_sub(jv_load(a->forced_x, a->forced_y, i), jv_load(a->next_x, a->next_y, i));
     const JoxFloats along = jf_max(zero, jv_dot(old, unit));
-    const JoxFloats worn = jf_mul(along, jf_sub(one, jox_decay_lanes(damping, dt, decay)));
-    const JoxFloats holds = jf_mul(jf_mul(jv_dot(held, unit), jf_set(dt)), lightness);
-    const JoxFloats takes = jf_mul(jv_dot(taken, unit), jf_set((float)f->step.response));
-    return jf_sub(jf_add(holds, takes), worn);
+    const JoxFloats worn = along * (one - jox_decay_lanes(damping, dt, decay));
+    const JoxFloats holds = jv_dot(held, unit) * dt * lightness;
+    const JoxFloats takes = jv_dot(taken, unit) * (float)f->step.response;
+    return holds + takes - worn;
 }
 
 /* (8) Who, under no force, slowed down so that others feel it. What the feet took counts: contacts
@@ -43,15 +43,14 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxVector before = jv_load(a->forced_x, a->forced_y, i);
     const JoxVector after = jv_load(a->vx, a->vy, i);
     const JoxVector change = jv_sub(after, before), way = jv_add(after, before);
-    const JoxFloats against = jf_neg(jv_dot(change, way)), change2 = jv_dot(change, change);
-    const JoxFloats bound = jf_mul(jf_mul(jf_mul(cosine, cosine), change2), jv_dot(way, way));
-    const JoxMask aligned = jm_or(jf_le(cosine, zero), jf_lt(bound, jf_mul(against, against)));
+    const JoxFloats against = -jv_dot(change, way), change2 = jv_dot(change, change);
+    const JoxFloats bound = cosine * cosine * change2 * jv_dot(way, way);
+    const JoxMask aligned = jm_or(jf_le(cosine, zero), jf_lt(bound, against * against));
     const JoxFloats size = jf_sqrt(change2), most = jf_sqrt(jv_dot(before, before));
     const JoxMask cut = jf_lt(most, size);
-    const JoxVector slowing =
-        jv_scale(change, jf_select(cut, jf_div(most, size), one)); /* jox_slowing */
+    const JoxVector slowing = jv_scale(change, jf_select(cut, most / size, one)); /* jox_slowing */
     const JoxFloats absorb = jox_param_lanes(a, JOX_PARAM_absorb, i);
-    const JoxFloats felt = jf_mul(jf_sqrt(jv_dot(slowing, slowing)), absorb);
+    const JoxFloats felt = jf_sqrt(jv_dot(slowing, slowing)) * absorb;
     return jm_and(jm_and(jf_lt(zero, against), aligned),
                   jm_and(jm_and(is_set(old), jf_lt(zero, absorb)), jf_le(least, felt)));
 }

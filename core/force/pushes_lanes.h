@@ -23,13 +23,13 @@ static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVect
                                          JoxMask stands) {
     const JoxFloats zero = jf_set(0.0f), size = jf_sqrt(jv_dot(others, others));
     const JoxFloats held = jf_select(stands, zero, jox_param_lanes(a, JOX_PARAM_brace, i));
-    const JoxFloats share = jf_div(jf_sub(size, held), size);
+    const JoxFloats share = (size - held) / size;
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
 }
 
 /* exp(-damping time) of each: jox_decay. Most have the damping of those before. */
 static inline JoxFloats jox_decay_lanes(const float *damping, float time, JoxDecay *decay) {
-    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_sub(jf_load(damping), jf_set(damping[0]))));
+    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_load(damping) - damping[0]));
     if (!jm_bits(other))
         return jf_set(jox_decay(decay, damping[0], time));
     float each[JOX_WIDTH];

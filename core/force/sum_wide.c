@@ -71,8 +71,7 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
         jv_add(jv_load(a->ext_x, a->ext_y, i),
                jox_unheld_lanes(a, i, jox_others_lanes(a, i), stands)); /* jox_moving_force */
     const JoxVector given = jv_add(moving, contact);
-    const JoxVector forced = {jf_add(velocity.x, jf_div(jf_mul(given.x, dt), mass)),
-                              jf_add(velocity.y, jf_div(jf_mul(given.y, dt), mass))};
+    const JoxVector forced = {velocity.x + given.x * dt / mass, velocity.y + given.y * dt / mass};
     jv_store(a->forced_x, a->forced_y, i, forced);
     if (is_nothing(force)) {
         leave_free(a, i, most);
@@ -83,18 +82,17 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     /* The faintest contact bounds a plan: what the feet took of it would be missing from the
        momentum of all. */
     const JoxFloats least = jf_select(touched, jf_set(1e-6f), jf_set(f->options.least));
-    const JoxMask felt = jm_and(jf_le(jf_mul(least, mass), size), jf_lt(size, jf_set(INFINITY)));
+    const JoxMask felt = jm_and(jf_le(least * mass, size), jf_lt(size, jf_set(INFINITY)));
     const Planning plan = planning(&f->step, i, stands, decays);
-    const JoxVector normal = jv_scale(force, jf_div(jf_set(1.0f), size));
-    const JoxFloats along = jv_dot(velocity, normal),
-                    pressed = jf_div(jv_dot(contact, normal), mass);
-    const JoxFloats driven = jf_div(jv_dot(moving, normal), mass);
-    JoxFloats wanted = jf_select(jf_lt(zero, along), jf_mul(along, plan.decay), along);
-    wanted = jf_add(wanted, jf_div(jf_mul(size, plan.interval), mass));
+    const JoxVector normal = jv_scale(force, 1.0f / size);
+    const JoxFloats along = jv_dot(velocity, normal), pressed = jv_dot(contact, normal) / mass;
+    const JoxFloats driven = jv_dot(moving, normal) / mass;
+    JoxFloats wanted = jf_select(jf_lt(zero, along), along * plan.decay, along);
+    wanted += size * plan.interval / mass;
     /* Contacts act within this step, however long the plan is kept. */
-    wanted = jf_sub(wanted, jf_mul(pressed, jf_sub(plan.interval, dt)));
-    const JoxFloats moved = jf_add(jf_add(along, jf_mul(pressed, dt)), jf_mul(driven, plan.forced));
-    const JoxFloats offset = jf_add(moved, jf_div(jf_sub(wanted, moved), plan.response));
+    wanted -= pressed * (plan.interval - dt);
+    const JoxFloats moved = along + pressed * dt + driven * plan.forced;
+    const JoxFloats offset = moved + (wanted - moved) / plan.response;
     jv_store(a->half_plane_x, a->half_plane_y, i,
              (JoxVector){jf_select(felt, normal.x, zero), jf_select(felt, normal.y, zero)});
     jf_store(a->half_plane_offset + i, jf_select(felt, offset, zero));

@@ -11,15 +11,15 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
     if (!g->first)
         return jm_of_bits(0);
     const JoxFloats columns = jf_set((float)g->columns), rows = jf_set((float)g->rows);
-    JoxFloats x = jf_div(jf_sub(px, jf_set(g->low.x)), cell);
-    JoxFloats y = jf_div(jf_sub(py, jf_set(g->low.y)), cell);
+    JoxFloats x = (px - g->low.x) / cell;
+    JoxFloats y = (py - g->low.y) / cell;
     JoxMask within =
         jm_and(jm_and(jf_le(zero, x), jf_lt(x, columns)), jm_and(jf_le(zero, y), jf_lt(y, rows)));
     if (!jm_bits(within))
         return within;
     /* There are less cells than whole numbers that a float holds. */
-    JoxFloats row = jf_mul(ji_to_floats(jf_to_ints(y)), columns);
-    JoxInts at = jf_to_ints(jf_add(row, ji_to_floats(jf_to_ints(x))));
+    JoxFloats row = ji_to_floats(jf_to_ints(y)) * columns;
+    JoxInts at = jf_to_ints(row + ji_to_floats(jf_to_ints(x)));
     at = ji_select(within, at, ji_set(0));
     JoxInts begin = ji_pick(g->first, at), end = ji_pick(g->first + 1, at);
     return jm_and(within, ji_less(begin, end));
@@ -28,7 +28,7 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
 /* jox_wall_grid_is_clear of agents from `first` on, within these reaches, m. */
 static inline JoxMask jox_wall_grid_clear_lanes(const float *clear2, uint32_t first,
                                                 JoxFloats reach) {
-    return clear2 ? jf_lt(jf_mul(reach, reach), jf_load(clear2 + first)) : jm_of_bits(0);
+    return clear2 ? jf_lt(reach * reach, jf_load(clear2 + first)) : jm_of_bits(0);
 }
 
 #endif

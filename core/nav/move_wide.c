@@ -33,14 +33,14 @@ static inline void keep_still(const JoxMove *m, uint32_t i, JoxVector at) {
     const JoxFloats zero = jf_set(0.0f), reach2 = jf_set(JOX_STILL_REACH * JOX_STILL_REACH);
     const JoxVector still = jv_load(a->still_x, a->still_y, i), away = jv_sub(at, still);
     const JoxMask moved = jf_lt(reach2, jv_dot(away, away));
-    const JoxFloats time = jf_add(jf_load(a->still + i), jf_set(m->dt));
+    const JoxFloats time = jf_load(a->still + i) + m->dt;
     jf_store(a->still + i, jf_select(moved, zero, time));
     jv_store(a->still_x, a->still_y, i, jv_select(moved, at, still));
 }
 
 /* The lanes beyond an edge of a period, m; 0: none. */
 static inline JoxMask beyond(JoxFloats x, float origin, float period) {
-    const JoxFloats from = jf_sub(x, jf_set(origin)), zero = jf_set(0.0f);
+    const JoxFloats from = x - origin, zero = jf_set(0.0f);
     const JoxMask within = jm_and(jf_le(zero, from), jf_lt(from, jf_set(period)));
     return period > 0.0f ? jm_without(jm_of_bits(JOX_ALL_LANES), within) : jm_of_bits(0);
 }
@@ -52,8 +52,8 @@ static inline uint32_t near_walls(const JoxMove *m, uint32_t first, JoxVector fr
     if (!grid->first)
         return 0;
     const JoxFloats way2 = jv_dot(way, way), served = jf_set(grid->reach);
-    const JoxFloats reach = jf_add(jf_sqrt(way2), jf_load(m->agents->breadth + first));
-    const JoxMask far = jf_lt(jf_mul(served, served), way2);
+    const JoxFloats reach = jf_sqrt(way2) + jf_load(m->agents->breadth + first);
+    const JoxMask far = jf_lt(served * served, way2);
     const JoxMask clear =
         jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->clear2, first, reach));
     if (jm_bits(clear) == JOX_ALL_LANES)

@@ -89,8 +89,8 @@ static inline void read_places(const Packet *packet, Reading *r, uint32_t from, 
 /* Sets the floor by the radius. */
 static inline JoxFloats choose_floor(Packet *packet) {
     const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats radius2 = jf_max(jf_mul(radius, radius), jf_set(1e-12f));
-    const JoxFloats floor2 = jf_mul(radius2, jf_set(FLOOR_SHARE));
+    const JoxFloats radius2 = jf_max(radius * radius, jf_set(1e-12f));
+    const JoxFloats floor2 = radius2 * FLOOR_SHARE;
     jf_store(packet->floor2, floor2);
     return floor2;
 }
@@ -160,7 +160,7 @@ typedef struct Found {
 
 /* Where in the lists the places stand that keys of all lanes name. */
 static inline JoxInts listed_at(JoxFloats keys) {
-    const JoxInts lists = jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)LIST)));
+    const JoxInts lists = jf_to_ints(ji_to_floats(ji_lane()) * (float)LIST);
     return ji_add(ji_and(jf_bits(keys), ji_set(PLACES - 1)), lists);
 }
 

@@ -98,22 +98,21 @@ static inline __attribute__((always_inline)) JoxOrcaHalf jox_orca_begin(const Jo
                                                                         float dt, uint32_t wanted,
                                                                         uint32_t *coincide) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
-    const JoxFloats r2 = jf_mul(q->radii, q->radii);
+    const JoxFloats d2 = q->x * q->x + q->y * q->y;
+    const JoxFloats r2 = q->radii * q->radii;
     const JoxMask overlap = jf_le(d2, r2);
-    JoxFloats inverse = self->inverse, round = jf_mul(q->radii, inverse);
+    JoxFloats inverse = self->inverse, round = q->radii * inverse;
     if (jm_bits(overlap) & wanted) { /* they are to part within dt */
         inverse = jf_select(overlap, jf_set(1.0f / dt), inverse);
-        round = jf_select(overlap, jf_div(q->radii, jf_set(dt)), round);
+        round = jf_select(overlap, q->radii / dt, round);
         *coincide |= jm_bits(jf_le(d2, zero)) & wanted;
     }
-    const JoxVector w = {jf_sub(q->vx, jf_mul(q->x, inverse)),
-                         jf_sub(q->vy, jf_mul(q->y, inverse))};
-    const JoxFloats w2 = jv_dot(w, w), along = jf_add(jf_mul(w.x, q->x), jf_mul(w.y, q->y));
-    const JoxMask before = jm_and(jf_lt(along, zero), jf_lt(jf_mul(r2, w2), jf_mul(along, along)));
+    const JoxVector w = {q->vx - q->x * inverse, q->vy - q->y * inverse};
+    const JoxFloats w2 = jv_dot(w, w), along = w.x * q->x + w.y * q->y;
+    const JoxMask before = jm_and(jf_lt(along, zero), jf_lt(r2 * w2, along * along));
     const JoxMask disc = jm_or(overlap, before);
-    const JoxFloats length = jf_sqrt(jf_select(disc, w2, jf_sub(d2, r2)));
-    const JoxFloats by = jf_div(one, jf_select(disc, length, d2));
+    const JoxFloats length = jf_sqrt(jf_select(disc, w2, d2 - r2));
+    const JoxFloats by = one / jf_select(disc, length, d2);
     return (JoxOrcaHalf){w, disc, length, by, round};
 }
 
@@ -123,19 +122,19 @@ static inline __attribute__((always_inline)) JoxOrcaHalf jox_orca_begin(const Jo
 static inline __attribute__((always_inline)) JoxPlaneLanes
 jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxMask left = jf_lt(zero, jf_sub(jf_mul(q->x, h->w.y), jf_mul(q->y, h->w.x)));
-    const JoxFloats side = jf_select(left, h->length, jf_neg(h->length));
-    const JoxFloats leg_x = jf_sub(jf_mul(q->x, side), jf_mul(q->y, q->radii));
-    const JoxFloats leg_y = jf_add(jf_mul(q->x, q->radii), jf_mul(q->y, side));
+    const JoxMask left = jf_lt(zero, q->x * h->w.y - q->y * h->w.x);
+    const JoxFloats side = jf_select(left, h->length, -h->length);
+    const JoxFloats leg_x = q->x * side - q->y * q->radii;
+    const JoxFloats leg_y = q->x * q->radii + q->y * side;
     const JoxMask rests = jm_without(h->disc, jf_lt(jf_set(1e-6f), h->length));
-    const JoxFloats x = jf_select(h->disc, h->w.x, jf_neg(leg_y));
+    const JoxFloats x = jf_select(h->disc, h->w.x, -leg_y);
     const JoxFloats y = jf_select(h->disc, h->w.y, leg_x);
-    const JoxFloats nx = jf_select(rests, one, jf_mul(x, h->by));
-    const JoxFloats ny = jf_select(rests, zero, jf_mul(y, h->by));
-    const JoxFloats into = jf_add(jf_mul(nx, q->vx), jf_mul(ny, q->vy));
-    const JoxFloats change = jf_select(h->disc, jf_sub(h->round, h->length), jf_neg(into));
-    const JoxFloats own = jf_add(jf_mul(nx, self->velocity.x), jf_mul(ny, self->velocity.y));
-    return (JoxPlaneLanes){nx, ny, jf_add(own, jf_mul(change, self->share))};
+    const JoxFloats nx = jf_select(rests, one, x * h->by);
+    const JoxFloats ny = jf_select(rests, zero, y * h->by);
+    const JoxFloats into = nx * q->vx + ny * q->vy;
+    const JoxFloats change = jf_select(h->disc, h->round - h->length, -into);
+    const JoxFloats own = nx * self->velocity.x + ny * self->velocity.y;
+    return (JoxPlaneLanes){nx, ny, own + change * self->share};
 }
 
 /* ---- half-planes of neighbours ---- */
@@ -168,10 +167,9 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
 
 /* The lanes from which a wall may hide their neighbour: is_hidden of half_planes.c asks. */
 static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
-    const JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
-    const JoxFloats near =
-        jf_add(jf_add(q->radii, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
-    const JoxMask far = jf_lt(jf_mul(near, near), d2);
+    const JoxFloats d2 = q->x * q->x + q->y * q->y;
+    const JoxFloats near = q->radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+    const JoxMask far = jf_lt(near * near, d2);
     return ~jm_bits(s->clear2 ? jm_or(far, jf_lt(d2, jf_load(s->clear2 + first))) : far);
 }
 
@@ -193,15 +191,16 @@ static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint
 static inline JoxSelf jox_self_of(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const uint32_t i = p->first;
+    JoxFloats room = jf_set(1.0f);
+    if (p->walkers)
+        room -= (float)p->s->nav->walk->room_eager * jf_load(a->eager + i);
     return (JoxSelf){
         .x = jf_load(a->x + i),
         .y = jf_load(a->y + i),
         .radius = jox_param_lanes(a, JOX_PARAM_radius, i),
-        .room = p->walkers ? jf_sub(jf_set(1.0f), jf_mul(jf_set((float)p->s->nav->walk->room_eager),
-                                                         jf_load(a->eager + i)))
-                           : jf_set(1.0f),
+        .room = room,
         .orca = {.velocity = jv_load(a->vx, a->vy, i),
-                 .inverse = jf_div(jf_set(1.0f), jox_param_lanes(a, JOX_PARAM_horizon, i)),
+                 .inverse = 1.0f / jox_param_lanes(a, JOX_PARAM_horizon, i),
                  .share =
                      p->s->nav->literal ? jf_set(0.5f) : jox_param_lanes(a, JOX_PARAM_yield, i)},
     };
@@ -218,14 +217,14 @@ static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *
     const JoxVector offset = {q->x, q->y};
     return (JoxWalkerGap){
         jf_sqrt(jv_dot(offset, offset)),
-        jf_mul(jf_mul(q->radii, jf_set((float)law->width)), self->room),
-        jf_mul(q->radii, jf_set((float)law->width_cross)),
+        q->radii * (float)law->width * self->room,
+        q->radii * (float)law->width_cross,
     };
 }
 
 /* Those for whom a walker is too far away to have a half-plane, however they mind each other. */
 static inline JoxMask jox_walker_is_far(const JoxWalkLaw *law, const JoxWalkerGap *g) {
-    return jf_le(jf_set((float)law->close), jf_sub(g->distance, jf_max(g->crosses, g->follows)));
+    return jf_le(jf_set((float)law->close), g->distance - jf_max(g->crosses, g->follows));
 }
 
 /* The half-planes of walkers in place of ORCA's, of those who mind their neighbours, and who they
@@ -238,16 +237,14 @@ static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxPair *
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxVector offset = {q->x, q->y};
     const JoxMindsLanes minds = jox_minds_lanes(p->s->nav, a, p->first, others, offset);
-    const JoxFloats gap = jf_sub(g->distance, jf_select(minds.crossing, g->crosses, g->follows));
-    const JoxFloats by = jf_div(one, g->distance);
-    const JoxVector towards = {jf_mul(q->x, by), jf_mul(q->y, by)};
+    const JoxFloats gap = g->distance - jf_select(minds.crossing, g->crosses, g->follows);
+    const JoxFloats by = one / g->distance;
+    const JoxVector towards = {q->x * by, q->y * by};
     const JoxFloats leaves = jv_dot(towards, velocity);
     const JoxFloats share = jf_select(minds.crossing, jf_set(0.5f), one);
-    const JoxFloats closes =
-        jf_div(jf_mul(share, jf_max(gap, zero)), jf_set((float)law->close_time));
+    const JoxFloats closes = share * jf_max(gap, zero) / (float)law->close_time;
     *there = jm_without(jm_or(minds.ahead, minds.crossing), jf_le(jf_set((float)law->close), gap));
-    return (JoxPlaneLanes){jf_neg(towards.x), jf_neg(towards.y),
-                           jf_neg(jf_add(jf_max(zero, leaves), closes))};
+    return (JoxPlaneLanes){-towards.x, -towards.y, -(jf_max(zero, leaves) + closes)};
 }
 
 static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlaneLanes b) {
@@ -298,9 +295,8 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
         JoxFloats motion[4];
         jf_records_at(motions, others, motion);
         const JoxFloats other = jox_param_of(radius, others);
-        JoxPair q = {jf_sub(motion[0], self->x), jf_sub(motion[1], self->y),
-                     jf_sub(self->orca.velocity.x, motion[2]),
-                     jf_sub(self->orca.velocity.y, motion[3]), jf_add(self->radius, other)};
+        JoxPair q = {motion[0] - self->x, motion[1] - self->y, self->orca.velocity.x - motion[2],
+                     self->orca.velocity.y - motion[3], self->radius + other};
         if (periodic) {
             q.x = jf_wrap(q.x, a->period.x);
             q.y = jf_wrap(q.y, a->period.y);
@@ -413,15 +409,15 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
 static inline bool jox_sees_over_edges(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const JoxFloats margin = jf_set(1e-3f); /* m: more than positions are rounded by */
-    const JoxFloats reach = jf_add(jf_load(a->search + p->first), margin);
+    const JoxFloats reach = jf_load(a->search + p->first) + margin;
     JoxMask over = jm_of_bits(0);
     for (int axis = 0; axis < 2; axis++) {
         const float origin = axis ? a->origin.y : a->origin.x;
         const float period = axis ? a->period.y : a->period.x;
         const JoxFloats at = jf_load((axis ? a->y : a->x) + p->first);
         if (period > 0.0f)
-            over = jm_or(over, jm_or(jf_lt(jf_sub(at, reach), jf_set(origin)),
-                                     jf_lt(jf_set(origin + period), jf_add(at, reach))));
+            over = jm_or(over, jm_or(jf_lt(at - reach, jf_set(origin)),
+                                     jf_lt(jf_set(origin + period), at + reach)));
     }
     return jm_bits(over) & p->lanes;
 }

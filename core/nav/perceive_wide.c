@@ -22,7 +22,7 @@ typedef struct Reach {
 } Reach;
 
 static inline JoxFloats cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
-    const JoxFloats from = jf_mul(jf_sub(at, jf_set(low)), jf_set(per_metre));
+    const JoxFloats from = (at - low) * per_metre;
     return jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1)));
 }
 /* Stores the first cells that lanes reach, or the last ones, of each and of it with the next lane.
@@ -50,24 +50,20 @@ static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     const JoxNav *nav = packet->p->nav;
     const JoxV2 least = nav->drift.least, most = nav->drift.most, low = nav->low;
     const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats x = jf_add(jf_load(packet->at_x), jf_set(shift.x));
-    const JoxFloats y = jf_add(jf_load(packet->at_y), jf_set(shift.y));
+    const JoxFloats x = jf_load(packet->at_x) + shift.x;
+    const JoxFloats y = jf_load(packet->at_y) + shift.y;
     Cells *own = &reach->own, *both = &reach->both;
     jf_store(reach->x, x);
     jf_store(reach->y, y);
-    jf_store(reach->radius2, jf_mul(radius, radius));
-    store_first(cells_along(jf_sub(jf_sub(x, radius), jf_set(most.x)), low.x, nav->per_metre.x,
-                            nav->columns),
-                own->left, both->left);
-    store_last(cells_along(jf_sub(jf_add(x, radius), jf_set(least.x)), low.x, nav->per_metre.x,
-                           nav->columns),
-               own->right, both->right);
-    store_first(
-        cells_along(jf_sub(jf_sub(y, radius), jf_set(most.y)), low.y, nav->per_metre.y, nav->rows),
-        own->low, both->low);
-    store_last(
-        cells_along(jf_sub(jf_add(y, radius), jf_set(least.y)), low.y, nav->per_metre.y, nav->rows),
-        own->high, both->high);
+    jf_store(reach->radius2, radius * radius);
+    store_first(cells_along(x - radius - most.x, low.x, nav->per_metre.x, nav->columns), own->left,
+                both->left);
+    store_last(cells_along(x + radius - least.x, low.x, nav->per_metre.x, nav->columns), own->right,
+               both->right);
+    store_first(cells_along(y - radius - most.y, low.y, nav->per_metre.y, nav->rows), own->low,
+                both->low);
+    store_last(cells_along(y + radius - least.y, low.y, nav->per_metre.y, nav->rows), own->high,
+               both->high);
     const JoxMask apart = jm_or(are_apart(own->left, own->right, both->left, both->right),
                                 are_apart(own->low, own->high, both->low, both->high));
     reach->pairs = ~jm_bits(apart) & JOX_ALL_LANES >> 1; /* the last has no next */
@@ -94,8 +90,8 @@ static inline Seeker seeker_of(Packet *packet, const Reach *reach, uint32_t lane
    list. Returns how many these are. */
 static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at, JoxInts others,
                                    JoxMask there) {
-    const JoxFloats dx = jf_sub(at.x, seeker->x), dy = jf_sub(at.y, seeker->y);
-    const JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
+    const JoxFloats dx = at.x - seeker->x, dy = at.y - seeker->y;
+    const JoxFloats d2 = dx * dx + dy * dy;
     const JoxMask near = jm_without(jf_le(d2, seeker->radius2), ji_equal(others, seeker->self));
     const uint32_t bits = jm_bits(jm_and(near, there));
     jf_store_packed(seeker->distance2 + n, d2, bits);
@@ -236,8 +232,8 @@ static inline Seeing sees_over(const float *along, JoxFloats wide, float origin,
     Seeing s = {{0, JOX_ALL_LANES, 0}};
     if (period > 0.0f) {
         const JoxFloats at = jf_load(along);
-        s.lanes[0] = jm_bits(jf_le(jf_set(origin + period), jf_add(at, wide)));
-        s.lanes[2] = jm_bits(jf_le(jf_sub(at, wide), jf_set(origin)));
+        s.lanes[0] = jm_bits(jf_le(jf_set(origin + period), at + wide));
+        s.lanes[2] = jm_bits(jf_le(at - wide, jf_set(origin)));
     }
     return s;
 }
@@ -245,7 +241,7 @@ static inline Seeing sees_over(const float *along, JoxFloats wide, float origin,
 /* The lists of some lanes, anew; those of all others are empty. */
 static void list_lanes(Packet *packet, uint32_t lanes) {
     const JoxAgents *a = packet->p->agents;
-    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift.farthest));
+    const JoxFloats wide = jf_load(packet->radius) + packet->p->nav->drift.farthest;
     const Seeing x = sees_over(packet->at_x, wide, a->origin.x, a->period.x);
     const Seeing y = sees_over(packet->at_y, wide, a->origin.y, a->period.y);
     memset(packet->count, 0, sizeof packet->count);
@@ -294,7 +290,7 @@ static inline void write_whole(const Packet *packet, uint32_t *index) {
 static inline JoxInts close_of(const Packet *packet, JoxInts count) {
     const float touch = jox_touch_most(packet->p->out);
     const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats farthest2 = jf_min(jf_set(touch * touch), jf_mul(radius, radius));
+    const JoxFloats farthest2 = jf_min(jf_set(touch * touch), radius * radius);
     const JoxFloats floor2 = jf_load(packet->floor2);
     const JoxInts key = key_of(farthest2, floor2, first_key(floor2));
     const JoxFloats beyond = ji_as_floats(ji_add(key, ji_set(PLACES))); /* the next distance's */
@@ -323,10 +319,10 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     JoxFloats reach = perception;
     if (jm_bits(f->full))
         reach = jf_select(f->full, jf_sqrt(farthest_of(packet, f)), perception);
-    JoxFloats area = jf_max(jf_mul(reach, reach), jf_set(JOX_DENSITY_LEAST));
+    JoxFloats area = jf_max(reach * reach, jf_set(JOX_DENSITY_LEAST));
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
-                 jf_div(ji_to_floats(f->count), jf_mul(jf_set(JOX_PI), area)));
+                 ji_to_floats(f->count) / (JOX_PI * area));
     store_bytes(p->out->count + packet->first, mask, f->count);
     store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
     store_crowding(packet, mask, f->count);
@@ -341,8 +337,8 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
 static void find_touching(const Packet *packet, JoxMask sees) {
     const JoxPerceive *p = packet->p;
     const JoxFloats radius = jox_param_lanes(p->agents, JOX_PARAM_radius, packet->first);
-    JoxFloats range = jf_add(jf_add(radius, jf_set(p->out->widest)), jf_set(JOX_TOUCH_LEAST));
-    range = jf_min(jf_add(range, jf_set(JOX_TOUCH_MOST)), jf_set(p->sight));
+    JoxFloats range = radius + p->out->widest + JOX_TOUCH_LEAST;
+    range = jf_min(range + JOX_TOUCH_MOST, jf_set(p->sight));
     JoxFloats reach = jf_select(sees, jf_load(p->agents->search + packet->first), jf_set(0.0f));
     const uint32_t lacking = packet->lanes & jm_bits(jf_lt(reach, range));
     store_bytes(p->out->touch_count + packet->first, jm_of_bits(packet->lanes),
@@ -374,7 +370,7 @@ static void perceive_packet(Packet *packet) {
     const JoxFloats last = jf_load(a->search + i), zero = jf_set(0.0f);
     const JoxInts most = jf_to_ints(jox_param_lanes(a, JOX_PARAM_neighbours, i));
     const JoxFloats first = jf_set(jox_maxf(p->nav->search, JOX_SEARCH_LEAST));
-    JoxFloats radius = jf_select(jf_lt(zero, last), jf_add(last, jf_set(JOX_SEARCH_SLACK)), first);
+    JoxFloats radius = jf_select(jf_lt(zero, last), last + JOX_SEARCH_SLACK, first);
     jf_store(packet->at_x, jf_load(a->x + i));
     jf_store(packet->at_y, jf_load(a->y + i));
     const JoxMask sees = ji_less(ji_set(0), most);
@@ -394,7 +390,7 @@ static void perceive_packet(Packet *packet) {
         if (full)
             search_alone(packet, full);
         left &= ~done;
-        radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
+        radius *= JOX_SEARCH_GROWTH;
     }
     find_touching(packet, sees);
 }
@@ -402,7 +398,7 @@ static void perceive_packet(Packet *packet) {
 /* One more than the most neighbours of so many agents; mostly all have as many. */
 static uint32_t levels_of(const float *neighbours, uint32_t count) {
     float most = neighbours[0];
-    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_sub(jf_load(neighbours), jf_set(most))));
+    const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_load(neighbours) - most));
     for (uint32_t lane = 1; jm_bits(other) && lane < count; lane++)
         most = jox_maxf(most, neighbours[lane]);
     return (uint32_t)most + 1;

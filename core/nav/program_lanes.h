@@ -30,18 +30,18 @@ static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloa
     const JoxFloats epsilon = jf_set(1e-5f), zero = jf_set(0.0f);
     const JoxVector normal = jox_row_normal(&rows[row]);
     const JoxFloats offset = jf_load(rows[row].offset);
-    JoxFloats half2 = jf_sub(jf_mul(limit, limit), jf_mul(offset, offset));
+    JoxFloats half2 = limit * limit - offset * offset;
     JoxMask none = jf_lt(half2, zero);
-    JoxFloats half = jf_sqrt(half2), low = jf_neg(half), high = half;
-    b->direction = (JoxVector){normal.y, jf_neg(normal.x)};
-    b->foot = (JoxVector){jf_mul(normal.x, offset), jf_mul(normal.y, offset)};
+    JoxFloats half = jf_sqrt(half2), low = -half, high = half;
+    b->direction = (JoxVector){normal.y, -normal.x};
+    b->foot = (JoxVector){normal.x * offset, normal.y * offset};
     for (uint32_t k = 0; k < row; k++) {
         const JoxVector other = jox_row_normal(&rows[k]);
         JoxFloats across = jv_dot(other, b->direction);
-        JoxFloats missing = jf_sub(jf_load(rows[k].offset), jv_dot(other, b->foot));
+        JoxFloats missing = jf_load(rows[k].offset) - jv_dot(other, b->foot);
         JoxMask parallel = jf_le(jf_abs(across), epsilon);
         none = jm_or(none, jm_and(parallel, jf_lt(epsilon, missing)));
-        JoxFloats t = jf_div(missing, across);
+        JoxFloats t = missing / across;
         JoxMask up = jf_lt(zero, across);
         low = jf_select(jm_without(up, parallel), jf_max(low, t), low);
         high = jf_select(jm_or(up, parallel), high, jf_min(high, t));
@@ -57,18 +57,16 @@ static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wan
                                                const JoxVector *towards) {
     const JoxFloats epsilon = jf_set(1e-5f), share = jf_set(JOX_RIGHT_SHARE);
     if (towards)
-        wanted = (JoxVector){jf_sub(wanted.x, jf_mul(jf_neg(wanted.y), share)),
-                             jf_sub(wanted.y, jf_mul(wanted.x, share))};
-    JoxVector away = {jf_sub(wanted.x, b->foot.x), jf_sub(wanted.y, b->foot.y)};
+        wanted = (JoxVector){wanted.x - (-wanted.y * share), wanted.y - wanted.x * share};
+    JoxVector away = {wanted.x - b->foot.x, wanted.y - b->foot.y};
     JoxFloats t = jv_dot(b->direction, away);
     t = jf_select(jf_lt(t, b->low), b->low, jf_select(jf_lt(b->high, t), b->high, t));
     if (towards) {
         JoxFloats gain = jv_dot(*towards, b->direction);
         t = jf_select(jf_lt(epsilon, gain), b->high, t);
-        t = jf_select(jf_lt(gain, jf_neg(epsilon)), b->low, t);
+        t = jf_select(jf_lt(gain, -epsilon), b->low, t);
     }
-    return (JoxVector){jf_add(b->foot.x, jf_mul(b->direction.x, t)),
-                       jf_add(b->foot.y, jf_mul(b->direction.y, t))};
+    return (JoxVector){b->foot.x + b->direction.x * t, b->foot.y + b->direction.y * t};
 }
 
 /* The program in two dimensions over the first `count` rows, for the lanes of `all`. Returns those
@@ -79,12 +77,12 @@ static inline JoxMask jox_program_lanes(const JoxRow *rows, uint32_t count, JoxM
                                         JoxVector *result, JoxInts *failed_at) {
     JoxVector v = wanted;
     if (towards) {
-        v = (JoxVector){jf_mul(towards->x, limit), jf_mul(towards->y, limit)};
+        v = (JoxVector){towards->x * limit, towards->y * limit};
     } else {
         JoxFloats length2 = jv_dot(wanted, wanted);
-        JoxFloats by = jf_div(limit, jf_sqrt(length2));
-        JoxVector shorter = {jf_mul(wanted.x, by), jf_mul(wanted.y, by)};
-        v = jv_select(jf_lt(jf_mul(limit, limit), length2), shorter, wanted);
+        JoxFloats by = limit / jf_sqrt(length2);
+        JoxVector shorter = {wanted.x * by, wanted.y * by};
+        v = jv_select(jf_lt(limit * limit, length2), shorter, wanted);
     }
     JoxMask failed = jm_of_bits(0), left = all;
     *failed_at = ji_set(0);
@@ -114,13 +112,13 @@ static inline void jox_project_lanes(const JoxRow *rows, uint32_t hard, uint32_t
     const JoxFloats offset = jf_load(rows[worst].offset);
     for (uint32_t j = hard; j < worst; j++) {
         const JoxVector other = jox_row_normal(&rows[j]);
-        JoxVector d = {jf_sub(other.x, normal.x), jf_sub(other.y, normal.y)};
-        JoxFloats length = jf_sqrt(jv_dot(d, d)), by = jf_div(one, length);
+        JoxVector d = {other.x - normal.x, other.y - normal.y};
+        JoxFloats length = jf_sqrt(jv_dot(d, d)), by = one / length;
         JoxMask there = jf_lt(jf_set(0.5f), jv_dot(other, other));
         there = jm_and(there, jf_lt(epsilon, length));
-        JoxFloats moved = jf_div(jf_sub(jf_load(rows[j].offset), offset), length);
-        jf_store(out[j].x, jf_select(there, jf_mul(d.x, by), zero));
-        jf_store(out[j].y, jf_select(there, jf_mul(d.y, by), zero));
+        JoxFloats moved = (jf_load(rows[j].offset) - offset) / length;
+        jf_store(out[j].x, jf_select(there, d.x * by, zero));
+        jf_store(out[j].y, jf_select(there, d.y * by, zero));
         jf_store(out[j].offset, jf_select(there, moved, zero));
     }
 }
@@ -137,7 +135,7 @@ static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count,
     for (uint32_t row = hard; row < count; row++) {
         const JoxVector normal = jox_row_normal(&rows[row]);
         const JoxFloats offset = jf_load(rows[row].offset);
-        JoxFloats over = jf_sub(offset, jv_dot(normal, *result));
+        JoxFloats over = offset - jv_dot(normal, *result);
         JoxMask there = jf_lt(jf_set(0.5f), jv_dot(normal, normal));
         JoxMask worse = jm_and(jm_and(failed, there), jf_lt(violation, over));
         worse = jm_without(worse, ji_less(ji_set((int32_t)row), failed_at));
@@ -149,7 +147,7 @@ static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count,
         JoxMask unmet =
             jox_program_lanes(projected, row, worse, limit, wanted, &normal, &best, &unmet_at);
         *result = jv_select(jm_without(worse, unmet), best, *result);
-        over = jf_sub(offset, jv_dot(normal, *result));
+        over = offset - jv_dot(normal, *result);
         violation = jf_select(worse, over, violation);
     }
 }

@@ -61,15 +61,15 @@ static inline uint32_t jox_count_of(const JoxHalfPlaneCounts *made) {
 /* Square of how far those who are pressed may be taken from what they want, m2/s2: see
    keep_within_reach in solve_one.c. */
 static inline JoxFloats jox_reach2_lanes(const JoxPressed *p) {
-    JoxFloats fx = jf_sub(p->forced.x, p->wanted.x), fy = jf_sub(p->forced.y, p->wanted.y);
-    JoxFloats reach2 = jf_add(jf_mul(fx, fx), jf_mul(fy, fy));
+    JoxFloats fx = p->forced.x - p->wanted.x, fy = p->forced.y - p->wanted.y;
+    JoxFloats reach2 = fx * fx + fy * fy;
     JoxFloats along = jv_dot((JoxVector){p->force.x, p->force.y}, p->wanted);
-    JoxFloats lacks = jf_max(jf_set(0.0f), jf_sub(p->force.offset, along));
-    return jf_max(reach2, jf_mul(lacks, lacks));
+    JoxFloats lacks = jf_max(jf_set(0.0f), p->force.offset - along);
+    return jf_max(reach2, lacks * lacks);
 }
 
 static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velocity) {
-    JoxVector d = {jf_sub(velocity.x, p->wanted.x), jf_sub(velocity.y, p->wanted.y)};
+    JoxVector d = {velocity.x - p->wanted.x, velocity.y - p->wanted.y};
     return jm_without(p->pressed, jf_le(jv_dot(d, d), jox_reach2_lanes(p)));
 }
 
@@ -77,8 +77,8 @@ static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velo
    contact alone then keeps momentum. */
 static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector velocity) {
     const JoxFloats rounding = jf_set(2e-5f); /* m/s */
-    JoxVector d = {jf_sub(velocity.x, p->forced.x), jf_sub(velocity.y, p->forced.y)};
-    JoxMask same = jm_and(p->touching, jf_lt(jv_dot(d, d), jf_mul(rounding, rounding)));
+    JoxVector d = {velocity.x - p->forced.x, velocity.y - p->forced.y};
+    JoxMask same = jm_and(p->touching, jf_lt(jv_dot(d, d), rounding * rounding));
     return jv_select(same, p->forced, velocity);
 }
 
@@ -182,25 +182,25 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
         jf_store(imposed[row].x, n.x);
         jf_store(imposed[row].y, n.y);
         jf_store(l->asked[row], offset);
-        jf_store(imposed[row].offset, jf_sub(offset, jv_dot(n, wanted)));
+        jf_store(imposed[row].offset, offset - jv_dot(n, wanted));
     }
     JoxVector change;
     *unmet = jox_best_lanes(imposed, l->hard + 1, l->hard, l->all,
                             jf_sqrt(jox_reach2_lanes(&l->pressed)), none, &change);
-    const JoxVector best = {jf_add(wanted.x, change.x), jf_add(wanted.y, change.y)};
+    const JoxVector best = {wanted.x + change.x, wanted.y + change.y};
     JoxMask lowered = jm_of_bits(0);
     for (uint32_t row = 0; row < l->hard; row++) {
         JoxMask contact = jm_without(l->all, ji_less(ji_set((int32_t)row), l->contacts));
         JoxFloats least = jv_dot(jox_row_normal(&l->rows[row]), best);
         JoxFloats offset = jf_load(l->rows[row].offset);
-        JoxMask lower = jm_without(contact, jf_le(offset, jf_add(least, slack)));
-        jf_store(l->rows[row].offset, jf_select(lower, jf_sub(least, slack), offset));
+        JoxMask lower = jm_without(contact, jf_le(offset, least + slack));
+        jf_store(l->rows[row].offset, jf_select(lower, least - slack, offset));
         lowered = jm_or(lowered, lower);
     }
     JoxFloats least = jv_dot((JoxVector){force->x, force->y}, best);
-    uint32_t lower = jm_bits(jm_without(l->all, jf_le(force->offset, jf_add(least, slack))));
+    uint32_t lower = jm_bits(jm_without(l->all, jf_le(force->offset, least + slack)));
     float offsets[JOX_WIDTH];
-    jf_store(offsets, jf_sub(least, slack));
+    jf_store(offsets, least - slack);
     for (uint32_t k = 0; k < r->count; k++) {
         const uint32_t last = r->force[k] - (JOX_REST_HARD - r->hard);
         if (!r->made[k].force)

@@ -14,10 +14,10 @@ static uint32_t kept_off(const JoxPacket *p, JoxVector wanted, JoxMask gets_on) 
     JoxMask kept = jm_of_bits(0);
     for (uint32_t row = p->contacts; row < p->objects; row++) {
         JoxFloats x = jf_load(p->rows[row].x), y = jf_load(p->rows[row].y);
-        JoxFloats along = jf_add(jf_mul(x, wanted.x), jf_mul(y, wanted.y));
-        JoxFloats against = jf_neg(along);
-        JoxFloats aside = jf_abs(jf_sub(jf_mul(x, wanted.y), jf_mul(y, wanted.x)));
-        JoxMask head_on = jm_and(jf_lt(zero, against), jf_lt(aside, jf_mul(tie, against)));
+        JoxFloats along = x * wanted.x + y * wanted.y;
+        JoxFloats against = -along;
+        JoxFloats aside = jf_abs(x * wanted.y - y * wanted.x);
+        JoxMask head_on = jm_and(jf_lt(zero, against), jf_lt(aside, tie * against));
         JoxMask violated = jf_lt(along, jf_load(p->rows[row].offset));
         kept = jm_or(kept, jm_without(violated, jm_without(gets_on, head_on)));
     }
@@ -44,11 +44,11 @@ static JoxVector wish(const JoxPacket *p) {
     const uint32_t i = p->first;
     const JoxFloats slow = jf_set(0.2f); /* of the wanted speed */
     JoxVector w = {jf_load(a->pref_x + i), jf_load(a->pref_y + i)};
-    JoxFloats along = jf_add(jf_mul(jf_load(a->vx + i), w.x), jf_mul(jf_load(a->vy + i), w.y));
-    JoxFloats length2 = jf_add(jf_mul(w.x, w.x), jf_mul(w.y, w.y));
-    JoxMask gets_on = jf_lt(jf_mul(slow, length2), along);
+    JoxFloats along = jf_load(a->vx + i) * w.x + jf_load(a->vy + i) * w.y;
+    JoxFloats length2 = w.x * w.x + w.y * w.y;
+    JoxMask gets_on = jf_lt(slow * length2, along);
     JoxMask pushes = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_push, i));
-    JoxMask stands = jf_lt(length2, jf_mul(jf_set(JOX_STANDS), jf_set(JOX_STANDS)));
+    JoxMask stands = jf_lt(length2, jf_set(JOX_STANDS) * jf_set(JOX_STANDS));
     uint32_t aside = p->lanes & ~jm_bits(jm_or(jm_without(gets_on, pushes), stands));
     if (aside)
         aside &= kept_off(p, w, gets_on);

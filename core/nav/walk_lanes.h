@@ -32,7 +32,7 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *
     JoxFloats heading[4];
     jf_records(&nav->headings[0].aim_x, others, heading);
     const JoxVector aim = {heading[0], heading[1]};
-    const JoxMask stands = jf_le(jf_add(jf_abs(aim.x), jf_abs(aim.y)), zero);
+    const JoxMask stands = jf_le(jf_abs(aim.x) + jf_abs(aim.y), zero);
     const JoxInts bound = ji_load(a->bound + first);
     const JoxMask alike = jm_and(ji_equal(bound, jf_bits(heading[3])), ji_less(ji_set(0), bound));
     JoxMask goes_first = jf_lt(heading[2], way);
@@ -76,20 +76,19 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     const JoxNeighbours *n = w->neighbours;
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
     const JoxFloats haste = jox_param_lanes(w->agents, JOX_PARAM_haste, first);
-    const JoxFloats twice = jf_mul(jf_set(2.0f), haste);
+    const JoxFloats twice = 2.0f * haste;
     const JoxFloats most = jf_set((float)w->law->eager_most);
     uint32_t crowded = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         crowded |= (uint32_t)(n->count[first + lane] > JOX_CROWD_RANK) << lane;
     const JoxFloats d2 = jf_load(n->crowding2 + first);
-    const JoxFloats area = jf_mul(jf_set(JOX_PI), jf_max(d2, jf_set(1e-4f)));
-    const JoxFloats density = jf_select(
-        jm_of_bits(crowded), jf_div(jf_set((float)(JOX_CROWD_RANK + 1)), area), jf_set(0.0f));
-    const JoxFloats keen = jox_share_lanes(jf_sub(twice, one)); /* beyond normal */
-    const JoxFloats least =
-        jf_add(jf_mul(normal, jox_share_lanes(twice)), jf_mul(jf_sub(one, normal), keen));
-    const JoxFloats bound = jf_add(most, jf_mul(jf_sub(one, most), keen));
-    const JoxFloats crowd = jox_share_lanes(jf_sub(density, jf_set((float)w->law->crowded)));
+    const JoxFloats area = JOX_PI * jf_max(d2, jf_set(1e-4f));
+    const JoxFloats density =
+        jf_select(jm_of_bits(crowded), (float)(JOX_CROWD_RANK + 1) / area, jf_set(0.0f));
+    const JoxFloats keen = jox_share_lanes(twice - one); /* beyond normal */
+    const JoxFloats least = normal * jox_share_lanes(twice) + (one - normal) * keen;
+    const JoxFloats bound = most + (one - most) * keen;
+    const JoxFloats crowd = jox_share_lanes(density - (float)w->law->crowded);
     return jf_max(least, jf_min(bound, crowd));
 }
 
@@ -97,7 +96,7 @@ static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
     const JoxFloats now = jf_load(w->agents->eager + first);
     const JoxFloats wanted = jox_eagerness_wanted(w, first);
     const JoxFloats rate = jf_select(jf_lt(now, wanted), jf_set(w->rise), jf_set(w->fall));
-    return jf_add(now, jf_mul(jf_sub(wanted, now), rate));
+    return now + (wanted - now) * rate;
 }
 
 /* From -1 to 1. */
@@ -151,16 +150,15 @@ static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector
                                      JoxFloats allowed) {
     const JoxAgents *a = w->agents;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats stop = jf_set(w->stop), keeps = jf_sub(one, stop);
+    const JoxFloats stop = jf_set(w->stop), keeps = one - stop;
     const JoxFloats speed = jf_max(allowed, zero);
     const JoxVector v = {jf_load(a->vx + first), jf_load(a->vy + first)};
     const JoxFloats now = jf_sqrt(jv_dot(v, v)), along = jv_dot(v, e);
-    const JoxVector aside = {jf_sub(v.x, jf_mul(e.x, along)), jf_sub(v.y, jf_mul(e.y, along))};
-    JoxFloats kept = jf_max(zero, jf_min(now, jf_add(along, along)));
+    const JoxVector aside = {v.x - e.x * along, v.y - e.y * along};
+    JoxFloats kept = jf_max(zero, jf_min(now, along + along));
     const JoxFloats rate = jf_select(jf_lt(kept, speed), jf_set(w->start), stop);
-    kept = jf_add(kept, jf_mul(jf_sub(speed, kept), rate));
-    return (JoxVector){jf_add(jf_mul(e.x, kept), jf_mul(aside.x, keeps)),
-                       jf_add(jf_mul(e.y, kept), jf_mul(aside.y, keeps))};
+    kept += (speed - kept) * rate;
+    return (JoxVector){e.x * kept + aside.x * keeps, e.y * kept + aside.y * keeps};
 }
 
 /* The course follows the direction chosen; where they are opposite it becomes that. */
@@ -168,12 +166,11 @@ static inline JoxVector jox_turn_course(const JoxWalk *w, uint32_t first, JoxVec
     const JoxAgents *a = w->agents;
     const JoxFloats share = jf_set(w->course), zero = jf_set(0.0f);
     JoxVector course = {jf_load(a->course_x + first), jf_load(a->course_y + first)};
-    course.x = jf_add(course.x, jf_mul(jf_sub(e.x, course.x), share));
-    course.y = jf_add(course.y, jf_mul(jf_sub(e.y, course.y), share));
-    const JoxFloats length2 = jv_dot(course, course), by = jf_div(jf_set(1.0f), jf_sqrt(length2));
+    course.x += (e.x - course.x) * share;
+    course.y += (e.y - course.y) * share;
+    const JoxFloats length2 = jv_dot(course, course), by = 1.0f / jf_sqrt(length2);
     const JoxMask turns = jf_lt(zero, length2);
-    return (JoxVector){jf_select(turns, jf_mul(course.x, by), e.x),
-                       jf_select(turns, jf_mul(course.y, by), e.y)};
+    return (JoxVector){jf_select(turns, course.x * by, e.x), jf_select(turns, course.y * by, e.y)};
 }
 
 #endif

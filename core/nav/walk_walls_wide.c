@@ -109,13 +109,12 @@ float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
         const uint32_t lanes = jox_first_lanes(end - i);
         const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
         const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
-        const JoxVector unit = jv_scale(preferred, jf_div(jf_set(1.0f), speed));
+        const JoxVector unit = jv_scale(preferred, 1.0f / speed);
         const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
         const JoxMask walks =
             jm_and(jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, i)), jm_of_bits(lanes));
-        const JoxFloats keep =
-            jf_mul(jf_set((float)w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, i));
-        const JoxFloats far = jf_add(keep, jf_mul(speed, jf_set((float)w->law->wall_time)));
+        const JoxFloats keep = (float)w->law->wall_radius * jox_param_lanes(a, JOX_PARAM_radius, i);
+        const JoxFloats far = keep + speed * (float)w->law->wall_time;
         reach = jf_max(reach, jf_select(walks, far, none));
         float x[JOX_WIDTH], y[JOX_WIDTH];
         jv_store(x, y, 0, aim);

@@ -58,7 +58,7 @@ static inline JoxFloats root(JoxFloats a) { /* 0 below 0 */
 }
 
 static inline JoxFloats squared(JoxFloats a) {
-    return jf_mul(a, a);
+    return a * a;
 }
 
 /* ---- whom one minds ---- */
@@ -138,7 +138,7 @@ typedef struct Next {
 /* A vector, as seen along the aims. */
 static JoxVector as_seen(const Packet *p, JoxVector v) {
     const JoxVector aim = p->aim;
-    return (JoxVector){jv_dot(v, aim), jf_sub(jf_mul(aim.x, v.y), jf_mul(aim.y, v.x))};
+    return (JoxVector){jv_dot(v, aim), aim.x * v.y - aim.y * v.x};
 }
 
 /* Takes the nearest out of those left; false where nobody is left of any lane. */
@@ -162,31 +162,30 @@ static inline __attribute__((always_inline)) bool take(const Packet *p, JoxInts 
     jf_records(&n->motions[0].x, others, record);
     next->offset = as_seen(p, offset_of(p, record, periodic));
     next->velocity = as_seen(p, (JoxVector){record[2], record[3]});
-    next->radii = jf_add(p->radius, jox_param_pick(a->param[JOX_PARAM_radius], others));
+    next->radii = p->radius + jox_param_pick(a->param[JOX_PARAM_radius], others);
     return true;
 }
 
 static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
     const JoxWalkLaw *law = p->w->law;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
-    const JoxFloats width = jf_mul(jf_set((float)law->width), room);
-    const JoxFloats length = jf_mul(jf_set((float)law->length), room);
-    const JoxFloats foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
+    const JoxFloats room = one - (float)law->room_eager * p->eager;
+    const JoxFloats width = (float)law->width * room;
+    const JoxFloats length = (float)law->length * room;
+    const JoxFloats foreseen = (float)law->ahead_share * p->gap;
     const JoxVector behind = {jf_set(-1.0f), zero};
     Minded left = minded_of(p, periodic);
     Next next;
     for (p->ahead_count = 0; take(p, &left.ahead, &next, periodic); p->ahead_count++) {
-        p->ahead[p->ahead_count] =
-            (Ahead){.offset = jv_select(next.there, next.offset, behind),
-                    .foreseen = jv_scale(next.velocity, foreseen),
-                    .distance2 = jv_dot(next.offset, next.offset),
-                    .per_width2 = squared(jf_div(one, jf_mul(width, next.radii))),
-                    .length = jf_mul(length, next.radii)};
+        p->ahead[p->ahead_count] = (Ahead){.offset = jv_select(next.there, next.offset, behind),
+                                           .foreseen = jv_scale(next.velocity, foreseen),
+                                           .distance2 = jv_dot(next.offset, next.offset),
+                                           .per_width2 = squared(one / (width * next.radii)),
+                                           .length = length * next.radii};
     }
     for (p->crossing_count = 0; take(p, &left.crossing, &next, periodic); p->crossing_count++) {
-        const JoxFloats width2 = squared(jf_mul(jf_set((float)law->width_cross), next.radii));
-        const JoxFloats apart2 = jf_sub(jv_dot(next.offset, next.offset), width2);
+        const JoxFloats width2 = squared((float)law->width_cross * next.radii);
+        const JoxFloats apart2 = jv_dot(next.offset, next.offset) - width2;
         p->crossing[p->crossing_count] =
             (Crossing){next.there, next.offset, next.velocity, width2, jf_max(apart2, zero)};
     }
@@ -210,24 +209,23 @@ static inline JoxFloats room_behind(const Packet *p, const Ahead *o, JoxFloats a
                                     JoxFloats aside, JoxFloats foreseen) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats slope = jf_set(1.7320508f); /* tangent of 60 degrees */
-    const JoxFloats aside2 = squared(aside), q2 = jf_mul(aside2, o->per_width2);
+    const JoxFloats aside2 = squared(aside), q2 = aside2 * o->per_width2;
     const JoxMask in_way = jf_lt(q2, one);
-    const JoxFloats beside = jf_add(o->distance2, jf_mul(p->beside2, aside2));
-    const JoxFloats round = jf_sub(one, jf_mul(squared(q2), q2)); /* in the way at least 0 */
+    const JoxFloats beside = o->distance2 + p->beside2 * aside2;
+    const JoxFloats round = one - squared(q2) * q2; /* in the way at least 0 */
     const JoxFloats length = jf_sqrt(jf_select(in_way, round, beside));
-    const JoxFloats gap =
-        jf_select(in_way, jf_sub(along, jf_mul(o->length, length)), jf_sub(length, o->length));
+    const JoxFloats gap = jf_select(in_way, along - o->length * length, length - o->length);
     const JoxMask minded =
-        jm_or(jm_and(in_way, jf_lt(zero, along)), jf_lt(jf_abs(aside), jf_mul(slope, along)));
-    return jf_select(minded, jf_add(gap, jf_max(foreseen, zero)), jf_set(INFINITY));
+        jm_or(jm_and(in_way, jf_lt(zero, along)), jf_lt(jf_abs(aside), slope * along));
+    return jf_select(minded, gap + jf_max(foreseen, zero), jf_set(INFINITY));
 }
 
 /* People come down gradually from the wanted speed to what those ahead allow. */
 static inline JoxFloats ease(const Packet *p, JoxFloats allowed) {
     const JoxFloats one = jf_set(1.0f);
-    JoxFloats most = jf_min(allowed, jf_mul(jf_set(NO_LIMIT), p->speed));
-    JoxFloats share = jf_div(jf_mul(jf_set((float)p->w->law->ease), most), p->speed);
-    JoxFloats eased = jf_div(most, jf_sqrt(jf_sqrt(jf_add(one, squared(squared(share))))));
+    JoxFloats most = jf_min(allowed, NO_LIMIT * p->speed);
+    JoxFloats share = (float)p->w->law->ease * most / p->speed;
+    JoxFloats eased = most / jf_sqrt(jf_sqrt(one + squared(squared(share))));
     return jf_select(jf_lt(jf_set(0.0f), most), eased, most);
 }
 
@@ -236,19 +234,18 @@ static inline JoxFloats ease(const Packet *p, JoxFloats allowed) {
 static inline void cross(const Packet *p, const Crossing *o, JoxVector e, Judgement *j) {
     const JoxFloats zero = jf_set(0.0f), none = jf_set(INFINITY);
     const JoxFloats along = jv_dot(o->offset, e);
-    const JoxFloats aside = jf_sub(jf_mul(e.x, o->offset.y), jf_mul(e.y, o->offset.x));
-    const JoxFloats rest = jf_sub(o->width2, squared(aside));
+    const JoxFloats aside = e.x * o->offset.y - e.y * o->offset.x;
+    const JoxFloats rest = o->width2 - squared(aside);
     const JoxMask in_way = jm_and(jm_and(jf_lt(zero, rest), jf_lt(zero, along)), o->there);
-    const JoxFloats path = jf_mul(jf_sub(along, root(rest)), p->per_cross);
+    const JoxFloats path = (along - root(rest)) * p->per_cross;
     j->allowed = jf_min(j->allowed, jf_select(in_way, path, none));
     /* When their discs meet, at the wanted speed and the other's present velocity. */
-    const JoxVector u = {jf_sub(jf_mul(p->speed, e.x), o->velocity.x),
-                         jf_sub(jf_mul(p->speed, e.y), o->velocity.y)};
+    const JoxVector u = {p->speed * e.x - o->velocity.x, p->speed * e.y - o->velocity.y};
     const JoxFloats closing = jv_dot(o->offset, u), u2 = jv_dot(u, u);
-    const JoxFloats meets = jf_sub(squared(closing), jf_mul(u2, o->apart2));
-    const JoxFloats time = jf_div(jf_sub(closing, root(meets)), jf_max(u2, jf_set(1e-6f)));
+    const JoxFloats meets = squared(closing) - u2 * o->apart2;
+    const JoxFloats time = (closing - root(meets)) / jf_max(u2, jf_set(1e-6f));
     const JoxMask soon = jm_and(jm_and(jf_lt(zero, meets), jf_lt(zero, closing)), o->there);
-    j->worth = jf_min(j->worth, jf_select(soon, jf_mul(p->meeting, time), none));
+    j->worth = jf_min(j->worth, jf_select(soon, p->meeting * time, none));
 }
 
 /* Of a direction in which those ahead leave so much room, m: the speed that keeps the time gap. */
@@ -256,7 +253,7 @@ static Judgement judgement(const Packet *p, JoxFloats room, JoxVector e) {
     Judgement j = {p->speed, p->speed};
     for (uint32_t k = 0; k < p->crossing_count; k++)
         cross(p, &p->crossing[k], e, &j);
-    j.allowed = jf_min(j.allowed, ease(p, jf_mul(room, p->per_time)));
+    j.allowed = jf_min(j.allowed, ease(p, room * p->per_time));
     j.worth = jf_min(j.worth, j.allowed);
     return j;
 }
@@ -265,7 +262,7 @@ static Judgement judge(const Packet *p, JoxVector e) {
     JoxFloats room = jf_set(INFINITY);
     for (uint32_t k = 0; k < p->ahead_count; k++) {
         const Ahead *o = &p->ahead[k];
-        const JoxFloats aside = jf_sub(jf_mul(e.x, o->offset.y), jf_mul(e.y, o->offset.x));
+        const JoxFloats aside = e.x * o->offset.y - e.y * o->offset.x;
         room = jf_min(room, room_behind(p, o, jv_dot(e, o->offset), aside, jv_dot(e, o->foreseen)));
     }
     return judgement(p, room, e);
@@ -278,11 +275,11 @@ static void judge_both(const Packet *p, const JoxVector e[2], Judgement out[2]) 
     for (uint32_t k = 0; k < p->ahead_count; k++) {
         const Ahead *o = &p->ahead[k];
         const JoxVector ahead = jv_scale(o->offset, cosine), turned = jv_scale(o->offset, sine);
-        const JoxFloats moves = jf_mul(cosine, o->foreseen.x), turns = jf_mul(sine, o->foreseen.y);
-        left = jf_min(left, room_behind(p, o, jf_add(ahead.x, turned.y), jf_sub(ahead.y, turned.x),
-                                        jf_add(moves, turns)));
-        right = jf_min(right, room_behind(p, o, jf_sub(ahead.x, turned.y),
-                                          jf_add(ahead.y, turned.x), jf_sub(moves, turns)));
+        const JoxFloats moves = cosine * o->foreseen.x, turns = sine * o->foreseen.y;
+        left =
+            jf_min(left, room_behind(p, o, ahead.x + turned.y, ahead.y - turned.x, moves + turns));
+        right =
+            jf_min(right, room_behind(p, o, ahead.x - turned.y, ahead.y + turned.x, moves - turns));
     }
     out[0] = judgement(p, left, e[0]);
     out[1] = judgement(p, right, e[1]);
@@ -311,16 +308,17 @@ static Taste taste_of(const Packet *p) {
     const JoxWalkLaw *law = p->w->law;
     const JoxAgents *a = p->w->agents;
     return (Taste){as_seen(p, jv_load(a->course_x, a->course_y, p->first)),
-                   jf_mul(jf_set((float)law->turn_cost), p->speed),
-                   jf_mul(jf_set((float)law->right), p->speed)};
+                   (float)law->turn_cost * p->speed, (float)law->right * p->speed};
 }
 
 /* Never falls as `worth` grows. */
 static inline JoxFloats taste(const Taste *t, uint32_t k, JoxVector e, JoxFloats worth) {
-    const JoxFloats turning = jf_sub(jf_set(1.0f), jv_dot(e, t->course));
-    worth = jf_mul(jf_max(worth, jf_set(WORST)), jf_set(jox_walk_cosine[k]));
-    worth = jf_sub(worth, jf_mul(t->turn, turning));
-    return jox_walk_sine[k] < 0.0f ? jf_add(worth, t->right) : worth;
+    const JoxFloats turning = 1.0f - jv_dot(e, t->course);
+    worth = jf_max(worth, jf_set(WORST)) * jox_walk_cosine[k];
+    worth -= t->turn * turning;
+    if (jox_walk_sine[k] < 0.0f)
+        worth += t->right;
+    return worth;
 }
 
 /* The best so far. */
@@ -387,7 +385,7 @@ static bool mind_walls(const Packet *p, uint32_t lanes, JoxWalkTable *table) {
 static Choice choose(const Packet *p) {
     const JoxVector aim = direction(0);
     const Judgement ahead = judge(p, aim);
-    const JoxMask straight = jf_le(jf_mul(jf_set(AS_FREE), p->speed), ahead.worth);
+    const JoxMask straight = jf_le(AS_FREE * p->speed, ahead.worth);
     const uint32_t seek = p->lanes & ~jm_bits(straight);
     if (!seek)
         return (Choice){aim, ahead.allowed};
@@ -409,8 +407,7 @@ static void walk_packet(Packet *p) {
     (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose(p);
     const JoxVector aim = p->aim;
-    const JoxVector e = {jf_sub(jf_mul(to.e.x, aim.x), jf_mul(to.e.y, aim.y)),
-                         jf_add(jf_mul(to.e.x, aim.y), jf_mul(to.e.y, aim.x))};
+    const JoxVector e = {to.e.x * aim.x - to.e.y * aim.y, to.e.x * aim.y + to.e.y * aim.x};
     const JoxVector velocity = jox_approach(p->w, i, e, to.allowed);
     const JoxVector course = jox_turn_course(p->w, i, e);
     float out[4][JOX_WIDTH];
@@ -458,17 +455,16 @@ static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
     p->clear2 = jf_load(p->w->nav->clear2 + first);
     p->near_walls = p->lanes & jm_bits(jf_lt(p->clear2, jf_set(INFINITY)));
     const JoxFloats keep =
-        jf_mul(jf_set((float)p->w->law->wall_radius), jox_param_lanes(a, JOX_PARAM_radius, first));
-    const JoxFloats reach = jf_add(keep, jf_mul(p->speed, jf_set((float)p->w->law->wall_time)));
+        (float)p->w->law->wall_radius * jox_param_lanes(a, JOX_PARAM_radius, first);
+    const JoxFloats reach = keep + p->speed * (float)p->w->law->wall_time;
     p->at_walls =
         p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->clear2, first, reach));
-    const JoxFloats foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
-    const JoxFloats flank = jf_div(jf_set((float)law->flank),
-                                   jf_sub(one, jf_mul(jf_set((float)law->flank_eager), p->eager)));
-    p->beside2 = jf_sub(squared(flank), one);
-    p->per_time = jf_div(one, jf_add(p->gap, foreseen));
+    const JoxFloats foreseen = (float)law->ahead_share * p->gap;
+    const JoxFloats flank = (float)law->flank / (one - (float)law->flank_eager * p->eager);
+    p->beside2 = squared(flank) - one;
+    p->per_time = one / (p->gap + foreseen);
     p->per_cross = jf_set(1.0f / (float)law->cross_time);
-    p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)law->contact_time));
+    p->meeting = p->speed * (1.0f / (float)law->contact_time);
 }
 
 void JOX_WIDE(jox_walk_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) {

@@ -41,24 +41,8 @@ static inline JoxInts ji_lane(void) {
     return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
 }
 
-static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
-    return _mm512_add_ps(a, b);
-}
-static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
-    return _mm512_sub_ps(a, b);
-}
-static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
-    return _mm512_mul_ps(a, b);
-}
-static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
-    return _mm512_div_ps(a, b);
-}
 static inline JoxFloats jf_sqrt(JoxFloats a) {
     return _mm512_sqrt_ps(a);
-}
-static inline JoxFloats jf_neg(JoxFloats a) {
-    return _mm512_castsi512_ps(
-        _mm512_xor_si512(_mm512_castps_si512(a), _mm512_set1_epi32(INT32_MIN)));
 }
 static inline JoxFloats jf_abs(JoxFloats a) {
     return _mm512_castsi512_ps(

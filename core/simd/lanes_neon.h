@@ -47,23 +47,8 @@ static inline JoxInts ji_lane(void) {
     return (JoxInts){0, 1, 2, 3};
 }
 
-static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
-    return vaddq_f32(a, b);
-}
-static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
-    return vsubq_f32(a, b);
-}
-static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
-    return vmulq_f32(a, b);
-}
-static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
-    return vdivq_f32(a, b);
-}
 static inline JoxFloats jf_sqrt(JoxFloats a) {
     return vsqrtq_f32(a);
-}
-static inline JoxFloats jf_neg(JoxFloats a) {
-    return vnegq_f32(a);
 }
 static inline JoxFloats jf_abs(JoxFloats a) {
     return vabsq_f32(a);

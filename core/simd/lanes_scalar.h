@@ -46,23 +46,8 @@ static inline JoxInts ji_lane(void) {
     return 0;
 }
 
-static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
-    return a + b;
-}
-static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
-    return a - b;
-}
-static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
-    return a * b;
-}
-static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
-    return a / b;
-}
 static inline JoxFloats jf_sqrt(JoxFloats a) {
     return sqrtf(a);
-}
-static inline JoxFloats jf_neg(JoxFloats a) {
-    return -a;
 }
 static inline JoxFloats jf_abs(JoxFloats a) {
     return fabsf(a);

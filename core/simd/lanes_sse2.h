@@ -50,23 +50,8 @@ static inline JoxInts ji_lane(void) {
     return _mm_setr_epi32(0, 1, 2, 3);
 }
 
-static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
-    return _mm_add_ps(a, b);
-}
-static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
-    return _mm_sub_ps(a, b);
-}
-static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
-    return _mm_mul_ps(a, b);
-}
-static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
-    return _mm_div_ps(a, b);
-}
 static inline JoxFloats jf_sqrt(JoxFloats a) {
     return _mm_sqrt_ps(a);
-}
-static inline JoxFloats jf_neg(JoxFloats a) {
-    return _mm_xor_ps(a, _mm_set1_ps(-0.0f));
 }
 static inline JoxFloats jf_abs(JoxFloats a) {
     return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);

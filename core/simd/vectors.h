@@ -18,16 +18,16 @@ static inline void jv_store(float *x, float *y, size_t i, JoxVector v) {
     jf_store(y + i, v.y);
 }
 static inline JoxVector jv_add(JoxVector a, JoxVector b) {
-    return (JoxVector){jf_add(a.x, b.x), jf_add(a.y, b.y)};
+    return (JoxVector){a.x + b.x, a.y + b.y};
 }
 static inline JoxVector jv_sub(JoxVector a, JoxVector b) {
-    return (JoxVector){jf_sub(a.x, b.x), jf_sub(a.y, b.y)};
+    return (JoxVector){a.x - b.x, a.y - b.y};
 }
 static inline JoxVector jv_scale(JoxVector a, JoxFloats by) {
-    return (JoxVector){jf_mul(a.x, by), jf_mul(a.y, by)};
+    return (JoxVector){a.x * by, a.y * by};
 }
 static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
-    return jf_add(jf_mul(a.x, b.x), jf_mul(a.y, b.y));
+    return a.x * b.x + a.y * b.y;
 }
 static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
     return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
@@ -35,7 +35,7 @@ static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
 /* The shortest way along one axis where edges are periodic: jox_wrap of agents/agents.h. */
 static inline JoxFloats jf_wrap(JoxFloats d, float period) {
     JoxFloats shift = jf_select(jf_lt(jf_set(0.0f), d), jf_set(period), jf_set(-period));
-    return jf_select(jf_lt(jf_set(0.5f * period), jf_abs(d)), jf_sub(d, shift), d);
+    return jf_select(jf_lt(jf_set(0.5f * period), jf_abs(d)), d - shift, d);
 }
 
 #endif

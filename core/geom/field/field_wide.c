@@ -32,7 +32,7 @@ typedef struct Way {
 
 static inline JoxFloats cell_at(const JoxField *f, JoxInts row, JoxFloats column) {
     /* There are less cells than whole numbers that a float holds. */
-    return jf_add(jf_mul(ji_to_floats(row), jf_set((float)f->columns)), column);
+    return ji_to_floats(row) * (float)f->columns + column;
 }
 
 static inline JoxInts whole_most(JoxFloats x, int most) {
@@ -44,8 +44,7 @@ static inline JoxInts whole_most(JoxFloats x, int most) {
 static inline JoxMask find(const JoxField *f, JoxVector p, Spot *s) {
     const JoxFloats zero = jf_set(0.0f), size = jf_set(f->size);
     s->at = p;
-    s->in_cells = (JoxVector){jf_div(jf_sub(p.x, jf_set(f->low.x)), size),
-                              jf_div(jf_sub(p.y, jf_set(f->low.y)), size)};
+    s->in_cells = (JoxVector){(p.x - f->low.x) / size, (p.y - f->low.y) / size};
     JoxMask within = jm_and(jf_le(zero, s->in_cells.x), jf_le(zero, s->in_cells.y));
     within = jm_and(within, jm_and(jf_le(s->in_cells.x, jf_set((float)f->columns)),
                                    jf_le(s->in_cells.y, jf_set((float)f->rows))));
@@ -58,8 +57,7 @@ static inline JoxMask find(const JoxField *f, JoxVector p, Spot *s) {
 
 static inline JoxVector unit(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f), length = jf_sqrt(jv_dot(a, a));
-    return jv_select(jf_lt(zero, length), jv_scale(a, jf_div(jf_set(1.0f), length)),
-                     (JoxVector){zero, zero});
+    return jv_select(jf_lt(zero, length), jv_scale(a, 1.0f / length), (JoxVector){zero, zero});
 }
 
 /* ---- between four centres ---- */
@@ -71,10 +69,8 @@ typedef struct Corners {
 
 static inline Corners corners_of(const JoxField *f, const Spot *s) {
     const JoxFloats zero = jf_set(0.0f), half = jf_set(0.5f), one = jf_set(1.0f);
-    const JoxFloats x =
-        jf_min(jf_max(jf_sub(s->in_cells.x, half), zero), jf_set((float)(f->columns - 1)));
-    const JoxFloats y =
-        jf_min(jf_max(jf_sub(s->in_cells.y, half), zero), jf_set((float)(f->rows - 1)));
+    const JoxFloats x = jf_min(jf_max(s->in_cells.x - half, zero), jf_set((float)(f->columns - 1)));
+    const JoxFloats y = jf_min(jf_max(s->in_cells.y - half, zero), jf_set((float)(f->rows - 1)));
     Corners c = {.column = {jf_to_ints(x)}, .row = {jf_to_ints(y)}};
     const JoxInts last_column = ji_set(f->columns - 1), last_row = ji_set(f->rows - 1);
     c.column[1] =
@@ -82,20 +78,20 @@ static inline Corners corners_of(const JoxField *f, const Spot *s) {
     c.row[1] = ji_select(ji_less(c.row[0], last_row), ji_add(c.row[0], ji_set(1)), c.row[0]);
     for (int k = 0; k < 4; k++)
         c.cell[k] = jf_to_ints(cell_at(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
-    const JoxFloats u = jf_sub(x, ji_to_floats(c.column[0]));
-    const JoxFloats v = jf_sub(y, ji_to_floats(c.row[0]));
-    const JoxFloats rest_u = jf_sub(one, u), rest_v = jf_sub(one, v);
-    c.weight[0] = jf_mul(rest_u, rest_v);
-    c.weight[1] = jf_mul(u, rest_v);
-    c.weight[2] = jf_mul(rest_u, v);
-    c.weight[3] = jf_mul(u, v);
+    const JoxFloats u = x - ji_to_floats(c.column[0]);
+    const JoxFloats v = y - ji_to_floats(c.row[0]);
+    const JoxFloats rest_u = one - u, rest_v = one - v;
+    c.weight[0] = rest_u * rest_v;
+    c.weight[1] = u * rest_v;
+    c.weight[2] = rest_u * v;
+    c.weight[3] = u * v;
     return c;
 }
 
 /* The middle of cells along one axis, m. */
 static inline JoxFloats middle(JoxInts number, float low, float size) {
-    const JoxFloats cells = jf_add(ji_to_floats(number), jf_set(0.5f));
-    return jf_add(jf_set(low), jf_mul(cells, jf_set(size)));
+    const JoxFloats cells = ji_to_floats(number) + 0.5f;
+    return low + cells * size;
 }
 
 /* As jox_field_direction and jox_field_distance blend. `here`: the cell of each point. */
@@ -110,21 +106,21 @@ static inline Way blend(const JoxField *f, const Spot *s, const Way *here) {
         JoxFloats cell[4];
         jf_records(&f->cells[0].length, c.cell[k], cell);
         const JoxVector way = {cell[1], cell[2]};
-        const JoxVector off = {jf_sub(s->at.x, middle(c.column[k & 1], f->low.x, f->size)),
-                               jf_sub(s->at.y, middle(c.row[k >> 1], f->low.y, f->size))};
-        const JoxFloats slope = jf_mul(jf_set(0.5f), jv_dot(unit(way), off));
-        length = jf_add(length, jf_mul(c.weight[k], jf_sub(cell[0], slope)));
-        sum = jv_add(sum, (JoxVector){jf_mul(c.weight[k], way.x), jf_mul(c.weight[k], way.y)});
+        const JoxVector off = {s->at.x - middle(c.column[k & 1], f->low.x, f->size),
+                               s->at.y - middle(c.row[k >> 1], f->low.y, f->size)};
+        const JoxFloats slope = 0.5f * jv_dot(unit(way), off);
+        length += c.weight[k] * (cell[0] - slope);
+        sum = jv_add(sum, (JoxVector){c.weight[k] * way.x, c.weight[k] * way.y});
         reached = jm_and(reached, jf_lt(cell[0], infinite));
         at_goal = jm_and(at_goal, jf_lt(cell[0], close));
     }
     const JoxFloats length2 = jv_dot(sum, sum), along = jf_sqrt(length2);
     const JoxMask leads = jf_lt(jf_set(JOX_FIELD_ARRIVED * JOX_FIELD_ARRIVED), length2);
-    JoxVector way = jv_scale(sum, jf_div(one, along));
+    JoxVector way = jv_scale(sum, one / along);
     const JoxVector else_way =
         jv_select(jf_lt(here->length, size), (JoxVector){zero, zero}, here->direction);
     way = jv_select(leads, way, else_way);
-    length = jf_max(zero, jf_select(at_goal, jf_mul(along, close), length));
+    length = jf_max(zero, jf_select(at_goal, along * close, length));
     return (Way){way, jf_select(reached, length, infinite)};
 }
 
@@ -141,8 +137,8 @@ static inline Way at_walls(const JoxField *f, const Spot *s, JoxMask near, JoxIn
                            JoxMask *passed) {
     const JoxFloats side = jf_set((float)JOX_FIELD_SIDE), half = jf_set(0.5f);
     const JoxFloats column = ji_to_floats(s->column), row = ji_to_floats(s->row);
-    const JoxInts x = whole_most(jf_mul(jf_sub(s->in_cells.x, column), side), JOX_FIELD_SIDE - 1);
-    const JoxInts y = whole_most(jf_mul(jf_sub(s->in_cells.y, row), side), JOX_FIELD_SIDE - 1);
+    const JoxInts x = whole_most((s->in_cells.x - column) * side, JOX_FIELD_SIDE - 1);
+    const JoxInts y = whole_most((s->in_cells.y - row) * side, JOX_FIELD_SIDE - 1);
     const JoxInts sample = ji_add(x, ji_add(y, ji_add(y, y)));
     const JoxInts first = first_of(ji_select(near, patch, ji_set(0)));
     const JoxInts at = ji_add(first, sample);
@@ -155,11 +151,10 @@ static inline Way at_walls(const JoxField *f, const Spot *s, JoxMask near, JoxIn
     *passed = jm_and(near, jm_of_bits(cut));
     const JoxVector way = {jf_pick(table, at), jf_pick(table + PATCH_Y, at)};
     const JoxFloats length = jf_pick(table + PATCH_LENGTH, at);
-    const JoxVector in_cells = {jf_add(column, jf_div(jf_add(ji_to_floats(x), half), side)),
-                                jf_add(row, jf_div(jf_add(ji_to_floats(y), half), side))};
-    const JoxVector from = {jf_add(jf_set(f->low.x), jf_mul(in_cells.x, jf_set(f->size))),
-                            jf_add(jf_set(f->low.y), jf_mul(in_cells.y, jf_set(f->size)))};
-    const JoxFloats on = jf_sub(length, jv_dot(way, jv_sub(s->at, from)));
+    const JoxVector in_cells = {column + (ji_to_floats(x) + half) / side,
+                                row + (ji_to_floats(y) + half) / side};
+    const JoxVector from = {f->low.x + in_cells.x * f->size, f->low.y + in_cells.y * f->size};
+    const JoxFloats on = length - jv_dot(way, jv_sub(s->at, from));
     const JoxFloats infinite = jf_set(INFINITY);
     return (Way){way, jf_select(jf_lt(length, infinite), jf_max(jf_set(0.0f), on), infinite)};
 }

@@ -20,8 +20,7 @@ static inline JoxFloats length2(JoxVector a) {
 /* jox_unit: zero stays zero. */
 static inline JoxVector unit(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f), length = jf_sqrt(length2(a));
-    return jv_select(jf_lt(zero, length), jv_scale(a, jf_div(jf_set(1.0f), length)),
-                     (JoxVector){zero, zero});
+    return jv_select(jf_lt(zero, length), jv_scale(a, 1.0f / length), (JoxVector){zero, zero});
 }
 
 static inline JoxFloats clamp(JoxFloats x, float low, float high) {
@@ -35,8 +34,8 @@ static inline JoxVector nearest_on_axis(const JoxPlace *place, JoxVector p) {
     const JoxVector start = {jf_set(a.x), jf_set(a.y)}, way = {jf_set(ab.x), jf_set(ab.y)};
     if (!(l2 > 0.0f))
         return start;
-    const JoxVector from = {jf_sub(p.x, start.x), jf_sub(p.y, start.y)};
-    return jv_add(start, jv_scale(way, clamp(jf_div(jv_dot(from, way), jf_set(l2)), 0.0f, 1.0f)));
+    const JoxVector from = {p.x - start.x, p.y - start.y};
+    return jv_add(start, jv_scale(way, clamp(jv_dot(from, way) / l2, 0.0f, 1.0f)));
 }
 
 /* Round a solid, counter-clockwise: T - w N with N outward from the stadium about it. The inward
@@ -46,16 +45,16 @@ static JoxVector orbit(const JoxSteer *s, JoxInts at) {
     const double *o = s->args;
     const float near = (float)o[JOX_ORBIT_DENSITY_NEAR], far = (float)o[JOX_ORBIT_DENSITY_FAR];
     const JoxVector p = pick(a->x, a->y, at), axis = nearest_on_axis(s->place, p);
-    const JoxVector out = {jf_sub(p.x, axis.x), jf_sub(p.y, axis.y)};
-    const JoxFloats distance = jf_sub(jf_sqrt(length2(out)), jf_set(s->place->axis_radius));
+    const JoxVector out = {p.x - axis.x, p.y - axis.y};
+    const JoxFloats distance = jf_sqrt(length2(out)) - s->place->axis_radius;
     const JoxVector normal = unit(out);
-    const JoxFloats share = clamp(jf_div(distance, jf_set((float)o[JOX_ORBIT_FAR])), 0.0f, 1.0f);
-    const JoxFloats wanted = jf_add(jf_set(near), jf_mul(jf_set(far - near), share));
-    const JoxFloats lacks = clamp(jf_sub(wanted, jf_pick(a->density, at)), -0.1f, 1.0f);
-    JoxFloats inward = jf_mul(jf_set((float)o[JOX_ORBIT_INWARD]), lacks);
+    const JoxFloats share = clamp(distance / (float)o[JOX_ORBIT_FAR], 0.0f, 1.0f);
+    const JoxFloats wanted = near + (far - near) * share;
+    const JoxFloats lacks = clamp(wanted - jf_pick(a->density, at), -0.1f, 1.0f);
+    JoxFloats inward = (float)o[JOX_ORBIT_INWARD] * lacks;
     inward = jf_select(jf_lt(jf_set((float)o[JOX_ORBIT_RETURN]), distance), jf_set(0.6f), inward);
     const JoxVector inwards = jv_scale(normal, inward);
-    return unit((JoxVector){jf_sub(jf_neg(normal.y), inwards.x), jf_sub(normal.x, inwards.y)});
+    return unit((JoxVector){-normal.y - inwards.x, normal.x - inwards.y});
 }
 
 void JOX_WIDE(jox_steer_orbit)(JoxSteer *s) {
@@ -80,11 +79,11 @@ void JOX_WIDE(jox_steer_arrive)(JoxSteer *s) {
         const JoxVector way = jv_sub(jv_load(s->to_x, s->to_y, n), pick(a->x, a->y, at));
         const JoxFloats distance = jf_sqrt(length2(way));
         const JoxFloats speed = jox_param_pick(a->param[JOX_PARAM_speed], at);
-        JoxFloats share = jf_min(one, jf_div(distance, jf_mul(speed, jf_set(JOX_SLOWING))));
+        JoxFloats share = jf_min(one, distance / (speed * JOX_SLOWING));
         share = jf_select(jf_lt(zero, speed), share, one);
         const JoxMask is_there = jf_lt(distance, jf_set(1e-4f));
         const JoxVector asked =
-            jv_select(is_there, (JoxVector){zero, zero}, jv_scale(way, jf_div(share, distance)));
+            jv_select(is_there, (JoxVector){zero, zero}, jv_scale(way, share / distance));
         const JoxMask arrives = ji_equal(ji_load(s->arrives + n), ji_set(-1));
         jv_store(s->way_x, s->way_y, n, jv_select(arrives, asked, before));
     }

@@ -11,12 +11,11 @@
 static JoxMask place_image(const JoxDensityAxis *axis, JoxFloats at, uint32_t k, size_t to,
                            JoxDensityPlaced *placed) {
     const float shift = ((float)k - 1.0f) * axis->period;
-    const JoxFloats place =
-        jf_div(jf_sub(jf_add(at, jf_set(shift)), jf_set(axis->low)), jf_set(axis->cell));
-    const JoxFloats from_node = jf_sub(place, jf_set(0.5f));
+    const JoxFloats place = (at + shift - axis->low) / axis->cell;
+    const JoxFloats from_node = place - 0.5f;
     const JoxInts node = jf_to_ints(from_node); /* what is wanted lies above zero */
     ji_store(placed->node[k] + to, node);
-    jf_store(placed->share[k] + to, jf_sub(from_node, ji_to_floats(node)));
+    jf_store(placed->share[k] + to, from_node - ji_to_floats(node));
     return jm_and(jf_le(jf_set(axis->first), place), jf_lt(place, jf_set(axis->end)));
 }
 
@@ -75,11 +74,11 @@ static inline void sum_packets(const float *const *rows, const float *taps, int 
         const JoxFloats tap = jf_set(taps[k]);
         JOX_UNROLL
         for (int p = 0; p < packets; p++)
-            sums[p] = jf_add(sums[p], jf_mul(tap, jf_load(row + p * JOX_WIDTH)));
+            sums[p] += tap * jf_load(row + p * JOX_WIDTH);
     }
     JOX_UNROLL
     for (int p = 0; p < packets; p++)
-        jf_store(out + at + p * JOX_WIDTH, jf_mul(sums[p], jf_set(scale)));
+        jf_store(out + at + p * JOX_WIDTH, sums[p] * scale);
 }
 
 void JOX_WIDE(jox_density_sum)(const float *const *rows, const float *taps, int count, float scale,
@@ -114,24 +113,24 @@ void JOX_WIDE(jox_density_reach)(const uint64_t *restrict is, const uint64_t *re
 
 static inline void mixed_packet(const JoxDensityStep *s, int c, float *out) {
     const float *at = s->u + c, *x = s->open_x + c, *y = s->open_y + c;
-    const JoxFloats u = jf_load(at), share = jf_mul(jf_set(s->share), jf_load(s->per + c));
-    const JoxFloats right = jf_mul(jf_load(x), jf_sub(jf_load(at + 1), u));
-    const JoxFloats left = jf_mul(jf_load(x - 1), jf_sub(u, jf_load(at - 1)));
-    const JoxFloats up = jf_mul(jf_load(y), jf_sub(jf_load(at + s->wide), u));
-    const JoxFloats down = jf_mul(jf_load(y - s->wide), jf_sub(u, jf_load(at - s->wide)));
-    const JoxFloats gained = jf_sub(jf_add(jf_sub(right, left), up), down);
-    jf_store(out + c, jf_add(u, jf_mul(share, gained)));
+    const JoxFloats u = jf_load(at), share = s->share * jf_load(s->per + c);
+    const JoxFloats right = jf_load(x) * (jf_load(at + 1) - u);
+    const JoxFloats left = jf_load(x - 1) * (u - jf_load(at - 1));
+    const JoxFloats up = jf_load(y) * (jf_load(at + s->wide) - u);
+    const JoxFloats down = jf_load(y - s->wide) * (u - jf_load(at - s->wide));
+    const JoxFloats gained = right - left + up - down;
+    jf_store(out + c, u + share * gained);
 }
 
 /* The same, where all that is multiplied by is 1. */
 static inline void plain_packet(const JoxDensityStep *s, int c, float *out) {
     const float *at = s->u + c;
     const JoxFloats u = jf_load(at);
-    const JoxFloats right = jf_sub(jf_load(at + 1), u), left = jf_sub(u, jf_load(at - 1));
-    const JoxFloats up = jf_sub(jf_load(at + s->wide), u);
-    const JoxFloats down = jf_sub(u, jf_load(at - s->wide));
-    const JoxFloats gained = jf_sub(jf_add(jf_sub(right, left), up), down);
-    jf_store(out + c, jf_add(u, jf_mul(jf_set(s->share), gained)));
+    const JoxFloats right = jf_load(at + 1) - u, left = u - jf_load(at - 1);
+    const JoxFloats up = jf_load(at + s->wide) - u;
+    const JoxFloats down = u - jf_load(at - s->wide);
+    const JoxFloats gained = right - left + up - down;
+    jf_store(out + c, u + s->share * gained);
 }
 
 static void step_cell(const JoxDensityStep *s, int c, float *out) {
