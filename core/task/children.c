@@ -17,28 +17,28 @@
 #include "base/file.h"
 #include "base/mem.h"
 
-enum { WAIT_MS = 20, WAITS = 10, OUT_OF_MEMORY = 99 };
+enum { WAIT_MS = 20, WAITS = 10, OUT_OF_MEMORY = 99 /* exit status */ };
 
 typedef struct Child {
     uint64_t job;
-    pid_t process; /* 0: none */
-    int result, said;
+    pid_t process;    /* 0: free slot */
+    int result, said; /* files in memory: the result, and standard error */
 } Child;
 
 struct JoxChildren {
     Child *all;
     uint32_t most, count;
-    size_t memory; /* bytes that each may take besides what it has; 0: any */
+    size_t memory; /* bytes that a child may allocate beyond those of the fork; 0: no limit */
 };
 
-static void forget(JoxChildren *c, Child *child) {
+static void close_child(JoxChildren *c, Child *child) {
     close(child->result);
     close(child->said);
     *child = (Child){0};
     c->count--;
 }
 
-static void end_all(void *children) {
+static void kill_children(void *children) {
     JoxChildren *c = children;
     for (uint32_t k = 0; k < c->most; k++) {
         Child *child = &c->all[k];
@@ -47,7 +47,7 @@ static void end_all(void *children) {
         kill(child->process, SIGKILL);
         while (waitpid(child->process, NULL, 0) < 0 && errno == EINTR)
             continue;
-        forget(c, child);
+        close_child(c, child);
     }
 }
 
@@ -57,14 +57,14 @@ JoxChildren *jox_children_create(uint32_t most) {
     c->all = jox_alloc(most, sizeof *c->all);
     c->most = most;
     c->memory = most > 1 ? jox_confine_memory_left() / most : 0;
-    return jox_hold(c, end_all);
+    return jox_hold(c, kill_children);
 }
 
 void jox_children_free(JoxChildren *c) {
     if (!c)
         return;
     jox_let_go(c);
-    end_all(c);
+    kill_children(c);
     jox_free(c->all);
     jox_free(c);
 }
@@ -77,18 +77,19 @@ uint32_t jox_children_count(const JoxChildren *c) {
     return c->count;
 }
 
-/* Does not return. */
-static void work_on(const Child *child, size_t memory, pid_t parent, JoxChildWork *work,
-                    void *context) {
+/* Runs the work in the forked child, without SIGINT and SIGHUP, with standard input and output
+   closed. Does not return. */
+static void run_child(const Child *child, size_t memory, pid_t parent, JoxChildWork *work,
+                      void *context) {
     JoxRecovery recovery;
     JoxText result = {0};
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) /* which has ended meanwhile */
+    if (getppid() != parent) /* the parent ended before prctl took effect */
         _exit(1);
-    signal(SIGINT, SIG_IGN); /* Ctrl-C is for the parent, which ends its children */
+    signal(SIGINT, SIG_IGN); /* Ctrl-C also reaches the parent, which kills its children */
     signal(SIGHUP, SIG_IGN);
     signal(SIGTERM, SIG_DFL);
-    signal(SIGXCPU, SIG_DFL); /* it has no files to finish */
+    signal(SIGXCPU, SIG_DFL); /* the parent's handler finishes files; a child has none */
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nothing, 0);
     dup2(nothing, 1);
@@ -100,7 +101,7 @@ static void work_on(const Child *child, size_t memory, pid_t parent, JoxChildWor
         _exit(OUT_OF_MEMORY);
     work(context, child->job, &result);
     const bool good = jox_file_send(child->result, result.data, result.length);
-    _exit(good ? 0 : 1); /* nothing that it shares with the parent is ended twice */
+    _exit(good ? 0 : 1); /* not exit(): it would flush and close what the parent also has */
 }
 
 bool jox_children_start(JoxChildren *c, uint64_t job, JoxChildWork *work, void *context) {
@@ -115,7 +116,7 @@ bool jox_children_start(JoxChildren *c, uint64_t job, JoxChildWork *work, void *
     fflush(NULL);
     const pid_t process = fresh.result >= 0 && fresh.said >= 0 ? fork() : -1;
     if (process == 0)
-        work_on(&fresh, c->memory, parent, work, context);
+        run_child(&fresh, c->memory, parent, work, context);
     if (process < 0) {
         const int why = errno;
         close(fresh.result);
@@ -129,8 +130,8 @@ bool jox_children_start(JoxChildren *c, uint64_t job, JoxChildWork *work, void *
     return true;
 }
 
-/* What a file in memory holds, or the last `most` bytes of it. */
-static void read_all(int file, size_t most, JoxText *out) {
+/* Appends the last `most` bytes of a file to `out`. */
+static void read_file_end(int file, size_t most, JoxText *out) {
     struct stat info;
     char bytes[1 << 14];
     off_t at = 0;
@@ -142,7 +143,7 @@ static void read_all(int file, size_t most, JoxText *out) {
 
 static void say_why(const Child *child, int status, char why[400]) {
     JoxText said = {0};
-    read_all(child->said, 200, &said);
+    read_file_end(child->said, 200, &said);
     if (said.data)
         jox_text_clean(said.data);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
@@ -166,16 +167,16 @@ bool jox_children_wait(JoxChildren *c, JoxChildEnd *end) {
         for (uint32_t k = 0; k < c->most; k++) {
             Child *child = &c->all[k];
             int status;
-            /* The program's other processes are not waited for. */
+            /* Waits for each child by its id: the host program's other children are left alone. */
             if (!child->process || waitpid(child->process, &status, WNOHANG) != child->process)
                 continue;
             *end = (JoxChildEnd){.job = child->job};
             end->good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
             if (end->good)
-                read_all(child->result, SIZE_MAX >> 1, &end->result);
+                read_file_end(child->result, SIZE_MAX >> 1, &end->result);
             else
                 say_why(child, status, end->why);
-            forget(c, child);
+            close_child(c, child);
             return true;
         }
         if (usleep(WAIT_MS * 1000) != 0) /* interrupted */

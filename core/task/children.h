@@ -1,5 +1,6 @@
-/* Work done by child processes, several at once: a copy of this process each, whose memory, files
-   and failures are its own. */
+/* Child processes that work in parallel: each is a fork of this process, so its memory, its files
+   and its crashes stay its own. Sweeps run each simulation in one; reports call the drawing program
+   in one. */
 #ifndef JOX_TASK_CHILDREN_H
 #define JOX_TASK_CHILDREN_H
 
@@ -10,35 +11,38 @@
 
 typedef struct JoxChildren JoxChildren;
 
-/* At most so many at once, among which the memory is shared that this process may take yet. Those
-   that run are ended with the heap that fails (mem.h), or with this process. Never NULL. */
+/* Creates a set of at most `most` children that run at once. The memory that this process may still
+   allocate is divided among them. Children that run are killed when the heap that owns the set
+   fails (base/mem.h), and when this process ends. Never NULL. */
 JoxChildren *jox_children_create(uint32_t most);
-/* Ends those that run. */
+/* Kills the children that run, and frees the set. NULL is fine. */
 void jox_children_free(JoxChildren *children);
-/* Whether one more may be started; how many run. */
+/* Returns whether one more child may be started, and how many run. */
 bool jox_children_has_room(const JoxChildren *children);
 uint32_t jox_children_count(const JoxChildren *children);
 
-/* In the child: what it is to hand over goes to `result`. Memory that runs out ends it with status
-   1. It calls nothing of what the parent has open but what it may share. */
+/* Runs in the child. What it appends to `result` is handed to the parent. When memory runs out, the
+   child ends with status 99. It must not use the parent's open files and databases, unless they may
+   be shared by processes. */
 typedef void JoxChildWork(void *context, uint64_t job, JoxText *result);
-/* False with errno where the system starts no process. */
+/* Forks a child that runs `work` for the number `job`. Requires jox_children_has_room. Returns
+   false with errno when the system starts no process. */
 bool jox_children_start(JoxChildren *children, uint64_t job, JoxChildWork *work, void *context);
 
-/* How a child ended. */
+/* Says how a child ended. */
 typedef struct JoxChildEnd {
     uint64_t job;
-    bool good;      /* by itself, with its whole result */
-    JoxText result; /* to be freed */
-    char why[400];  /* of one that is not good: the signal or status, and the last that it wrote to
-                       its standard error */
+    bool good;      /* exited with status 0, after its whole result was written */
+    JoxText result; /* owned by the caller; empty unless good */
+    char why[400];  /* if not good: signal or status, and the end of its standard error */
 } JoxChildEnd;
-/* Waits for a child to end, some tenths of a second at most; false if none did. */
+/* Waits at most 0.2 s for a child to end. Returns false if none did, or if a signal interrupted the
+   wait. */
 bool jox_children_wait(JoxChildren *children, JoxChildEnd *end);
 
-/* Does a work in one child and waits for it: what fails in it, as a library of the system that runs
-   out of memory, ends the child alone. False with `why` where it did. Where the system starts no
-   process, it is done here. */
+/* Runs `work` in one child and waits for it, so that a crash in it, such as a system library that
+   runs out of memory, ends the child alone. Returns false with `why` if the child failed. If the
+   system starts no process, the work runs in this one. */
 bool jox_children_do(JoxChildWork *work, void *context, JoxText *result, JoxText *why);
 
 #endif

@@ -14,31 +14,35 @@
 #include "task/thread.h"
 
 enum { MOST_THREADS = 64 };
-static const unsigned OPEN = 1u << 31; /* of `gate` */
+static const unsigned OPEN = 1u << 31; /* bit of `gate` */
 
-/* Beside busy neighbours several threads may take longer than one, as a loop waits for a thread
-   that the system has put aside. So the other way is tried for PROBE laps every so often: soon
-   after it was the better one, else less and less often. */
+/* Chooses between one thread and all. When other processes keep the processors busy, several
+   threads may take longer than one, because a loop waits for a thread that the system has
+   suspended. So the other choice is probed for PROBE laps: SOON laps after a change, then at
+   growing intervals, at most SELDOM laps apart. */
 enum { PROBE = 2, SOON = 8, SELDOM = 512 };
-static const double BETTER = 0.95; /* of the time of a lap, at most: what is taken over */
+/* a probe wins if its laps take less than this share of the usual time */
+static const double BETTER = 0.95;
 typedef struct Pace {
     bool alone, probing;
-    uint32_t left, interval; /* laps until the probe begins or ends; between probes */
-    double usual, probed;    /* s: a lap as it goes, smoothed; the sum of those probed */
+    uint32_t left, interval; /* laps until the next probe begins or the present one ends; laps
+                                between probes */
+    double usual, probed;    /* s per lap: smoothed; mean of the probe */
 } Pace;
 
-/* The chunks of a worker that nobody has taken: the first of them, and above it the end. On a line
-   of the cache of its own. */
+/* The range of chunks of one worker that are not taken yet: the first chunk in the low 32 bits, the
+   end in the high ones. Each has its own cache line. */
 typedef struct Share {
     _Alignas(64) atomic_uint_least64_t left;
 } Share;
 
-/* One loop at a time. Whoever comes while the gate is open takes chunks until none is left; the
-   caller takes part, shuts the gate, and waits for those who are inside: never for a thread that
-   the system has not let run meanwhile. Waits spin a bounded while, then sleep. */
+/* One loop runs at a time. A worker that arrives while the gate is open takes chunks until none is
+   left. The caller does the same, then closes the gate and waits for the workers inside; it never
+   waits for a thread that the system has not scheduled. Waiting threads spin for a bounded time,
+   then sleep. */
 struct JoxPool {
-    uint32_t threads; /* at most, the caller included */
-    uint32_t running; /* 1 + those that were started: by the first loop that has work for them */
+    uint32_t threads; /* upper limit, the caller included */
+    uint32_t running; /* 1 + threads that were started; the first long loop starts them */
     pthread_t thread[MOST_THREADS];
     struct Worker {
         JoxPool *pool;
@@ -46,51 +50,52 @@ struct JoxPool {
     } worker[MOST_THREADS];
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
-    atomic_uint round;   /* moves when a gate opens */
-    atomic_uint asleep;  /* workers that wait on `wake` */
-    atomic_uint gate;    /* OPEN, and how many workers are inside */
-    atomic_bool starved; /* memory ran out in a chunk of this round */
+    atomic_uint round;   /* number of the loop: incremented when the gate opens */
+    atomic_uint asleep;  /* workers that sleep on `wake` */
+    atomic_uint gate;    /* OPEN bit, plus the number of workers inside */
+    atomic_bool starved; /* memory ran out in a chunk of this loop */
     atomic_bool quit;
-    bool begun;
-    const JoJobs *jobs; /* run the chunks in place of the threads; NULL: none */
-    double spin;        /* s: waits at most, before they sleep */
+    bool begun;         /* the first long loop has started the threads */
+    const JoJobs *jobs; /* the host's threads, used instead of own ones; NULL: none */
+    double spin;        /* s: longest wait without sleep */
     Pace pace;
-    JoxHeap *heap; /* of the caller */
+    JoxHeap *heap; /* the caller's; chunks allocate from it */
     uint32_t count, grain, chunks;
     JoxTask *task;
     void *context;
     Share share[MOST_THREADS];
 };
 
-static uint64_t pack(uint32_t begin, uint32_t end) {
+static uint64_t pack_range(uint32_t begin, uint32_t end) {
     return (uint64_t)end << 32 | begin;
 }
 
-/* Every loop is shared out alike: what a worker reads it has mostly written in the loop before, so
-   that it is in the cache of its processor. */
-static void share_out(JoxPool *pool) {
+/* Gives each worker the same share of the chunks in every loop: what it reads was mostly written by
+   itself in the loop before, and is in its processor's cache. */
+static void share_chunks(JoxPool *pool) {
     for (uint32_t w = 0; w < pool->threads; w++) {
         const uint64_t begin = (uint64_t)pool->chunks * w / pool->threads;
         const uint64_t end = (uint64_t)pool->chunks * (w + 1) / pool->threads;
-        atomic_store(&pool->share[w].left, pack((uint32_t)begin, (uint32_t)end));
+        atomic_store(&pool->share[w].left, pack_range((uint32_t)begin, (uint32_t)end));
     }
 }
 
-/* Takes a chunk of a share: its worker the first, others the last. False where none is left. */
-static bool take(Share *share, bool own, uint32_t *chunk) {
+/* Takes a chunk of a share: its owner takes the first one, other workers the last. Returns false if
+   none is left. */
+static bool take_chunk(Share *share, bool own, uint32_t *chunk) {
     uint64_t left = atomic_load_explicit(&share->left, memory_order_relaxed), rest;
     do {
         const uint32_t begin = (uint32_t)left, end = (uint32_t)(left >> 32);
         if (begin >= end)
             return false;
         *chunk = own ? begin : end - 1;
-        rest = own ? pack(begin + 1, end) : pack(begin, end - 1);
+        rest = own ? pack_range(begin + 1, end) : pack_range(begin, end - 1);
     } while (!atomic_compare_exchange_weak_explicit(&share->left, &left, rest, memory_order_relaxed,
                                                     memory_order_relaxed));
     return true;
 }
 
-static bool all_taken(JoxPool *pool) {
+static bool are_chunks_taken(JoxPool *pool) {
     for (uint32_t w = 0; w < pool->threads; w++) {
         const uint64_t left = atomic_load(&pool->share[w].left);
         if ((uint32_t)left < (uint32_t)(left >> 32))
@@ -105,15 +110,16 @@ static void run_chunk(JoxPool *pool, uint32_t chunk, uint32_t worker) {
     pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
 }
 
-/* Its own share, then what others have left. */
-static void take_chunks(JoxPool *pool, uint32_t worker) {
+/* Runs all chunks of the worker's own share, then those left in other shares. */
+static void run_shares(JoxPool *pool, uint32_t worker) {
     uint32_t chunk;
     for (uint32_t k = 0; k < pool->threads; k++)
-        while (take(&pool->share[(worker + k) % pool->threads], k == 0, &chunk))
+        while (take_chunk(&pool->share[(worker + k) % pool->threads], k == 0, &chunk))
             run_chunk(pool, chunk, worker);
 }
 
-/* Where memory is out, the round ends early: its caller learns it when no thread is in it. */
+/* Runs chunks with the caller's heap. When memory runs out, empties all shares so that the loop
+   ends early; the caller sees `starved` once no thread is inside. */
 static void run_chunks(JoxPool *pool, uint32_t worker) {
     JoxRecovery recovery;
     JoxHeap *before = jox_heap_use(pool->heap);
@@ -121,15 +127,16 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     if (setjmp(recovery.jump) != 0) {
         atomic_store(&pool->starved, true);
         for (uint32_t w = 0; w < pool->threads; w++)
-            atomic_store(&pool->share[w].left, pack(0, 0));
+            atomic_store(&pool->share[w].left, pack_range(0, 0));
     } else {
-        take_chunks(pool, worker);
+        run_shares(pool, worker);
     }
     jox_recovery_pop(&recovery);
     jox_heap_use(before);
 }
 
-/* Of a program's threads, which may count on beyond what they were told. */
+/* A job for the host's threads. The host may run more jobs than were asked for: extra ones do
+   nothing. */
 static void run_job(void *data, uint32_t worker) {
     JoxPool *pool = data;
     const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
@@ -138,18 +145,18 @@ static void run_job(void *data, uint32_t worker) {
     jox_numeric_use(before);
 }
 
-/* A wait without sleep. It outlasts what a step does on one thread between two loops: to wake a
-   thread takes 50 us and more where processors are virtual. Bounded in time, as a pause takes from
-   10 to 150 cycles. */
+/* A bounded wait without sleep. It is longer than a step's serial work between two loops, because
+   waking a thread takes 50 us and more on virtual processors. It is bounded by time and not by
+   turns, as one pause takes 10 to 150 cycles. */
 static const double SPIN = 300e-6;       /* s */
-static const double SPIN_CROWDED = 3e-6; /* s, where there are more threads than processors */
+static const double SPIN_CROWDED = 3e-6; /* s, if there are more threads than processors */
 typedef struct Spin {
     double most, until; /* s */
     unsigned turns;
 } Spin;
 
-/* False when the time is up. */
-static bool spin(Spin *wait) {
+/* Pauses for one turn; returns false when the time is up. */
+static bool spin_turn(Spin *wait) {
     jox_pause();
     if (++wait->turns % 64 != 0)
         return true;
@@ -159,16 +166,17 @@ static bool spin(Spin *wait) {
     return now < wait->until;
 }
 
-/* Waits for a round that is not the last one seen. */
+/* Waits until a loop starts that is not the last one seen; returns its number. */
 static unsigned await_round(JoxPool *pool, unsigned seen) {
     Spin wait = {.most = pool->spin};
     do {
         const unsigned round = atomic_load(&pool->round);
         if (round != seen)
             return round;
-    } while (spin(&wait));
+    } while (spin_turn(&wait));
     pthread_mutex_lock(&pool->lock);
-    atomic_fetch_add(&pool->asleep, 1); /* before the look at the round: who opens looks here */
+    /* before reading `round`: start_round reads `asleep` after changing it */
+    atomic_fetch_add(&pool->asleep, 1);
     while (atomic_load(&pool->round) == seen)
         pthread_cond_wait(&pool->wake, &pool->lock);
     atomic_fetch_sub(&pool->asleep, 1);
@@ -176,7 +184,7 @@ static unsigned await_round(JoxPool *pool, unsigned seen) {
     return atomic_load(&pool->round);
 }
 
-static bool enter(JoxPool *pool) {
+static bool enter_gate(JoxPool *pool) {
     unsigned gate = atomic_load(&pool->gate);
     while (gate & OPEN)
         if (atomic_compare_exchange_weak(&pool->gate, &gate, gate + 1))
@@ -192,10 +200,11 @@ static void *worker_main(void *argument) {
         seen = await_round(pool, seen);
         if (atomic_load(&pool->quit))
             return NULL;
-        if (!enter(pool))
+        if (!enter_gate(pool))
             continue;
         run_chunks(pool, self->number);
-        if (atomic_fetch_sub(&pool->gate, 1) == 1) { /* shut, and nobody else inside */
+        /* closed, and this was the last worker inside */
+        if (atomic_fetch_sub(&pool->gate, 1) == 1) {
             pthread_mutex_lock(&pool->lock);
             pthread_cond_signal(&pool->done);
             pthread_mutex_unlock(&pool->lock);
@@ -218,8 +227,8 @@ JoxPool *jox_pool_create(uint32_t threads) {
     return jox_hold(pool, release_pool);
 }
 
-/* Fewer threads give the same results. */
-static void begin(JoxPool *pool) {
+/* Starts the threads. If the system starts fewer, results are the same. */
+static void start_threads(JoxPool *pool) {
     pool->begun = true;
     pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
     for (uint32_t i = 1; i < pool->threads && !pool->jobs; i++) {
@@ -230,7 +239,8 @@ static void begin(JoxPool *pool) {
     }
 }
 
-/* For so many workers; those that are awake need no call. */
+/* Announces a loop and wakes up to `wanted` sleeping workers; those that spin notice by
+   themselves. */
 static void start_round(JoxPool *pool, uint32_t wanted) {
     atomic_fetch_add(&pool->round, 1);
     if (atomic_load(&pool->asleep) == 0)
@@ -243,10 +253,10 @@ static void start_round(JoxPool *pool, uint32_t wanted) {
     pthread_mutex_unlock(&pool->lock);
 }
 
-/* Nobody enters any more; returns when nobody is inside. */
-static void shut(JoxPool *pool) {
+/* Closes the gate to further workers and returns when none is inside. */
+static void close_gate(JoxPool *pool) {
     atomic_fetch_and(&pool->gate, ~OPEN);
-    for (Spin wait = {.most = pool->spin}; atomic_load(&pool->gate) > 0 && spin(&wait);)
+    for (Spin wait = {.most = pool->spin}; atomic_load(&pool->gate) > 0 && spin_turn(&wait);)
         continue;
     if (atomic_load(&pool->gate) == 0)
         return;
@@ -312,7 +322,7 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
         return;
     }
     if (!pool->begun)
-        begin(pool);
+        start_threads(pool);
     JOX_ASSERT(atomic_load(&pool->gate) == 0); /* one loop at a time */
     pool->count = count;
     pool->grain = grain;
@@ -320,11 +330,11 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
     pool->task = task;
     pool->context = context;
     pool->heap = jox_heap_used();
-    share_out(pool);
+    share_chunks(pool);
     if (pool->jobs) {
         const uint32_t most = pool->chunks < pool->threads ? pool->chunks : pool->threads;
         pool->jobs->run(pool->jobs->context, most, run_job, pool);
-        if (!all_taken(pool)) {
+        if (!are_chunks_taken(pool)) {
             jox_assert_failed("JoJobs.run calls each job", __FILE__, __LINE__);
             run_chunks(pool, 0);
         }
@@ -332,9 +342,9 @@ void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTas
         atomic_store(&pool->gate, OPEN);
         start_round(pool, pool->chunks - 1);
         run_chunks(pool, 0);
-        shut(pool);
+        close_gate(pool);
     }
-    JOX_ASSERT(all_taken(pool));
+    JOX_ASSERT(are_chunks_taken(pool));
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);
 }

@@ -9,8 +9,8 @@
 
 enum { MOST = 64, PATH_LENGTH = 4096 };
 
-/* The first line of a file; false where there is none. */
-static bool read_line(char *line, int size, const char *path) {
+/* Reads the first line of a file; false if there is none. */
+static bool read_first_line(char *line, int size, const char *path) {
     FILE *file = jox_file_open(path, "r");
     const bool read = file && fgets(line, size, file);
     if (file)
@@ -18,7 +18,7 @@ static bool read_line(char *line, int size, const char *path) {
     return read;
 }
 
-static uint32_t worth(double quota, double period) {
+static uint32_t round_quota_up(double quota, double period) {
     if (!(quota > 0.0 && period > 0.0))
         return UINT32_MAX;
     const double processors = quota / period;
@@ -26,25 +26,27 @@ static uint32_t worth(double quota, double period) {
     return whole + ((double)whole < processors);
 }
 
-/* One group: cpu.max of version 2, two files of version 1. */
-static uint32_t quota_of(const char *folder) {
+/* Reads the quota of one group, in processors: cpu.max of version 2, or two files of version 1.
+   UINT32_MAX: none. */
+static uint32_t read_group_quota(const char *folder) {
     char path[PATH_LENGTH + 32], line[128];
     double quota = 0.0, period = 0.0;
     snprintf(path, sizeof path, "%s/cpu.max", folder);
-    if (read_line(line, sizeof line, path))
-        return sscanf(line, "%lf %lf", &quota, &period) == 2 ? worth(quota, period) : UINT32_MAX;
+    if (read_first_line(line, sizeof line, path))
+        return sscanf(line, "%lf %lf", &quota, &period) == 2 ? round_quota_up(quota, period)
+                                                             : UINT32_MAX;
     snprintf(path, sizeof path, "%s/cpu.cfs_quota_us", folder);
-    if (!read_line(line, sizeof line, path))
+    if (!read_first_line(line, sizeof line, path))
         return UINT32_MAX;
-    quota = strtod(line, NULL); /* -1: none */
+    quota = strtod(line, NULL); /* -1: no quota */
     snprintf(path, sizeof path, "%s/cpu.cfs_period_us", folder);
-    period = read_line(line, sizeof line, path) ? strtod(line, NULL) : 0.0;
-    return worth(quota, period);
+    period = read_first_line(line, sizeof line, path) ? strtod(line, NULL) : 0.0;
+    return round_quota_up(quota, period);
 }
 
-/* A group and those above it. In a container the path may be that of the outer system, of which
-   only the mounted root is seen. */
-static uint32_t quota_above(const char *root, const char *group) {
+/* Returns the least quota of a group and of all groups that contain it. Inside a container the path
+   may be that of the outer system, while only the mounted root exists here. */
+static uint32_t find_least_quota(const char *root, const char *group) {
     char folder[PATH_LENGTH];
     uint32_t least = UINT32_MAX;
     const size_t kept = strlen(root);
@@ -52,7 +54,7 @@ static uint32_t quota_above(const char *root, const char *group) {
     if (length < 0 || (size_t)length >= sizeof folder)
         return UINT32_MAX;
     for (;;) {
-        const uint32_t quota = quota_of(folder);
+        const uint32_t quota = read_group_quota(folder);
         least = quota < least ? quota : least;
         char *slash = strrchr(folder + kept, '/');
         if (!slash)
@@ -61,7 +63,7 @@ static uint32_t quota_above(const char *root, const char *group) {
     }
 }
 
-/* Lines are "0::/group" of version 2, "4:cpu,cpuacct:/group" of version 1. */
+/* Lines of `list` are "0::/group" of version 2, "4:cpu,cpuacct:/group" of version 1. */
 uint32_t jox_processors_quota(const char *list, const char *root) {
     FILE *file = jox_file_open(list, "r");
     char line[PATH_LENGTH], folder[PATH_LENGTH + 16];
@@ -76,7 +78,7 @@ uint32_t jox_processors_quota(const char *list, const char *root) {
         if (!second && strcmp(kinds + 1, "cpu") != 0 && strncmp(kinds + 1, "cpu,", 4) != 0)
             continue;
         snprintf(folder, sizeof folder, second ? "%s" : "%s/cpu", root);
-        const uint32_t quota = quota_above(folder, group);
+        const uint32_t quota = find_least_quota(folder, group);
         least = quota < least ? quota : least;
     }
     if (file)

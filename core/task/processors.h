@@ -1,13 +1,16 @@
-/* How many processors the process may use. */
+/* The number of processors that this process may use, for the default number of threads and
+   children. */
 #ifndef JOX_TASK_PROCESSORS_H
 #define JOX_TASK_PROCESSORS_H
 
 #include <stdint.h>
 
-/* Those that it may run on, but no more than the quotas of its control groups are worth; 1..64. */
+/* Returns how many processors the process is allowed on, limited by the CPU quotas of its control
+   groups; 1..64. */
 uint32_t jox_processors(void);
-/* What quotas allow, rounded up, by the process's list of control groups (as /proc/self/cgroup)
-   and the folder where they are mounted; UINT32_MAX where none is set. */
+/* Returns how many processors the CPU quotas of control groups allow, rounded up; UINT32_MAX if
+   none is set. `list` is the path of the process's list of groups (as /proc/self/cgroup), `root`
+   the folder where they are mounted. */
 uint32_t jox_processors_quota(const char *list, const char *root);
 
 #endif

@@ -13,14 +13,15 @@ size_t jox_stage_memory_bytes(size_t count, size_t size) {
     return (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
-/* Whoever still reads what a stage before took reads nonsense, where that is checked. */
-static void spoil(JoxStageMemory *m) {
+/* Overwrites the block in checked builds, so that reading memory of an earlier stage gives
+   nonsense. */
+static void poison_block(JoxStageMemory *m) {
     if (m->used)
         memset(m->block, 0xa5, m->used);
 }
 
 void jox_stage_memory_begin(JoxStageMemory *m, size_t bytes) {
-    JOX_CHECK(spoil(m));
+    JOX_CHECK(poison_block(m));
     m->used = 0;
     if (bytes <= m->capacity)
         return;

@@ -10,12 +10,12 @@ struct JoxWorker {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t given, done;
-    JoxWorkItem *first; /* that has not begun */
+    JoxWorkItem *first; /* the oldest item that has not begun */
     bool begun, quit;
 };
 
-/* Takes an item off the list; false where it has begun already. Under the lock. */
-static bool take(JoxWorker *worker, JoxWorkItem *item) {
+/* Takes an item off the queue; false if it has begun already. The caller holds the lock. */
+static bool unlink_item(JoxWorker *worker, JoxWorkItem *item) {
     JoxWorkItem **at = &worker->first;
     while (*at && *at != item)
         at = &(*at)->next;
@@ -27,7 +27,7 @@ static bool take(JoxWorker *worker, JoxWorkItem *item) {
     return true;
 }
 
-static void run(JoxWorkItem *item) {
+static void run_item(JoxWorkItem *item) {
     JoxRecovery recovery;
     JoxHeap *before = jox_heap_use(item->heap);
     jox_recovery_push(&recovery);
@@ -39,7 +39,7 @@ static void run(JoxWorkItem *item) {
     jox_heap_use(before);
 }
 
-static void *work(void *argument) {
+static void *run_worker(void *argument) {
     JoxWorker *worker = argument;
     pthread_mutex_lock(&worker->lock);
     for (;;) {
@@ -48,9 +48,9 @@ static void *work(void *argument) {
         if (worker->quit)
             break;
         JoxWorkItem *item = worker->first;
-        take(worker, item);
+        unlink_item(worker, item);
         pthread_mutex_unlock(&worker->lock);
-        run(item);
+        run_item(item);
         pthread_mutex_lock(&worker->lock);
         item->done = true;
         pthread_cond_broadcast(&worker->done);
@@ -72,8 +72,8 @@ JoxWorker *jox_worker_create(void) {
 }
 
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
-    if (!worker->begun) /* without a thread, who waits does the work */
-        worker->begun = jox_thread_start(&worker->thread, work, worker);
+    if (!worker->begun) /* if no thread starts, jox_worker_wait runs the items */
+        worker->begun = jox_thread_start(&worker->thread, run_worker, worker);
     pthread_mutex_lock(&worker->lock);
     JoxWorkItem **end = &worker->first;
     while (*end) {
@@ -90,12 +90,12 @@ void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
 
 void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
     pthread_mutex_lock(&worker->lock);
-    bool mine = take(worker, item);
+    bool mine = unlink_item(worker, item);
     while (!mine && !item->done)
         pthread_cond_wait(&worker->done, &worker->lock);
     pthread_mutex_unlock(&worker->lock);
     if (mine) {
-        run(item);
+        run_item(item);
         item->done = true;
     }
     JOX_ASSERT(item->done && !item->next);

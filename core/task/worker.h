@@ -1,4 +1,5 @@
-/* A thread for long work beside the steps, done in the order in which it was given. */
+/* A thread that runs long work while steps go on, in the order in which it was given. Routes
+   compute their distance fields on it (world/routes/routes.c). */
 #ifndef JOX_TASK_WORKER_H
 #define JOX_TASK_WORKER_H
 
@@ -6,22 +7,23 @@
 
 typedef struct JoxWorker JoxWorker;
 
-/* One piece of work; its owner keeps it until it was waited for, or the worker is gone. Embed it
-   and fill `run`; the rest is the worker's own. */
+/* One piece of work. Its owner keeps it alive until jox_worker_wait has returned, or the worker is
+   freed. Embed it and set `run`; the worker sets the rest. */
 typedef struct JoxWorkItem {
     void (*run)(struct JoxWorkItem *item);
     struct JoxWorkItem *next;
-    struct JoxHeap *heap; /* of who gave it */
-    bool done, starved;
+    struct JoxHeap *heap; /* the giver's; `run` allocates from it */
+    bool done, starved;   /* starved: memory ran out in `run` */
 } JoxWorkItem;
 
-/* The thread begins with the first item. Never NULL. */
+/* Creates a worker; its thread starts with the first item. Never NULL. */
 JoxWorker *jox_worker_create(void);
-/* Ends what is under way; what has not begun is not run. */
+/* Waits for the item that runs, and drops items that have not begun. */
 void jox_worker_free(JoxWorker *worker);
+/* Appends an item to the queue. */
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item);
-/* Returns when the item is done; one that has not begun is run by the caller. Where memory ran out
-   in it, that shows here, as in an allocation of the caller's (base/mem.h). */
+/* Waits until the item is done; the caller runs it itself if it has not begun. When memory ran out
+   in it, the call fails as an allocation of the caller would (base/mem.h). */
 void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item);
 
 #endif
