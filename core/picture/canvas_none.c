@@ -1,4 +1,4 @@
-/* For builds without cairo: SVG alone. */
+/* Stubs that replace canvas_cairo.c in a build without cairo: pictures can then be SVG only. */
 #include <stddef.h>
 
 #include "picture/canvas.h"

@@ -1,5 +1,5 @@
-/* Pictures as SVG 1.1, written by hand: text stays text, layers have ids, and each person is one
-   element. */
+/* The SVG 1.1 backend of canvas.h: appends elements to a text. Text stays text, layers have ids,
+   and each person is one element, so that pages and tests can find them. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,14 +11,14 @@
 
 typedef struct Svg {
     JoxCanvas canvas;
-    JoxText out;
-    uint32_t clips;
-    bool ended;
+    JoxText out;    /* the document so far */
+    uint32_t clips; /* number of clip paths, which numbers their ids */
+    bool ended;     /* the closing </svg> is in `out` */
 } Svg;
 
-/* A number of pixels to a hundredth, without what says nothing. */
-static void number(JoxText *out, float value) {
-    char text[64]; /* 1e38 has 43 */
+/* Appends a number of pixels, rounded to 0.01, without trailing zeros. */
+static void append_number(JoxText *out, float value) {
+    char text[64]; /* the longest float, 1e38, takes 43 characters */
     int length = snprintf(text, sizeof text, "%.2f", value);
     while (length > 1 && text[length - 1] == '0')
         length--;
@@ -29,15 +29,16 @@ static void number(JoxText *out, float value) {
                     strcmp(text, "-0") == 0 ? 1 : (size_t)length);
 }
 
-static void point(JoxText *out, char before, JoxV2 at) {
+static void append_point(JoxText *out, char before, JoxV2 at) {
     jox_text_append(out, &before, 1);
-    number(out, at.x);
+    append_number(out, at.x);
     jox_text_append(out, " ", 1);
-    number(out, at.y);
+    append_number(out, at.y);
 }
 
-/* A class or id: letters, digits and '-' alone. */
-static void identifier(JoxText *out, const char *attribute, const char *text) {
+/* Appends id="..." or class="...". Characters other than ASCII letters, digits, '-' and spaces
+   become '-'. */
+static void append_identifier(JoxText *out, const char *attribute, const char *text) {
     jox_text_printf(out, " %s=\"", attribute);
     for (const char *c = text; *c; c++) {
         bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
@@ -47,7 +48,9 @@ static void identifier(JoxText *out, const char *attribute, const char *text) {
     jox_text_add(out, "\"");
 }
 
-static void ink(JoxText *out, const char *what, JoxInk colour) {
+/* Appends a paint attribute (`what`: "fill" or "stroke") with its opacity; "none" for a
+   transparent colour. */
+static void append_ink(JoxText *out, const char *what, JoxInk colour) {
     if (colour.a <= 0.0f) {
         jox_text_printf(out, " %s=\"none\"", what);
         return;
@@ -57,7 +60,7 @@ static void ink(JoxText *out, const char *what, JoxInk colour) {
         jox_text_printf(out, " %s-opacity=\"%.2g\"", what, colour.a);
 }
 
-static void begin(JoxCanvas *c, const char *title) {
+static void begin_svg(JoxCanvas *c, const char *title) {
     Svg *svg = (Svg *)c;
     svg->out.length = 0;
     svg->clips = 0;
@@ -73,52 +76,53 @@ static void begin(JoxCanvas *c, const char *title) {
                     c->width, c->height);
 }
 
-static void open_group(JoxCanvas *c, const char *id, const char *kind) {
+static void open_svg_group(JoxCanvas *c, const char *id, const char *kind) {
     JoxText *out = &((Svg *)c)->out;
     const JoxStyle *style = &c->style[c->depth - 1];
     jox_text_add(out, "<g");
     if (id)
-        identifier(out, "id", id);
+        append_identifier(out, "id", id);
     if (kind)
-        identifier(out, "class", kind);
-    ink(out, "fill", style->fill);
-    ink(out, "stroke", style->line);
+        append_identifier(out, "class", kind);
+    append_ink(out, "fill", style->fill);
+    append_ink(out, "stroke", style->line);
     if (style->line.a > 0.0f) {
         jox_text_add(out, " stroke-width=\"");
-        number(out, style->width);
+        append_number(out, style->width);
         jox_text_add(out, "\" stroke-linejoin=\"round\"");
     }
     if (style->line.a > 0.0f && style->dash > 0.0f) {
         jox_text_add(out, " stroke-dasharray=\"");
-        number(out, style->dash);
+        append_number(out, style->dash);
         jox_text_add(out, "\"");
     }
     jox_text_add(out, ">\n");
 }
 
-static void close_group(JoxCanvas *c) {
+static void close_svg_group(JoxCanvas *c) {
     jox_text_add(&((Svg *)c)->out, "</g>\n");
 }
 
-static void clip_group(JoxCanvas *c, JoxV2 low, JoxV2 high) {
+static void clip_svg_group(JoxCanvas *c, JoxV2 low, JoxV2 high) {
     Svg *svg = (Svg *)c;
     jox_text_printf(&svg->out, "<clipPath id=\"clip%u\"><rect x=\"", svg->clips);
-    number(&svg->out, low.x);
+    append_number(&svg->out, low.x);
     jox_text_add(&svg->out, "\" y=\"");
-    number(&svg->out, low.y);
+    append_number(&svg->out, low.y);
     jox_text_add(&svg->out, "\" width=\"");
-    number(&svg->out, high.x - low.x);
+    append_number(&svg->out, high.x - low.x);
     jox_text_add(&svg->out, "\" height=\"");
-    number(&svg->out, high.y - low.y);
+    append_number(&svg->out, high.y - low.y);
     jox_text_printf(&svg->out, "\"/></clipPath>\n<g clip-path=\"url(#clip%u)\">\n", svg->clips);
     svg->clips++;
 }
 
-static void line(JoxCanvas *c, const JoxV2 *points, uint32_t count, bool closed, const char *name) {
+static void draw_svg_line(JoxCanvas *c, const JoxV2 *points, uint32_t count, bool closed,
+                          const char *name) {
     JoxText *out = &((Svg *)c)->out;
     jox_text_add(out, "<path d=\"");
     for (uint32_t i = 0; i < count; i++)
-        point(out, i ? 'L' : 'M', points[i]);
+        append_point(out, i ? 'L' : 'M', points[i]);
     jox_text_add(out, closed ? "Z\"" : "\"");
     if (name && *name) {
         jox_text_add(out, "><title>");
@@ -129,57 +133,57 @@ static void line(JoxCanvas *c, const JoxV2 *points, uint32_t count, bool closed,
     }
 }
 
-static void dashes(JoxCanvas *c, const JoxV2 *points, uint32_t count) {
+static void draw_svg_segments(JoxCanvas *c, const JoxV2 *points, uint32_t count) {
     JoxText *out = &((Svg *)c)->out;
     if (count < 2)
         return;
     jox_text_add(out, "<path d=\"");
     for (uint32_t i = 0; i + 1 < count; i += 2) {
-        point(out, 'M', points[i]);
-        point(out, 'L', points[i + 1]);
+        append_point(out, 'M', points[i]);
+        append_point(out, 'L', points[i + 1]);
         if (i % 32 == 30)
             jox_text_add(out, "\n");
     }
     jox_text_add(out, "\"/>\n");
 }
 
-static void disc(JoxCanvas *c, JoxV2 centre, float radius, const char *id) {
+static void draw_svg_disc(JoxCanvas *c, JoxV2 centre, float radius, const char *id) {
     JoxText *out = &((Svg *)c)->out;
     jox_text_add(out, "<circle");
     if (id)
-        identifier(out, "id", id);
+        append_identifier(out, "id", id);
     jox_text_add(out, " cx=\"");
-    number(out, centre.x);
+    append_number(out, centre.x);
     jox_text_add(out, "\" cy=\"");
-    number(out, centre.y);
+    append_number(out, centre.y);
     jox_text_add(out, "\" r=\"");
-    number(out, radius);
+    append_number(out, radius);
     jox_text_add(out, "\"/>\n");
 }
 
-static void text(JoxCanvas *c, JoxV2 at, float size, JoxAnchor anchor, bool bold,
-                 const char *string) {
+static void draw_svg_text(JoxCanvas *c, JoxV2 at, float size, JoxAnchor anchor, bool bold,
+                          const char *string) {
     static const char *const anchors[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
     JoxText *out = &((Svg *)c)->out;
     jox_text_add(out, "<text x=\"");
-    number(out, at.x);
+    append_number(out, at.x);
     jox_text_add(out, "\" y=\"");
-    number(out, at.y);
+    append_number(out, at.y);
     jox_text_add(out, "\" font-size=\"");
-    number(out, size);
+    append_number(out, size);
     jox_text_printf(out, "\"%s%s%s>", anchors[anchor], bold ? " font-weight=\"bold\"" : "",
                     c->style[c->depth - 1].line.a > 0.0f ? " paint-order=\"stroke\"" : "");
     jox_quote_xml(out, string);
     jox_text_add(out, "</text>\n");
 }
 
-/* Cells of one level are one path of runs, in the units of cells. */
-static void cells(JoxCanvas *c, const JoxCells *cells) {
+/* Draws all cells of a level as one path of horizontal runs; a transform scales cells to pixels. */
+static void draw_svg_cells(JoxCanvas *c, const JoxCells *cells) {
     JoxText *out = &((Svg *)c)->out;
     jox_text_add(out, "<g shape-rendering=\"crispEdges\" transform=\"translate(");
-    number(out, cells->at.x);
+    append_number(out, cells->at.x);
     jox_text_add(out, " ");
-    number(out, cells->at.y);
+    append_number(out, cells->at.y);
     jox_text_printf(out, ") scale(%.6g)\">\n", cells->size);
     for (uint32_t level = 1; level < cells->levels; level++) {
         bool any = false;
@@ -192,7 +196,7 @@ static void cells(JoxCanvas *c, const JoxCells *cells) {
                     continue;
                 if (!any) {
                     jox_text_add(out, "<path");
-                    ink(out, "fill", cells->ink[level]);
+                    append_ink(out, "fill", cells->ink[level]);
                     jox_text_add(out, " d=\"");
                 }
                 any = true;
@@ -214,7 +218,8 @@ static bool write_svg(JoxCanvas *c, const char *path, JoxText *error) {
     bool good = file && fwrite(svg->out.data, 1, svg->out.length, file) == svg->out.length;
     if (file && good)
         good = jox_file_close(file) == 0;
-    else if (file) /* where memory for it was out, the file does not know of it */
+    /* after running out of memory: drops the file, which does not know of the error */
+    else if (file)
         jox_file_drop(file);
     if (!good)
         jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
@@ -227,19 +232,19 @@ static void free_svg(JoxCanvas *c) {
 }
 
 JoxCanvas *jox_canvas_svg(uint32_t width, uint32_t height) {
-    static const struct JoxCanvasMeans means = {.begin = begin,
-                                                .open = open_group,
-                                                .close = close_group,
-                                                .clip = clip_group,
-                                                .line = line,
-                                                .dashes = dashes,
-                                                .disc = disc,
-                                                .text = text,
-                                                .cells = cells,
-                                                .write = write_svg,
-                                                .free = free_svg};
+    static const struct JoxCanvasBackend backend = {.begin = begin_svg,
+                                                    .open = open_svg_group,
+                                                    .close = close_svg_group,
+                                                    .clip = clip_svg_group,
+                                                    .line = draw_svg_line,
+                                                    .segments = draw_svg_segments,
+                                                    .disc = draw_svg_disc,
+                                                    .text = draw_svg_text,
+                                                    .cells = draw_svg_cells,
+                                                    .write = write_svg,
+                                                    .free = free_svg};
     Svg *svg = jox_alloc(1, sizeof *svg);
-    svg->canvas.means = &means;
+    svg->canvas.backend = &backend;
     svg->canvas.width = width;
     svg->canvas.height = height;
     return &svg->canvas;

@@ -1,4 +1,4 @@
-/* Layout, and all of the map but people. */
+/* Layout of a picture and all map layers except people and names; jox_draw is the entry point. */
 #include "picture/draw.h"
 
 #include <math.h>
@@ -8,16 +8,16 @@
 #include "base/mem.h"
 #include "picture/draw_parts.h"
 
-/* px at the usual size: of the head, of the legend on the right, and about the map */
+/* px at the usual size: height of the title line, width of the legend, margin around the map */
 static const float HEAD = 46, PANEL = 206, EDGE = 16;
-static const float WIDE = 1280, LOW = 480;
+static const float WIDE = 1280, LOW = 480; /* px: usual width, least height */
 
 static const JoxInk FLOOR = {0xf8, 0xf8, 0xf6, 1};
 
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     float wide = WIDE - PANEL - 2 * EDGE;
     float tall = wide * (high.y - low.y) / (high.x - low.x);
-    if (tall > 960.0f) { /* a high area makes a narrow picture */
+    if (tall > 960.0f) { /* a tall area makes a narrow picture */
         wide = jox_maxf(wide * 960.0f / tall, 420.0f);
         tall = 960.0f;
     }
@@ -26,13 +26,14 @@ void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     *height = (uint32_t)(tall + HEAD + EDGE + 1.0f) / 2 * 2;
 }
 
-/* px: what is one in a panel; a wide one is shown smaller. */
+/* Returns `unit` of a panel; a wide one is shown smaller on the page, so its unit is greater. */
 static float panel_unit(float wide) {
     return wide > 1500 ? 2.2f : 1.5f;
 }
 
 bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
-    static const float HALF = 1140, FLAT = 0.4f, HIGH = 1.25f; /* px; heights by widths */
+    /* width of half a line, px; least and greatest height over width */
+    static const float HALF = 1140, FLAT = 0.4f, HIGH = 1.25f;
     const float aspect = (high.y - low.y) / (high.x - low.x);
     const bool whole = aspect < FLAT;
     const float u = panel_unit(whole ? 2 * HALF : HALF);
@@ -43,13 +44,14 @@ bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *heigh
     return whole;
 }
 
-/* ---- the map ---- */
+/* ---- map ---- */
 
-static void lay_out(JoxDrawing *d) {
+/* Sets the unit, the scale and the map's box, centred in the room that title and legend leave. */
+static void lay_out_map(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     float wide = (float)d->canvas->width, tall = (float)d->canvas->height;
     d->unit = jox_clampf(jox_minf(wide / WIDE, tall / LOW), 0.75f, 6.0f);
-    if (wide < WIDE) /* a narrow picture of a high area */
+    if (wide < WIDE) /* a narrow picture of a tall area */
         d->unit = jox_clampf(tall / 800.0f, 0.75f, jox_maxf(0.75f, wide / 640.0f));
     if (p->panel)
         d->unit = panel_unit(wide);
@@ -69,7 +71,8 @@ static void draw_places(JoxDrawing *d) {
     JoxCanvas *c = d->canvas;
     float u = d->unit;
     JoxStyle line = {.line = jox_ink_with(jox_ink_place, 0.8f), .width = 1.2f * u, .dash = 5 * u};
-    JoxStyle area = {.fill = jox_ink_with(jox_ink_place, p->grid ? 0.0f : 0.08f), /* fields stay */
+    /* no fill over a field, which would change its colours */
+    JoxStyle area = {.fill = jox_ink_with(jox_ink_place, p->grid ? 0.0f : 0.08f),
                      .line = jox_ink_with(jox_ink_place, 0.6f),
                      .width = 0.8f * u};
     JoxStyle exit = {
@@ -87,7 +90,7 @@ static void draw_places(JoxDrawing *d) {
         else if (open)
             jox_canvas_open(c, NULL, "line", line);
         if (outline == JOX_OUTLINE_CIRCLE)
-            jox_canvas_disc(c, jox_draw_at(d, place->points[0]),
+            jox_canvas_disc(c, jox_draw_to_pixels(d, place->points[0]),
                             jox_maxf(place->radius * d->scale, 3 * u), NULL);
         else
             jox_draw_plan_line(d, place->points, place->count, !open, place->name);
@@ -97,7 +100,7 @@ static void draw_places(JoxDrawing *d) {
     jox_canvas_close(c);
 }
 
-static void draw_ring(const JoxDrawing *d, uint32_t r) {
+static void draw_wall_ring(const JoxDrawing *d, uint32_t r) {
     const JoxWalls *walls = d->picture->walls;
     const struct JoxWallRing *ring = &walls->rings[r];
     bool closed;
@@ -129,7 +132,7 @@ static void draw_walls(JoxDrawing *d) {
             if (!any)
                 jox_canvas_open(d->canvas, NULL, kinds[kind], styles[kind]);
             any = true;
-            draw_ring(d, r);
+            draw_wall_ring(d, r);
         }
         if (any)
             jox_canvas_close(d->canvas);
@@ -137,8 +140,9 @@ static void draw_walls(JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
-/* By bins of the load, as the floor has it; a piece that bears nothing stays a wall. */
-static void draw_loads(JoxDrawing *d) {
+/* Draws pieces of walls in the colour of their load's bin. Pieces in the lowest bin stay as
+   walls. */
+static void draw_wall_loads(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     for (uint32_t k = 1; k < JOX_DRAW_BINS && p->wall_load_count; k++) {
         JoxStyle style = {.line = jox_draw_floor_ink(p, k), .width = 5 * d->unit};
@@ -152,7 +156,8 @@ static void draw_loads(JoxDrawing *d) {
     }
 }
 
-static void draw_bodies(JoxDrawing *d, bool high) {
+/* Draws the bodies that people touch, or with `high` those out of reach, which go above people. */
+static void draw_body_layer(JoxDrawing *d, bool high) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
     JoxStyle style = {.fill = jox_ink_with(jox_ink_body, high ? 0.6f : 1.0f),
@@ -167,7 +172,7 @@ static void draw_bodies(JoxDrawing *d, bool high) {
         if (body->count)
             jox_draw_plan_line(d, body->ring, body->count, true, body->name);
         else
-            jox_canvas_disc(d->canvas, jox_draw_at(d, body->at),
+            jox_canvas_disc(d->canvas, jox_draw_to_pixels(d, body->at),
                             jox_maxf(body->radius * d->scale, 2 * u), NULL);
     }
     jox_canvas_close(d->canvas);
@@ -199,7 +204,7 @@ static void draw_trails(JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
-static void draw_head(const JoxDrawing *d) {
+static void draw_title_line(const JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     char fit[256], time[64];
     float u = d->unit, wide = (float)d->canvas->width;
@@ -207,8 +212,8 @@ static void draw_head(const JoxDrawing *d) {
         snprintf(time, sizeof time, "%s", p->when);
     else
         snprintf(time, sizeof time, "t = %.2f s", p->frame->time);
-    float room = wide - 3 * EDGE * u - jox_draw_width(time, 17 * u, true);
-    jox_draw_fit(fit, sizeof fit, p->title, 19 * u, true, room);
+    float room = wide - 3 * EDGE * u - jox_draw_text_width(time, 17 * u, true);
+    jox_draw_fit_text(fit, sizeof fit, p->title, 19 * u, true, room);
     jox_canvas_open(d->canvas, "head", NULL, (JoxStyle){.fill = jox_ink_text});
     jox_canvas_text(d->canvas, jox_v2(EDGE * u, 30 * u), 19 * u, JOX_ANCHOR_START, true, fit);
     jox_canvas_open(d->canvas, "time", NULL, (JoxStyle){.fill = jox_ink_text});
@@ -217,7 +222,7 @@ static void draw_head(const JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
-static void draw_frame(const JoxDrawing *d, const char *id, JoxStyle style) {
+static void draw_map_box(const JoxDrawing *d, const char *id, JoxStyle style) {
     JoxV2 box[4] = {d->low, {d->high.x, d->low.y}, d->high, {d->low.x, d->high.y}};
     jox_canvas_open(d->canvas, id, NULL, style);
     jox_canvas_line(d->canvas, box, 4, true, NULL);
@@ -229,23 +234,24 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     d->canvas = canvas;
     d->picture = picture;
     jox_canvas_begin(canvas, picture->title);
-    lay_out(d);
-    jox_draw_classes(d);
-    draw_head(d);
-    draw_frame(d, "floor", (JoxStyle){.fill = FLOOR});
+    lay_out_map(d);
+    jox_draw_choose_classes(d);
+    draw_title_line(d);
+    draw_map_box(d, "floor", (JoxStyle){.fill = FLOOR});
     jox_canvas_clip(canvas, d->low, d->high);
     jox_draw_field(d);
     draw_places(d);
     draw_trails(d);
     draw_walls(d);
-    draw_loads(d);
+    draw_wall_loads(d);
     jox_draw_probes(d);
-    draw_bodies(d, false);
+    draw_body_layer(d, false);
     jox_draw_people(d);
-    draw_bodies(d, true);
+    draw_body_layer(d, true);
     jox_draw_names(d);
     jox_canvas_close(canvas);
-    draw_frame(d, "frame", (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
+    draw_map_box(d, "frame",
+                 (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
     jox_draw_legend(d);
     jox_free(d->people);
     jox_free(d->inks);

@@ -1,6 +1,6 @@
-/* Top views of a crowd: walls and gates, places, bodies as footprints, people as discs with what is
-   known of them as colours, a field on the floor, and a legend. Metres, seconds; one drawing code
-   for every kind of canvas. */
+/* Top views of a crowd: walls and gates, places, bodies as outlines, people as discs in colours,
+   a field on the floor, and a legend. Callers (render, report, sweep) fill in a JoxPicture and
+   draw it on any canvas with jox_draw. Lengths are in metres, times in seconds. */
 #ifndef JOX_PICTURE_DRAW_H
 #define JOX_PICTURE_DRAW_H
 
@@ -11,9 +11,9 @@
 #include "record/frame.h"
 #include "record/trajectory_reader.h"
 
-/* What colours tell of people, or of the floor. */
+/* Quantity that the colours of people, or of the floor, show. */
 typedef enum JoxShow {
-    JOX_SHOW_NOTHING, /* people as rings, the floor bare */
+    JOX_SHOW_NOTHING, /* people are drawn as rings, the floor is left bare */
     JOX_SHOW_STATE,
     JOX_SHOW_GROUP,
     JOX_SHOW_SPEED,
@@ -21,55 +21,60 @@ typedef enum JoxShow {
     JOX_SHOW_COMPRESSION,
     JOX_SHOW_LOAD,
     JOX_SHOW_DENSITY,
-    JOX_SHOW_DIRECTION, /* in which people walk; who stands: look */
-    JOX_SHOW_PRESSURE,  /* of the floor alone */
+    JOX_SHOW_DIRECTION, /* direction of walking; for people who stand, of looking */
+    JOX_SHOW_PRESSURE,  /* crowd pressure, for the floor only */
     JOX_SHOWS
 } JoxShow;
-/* Name, how legends call it (unit and all), and the value at the bar's upper end unless another is
-   asked for; 0 for classes. */
+/* Per quantity: its name in options, its heading in legends with its unit, and the default value
+   at the upper end of its colour bar (0 where colours stand for classes, not values). */
 extern const struct JoxShown {
     const char *name, *legend;
     float most;
 } jox_shown[JOX_SHOWS];
 
-enum { JOX_OUTLINE_POINTS = 32 };
+enum { JOX_OUTLINE_POINTS = 32 }; /* greatest number of an outline's corners */
 
-/* A part of a body, convex. */
+/* Outline from above of one convex part of a body: a ring of corners or a disc. */
 typedef struct JoxDrawnBody {
-    const char *name; /* "" without one */
+    const char *name; /* the body's name; "" if it has none */
     JoxV2 ring[JOX_OUTLINE_POINTS];
-    uint32_t count; /* of the ring; 0: a disc */
-    JoxV2 at;
-    float radius;   /* of the disc, m */
-    float low, top; /* heights between which it is, m */
-    bool high;      /* where nobody touches it: above heads, or flat upon the ground */
+    uint32_t count; /* corners of the ring; 0: the part is a disc */
+    JoxV2 at;       /* m: centre */
+    float radius;   /* m: of the disc */
+    float low, top; /* m: heights of its lower and upper end */
+    /* the body is out of reach of people: above their heads or flat on the ground */
+    bool high;
 } JoxDrawnBody;
 
-/* The outline of a part from above, of a body at a point (of the shape's own frame, m) and turned;
-   false where it is nowhere. */
+/* Computes the outline of a part from above, for a body at a point (origin of the shape's frame,
+   m) with a rotation (quaternion x, y, z, w). Returns false where it has no finite position or
+   outline. */
 bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], JoxDrawnBody *out);
-/* Sets `high` of all parts of one body. */
-void jox_draw_reach(JoxDrawnBody *parts, size_t count);
+/* Sets `high` of all parts of one body: none of them reaches the height band in which people
+   touch things. */
+void jox_draw_mark_high(JoxDrawnBody *parts, size_t count);
 
+/* A growing list of outlines. The owner frees `items` with jox_free. */
 typedef struct JoxDrawnBodies {
     JoxDrawnBody *items;
     size_t count, capacity;
 } JoxDrawnBodies;
-/* Adds those of a world as they are now; their names are the world's. */
+/* Appends the outlines of a world's bodies as they are now. Their names belong to the world. */
 void jox_draw_add_bodies(JoxDrawnBodies *out, const JoxBodies *bodies);
-/* Adds those of a recording in the last frame up to a time, s; nothing where it has none. */
+/* Appends the outlines of a recording's bodies in the last frame at or before a time, s; nothing
+   if the recording has no bodies. */
 void jox_draw_add_recorded(JoxDrawnBodies *out, JoxTrajectoryReader *reader, double time);
 
-/* Where somebody, or a body, went. A point that is not finite parts it. */
+/* The path of a person or body. A point that is not finite interrupts it. */
 typedef struct JoxTrail {
-    uint32_t key;
+    uint32_t key; /* the person's JoxFrame.key, or the body's id */
     uint16_t group;
     bool body;
     JoxV2 *points;
     uint32_t count, capacity;
 } JoxTrail;
 
-/* What a probe measures in: a line, lines or an area. */
+/* Geometry of a probe: a line, a pair of lines (4 points, not closed) or an area (closed). */
 typedef struct JoxDrawnProbe {
     const char *name;
     const JoxV2 *points;
@@ -77,19 +82,21 @@ typedef struct JoxDrawnProbe {
     bool closed;
 } JoxDrawnProbe;
 
-/* A piece of a wall and what it bears, in the colours of the field on the floor. */
+/* A piece of a wall and its load, drawn in the floor's colour scale. */
 typedef struct JoxDrawnLoad {
-    JoxV2 ends[2];
-    float value;
+    JoxV2 ends[2]; /* m */
+    float value;   /* in the unit of the field on the floor */
 } JoxDrawnLoad;
 
+/* Input of jox_draw. All pointers are borrowed for the call. */
 typedef struct JoxPicture {
     const char *title;
-    const char *when; /* beside the title; NULL: the frame's time */
+    const char *when; /* text at the right of the title; NULL: the frame's time */
     const JoxFrame *frame;
-    const float *face_x, *face_y; /* unit vectors; NULL: along the velocities */
-    const float *density;         /* 1/m2, of each person; NULL: not known */
-    const JoxWalls *walls;        /* all of them, open gates too */
+    /* unit vectors of looking, per person; NULL: along the velocities */
+    const float *face_x, *face_y;
+    const float *density;  /* 1/m2, per person; NULL: not known */
+    const JoxWalls *walls; /* with the open gates */
     const JoxPlace *places;
     uint32_t place_count;
     const char *const *exits; /* names of places where people leave */
@@ -101,21 +108,23 @@ typedef struct JoxPicture {
     const JoxDrawnBody *bodies;
     uint32_t body_count;
     const JoxTrail *trails;
-    uint32_t trail_count, trail_people; /* how many people are followed */
-    const JoxDensity *grid;             /* of the field; NULL: a bare floor */
-    const float *field;
+    uint32_t trail_count, trail_people; /* how many people have a trail */
+    const JoxDensity *grid;             /* grid of the field; NULL: the floor is bare */
+    const float *field;                 /* one value per cell of the grid */
     JoxShow colour, floor;
-    float colour_most, floor_most; /* at the bars' upper ends */
-    const char *field_legend;      /* what the field is; NULL: by `floor` */
-    bool panel;                    /* one of several: the legend is a strip below the map */
-    float radius;                  /* m, of everyone, where the frame does not say */
-    JoxV2 low, high;               /* what is shown */
+    float colour_most, floor_most; /* values at the upper ends of the colour bars */
+    const char *field_legend;      /* heading of the field's legend; NULL: chosen by `floor` */
+    /* drawn as one of several panels of a page: the legend is a strip below the map */
+    bool panel;
+    float radius;    /* m: of every person, used if the frame has no radii */
+    JoxV2 low, high; /* m: lower and upper corner of the area shown */
 } JoxPicture;
 
-/* The size in pixels that suits an area, both even; of a panel, and whether it takes a whole line
-   of a page rather than half of one. */
+/* Choose a picture's size in pixels, both even, for an area in metres. The second is for a panel
+   and returns true if the panel takes a whole line of a page, false if half of one. */
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
 bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
+/* Draws a picture on a canvas, whose former content is dropped. */
 void jox_draw(JoxCanvas *canvas, const JoxPicture *picture);
 
 #endif

@@ -1,4 +1,5 @@
-/* The legend, to the right of the map, from top to bottom. */
+/* The legend: to the right of the map, written from top to bottom, or a strip below a panel's
+   map. jox_draw calls jox_draw_legend last. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,61 +8,65 @@
 #include "picture/draw_parts.h"
 #include "record/danger/levels.h"
 
-static const float ROW = 19, TEXT = 13, BAR = 160;
-enum { MOST_SHOWN = 10 }; /* classes: of more, only those that somebody is in */
+static const float ROW = 19, TEXT = 13, BAR = 160; /* units: row height, font size, bar length */
+enum { MOST_SHOWN = 10 }; /* above this many classes, empty ones are left out */
 
+/* Where the next row of the legend goes. */
 typedef struct Legend {
     JoxDrawing *d;
-    float x, y, right, end; /* px; y: of the next row's upper edge */
-    float bar;              /* units: length of bars */
+    float x, y, right, end; /* px: left edge, top of the next row, right edge, bottom */
+    float bar;              /* units: length of colour bars */
 } Legend;
 
-static void write(const Legend *l, float x, JoxAnchor anchor, bool bold, const char *text) {
+static void write_legend_text(const Legend *l, float x, JoxAnchor anchor, bool bold,
+                              const char *text) {
     float u = l->d->unit;
     jox_canvas_text(l->d->canvas, jox_v2(x, l->y + 13 * u), TEXT * u, anchor, bold, text);
 }
 
-static void heading(Legend *l, const char *text) {
+static void write_legend_heading(Legend *l, const char *text) {
     l->y += 8 * l->d->unit;
     char fit[128];
-    jox_draw_fit(fit, sizeof fit, text, TEXT * l->d->unit, true, l->right - l->x);
-    write(l, l->x, JOX_ANCHOR_START, true, fit);
+    jox_draw_fit_text(fit, sizeof fit, text, TEXT * l->d->unit, true, l->right - l->x);
+    write_legend_text(l, l->x, JOX_ANCHOR_START, true, fit);
     l->y += ROW * l->d->unit;
 }
 
-/* A row with a sign on the left and, where `count` is not "", a number on the right. */
-static void row(Legend *l, const char *text, const char *count) {
+/* Writes a row: room for a symbol on the left, text, and on the right a number unless `count` is
+   "". */
+static void write_legend_row(Legend *l, const char *text, const char *count) {
     char fit[128];
     float u = l->d->unit, wide = l->right - l->x - 26 * u;
-    wide -= *count ? jox_draw_width(count, TEXT * u, false) + 6 * u : 0;
-    jox_draw_fit(fit, sizeof fit, text, TEXT * u, false, wide);
-    write(l, l->x + 26 * u, JOX_ANCHOR_START, false, fit);
+    wide -= *count ? jox_draw_text_width(count, TEXT * u, false) + 6 * u : 0;
+    jox_draw_fit_text(fit, sizeof fit, text, TEXT * u, false, wide);
+    write_legend_text(l, l->x + 26 * u, JOX_ANCHOR_START, false, fit);
     if (*count)
-        write(l, l->right, JOX_ANCHOR_END, false, count);
+        write_legend_text(l, l->right, JOX_ANCHOR_END, false, count);
     l->y += ROW * u;
 }
 
-static JoxV2 sign(const Legend *l) {
+static JoxV2 find_symbol_centre(const Legend *l) {
     return jox_v2(l->x + 9 * l->d->unit, l->y + 8.5f * l->d->unit);
 }
 
-static void disc_sign(const Legend *l, JoxStyle style) {
+static void draw_disc_symbol(const Legend *l, JoxStyle style) {
     style.width = style.line.a > 0.0f ? l->d->unit : 0.0f;
     jox_canvas_open(l->d->canvas, NULL, "sign", style);
-    jox_canvas_disc(l->d->canvas, sign(l), 6 * l->d->unit, NULL);
+    jox_canvas_disc(l->d->canvas, find_symbol_centre(l), 6 * l->d->unit, NULL);
     jox_canvas_close(l->d->canvas);
 }
 
-static void line_sign(const Legend *l, JoxStyle style) {
-    JoxV2 at = sign(l), ends[2] = {{at.x - 9 * l->d->unit, at.y}, {at.x + 9 * l->d->unit, at.y}};
+static void draw_line_symbol(const Legend *l, JoxStyle style) {
+    JoxV2 at = find_symbol_centre(l),
+          ends[2] = {{at.x - 9 * l->d->unit, at.y}, {at.x + 9 * l->d->unit, at.y}};
     jox_canvas_open(l->d->canvas, NULL, "sign", style);
     jox_canvas_line(l->d->canvas, ends, 2, false, NULL);
     jox_canvas_close(l->d->canvas);
 }
 
-static void box_sign(const Legend *l, JoxStyle style) {
+static void draw_box_symbol(const Legend *l, JoxStyle style) {
     float u = l->d->unit;
-    JoxV2 a = sign(l);
+    JoxV2 a = find_symbol_centre(l);
     JoxV2 box[4] = {{a.x - 8 * u, a.y - 5 * u},
                     {a.x + 8 * u, a.y - 5 * u},
                     {a.x + 8 * u, a.y + 5 * u},
@@ -71,17 +76,19 @@ static void box_sign(const Legend *l, JoxStyle style) {
     jox_canvas_close(l->d->canvas);
 }
 
-static void classes(Legend *l) {
+/* Writes a row per class with its colour and number of people; classes that do not fit are
+   summed up in a last row. */
+static void write_class_rows(Legend *l) {
     const JoxDrawing *d = l->d;
     const JoxPicture *p = d->picture;
     uint32_t left = 0, hidden = 0, rest = 0;
-    /* Who has no state, or no group that is named, is mentioned only where there is somebody. */
+    /* The class without a state or named group gets a row only if somebody is in it. */
     bool all = d->classes <= MOST_SHOWN;
     float room = l->end - l->y - ROW * d->unit;
     for (uint32_t k = 0; k < d->classes; k++) {
         const char *name;
         char count[JOX_NOUN];
-        JoxInk ink = jox_draw_class(d, k, &name);
+        JoxInk ink = jox_draw_class_ink(d, k, &name);
         bool none = k == (p->colour == JOX_SHOW_STATE ? 0 : p->frame->group_count);
         if (d->people[k] == 0 && (!all || none))
             continue;
@@ -92,21 +99,22 @@ static void classes(Legend *l) {
         }
         left++;
         jox_number_text(count, d->people[k]);
-        disc_sign(l, (JoxStyle){.fill = ink, .line = {0x20, 0x20, 0x20, 0.55f}});
-        row(l, name, count);
+        draw_disc_symbol(l, (JoxStyle){.fill = ink, .line = {0x20, 0x20, 0x20, 0.55f}});
+        write_legend_row(l, name, count);
     }
     if (hidden) {
         char text[64], count[JOX_NOUN];
         snprintf(text, sizeof text, "and %u more", hidden);
         jox_number_text(count, rest);
-        row(l, text, count);
+        write_legend_row(l, text, count);
     }
 }
 
-/* A bar of all colours with its ends and middle. */
-static void bar(Legend *l, float most, bool floor) {
+/* Draws a colour bar labelled at its ends and middle; `most` is the value at its upper end,
+   `floor` selects the floor's colours. */
+static void draw_colour_bar(Legend *l, float most, bool floor) {
     const JoxDrawing *d = l->d;
-    const uint32_t thick = d->picture->panel ? 1 : 3; /* cells */
+    const uint32_t thick = d->picture->panel ? 1 : 3; /* thickness in cells */
     float u = d->unit, size = l->bar * u / JOX_DRAW_BINS;
     uint8_t levels[3 * JOX_DRAW_BINS];
     JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
@@ -123,55 +131,57 @@ static void bar(Legend *l, float most, bool floor) {
     if (!floor && d->picture->colour == JOX_SHOW_DIRECTION) {
         static const char *const NAMES[] = {"E", "N", "W", "S", "E"};
         for (int k = 0; k < 5; k++)
-            write(l, l->x + 0.25f * (float)k * l->bar * u,
-                  k == 0   ? JOX_ANCHOR_START
-                  : k == 4 ? JOX_ANCHOR_END
-                           : JOX_ANCHOR_MIDDLE,
-                  false, NAMES[k]);
+            write_legend_text(l, l->x + 0.25f * (float)k * l->bar * u,
+                              k == 0   ? JOX_ANCHOR_START
+                              : k == 4 ? JOX_ANCHOR_END
+                                       : JOX_ANCHOR_MIDDLE,
+                              false, NAMES[k]);
         jox_canvas_close(d->canvas);
         l->y += ROW * u;
         return;
     }
-    write(l, l->x, JOX_ANCHOR_START, false, "0");
+    write_legend_text(l, l->x, JOX_ANCHOR_START, false, "0");
     snprintf(text, sizeof text, "%.4g", (double)most / 2);
-    write(l, l->x + 0.5f * l->bar * u, JOX_ANCHOR_MIDDLE, false, text);
+    write_legend_text(l, l->x + 0.5f * l->bar * u, JOX_ANCHOR_MIDDLE, false, text);
     snprintf(text, sizeof text, "\xe2\x89\xa5 %.4g", (double)most);
-    write(l, l->x + l->bar * u, JOX_ANCHOR_END, false, text);
+    write_legend_text(l, l->x + l->bar * u, JOX_ANCHOR_END, false, text);
     jox_canvas_close(d->canvas);
     l->y += ROW * u;
 }
 
-/* Below a bar of densities: from where on Fruin's levels of service for queues are. */
-static void levels(Legend *l, float most) {
+/* Writes the names of Fruin's levels of service for queues below a density bar, each where it
+   begins. */
+static void write_service_levels(Legend *l, float most) {
     const float u = l->d->unit, apart = 12 * u;
     jox_canvas_open(l->d->canvas, NULL, "levels", (JoxStyle){.fill = jox_ink_text});
     for (int k = 0; k < JOX_LEVELS; k++) {
         const float from = k ? l->bar * u / (float)jox_levels[k - 1].queue_area / most : 0.0f;
         const float next = l->bar * u / (float)jox_levels[k].queue_area / most;
         if (from <= l->bar * u && (k == JOX_LEVELS - 1 || next - from >= apart))
-            write(l, l->x + from, JOX_ANCHOR_START, false, jox_levels[k].name);
+            write_legend_text(l, l->x + from, JOX_ANCHOR_START, false, jox_levels[k].name);
     }
     jox_canvas_close(l->d->canvas);
     const bool panel = l->d->picture->panel;
     l->y += panel ? 0 : ROW * u;
-    write(l, l->x + (panel ? (l->bar + 14) * u : 0), JOX_ANCHOR_START, false,
-          "Fruin's levels for queues");
+    write_legend_text(l, l->x + (panel ? (l->bar + 14) * u : 0), JOX_ANCHOR_START, false,
+                      "Fruin's levels for queues");
     l->y += ROW * u;
 }
 
-/* What a field on the floor is, and how much. */
-static void field(Legend *l) {
+/* Writes the heading and colour bar of the field on the floor. */
+static void write_field_legend(Legend *l) {
     const JoxPicture *p = l->d->picture;
-    heading(l, p->field_legend                ? p->field_legend
-               : p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2 (Gaussian, R = 1 m)"
-                                              : "Floor: pressure, 1/s\xc2\xb2");
-    bar(l, p->floor_most, true);
+    write_legend_heading(l, p->field_legend ? p->field_legend
+                            : p->floor == JOX_SHOW_DENSITY
+                                ? "Floor: density, 1/m\xc2\xb2 (Gaussian, R = 1 m)"
+                                : "Floor: pressure, 1/s\xc2\xb2");
+    draw_colour_bar(l, p->floor_most, true);
     if (p->floor == JOX_SHOW_DENSITY)
-        levels(l, p->floor_most);
+        write_service_levels(l, p->floor_most);
 }
 
-/* What lines and boxes mean; only of what is in the picture. */
-static void signs(Legend *l) {
+/* Writes a row for each kind of line and box that the picture contains. */
+static void write_symbol_rows(Legend *l) {
     const JoxPicture *p = l->d->picture;
     float u = l->d->unit;
     bool solid = false, wall = false, closed = false, open = false, above = false, lying = false;
@@ -188,64 +198,65 @@ static void signs(Legend *l) {
     }
     l->y += 8 * u;
     if (l->d->headings) {
-        disc_sign(l, (JoxStyle){.line = {0x20, 0x20, 0x20, 0.55f}});
-        JoxV2 at = sign(l), ends[2] = {at, {at.x + 6 * u, at.y}};
+        draw_disc_symbol(l, (JoxStyle){.line = {0x20, 0x20, 0x20, 0.55f}});
+        JoxV2 at = find_symbol_centre(l), ends[2] = {at, {at.x + 6 * u, at.y}};
         jox_canvas_open(l->d->canvas, NULL, "sign",
                         (JoxStyle){.line = {0x10, 0x10, 0x10, 0.85f}, .width = 1.4f * u});
         jox_canvas_line(l->d->canvas, ends, 2, false, NULL);
         jox_canvas_close(l->d->canvas);
-        row(l, "where they look", "");
+        write_legend_row(l, "where they look", "");
     }
     if (wall || solid) {
         if (solid)
-            box_sign(l, (JoxStyle){jox_ink_solid, jox_ink_wall, 1.5f * u, 0});
+            draw_box_symbol(l, (JoxStyle){jox_ink_solid, jox_ink_wall, 1.5f * u, 0});
         else
-            line_sign(l, (JoxStyle){.line = jox_ink_wall, .width = 2.5f * u});
-        row(l, "wall", "");
+            draw_line_symbol(l, (JoxStyle){.line = jox_ink_wall, .width = 2.5f * u});
+        write_legend_row(l, "wall", "");
     }
     if (closed) {
-        line_sign(l, (JoxStyle){.line = jox_ink_gate, .width = 3 * u});
-        row(l, "gate, closed", "");
+        draw_line_symbol(l, (JoxStyle){.line = jox_ink_gate, .width = 3 * u});
+        write_legend_row(l, "gate, closed", "");
     }
     if (open) {
-        line_sign(
+        draw_line_symbol(
             l,
             (JoxStyle){.line = jox_ink_with(jox_ink_gate, 0.7f), .width = 1.6f * u, .dash = 4 * u});
-        row(l, "gate, open", "");
+        write_legend_row(l, "gate, open", "");
     }
     if (p->place_count) {
-        box_sign(l, (JoxStyle){jox_ink_with(jox_ink_place, 0.08f),
-                               jox_ink_with(jox_ink_place, 0.6f), 0.8f * u, 0});
-        row(l, "place", "");
+        draw_box_symbol(l, (JoxStyle){jox_ink_with(jox_ink_place, 0.08f),
+                                      jox_ink_with(jox_ink_place, 0.6f), 0.8f * u, 0});
+        write_legend_row(l, "place", "");
     }
     if (p->exit_count) {
-        box_sign(l, (JoxStyle){jox_ink_with(jox_ink_exit, 0.14f), jox_ink_exit, 1.6f * u, 0});
-        row(l, "exit", "");
+        draw_box_symbol(l,
+                        (JoxStyle){jox_ink_with(jox_ink_exit, 0.14f), jox_ink_exit, 1.6f * u, 0});
+        write_legend_row(l, "exit", "");
     }
     if (p->probe_count) {
-        line_sign(l, (JoxStyle){.line = jox_ink_probe, .width = 1.8f * u, .dash = 4 * u});
-        row(l, "measured here", "");
+        draw_line_symbol(l, (JoxStyle){.line = jox_ink_probe, .width = 1.8f * u, .dash = 4 * u});
+        write_legend_row(l, "measured here", "");
     }
     if (lying) {
-        box_sign(l, (JoxStyle){jox_ink_body, jox_ink_body_line, 1.2f * u, 0});
-        row(l, "body", "");
+        draw_box_symbol(l, (JoxStyle){jox_ink_body, jox_ink_body_line, 1.2f * u, 0});
+        write_legend_row(l, "body", "");
     }
     if (above) {
-        box_sign(l,
-                 (JoxStyle){jox_ink_with(jox_ink_body, 0.6f), jox_ink_body_line, 1.2f * u, 3 * u});
-        row(l, "body out of reach", "");
+        draw_box_symbol(
+            l, (JoxStyle){jox_ink_with(jox_ink_body, 0.6f), jox_ink_body_line, 1.2f * u, 3 * u});
+        write_legend_row(l, "body out of reach", "");
     }
     if (p->trail_count) {
         char text[JOX_NOUN + 16], count[JOX_NOUN];
         jox_number_text(count, p->trail_people);
         snprintf(text, sizeof text, "paths of %s", count);
-        line_sign(l, (JoxStyle){.line = jox_ink_path, .width = 1.2f * u});
-        row(l, text, "");
+        draw_line_symbol(l, (JoxStyle){.line = jox_ink_path, .width = 1.2f * u});
+        write_legend_row(l, text, "");
     }
 }
 
-/* A length of 1, 2 or 5 times a power of ten. */
-static void scale_bar(const Legend *l) {
+/* Draws the map's scale: a length of 1, 2 or 5 times a power of ten, m. */
+static void draw_scale_bar(const Legend *l) {
     const JoxDrawing *d = l->d;
     float u = d->unit, most = BAR * u / d->scale, length = powf(10.0f, floorf(log10f(most)));
     length *= most >= 5 * length ? 5.0f : most >= 2 * length ? 2.0f : 1.0f;
@@ -259,8 +270,8 @@ static void scale_bar(const Legend *l) {
     jox_canvas_text(d->canvas, jox_v2(x, y - 9 * u), TEXT * u, JOX_ANCHOR_START, false, text);
 }
 
-/* How many people there are; nothing where it is a picture of no moment. */
-static void in_all(Legend *l) {
+/* Writes the number of people; nothing if the picture shows no single moment. */
+static void write_people_count(Legend *l) {
     const JoxPicture *p = l->d->picture;
     char text[JOX_NOUN + 16];
     if (p->when && p->frame->count == 0)
@@ -268,23 +279,23 @@ static void in_all(Legend *l) {
     jox_noun(text, p->frame->count, "person|people");
     if (l->d->outside)
         strcat(text, " in all");
-    write(l, l->x, JOX_ANCHOR_START, true, text);
+    write_legend_text(l, l->x, JOX_ANCHOR_START, true, text);
     l->y += ROW * l->d->unit;
 }
 
-/* Below the map: people and scale on the left, then what the field is. */
-static void strip(JoxDrawing *d) {
+/* Draws the legend of a panel below its map: people and scale on the left, then the field. */
+static void draw_legend_strip(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     const float u = d->unit, top = (float)d->canvas->height - (JOX_DRAW_STRIP - 6) * u;
     Legend l = {.d = d, .bar = 2 * BAR, .x = 16 * u, .y = top};
     l.right = (float)d->canvas->width - 16 * u;
     jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
-    in_all(&l);
-    scale_bar(&l);
+    write_people_count(&l);
+    draw_scale_bar(&l);
     l.x = 200 * u;
-    l.y = top - 8 * u; /* the heading's own blank */
+    l.y = top - 8 * u; /* write_legend_heading adds this much */
     if (p->grid)
-        field(&l);
+        write_field_legend(&l);
     jox_canvas_close(d->canvas);
 }
 
@@ -292,7 +303,7 @@ void jox_draw_legend(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
     if (p->panel) {
-        strip(d);
+        draw_legend_strip(d);
         return;
     }
     Legend l = {.d = d,
@@ -303,24 +314,24 @@ void jox_draw_legend(JoxDrawing *d) {
                 .end = (float)d->canvas->height - 180 * u};
     char text[64];
     jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
-    in_all(&l);
+    write_people_count(&l);
     if (!p->frame->radius && p->frame->count) {
         snprintf(text, sizeof text, "drawn %.2g m in radius", (double)p->radius);
-        write(&l, l.x, JOX_ANCHOR_START, false, text);
+        write_legend_text(&l, l.x, JOX_ANCHOR_START, false, text);
         l.y += ROW * u;
     }
     if (p->colour != JOX_SHOW_NOTHING) {
-        heading(&l, jox_shown[p->colour].legend);
+        write_legend_heading(&l, jox_shown[p->colour].legend);
         if (jox_draw_is_class(p->colour))
-            classes(&l);
+            write_class_rows(&l);
         else
-            bar(&l, p->colour_most, false);
+            draw_colour_bar(&l, p->colour_most, false);
         if (p->colour == JOX_SHOW_DENSITY)
-            levels(&l, p->colour_most);
+            write_service_levels(&l, p->colour_most);
     }
     if (p->grid)
-        field(&l);
-    signs(&l);
-    scale_bar(&l);
+        write_field_legend(&l);
+    write_symbol_rows(&l);
+    draw_scale_bar(&l);
     jox_canvas_close(d->canvas);
 }

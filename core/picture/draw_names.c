@@ -1,4 +1,5 @@
-/* Probes, and the names of what is on the map. */
+/* Probes on the map, and the names of gates, places, exits and probes, placed so that none
+   covers another. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,8 +15,9 @@ bool jox_draw_is_exit(const JoxPicture *p, const char *name) {
     return false;
 }
 
-/* Whether a box is on the map and clear of all names so far; then it is taken. */
-static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
+/* Reserves a box (px) for a name. Returns false if it leaves the map, overlaps a reserved one,
+   or the list is full. */
+static bool reserve_label_box(JoxDrawing *d, JoxV2 low, JoxV2 high) {
     if (low.x < d->low.x || low.y < d->low.y || high.x > d->high.x || high.y > d->high.y ||
         d->label_count == JOX_DRAW_LABELS)
         return false;
@@ -28,8 +30,8 @@ static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
     return true;
 }
 
-/* From a point to the box of a name beside it. */
-static void lead(JoxDrawing *d, JoxV2 from, JoxV2 low, JoxV2 high, JoxInk ink) {
+/* Draws a line from a point to the box of the name beside it. */
+static void draw_leader_line(JoxDrawing *d, JoxV2 from, JoxV2 low, JoxV2 high, JoxInk ink) {
     const JoxV2 to = {jox_clampf(from.x, low.x, high.x), jox_clampf(from.y, low.y, high.y)};
     const JoxStyle style = {.line = jox_ink_with(ink, 0.7f), .width = 0.8f * d->unit};
     jox_canvas_open(d->canvas, NULL, "lead", style);
@@ -37,17 +39,18 @@ static void lead(JoxDrawing *d, JoxV2 from, JoxV2 low, JoxV2 high, JoxInk ink) {
     jox_canvas_close(d->canvas);
 }
 
-/* Writes a name at a point of the plan, or where another is above or below it, or farther off in
-   any direction with a line to the point; where all is taken, it is left out. */
-static void name(JoxDrawing *d, JoxV2 at, const char *text, bool bold, JoxInk ink) {
+/* Writes a name at a point of the plan (m). If another name is there, it goes a line above or
+   below, else farther away in one of eight directions with a leader line. If all spots are
+   taken, it is left out. */
+static void write_map_name(JoxDrawing *d, JoxV2 at, const char *text, bool bold, JoxInk ink) {
     static const JoxV2 sides[] = {{1, 0},       {-1, 0},       {0.8f, -0.6f}, {-0.8f, -0.6f},
                                   {0.8f, 0.6f}, {-0.8f, 0.6f}, {0, -1},       {0, 1}};
     enum { SIDES = sizeof sides / sizeof *sides, NEAR = 3, RINGS = 5 };
     const float size = 12 * d->unit;
     char fit[128];
-    jox_draw_fit(fit, sizeof fit, text, size, bold, 240 * d->unit);
-    const float half = 0.5f * jox_draw_width(fit, size, bold) + 2 * d->unit;
-    const JoxV2 point = jox_draw_at(d, at);
+    jox_draw_fit_text(fit, sizeof fit, text, size, bold, 240 * d->unit);
+    const float half = 0.5f * jox_draw_text_width(fit, size, bold) + 2 * d->unit;
+    const JoxV2 point = jox_draw_to_pixels(d, at);
     if (point.x < d->low.x || point.x > d->high.x || point.y < d->low.y || point.y > d->high.y)
         return;
     /* Names at an edge move inwards. */
@@ -66,20 +69,21 @@ static void name(JoxDrawing *d, JoxV2 at, const char *text, bool bold, JoxInk in
         }
         const JoxV2 low = {here.x - half, here.y - 0.6f * size},
                     high = {here.x + half, here.y + 0.6f * size};
-        if (!take(d, low, high))
+        if (!reserve_label_box(d, low, high))
             continue;
         if (t >= NEAR)
-            lead(d, point, low, high, ink);
+            draw_leader_line(d, point, low, high, ink);
         jox_canvas_text(d->canvas, jox_v2(here.x, here.y + 0.35f * size), size, JOX_ANCHOR_MIDDLE,
                         bold, fit);
         return;
     }
 }
 
-/* Where a place's name stands: within an area at its upper edge, so that it hides few. */
-static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
+/* Returns where a place's name goes, m: within an area at its upper edge, so that it hides few
+   people. */
+static JoxV2 find_place_name_spot(const JoxDrawing *d, const JoxPlace *place) {
     JoxV2 low, high;
-    float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
+    float line = 10 * d->unit / d->scale; /* m: from an edge to the middle of a line of text */
     if (jox_place_outline(place) != JOX_OUTLINE_RING)
         return place->centre;
     jox_bounds(place->points, place->count, &low, &high);
@@ -88,8 +92,9 @@ static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
     return roomy ? at : place->centre;
 }
 
-/* Where a gate's name stands: beside it, on the side away from the middle of the map. */
-static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
+/* Returns where a gate's name goes, m: beside the gate, on the side away from the middle of the
+   map. */
+static JoxV2 find_gate_name_spot(const JoxDrawing *d, const struct JoxWallRing *ring) {
     const JoxPicture *p = d->picture;
     const JoxWallVertex *first = &p->walls->vertices[ring->first];
     JoxV2 sum = {0, 0};
@@ -99,13 +104,14 @@ static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
     JoxV2 out = jox_sub(middle, jox_scale(jox_add(p->low, p->high), 0.5f));
     JoxV2 normal = jox_left(first->direction);
     normal = jox_dot(normal, out) < 0.0f ? jox_scale(normal, -1.0f) : normal;
-    float size = 12 * d->unit, half = 0.5f * jox_draw_width(ring->name, size, false);
+    float size = 12 * d->unit, half = 0.5f * jox_draw_text_width(ring->name, size, false);
     float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 5 * d->unit) / d->scale;
     return jox_add(middle, jox_scale(normal, away));
 }
 
-/* Where a probe's name stands: beside the middle of a line, within an area at its lower edge. */
-static JoxV2 probe_name_at(const JoxDrawing *d, const JoxDrawnProbe *probe) {
+/* Returns where a probe's name goes, m: beside the middle of a line, or within an area at its
+   lower edge. */
+static JoxV2 find_probe_name_spot(const JoxDrawing *d, const JoxDrawnProbe *probe) {
     JoxV2 low, high;
     float line = 10 * d->unit / d->scale;
     jox_bounds(probe->points, probe->count, &low, &high);
@@ -113,12 +119,12 @@ static JoxV2 probe_name_at(const JoxDrawing *d, const JoxDrawnProbe *probe) {
         return jox_v2(0.5f * (low.x + high.x), high.y - low.y > 4 * line ? low.y + line : low.y);
     JoxV2 a = probe->points[0], b = probe->points[1], along = jox_unit(jox_sub(b, a));
     JoxV2 middle = jox_scale(jox_add(a, b), 0.5f), normal = jox_left(along);
-    float size = 12 * d->unit, half = 0.5f * jox_draw_width(probe->name, size, false);
+    float size = 12 * d->unit, half = 0.5f * jox_draw_text_width(probe->name, size, false);
     float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 6 * d->unit) / d->scale;
     return jox_add(middle, jox_scale(normal, away));
 }
 
-/* Lines and areas in which something is measured. */
+/* Draws the lines and areas of probes. */
 void jox_draw_probes(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     if (p->probe_count == 0)
@@ -127,7 +133,7 @@ void jox_draw_probes(JoxDrawing *d) {
     jox_canvas_open(d->canvas, "probes", NULL, style);
     for (uint32_t i = 0; i < p->probe_count; i++) {
         const JoxDrawnProbe *probe = &p->probes[i];
-        const bool two = !probe->closed && probe->count == 4; /* lines of two points each */
+        const bool two = !probe->closed && probe->count == 4; /* a pair of lines, two points each */
         for (uint32_t at = 0; at < probe->count; at += two ? 2 : probe->count)
             jox_draw_plan_line(d, probe->points + at, two ? 2 : probe->count, probe->closed,
                                probe->name);
@@ -144,16 +150,17 @@ void jox_draw_names(JoxDrawing *d) {
     bool closed;
     for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
         if (p->walls->rings[r].name && jox_draw_ring_points(p->walls, r, &closed))
-            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name, false,
-                 jox_ink_gate);
+            write_map_name(d, find_gate_name_spot(d, &p->walls->rings[r]), p->walls->rings[r].name,
+                           false, jox_ink_gate);
     jox_canvas_close(d->canvas);
-    for (int exits = 1; exits >= 0; exits--) { /* of what is near another, exits keep theirs */
+    /* exits first: if names compete for a spot, the exit's wins */
+    for (int exits = 1; exits >= 0; exits--) {
         style.fill = exits ? jox_ink_exit : (JoxInk){0x24, 0x45, 0x69, 1};
         jox_canvas_open(d->canvas, NULL, exits ? "exits" : "places", style);
         for (uint32_t i = 0; i < p->place_count; i++) {
             const JoxPlace *place = &p->places[i];
             if (place->count && place->name && jox_draw_is_exit(p, place->name) == exits)
-                name(d, name_at(d, place), place->name, exits, style.fill);
+                write_map_name(d, find_place_name_spot(d, place), place->name, exits, style.fill);
         }
         jox_canvas_close(d->canvas);
     }
@@ -161,7 +168,8 @@ void jox_draw_names(JoxDrawing *d) {
     jox_canvas_open(d->canvas, NULL, "probes", style);
     for (uint32_t i = 0; i < p->probe_count; i++)
         if (p->probes[i].count)
-            name(d, probe_name_at(d, &p->probes[i]), p->probes[i].name, false, jox_ink_probe);
+            write_map_name(d, find_probe_name_spot(d, &p->probes[i]), p->probes[i].name, false,
+                           jox_ink_probe);
     jox_canvas_close(d->canvas);
     jox_canvas_close(d->canvas);
 }

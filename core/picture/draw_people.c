@@ -1,4 +1,4 @@
-/* People, and the field on the floor. */
+/* The layers of people and of the field on the floor, and the colours of classes and values. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "base/mem.h"
 #include "picture/draw_parts.h"
 
-/* px at the usual size: discs below are drawn as large as that; below these, without a heading,
-   without an edge */
+/* px at the usual size: least radius of a disc as drawn, least radius with a heading, least
+   radius with an outline */
 static const float LEAST = 1.2f, HEADED = 3.5f, EDGED = 2.5f;
 
 bool jox_draw_is_class(JoxShow show) {
@@ -29,11 +29,11 @@ JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
                : (JoxInk){grey, grey, grey, 1.0f};
 }
 
-JoxInk jox_draw_class(const JoxDrawing *d, uint32_t n, const char **name) {
+JoxInk jox_draw_class_ink(const JoxDrawing *d, uint32_t n, const char **name) {
     const JoxPicture *p = d->picture;
     const JoxFrame *frame = p->frame;
     if (p->colour == JOX_SHOW_GROUP && n >= frame->group_count)
-        *name = ""; /* of a recording that does not name it */
+        *name = ""; /* the recording does not name this group */
     else
         *name = p->colour == JOX_SHOW_STATE ? frame->states[n] : frame->groups[n];
     if (!**name)
@@ -41,8 +41,10 @@ JoxInk jox_draw_class(const JoxDrawing *d, uint32_t n, const char **name) {
     return d->inks[n];
 }
 
-/* In turns from the east, half a bin on, so that the first bin has the east in its middle. */
-static float turn_of(const JoxPicture *p, uint32_t i) {
+/* Returns a person's direction, in turns counter-clockwise from half a bin before the east, so
+   that the east is in the middle of the first bin. People who stand have the direction of
+   looking. */
+static float direction_in_turns(const JoxPicture *p, uint32_t i) {
     const JoxFrame *frame = p->frame;
     const bool walks = frame->vx[i] != 0.0f || frame->vy[i] != 0.0f;
     const float x = walks || !p->face_x ? frame->vx[i] : p->face_x[i];
@@ -51,13 +53,13 @@ static float turn_of(const JoxPicture *p, uint32_t i) {
     return turn - floorf(turn);
 }
 
-/* Share of the bar's length, 0 to 1, at which a person's value is. */
-static float share(const JoxPicture *p, uint32_t i) {
+/* Returns where a person's value lies on the colour bar, 0 to 1. */
+static float find_bar_share(const JoxPicture *p, uint32_t i) {
     const JoxFrame *frame = p->frame;
     float value = 0.0f;
     switch (p->colour) {
     case JOX_SHOW_DIRECTION:
-        return turn_of(p, i);
+        return direction_in_turns(p, i);
     case JOX_SHOW_SPEED:
         value = jox_length(jox_v2(frame->vx[i], frame->vy[i]));
         break;
@@ -79,7 +81,7 @@ static float share(const JoxPicture *p, uint32_t i) {
     return jox_clampf(value / p->colour_most, 0.0f, 1.0f);
 }
 
-static uint32_t class_of(const JoxPicture *p, uint32_t i) {
+static uint32_t find_colour_class(const JoxPicture *p, uint32_t i) {
     if (p->colour == JOX_SHOW_NOTHING)
         return 0;
     if (p->colour == JOX_SHOW_STATE)
@@ -87,24 +89,24 @@ static uint32_t class_of(const JoxPicture *p, uint32_t i) {
     if (p->colour == JOX_SHOW_GROUP)
         return p->frame->group[i] < p->frame->group_count ? p->frame->group[i]
                                                           : p->frame->group_count;
-    uint32_t bin = (uint32_t)(share(p, i) * JOX_DRAW_BINS);
+    uint32_t bin = (uint32_t)(find_bar_share(p, i) * JOX_DRAW_BINS);
     return bin < JOX_DRAW_BINS ? bin : JOX_DRAW_BINS - 1;
 }
 
-static uint32_t class_count(const JoxPicture *p) {
+static uint32_t count_colour_classes(const JoxPicture *p) {
     return p->colour == JOX_SHOW_NOTHING ? 1
            : p->colour == JOX_SHOW_STATE ? p->frame->state_count
            : p->colour == JOX_SHOW_GROUP ? p->frame->group_count + 1
                                          : JOX_DRAW_BINS;
 }
 
-/* Who has no state, or no group that is named, is grey: states begin with those, groups end with
-   them. */
-void jox_draw_classes(JoxDrawing *d) {
+/* People without a state or named group are grey. Their class is the first of the states, but
+   the last of the groups. */
+void jox_draw_choose_classes(JoxDrawing *d) {
     static const JoxInk NONE = {0x77, 0x77, 0x77, 1.0f};
     const JoxPicture *p = d->picture;
     const JoxFrame *frame = p->frame;
-    d->classes = class_count(p);
+    d->classes = count_colour_classes(p);
     if (!jox_draw_is_class(p->colour))
         return;
     d->inks = jox_alloc(d->classes + 1, sizeof *d->inks);
@@ -120,45 +122,49 @@ void jox_draw_classes(JoxDrawing *d) {
                             frame->state_count - 1, d->inks + 1);
 }
 
-static float radius_of(const JoxDrawing *d, uint32_t i) {
+/* Returns the radius of a person's disc as drawn, px. */
+static float find_disc_radius(const JoxDrawing *d, uint32_t i) {
     const JoxPicture *p = d->picture;
     float radius = jox_frame_radius(p->frame, i, p->radius);
     return jox_maxf(radius * d->scale, LEAST * d->unit);
 }
 
-/* Their indices by class; d->people counts them. */
-static uint32_t *sort(JoxDrawing *d) {
+/* Returns the indices of people in the order of their classes, for the caller to free, and fills
+   in d->people. */
+static uint32_t *sort_people_by_class(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     uint32_t count = p->frame->count;
     d->people = jox_alloc(d->classes + 1, sizeof *d->people);
     uint32_t *order = jox_alloc(count + 1, sizeof *order);
     uint32_t *next = jox_alloc(d->classes + 1, sizeof *next);
     for (uint32_t i = 0; i < count; i++)
-        d->people[class_of(p, i)]++;
+        d->people[find_colour_class(p, i)]++;
     for (uint32_t k = 1; k < d->classes; k++)
         next[k] = next[k - 1] + d->people[k - 1];
     for (uint32_t i = 0; i < count; i++)
-        order[next[class_of(p, i)]++] = i;
+        order[next[find_colour_class(p, i)]++] = i;
     jox_free(next);
     return order;
 }
 
-/* The style of a class, and what SVG calls it. */
-static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kind[96]) {
+/* Returns the style of class k for discs of a radius (px), and its SVG class name in `kind`. */
+static JoxStyle choose_class_style(const JoxDrawing *d, uint32_t k, float radius, char kind[96]) {
     const JoxPicture *p = d->picture;
     const char *name;
     JoxStyle style = {.width = 0.7f * d->unit};
     if (radius >= EDGED * d->unit)
         style.line = (JoxInk){0x20, 0x20, 0x20, 0.55f};
     if (p->colour == JOX_SHOW_NOTHING) {
-        bool small = radius < HEADED * d->unit; /* and many: the floor is to be seen */
+        /* small discs are many: thin rings leave the floor visible */
+        bool small = radius < HEADED * d->unit;
         style.line = (JoxInk){0x10, 0x10, 0x10, small ? 0.5f : 0.85f};
         style.width = small ? 0.4f * d->unit : 0.8f * d->unit;
         snprintf(kind, 96, "person");
     } else if (jox_draw_is_class(p->colour)) {
-        style.fill = jox_draw_class(d, k, &name);
+        style.fill = jox_draw_class_ink(d, k, &name);
         snprintf(kind, 96, "%s-%.80s", jox_shown[p->colour].name, name);
-        for (char *c = kind; (c = strchr(c, ' ')) != NULL;) /* else it were two classes */
+        /* SVG reads a space as the start of another class */
+        for (char *c = kind; (c = strchr(c, ' ')) != NULL;)
             *c = '-';
     } else {
         style.fill = jox_draw_value_ink(p, k);
@@ -167,13 +173,13 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
     return style;
 }
 
-/* Whether any of a disc is on the map. */
-static bool shown(const JoxDrawing *d, JoxV2 at, float radius) {
+/* Returns whether any part of a disc (px) is on the map. */
+static bool is_disc_on_map(const JoxDrawing *d, JoxV2 at, float radius) {
     return at.x + radius > d->low.x && at.x - radius < d->high.x && at.y + radius > d->low.y &&
            at.y - radius < d->high.y;
 }
 
-/* A mark from the centre to the rim, where somebody looks. */
+/* Draws each person's heading: a mark from the centre to the rim in the direction of looking. */
 static void draw_headings(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     const JoxFrame *frame = p->frame;
@@ -181,11 +187,12 @@ static void draw_headings(JoxDrawing *d) {
     uint32_t count = 0;
     float widest = 0.0f;
     for (uint32_t i = 0; i < frame->count; i++) {
-        float radius = radius_of(d, i);
+        float radius = find_disc_radius(d, i);
         JoxV2 along = p->face_x ? jox_v2(p->face_x[i], p->face_y[i])
                                 : jox_unit(jox_v2(frame->vx[i], frame->vy[i]));
-        JoxV2 at = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
-        if (radius < HEADED * d->unit || !(jox_length2(along) > 0.0f) || !shown(d, at, radius))
+        JoxV2 at = jox_draw_to_pixels(d, jox_v2(frame->x[i], frame->y[i]));
+        if (radius < HEADED * d->unit || !(jox_length2(along) > 0.0f) ||
+            !is_disc_on_map(d, at, radius))
             continue;
         ends[count++] = at;
         ends[count++] = jox_add(at, jox_v2(along.x * radius, -along.y * radius));
@@ -195,27 +202,28 @@ static void draw_headings(JoxDrawing *d) {
     JoxStyle style = {.line = {0x10, 0x10, 0x10, 0.85f},
                       .width = jox_clampf(0.22f * widest, 0.8f * d->unit, 3 * d->unit)};
     jox_canvas_open(d->canvas, "headings", NULL, style);
-    jox_canvas_dashes(d->canvas, ends, count);
+    jox_canvas_segments(d->canvas, ends, count);
     jox_canvas_close(d->canvas);
     jox_free(ends);
 }
 
 void jox_draw_people(JoxDrawing *d) {
     const JoxFrame *frame = d->picture->frame;
-    uint32_t *order = sort(d), at = 0;
+    uint32_t *order = sort_people_by_class(d), at = 0;
     jox_canvas_open(d->canvas, "people", NULL, (JoxStyle){0});
     for (uint32_t k = 0; k < d->classes; k++) {
         char kind[96];
         if (d->people[k] == 0)
             continue;
-        jox_canvas_open(d->canvas, NULL, kind, style_of(d, k, radius_of(d, order[at]), kind));
+        jox_canvas_open(d->canvas, NULL, kind,
+                        choose_class_style(d, k, find_disc_radius(d, order[at]), kind));
         for (uint32_t n = 0; n < d->people[k]; n++) {
             uint32_t i = order[at++];
             char id[16];
-            JoxV2 here = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
+            JoxV2 here = jox_draw_to_pixels(d, jox_v2(frame->x[i], frame->y[i]));
             snprintf(id, sizeof id, "p%u", frame->key[i]);
-            if (shown(d, here, radius_of(d, i)))
-                jox_canvas_disc(d->canvas, here, radius_of(d, i), id);
+            if (is_disc_on_map(d, here, find_disc_radius(d, i)))
+                jox_canvas_disc(d->canvas, here, find_disc_radius(d, i), id);
             else
                 d->outside = true;
         }
@@ -238,7 +246,7 @@ void jox_draw_field(JoxDrawing *d) {
     for (uint32_t r = 0; r < grid->rows; r++)
         for (uint32_t c = 0; c < grid->columns; c++) {
             float value = p->field[(size_t)(grid->rows - 1 - r) * grid->columns + c];
-            value = value > 0.0f ? value / p->floor_most : 0.0f; /* NAN: not measured */
+            value = value > 0.0f ? value / p->floor_most : 0.0f; /* NAN (not measured) becomes 0 */
             float part = jox_minf(value, 1.0f) * JOX_DRAW_BINS;
             uint32_t bin = (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1);
             levels[(size_t)r * grid->columns + c] = part < 0.5f ? 0 : (uint8_t)(bin + 1);
@@ -246,7 +254,7 @@ void jox_draw_field(JoxDrawing *d) {
     JoxV2 top = {grid->low.x, grid->low.y + (float)grid->rows * grid->cell};
     jox_canvas_open(d->canvas, "field", jox_shown[p->floor].name, (JoxStyle){0});
     JoxCells cells = {
-        jox_draw_at(d, top), grid->cell * d->scale, grid->columns, grid->rows, levels, ink,
+        jox_draw_to_pixels(d, top), grid->cell * d->scale, grid->columns, grid->rows, levels, ink,
         JOX_DRAW_BINS + 1};
     jox_canvas_cells(d->canvas, &cells);
     jox_canvas_close(d->canvas);

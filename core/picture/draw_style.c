@@ -1,4 +1,5 @@
-/* What all parts of a picture share: what colours tell, inks, and the width of writing. */
+/* Tables and text measures shared by draw*.c: the quantities that colours show, inks, and
+   estimated text widths. */
 #include <stdio.h>
 #include <string.h>
 
@@ -25,27 +26,29 @@ const JoxInk jox_ink_text = {0x1f, 0x29, 0x33, 1}, jox_ink_faint = {0x52, 0x60, 
              jox_ink_path = {0x3a, 0x3a, 0x3a, 0.45f}, jox_ink_probe = {0x6a, 0x2c, 0x91, 1},
              jox_ink_exit = {0x0b, 0x6b, 0x3a, 1};
 
-static uint32_t letters(const char *text) {
+/* Counts the UTF-8 characters of a text. */
+static uint32_t count_letters(const char *text) {
     uint32_t count = 0;
     for (; *text; text++)
         count += ((uint8_t)*text & 0xc0) != 0x80;
     return count;
 }
 
-float jox_draw_width(const char *text, float size, bool bold) {
-    return (float)letters(text) * size * (bold ? 0.67f : 0.6f);
+float jox_draw_text_width(const char *text, float size, bool bold) {
+    return (float)count_letters(text) * size * (bold ? 0.67f : 0.6f);
 }
 
-void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide) {
+void jox_draw_fit_text(char *out, size_t capacity, const char *text, float size, bool bold,
+                       float wide) {
     snprintf(out, capacity - 4, "%s", text);
-    jox_text_clean(out); /* what was cut within a letter */
-    if (strlen(out) == strlen(text) && jox_draw_width(out, size, bold) <= wide)
+    jox_text_clean(out); /* snprintf may have cut within a character */
+    if (strlen(out) == strlen(text) && jox_draw_text_width(out, size, bold) <= wide)
         return;
     size_t end = strlen(out);
-    do { /* a letter less */
+    do { /* drop one character */
         while (end > 0 && ((uint8_t)out[--end] & 0xc0) == 0x80) {
         }
         out[end] = 0;
-    } while (end > 0 && jox_draw_width(out, size, bold) > wide - size);
+    } while (end > 0 && jox_draw_text_width(out, size, bold) > wide - size);
     strcat(out, "\xe2\x80\xa6");
 }

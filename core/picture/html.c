@@ -24,7 +24,8 @@ static const char STYLE[] =
     "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
     "background:#f6f6f6;padding:.6rem;font-size:13px}.scroll{overflow-x:auto}code{font-size:.9em;"
     "overflow-wrap:anywhere}"
-    /* On paper: no picture, row or heading is parted, nothing is cut off at the right. */
+    /* In print: no page break within a picture or row or after a heading, and nothing cut off at
+       the right. */
     "@page{size:A4;margin:15mm}@media print{body{font-size:10pt;max-width:none;margin:0;"
     "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.4rem}h2,h3{break-after:avoid}"
     "figure,tr,.summary p{break-inside:avoid}.scroll{overflow:visible}table{font-size:8.5pt;"
@@ -62,7 +63,7 @@ void jox_html_end(FILE *out) {
     fputs("</html>\n", out);
 }
 
-/* Four digits, but all before the point; what is very small or great by a power of ten. */
+/* Numbers from 1e6 on and very small ones are written with a power of ten. */
 void jox_html_number(FILE *out, double value) {
     char text[40];
     const double size = fabs(value);
@@ -80,22 +81,22 @@ void jox_html_number(FILE *out, double value) {
         fputs(text, out);
 }
 
-static void element(FILE *out, const char *name, const char *text) {
+static void put_element(FILE *out, const char *name, const char *text) {
     fprintf(out, "<%s>", name);
     jox_html_text(out, text);
     fprintf(out, "</%s>\n", name);
 }
 
 void jox_html_heading(FILE *out, const char *text) {
-    element(out, "h2", text);
+    put_element(out, "h2", text);
 }
 
 void jox_html_subheading(FILE *out, const char *text) {
-    element(out, "h3", text);
+    put_element(out, "h3", text);
 }
 
 void jox_html_paragraph(FILE *out, const char *text) {
-    element(out, "p", text);
+    put_element(out, "p", text);
 }
 
 void jox_html_statement(FILE *out, const char *lead, const char *text) {
@@ -129,7 +130,7 @@ void jox_html_cell(FILE *out, const char *text) {
     jox_html_text(out, text);
 }
 
-/* Units of tables and files, as people read them. */
+/* Returns a unit of tables and files as pages write it. */
 static const char *unit_text(const char *unit) {
     static const char *const TEXTS[][2] = {
         {"1/m2", "per m\xc2\xb2"},  {"1/s2", "per s\xc2\xb2"},      {"1/s", "per s"},
@@ -162,7 +163,7 @@ void jox_html_panels_end(FILE *out) {
     fputs("</div>\n", out);
 }
 
-static bool is_there(const char *folder, const char *file) {
+static bool is_readable_in(const char *folder, const char *file) {
     JoxText path = {0};
     jox_text_printf(&path, "%s/%s", folder, file);
     const bool there = access(path.data, R_OK) == 0;
@@ -188,7 +189,7 @@ void jox_html_figure(FILE *out, const char *folder, const char *name, const char
     char png[160], svg[160];
     snprintf(png, sizeof png, "%.150s.png", name);
     snprintf(svg, sizeof svg, "%.150s.svg", name);
-    const bool image = is_there(folder, png), drawing = is_there(folder, svg);
+    const bool image = is_readable_in(folder, png), drawing = is_readable_in(folder, svg);
     if (image || drawing)
         put_picture(out, image ? png : svg, drawing ? svg : NULL, caption, wide);
 }

@@ -1,5 +1,5 @@
-/* Pages for people: one HTML file with the style in it, pictures as files beside it. Every text is
-   escaped; nothing is fetched from elsewhere. */
+/* Writes HTML pages: one file with its style inside and pictures as files beside it. Used by
+   report, validate and sweep. Every text argument is escaped; pages load nothing from elsewhere. */
 #ifndef JOX_PICTURE_HTML_H
 #define JOX_PICTURE_HTML_H
 
@@ -7,44 +7,46 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* The head up to and with <h1>, and what closes the page. */
+/* Write the document's head including <h1>, and its end. */
 void jox_html_begin(FILE *out, const char *title);
 void jox_html_end(FILE *out);
 
-/* Text as it reads, by jox_quote_xml. */
+/* Writes text, escaped by jox_quote_xml. */
 void jox_html_text(FILE *out, const char *text);
-/* An argument of a command line, as one types it in a shell. */
+/* Writes an argument of a command line, quoted as a shell needs it. */
 void jox_html_argument(FILE *out, const char *argument);
-/* The path of a link, by jox_quote_url. */
+/* Writes the path of a link, encoded by jox_quote_url. */
 void jox_html_link(FILE *out, const char *path);
-/* Four digits, or all before the point; a dash where it is not finite. */
+/* Writes a number with four significant digits, or all digits before the point; a dash if it is
+   not finite. */
 void jox_html_number(FILE *out, double value);
-/* <h2> and <p>, escaped. */
+/* Write an <h2>, an <h3> and a <p>. */
 void jox_html_heading(FILE *out, const char *text);
-void jox_html_subheading(FILE *out, const char *text); /* <h3> */
+void jox_html_subheading(FILE *out, const char *text);
 void jox_html_paragraph(FILE *out, const char *text);
 
-/* A table that scrolls where it is too wide: heads in order, parted by '|', those of
-   numbers begun by '>'. Rows are made of
-   jox_html_row, then cells, which need no end. */
+/* Opens a table, which scrolls if it is too wide. `heads` are the column heads separated by '|';
+   a leading '>' marks a column of numbers, which is flush right. Each row is jox_html_row and
+   then its cells; neither needs an end. */
 void jox_html_table(FILE *out, const char *heads);
 void jox_html_row(FILE *out);
 void jox_html_cell(FILE *out, const char *text);
-/* Flush right; `unit`, as "1/m2", is told as people read it and may be "". */
+/* Writes a cell flush right with a number and its unit, or "". Units as in tables ("1/m2") are
+   spelled out for readers. */
 void jox_html_cell_number(FILE *out, double value, const char *unit);
 void jox_html_table_end(FILE *out);
 
-/* A paragraph that begins with words in bold. */
+/* Writes a paragraph that begins with `lead` in bold. */
 void jox_html_statement(FILE *out, const char *lead, const char *text);
 
-/* Pictures of one size, side by side unless each takes a `whole` line. */
+/* Opens a grid of pictures of one size: two in a line, or with `whole` one. */
 void jox_html_panels(FILE *out, bool whole);
 void jox_html_panels_end(FILE *out);
-/* NAME.png of the page's folder with NAME.svg behind it, or that alone; nothing where there is
-   neither. `wide`: across the page. */
+/* Shows NAME.png of the page's folder with a link to NAME.svg, or the one of both that exists;
+   nothing if there is neither. `wide`: as wide as the page. */
 void jox_html_figure(FILE *out, const char *folder, const char *name, const char *caption,
                      bool wide);
-/* A picture beside the page, which links to `link` (NULL: to itself). */
+/* Shows a picture file beside the page with a link to `link` (NULL: to itself). */
 void jox_html_picture(FILE *out, const char *file, const char *link, const char *caption);
 
 #endif

@@ -1,27 +1,30 @@
-/* Colours of pictures. */
+/* Colours of pictures: for classes, values, calm values and directions. Used by draw*.c, plots
+   and the live page's data. */
 #ifndef JOX_PICTURE_PALETTE_H
 #define JOX_PICTURE_PALETTE_H
 
 #include "base/format/colour.h"
 
-/* sRGB; a: opacity, 0 draws nothing. */
+/* A colour in sRGB; a: opacity, 0 to 1, where 0 paints nothing. */
 typedef struct JoxInk {
     uint8_t r, g, b;
     float a;
 } JoxInk;
 
-/* The n-th of classes that are told apart, as states or groups: those of JOX_CLASS_COLOURS; behind
-   the first seven come lighter and darker ones of them. */
+/* Returns the colour of class n (of states or groups): JOX_CLASS_COLOURS, then lighter and
+   darker shades of them, then the same again. */
 JoxInk jox_palette_class(uint32_t n);
-/* Colours of so many classes: those that were given (NULL: none), and for the others, in their
-   order, those of the classes that nobody was given. */
+/* Fills `out` with the colours of `count` classes. A class keeps its given colour (`given` NULL
+   or 0: none); the others take, in order, class colours that no class was given. */
 void jox_palette_classes(const JoxColour *given, uint32_t count, JoxInk *out);
 JoxColour jox_palette_colour(JoxInk ink);
-/* A value, 0 to 1: pale yellow to dark purple; lightness falls throughout, in grey too. */
+/* Returns the colour of a value, 0 to 1, from pale yellow to dark purple. Lightness falls all
+   the way, so the scale can be read in grey. */
 JoxInk jox_palette_value(float share);
-/* The same of what is no danger, as speed: pale to dark blue. */
+/* Returns the colour of a harmless value such as speed, 0 to 1, from pale to dark blue. */
 JoxInk jox_palette_calm(float share);
-/* A way, in turns from the east, counter-clockwise: hues of a circle. */
+/* Returns the colour of a direction, in turns counter-clockwise from the east, on a circle of
+   hues. */
 JoxInk jox_palette_way(float turn);
 
 #endif

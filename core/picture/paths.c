@@ -54,23 +54,25 @@ void jox_paths_free(JoxPaths *paths) {
     jox_free(paths);
 }
 
-/* Points of all paths of one series: lines apart by an empty one, then first and last points. */
-static void write_series(FILE *data, const JoxPaths *paths, uint32_t series, bool body, int what) {
+/* Writes the points of all paths of a series as a data set of gnuplot. `part` 0: all points, a
+   blank line after each path; 1: first points; 2: last points. */
+static void write_path_series(FILE *data, const JoxPaths *paths, uint32_t series, bool body,
+                              int part) {
     for (uint32_t p = 0; p < paths->count; p++) {
         const JoxWalkedPath *path = &paths->items[p];
         if (path->body != body || path->series != series || path->count == 0)
             continue;
-        uint32_t first = what == 2 ? path->count - 1 : 0, last = what == 1 ? 1 : path->count;
+        uint32_t first = part == 2 ? path->count - 1 : 0, last = part == 1 ? 1 : path->count;
         for (uint32_t i = first; i < last; i++)
             fprintf(data, "%u,%.2f,%.3f,%.3f\n", path->id, path->points[i].t, path->points[i].x,
                     path->points[i].y);
-        if (what == 0)
+        if (part == 0)
             fputs("\n", data);
     }
-    fputs("\n\n", data); /* the next set of data */
+    fputs("\n\n", data); /* two blank lines begin the next data set */
 }
 
-static bool has_series(const JoxPaths *paths, uint32_t series, bool body) {
+static bool has_path_series(const JoxPaths *paths, uint32_t series, bool body) {
     for (uint32_t p = 0; p < paths->count; p++)
         if (paths->items[p].body == body && paths->items[p].series == series &&
             paths->items[p].count)
@@ -78,9 +80,10 @@ static bool has_series(const JoxPaths *paths, uint32_t series, bool body) {
     return false;
 }
 
-/* What draws a series: its lines, first points and last points. */
-static void add_series(JoxText *plot, uint32_t set, const char *colour, const char *width,
-                       const char *name) {
+/* Appends the plot elements of a series: its lines, first points and last points, which are data
+   sets `set` to `set` + 2. */
+static void append_series_plot(JoxText *plot, uint32_t set, const char *colour, const char *width,
+                               const char *name) {
     jox_text_printf(plot, "%s'paths.csv' index %u using 3:4 with lines lw %s lc '%s' title ",
                     plot->length ? ", \\\n  " : "", set, width, colour);
     jox_quote_gnuplot(plot, name);
@@ -90,23 +93,25 @@ static void add_series(JoxText *plot, uint32_t set, const char *colour, const ch
                     set + 1, colour, set + 2, colour);
 }
 
-/* Groups have the colours that they have in pictures and on the live page. */
-static void write_all(FILE *data, JoxText *plot, const JoxPaths *paths, const char *const *names,
-                      const JoxColour *colours, uint32_t name_count) {
+/* Writes the data sets of all series and appends their plot elements to `plot`. Groups have the
+   same colours as in pictures and on the live page. */
+static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
+                            const char *const *names, const JoxColour *colours,
+                            uint32_t name_count) {
     uint32_t set = 0;
     JoxInk *inks = jox_alloc(name_count + 1, sizeof *inks);
     jox_palette_classes(colours, name_count, inks);
     fputs("# id,t_s,x_m,y_m\n", data);
-    for (uint32_t s = 0; s <= name_count; s++) { /* the last one: bodies */
+    for (uint32_t s = 0; s <= name_count; s++) { /* the last series is that of bodies */
         bool body = s == name_count;
         char colour[8];
-        if (!has_series(paths, body ? 0 : s, body))
+        if (!has_path_series(paths, body ? 0 : s, body))
             continue;
-        for (int what = 0; what < 3; what++)
-            write_series(data, paths, body ? 0 : s, body, what);
+        for (int part = 0; part < 3; part++)
+            write_path_series(data, paths, body ? 0 : s, body, part);
         jox_colour_write(jox_palette_colour(inks[s]), colour);
-        add_series(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
-                   body ? "bodies" : names[s]);
+        append_series_plot(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
+                           body ? "bodies" : names[s]);
         set += 3;
     }
     jox_free(inks);
@@ -119,7 +124,7 @@ bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const
     JoxText plot = {0};
     if (!data)
         return false;
-    write_all(data, &plot, paths, names, colours, name_count);
+    write_path_data(data, &plot, paths, names, colours, name_count);
     bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
     script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {

@@ -1,5 +1,5 @@
-/* Where people and bodies went: their paths as a picture, for scenes small enough to tell them
- * apart. */
+/* A plot of the paths of people and bodies, drawn by gnuplot, for scenes small enough to tell
+   them apart. run_report.c collects the points during a run. */
 #ifndef JOX_PICTURE_PATHS_H
 #define JOX_PICTURE_PATHS_H
 
@@ -14,10 +14,11 @@
 enum { JOX_MOST_PATHS = 200 };
 
 typedef struct JoxPathPoint {
-    float t, x, y; /* s, m */
+    float t, x, y; /* t in s, x and y in m */
 } JoxPathPoint;
 
-/* Of one agent or body: `series` numbers the colour, a group of agents or all bodies. */
+/* Path of one agent or body. `series` selects the colour: the agent's group; unused for bodies,
+   which share one. */
 typedef struct JoxWalkedPath {
     uint32_t id, series;
     bool body;
@@ -30,14 +31,17 @@ typedef struct JoxPaths {
     uint32_t count, capacity;
 } JoxPaths;
 
+/* Creates an empty set of paths; jox_paths_free releases it. */
 JoxPaths *jox_paths_create(void);
-/* Adds a point to the path of an agent or body; beyond JOX_MOST_PATHS new ones are passed over. */
+/* Appends a point (s, m) to the path of an agent or body. Once there are JOX_MOST_PATHS paths,
+   no new ones begin. */
 void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, float t, float x,
                    float y);
+/* Lists the paths as sections of state, so that a resumed run goes on with them. */
 void jox_paths_sections(JoxPaths *paths, JoxSections *sections);
-/* paths.png: a line for each, a dot where it began, a circle where it ended. `names` of the series
-   of agents, which come first, and the colours that these were given (NULL: none). False with a
-   sentence in `error`. */
+/* Writes paths.csv, paths.plt and paths.png: per path a line, a dot at its start, a circle at
+   its end. `names` and `colours` (NULL: none given) are of the agents' groups, indexed by
+   `series`; `low` and `high` are the area shown, m. Returns false with a sentence in `error`. */
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
                     const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
                     JoxV2 high, const char *title, JoxText *error);

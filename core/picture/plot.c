@@ -54,16 +54,16 @@ bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
     return good;
 }
 
-/* The child that runs gnuplot on a script of the folder, inside it, with its standard error to
-   `errors`; -1 if there is none. */
-static pid_t spawn(const char *folder, const char *script, int errors) {
-    char command[] = "gnuplot", usual[] = "-d"; /* -d: ~/.gnuplot is not read */
+/* Starts gnuplot on a script of the folder, in that folder, with its standard error connected to
+   `errors`. Returns the child, or -1. */
+static pid_t start_gnuplot(const char *folder, const char *script, int errors) {
+    char command[] = "gnuplot", usual[] = "-d"; /* -d: do not read ~/.gnuplot */
     JoxText path = {0};
     posix_spawn_file_actions_t actions;
     pid_t child = -1;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return -1;
-    jox_text_printf(&path, "./%s", script); /* nor does a name become an option */
+    jox_text_printf(&path, "./%s", script); /* "./" keeps a name from being read as an option */
     char *arguments[] = {command, usual, path.data, NULL};
     if (posix_spawn_file_actions_addchdir_np(&actions, folder) != 0 ||
         posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO) != 0 ||
@@ -74,9 +74,10 @@ static pid_t spawn(const char *folder, const char *script, int errors) {
     return child;
 }
 
-/* Whether there is something to be read from a pipe, or its end, within so many seconds, of those
-   that this process runs: a system that sleeps meanwhile does not use them up. */
-static bool is_ready(int pipe, int seconds) {
+/* Waits until a pipe has data or is closed, for at most `seconds` of time in which this process
+   runs: counting one-second waits leaves out the time that the machine sleeps. Returns whether
+   it is so. */
+static bool wait_for_input(int pipe, int seconds) {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     int ready = 0;
     for (int s = 0; s < seconds && ready <= 0; s++)
@@ -84,14 +85,14 @@ static bool is_ready(int pipe, int seconds) {
     return ready > 0;
 }
 
-/* The end of what a child writes to a pipe until it ends: the reason stands last. Ends a child that
-   says nothing for so many seconds. */
-static void read_last(int pipe, pid_t child, int seconds, char *last, size_t size) {
+/* Reads a child's output until it ends and keeps the last `size` - 1 characters in `last`, as
+   gnuplot states the reason last. Kills a child that writes nothing for so many seconds. */
+static void read_last_output(int pipe, pid_t child, int seconds, char *last, size_t size) {
     char bytes[512];
     size_t kept = 0;
     ssize_t got = 1;
     while (got != 0) {
-        if (child > 0 && !is_ready(pipe, seconds)) {
+        if (child > 0 && !wait_for_input(pipe, seconds)) {
             kill(child, SIGKILL);
             snprintf(last, size, "it said nothing for %d s", seconds);
             return;
@@ -110,15 +111,15 @@ static void read_last(int pipe, pid_t child, int seconds, char *last, size_t siz
     last[kept] = '\0';
 }
 
-/* What gnuplot says is told only where it fails: it warns of curves without points, too. */
+/* Gnuplot's messages are reported only on failure, as it also warns of curves without points. */
 bool jox_plot_draw_within(const char *folder, const char *script, int seconds, JoxText *error) {
     int errors[2], status = 0;
     char why[300] = "";
     pid_t child = -1, ended;
     if (pipe2(errors, O_CLOEXEC) == 0) {
-        child = spawn(folder, script, errors[1]);
+        child = start_gnuplot(folder, script, errors[1]);
         close(errors[1]);
-        read_last(errors[0], child, seconds, why, sizeof why);
+        read_last_output(errors[0], child, seconds, why, sizeof why);
         close(errors[0]);
     }
     do
@@ -132,7 +133,7 @@ bool jox_plot_draw_within(const char *folder, const char *script, int seconds, J
 }
 
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
-    enum { PATIENCE = 300 }; /* the largest picture takes some seconds */
+    enum { PATIENCE = 300 }; /* s; the largest picture takes a few */
     return jox_plot_draw_within(folder, script, PATIENCE, error);
 }
 
@@ -147,7 +148,8 @@ void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int hei
     fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output ",
             svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12);
     jox_plot_file(script, stem, svg ? "svg" : "png");
-    /* Names of files are no titles. Values go from white and pale to dark, as in all pictures. */
+    /* noautotitle keeps file names out of the key. Values go from white to dark, as in all
+       pictures. */
     fputs("\nset encoding utf8\nset key noautotitle\nset palette defined (0 '#ffffff'", script);
     enum { ANCHORS = 9 };
     for (int a = 0; a < ANCHORS; a++) {
@@ -164,7 +166,8 @@ void jox_plot_title(FILE *script, const char *title) {
     fputs(" noenhanced font ',14'\n", script);
 }
 
-static uint32_t write_rings(FILE *data, const JoxWalls *walls, bool open) {
+/* Writes the open or the other wall rings, a blank line after each, and returns their number. */
+static uint32_t write_wall_rings(FILE *data, const JoxWalls *walls, bool open) {
     uint32_t count = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         if (walls->rings[r].open != open)
@@ -183,10 +186,10 @@ bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error) {
     FILE *data = jox_plot_open(folder, "walls.dat", error);
     if (!data)
         return false;
-    if (write_rings(data, walls, false) == 0)
+    if (write_wall_rings(data, walls, false) == 0)
         fputs("0,NaN\n\n", data);
-    fputs("\n", data); /* a second blank line: the next set */
-    write_rings(data, walls, true);
+    fputs("\n", data); /* a second blank line begins the next data set */
+    write_wall_rings(data, walls, true);
     return jox_plot_close(data, "walls.dat", error);
 }
 

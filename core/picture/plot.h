@@ -1,4 +1,7 @@
-/* Pictures through gnuplot: a script and its data in a folder, and the PNG that comes of them. */
+/* Plots through gnuplot: a script and its data in a folder, and the PNG or SVG that gnuplot
+   makes of them. Used by probes' files, reports, claims, comparisons and timings. Texts go into
+   scripts by jox_quote_gnuplot. All functions that return false or NULL leave a sentence in
+   `error`. */
 #ifndef JOX_PICTURE_PLOT_H
 #define JOX_PICTURE_PLOT_H
 
@@ -9,27 +12,29 @@
 #include "geom/walls.h"
 #include "record/regions.h"
 
-/* Makes the folder, and those above it. False with a sentence in `error`. */
+/* Creates a folder and the folders above it. */
 bool jox_plot_folder(const char *folder, JoxText *error);
-/* regions.png: mean speed of each region as bars. */
+/* Draws regions.png: the mean speed of each region as bars, m/s. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);
 
-/* For further pictures: files of the folder, and gnuplot on a script of it. Texts go into
-   scripts by jox_quote_gnuplot, data into files. */
+/* Open a file of the folder for writing, and close it. The file replaces an older one of its
+   name only when it is closed. */
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
 bool jox_plot_close(FILE *file, const char *what, JoxText *error);
-/* Without a shell, and without the user's own settings of gnuplot. A gnuplot that hangs is ended
-   after some minutes; _within: once it has said nothing for so many seconds. */
+/* Run gnuplot on a script inside the folder, without a shell and without the user's gnuplot
+   settings. A gnuplot that has written nothing for `seconds` (300 for the first) is killed. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
 bool jox_plot_draw_within(const char *folder, const char *script, int seconds, JoxText *error);
-/* The terminal (PNG, or SVG on white) of so many pixels, its font, the colours of values, and the
-   file STEM.png or STEM.svg that it writes. */
+/* Writes a script's beginning: the terminal (PNG, or SVG on white), its size in pixels and font,
+   the colour palette of values, and the output file STEM.png or STEM.svg. */
 void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height);
+/* Writes the command that sets a plot's title. */
 void jox_plot_title(FILE *script, const char *title);
-/* STEM.ENDING as a quoted name of a file. */
+/* Writes STEM.ENDING as a quoted file name. */
 void jox_plot_file(FILE *script, const char *stem, const char *ending);
-/* Writes walls.dat, and what draws it behind another thing of a plot command: open walls dashed. */
+/* Write walls.dat, and the elements that draw it at the end of a plot command; open gates are
+   dashed. */
 bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error);
 void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width);
 

@@ -5,9 +5,9 @@
 #include "base/format/quote.h"
 #include "picture/plot.h"
 
-/* Writes NAME.plt: the same commands for both terminals. */
-static bool write_script(const JoxProbe *p, const char *folder, const char *stem, bool walls,
-                         const char *title, JoxText *error) {
+/* Writes STEM.plt, which draws the same plot as PNG and as SVG. */
+static bool write_probe_script(const JoxProbe *p, const char *folder, const char *stem, bool walls,
+                               const char *title, JoxText *error) {
     char name[128];
     snprintf(name, sizeof name, "%s.plt", stem);
     FILE *script = jox_plot_open(folder, name, error);
@@ -19,9 +19,11 @@ static bool write_script(const JoxProbe *p, const char *folder, const char *stem
     for (int svg = 0; svg < 2; svg++) {
         jox_plot_begin(script, stem, svg, width, height);
         jox_plot_title(script, title);
-        fputs("csv = ", script); /* what the kinds plot */
+        /* variable of the table's file name, which plots of all kinds use */
+        fputs("csv = ", script);
         jox_plot_file(script, stem, "csv");
-        fputs("\nheading = ", script); /* for pages of several plots */
+        /* variable of the title, for kinds with several plots on a page */
+        fputs("\nheading = ", script);
         jox_quote_put(script, jox_quote_gnuplot, title);
         fprintf(script, "\nset datafile separator comma\nset grid\n%s", body.data ? body.data : "");
         fputs("unset multiplot\nset output\n", script);
@@ -55,6 +57,6 @@ bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *wall
         return false;
     snprintf(name, sizeof name, "%s.plt", stem);
     snprintf(heading, sizeof heading, "%.200s: %.100s", title, jox_probe_def(p)->name);
-    return write_script(p, folder, stem, drawn, heading, error) &&
+    return write_probe_script(p, folder, stem, drawn, heading, error) &&
            jox_plot_draw(folder, name, error);
 }

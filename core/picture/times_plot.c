@@ -1,4 +1,5 @@
-/* jo_plot_times: what steps of several scenes cost. */
+/* jo_plot_times: plots of the time per step of several scenes, by stage, and over the number of
+   agents. */
 #include "base/assert.h"
 #include "base/format/quote.h"
 #include "base/guard.h"
@@ -6,16 +7,18 @@
 
 #include "jostle_tools.h"
 
-/* Of timings of several instruction sets each bar names its own. */
-static bool differ(const JoTiming *timings, size_t count) {
+/* Returns whether the timings are of several instruction sets; then each bar is labelled with
+   its own. */
+static bool has_several_sets(const JoTiming *timings, size_t count) {
     for (size_t k = 1; k < count; k++)
         if (strcmp(timings[k].isa, timings[0].isa) != 0)
             return true;
     return false;
 }
 
-/* Columns: label, ns, least, and the share of each stage in %. */
-static bool write_bars(const JoTiming *timings, size_t count, const char *folder, JoxText *why) {
+/* Writes bars.csv: label, ns per agent-step, least ns, and the share of each stage, %. */
+static bool write_bar_data(const JoTiming *timings, size_t count, const char *folder,
+                           JoxText *why) {
     FILE *data = jox_plot_open(folder, "bars.csv", why);
     if (!data)
         return false;
@@ -23,7 +26,7 @@ static bool write_bars(const JoTiming *timings, size_t count, const char *folder
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         fprintf(data, ",%s", jo_stage_name(s));
     fputs("\n", data);
-    const bool sets = differ(timings, count);
+    const bool sets = has_several_sets(timings, count);
     for (size_t k = 0; k < count; k++) {
         const JoTiming *t = &timings[k];
         JoxText label = {0};
@@ -41,10 +44,11 @@ static bool write_bars(const JoTiming *timings, size_t count, const char *folder
     return jox_plot_close(data, "bars.csv", why);
 }
 
-/* A block of lines for each instruction set, whose names go to `sets`; returns how many, 0 where no
-   set has two scenes of the series, -1 if it cannot be written. */
-static int write_series(const JoTiming *timings, size_t count, const char *folder, JoxText *sets,
-                        JoxText *why) {
+/* Writes series.csv, a data set for each instruction set, and appends the sets' names to `sets`.
+   Returns how many there are, 0 if no set has two timings of the series, -1 if it cannot be
+   written. */
+static int write_series_data(const JoTiming *timings, size_t count, const char *folder,
+                             JoxText *sets, JoxText *why) {
     FILE *data = jox_plot_open(folder, "series.csv", why);
     if (!data)
         return -1;
@@ -69,7 +73,9 @@ static int write_series(const JoTiming *timings, size_t count, const char *folde
     return !jox_plot_close(data, "series.csv", why) ? -1 : longest > 1 ? blocks : 0;
 }
 
-static bool draw(size_t count, int blocks, const char *sets, const char *folder, JoxText *why) {
+/* Writes bench.plt and draws bench.png: bars, stages and, with `blocks` data sets, the series. */
+static bool draw_timings(size_t count, int blocks, const char *sets, const char *folder,
+                         JoxText *why) {
     FILE *script = jox_plot_open(folder, "bench.plt", why);
     if (!script)
         return false;
@@ -115,9 +121,9 @@ bool jo_plot_times(const JoTiming *timings, size_t count, const char *directory,
     jox_text_add(&sets, "");
     int blocks = 0;
     const bool good = jox_plot_folder(directory, &why) &&
-                      write_bars(timings, count, directory, &why) &&
-                      (blocks = write_series(timings, count, directory, &sets, &why)) >= 0 &&
-                      draw(count, blocks, sets.data, directory, &why);
+                      write_bar_data(timings, count, directory, &why) &&
+                      (blocks = write_series_data(timings, count, directory, &sets, &why)) >= 0 &&
+                      draw_timings(count, blocks, sets.data, directory, &why);
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "drawing failed");
     jox_text_free(&why);

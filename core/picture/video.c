@@ -33,18 +33,19 @@ bool jox_video_available(void) {
     return false;
 }
 
-/* Runs ffmpeg with `input` as its standard input. */
-static int spawn(JoxVideo *video, int input, uint32_t width, uint32_t height, double fps) {
+/* Starts ffmpeg with `input` as its standard input. Returns 0 or an errno value. */
+static int start_ffmpeg(JoxVideo *video, int input, uint32_t width, uint32_t height, double fps) {
     char size[32], rate[32];
     JoxText file = {0};
     posix_spawn_file_actions_t actions;
     snprintf(size, sizeof size, "%ux%u", width, height);
     snprintf(rate, sizeof rate, "%.9g", fps);
-    jox_text_printf(&file, "file:%s", video->path); /* whatever it is called, it is a file */
+    /* "file:" keeps a name from being read as a URL or an option */
+    jox_text_printf(&file, "file:%s", video->path);
     const char *arguments[] = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f",
                                "rawvideo", "-pixel_format", "bgr0", "-video_size", size,
                                "-framerate", rate, "-i", "pipe:0", "-an",
-                               /* what players everywhere can show */
+                               /* the pixel format that all players show */
                                "-pix_fmt", "yuv420p", file.data, NULL};
     int failure = posix_spawn_file_actions_init(&actions);
     if (failure)
@@ -58,8 +59,8 @@ static int spawn(JoxVideo *video, int input, uint32_t width, uint32_t height, do
     return failure;
 }
 
-/* Ends ffmpeg; the video is as long as it is. */
-static void abandon(void *opened) {
+/* Ends ffmpeg when a call is aborted (base/mem.h); the video ends with the frames sent so far. */
+static void stop_ffmpeg(void *opened) {
     JoxVideo *video = opened;
     close(video->pipe);
     while (waitpid(video->child, NULL, 0) < 0 && errno == EINTR)
@@ -72,17 +73,18 @@ JoxVideo *jox_video_open(const char *path, uint32_t width, uint32_t height, doub
     JoxVideo *video = jox_alloc(1, sizeof *video);
     video->path = jox_strdup(path);
     video->size = (size_t)width * height * 4;
-    /* A socket, not a pipe: writing to one that nobody reads gives an error and no signal. */
+    /* A socket, not a pipe: with MSG_NOSIGNAL, writing after the reader has ended gives an error
+       and no SIGPIPE. */
     int failure = socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 ? 0 : errno;
     if (!failure) {
-        failure = spawn(video, ends[1], width, height, fps);
+        failure = start_ffmpeg(video, ends[1], width, height, fps);
         close(ends[1]);
         video->pipe = ends[0];
         if (failure)
             close(ends[0]);
     }
     if (!failure)
-        return jox_hold(video, abandon);
+        return jox_hold(video, stop_ffmpeg);
     jox_text_printf(error, "cannot run ffmpeg: %s", strerror(failure));
     jox_free(video->path);
     jox_free(video);

@@ -1,4 +1,4 @@
-/* Videos: frames go through a pipe to ffmpeg, which need not be there. */
+/* Videos: frames are piped to ffmpeg, which may be missing. render.c is the caller. */
 #ifndef JOX_PICTURE_VIDEO_H
 #define JOX_PICTURE_VIDEO_H
 
@@ -9,15 +9,17 @@
 
 typedef struct JoxVideo JoxVideo;
 
-/* Whether a program ffmpeg is in a folder of PATH. */
+/* Returns whether ffmpeg is in a folder of PATH. */
 bool jox_video_available(void);
-/* Starts ffmpeg, which replaces the file; what it makes follows from the file's ending. Width and
-   height are even. NULL with a sentence in `error`. */
+/* Starts ffmpeg, which replaces the file and chooses the format by its ending. Width and height,
+   px, must be even. Returns NULL with a sentence in `error`. */
 JoxVideo *jox_video_open(const char *path, uint32_t width, uint32_t height, double fps,
                          JoxText *error);
-/* One frame, as jox_canvas_pixels gives it. False with a sentence once ffmpeg has gone. */
+/* Sends one frame in the layout of jox_canvas_pixels. Returns false with a sentence if ffmpeg
+   has ended. */
 bool jox_video_frame(JoxVideo *video, const uint8_t *pixels, JoxText *error);
-/* Waits for ffmpeg to end. False with a sentence if it failed. */
+/* Waits for ffmpeg to finish the file and frees the video. Returns false with a sentence if
+   ffmpeg failed. */
 bool jox_video_close(JoxVideo *video, JoxText *error);
 
 #endif

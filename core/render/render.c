@@ -1,4 +1,5 @@
-/* jo_render: pictures, frames and videos. */
+/* jo_render: writes a picture, a folder of frames or a video of a scene or recording. `jostle
+   render` is the caller. */
 #include "render/render.h"
 
 #include <errno.h>
@@ -18,19 +19,22 @@
 #include "picture/video.h"
 
 enum { RENDER_COOKIE = 0x4a4f524e, LEAST_SIDE = 320, MOST_SIDE = 8192, MOST_FRAMES = 999999 };
-static const double MOST_FPS = 30.0; /* unless asked for */
+static const double MOST_FPS = 30.0; /* the default's upper bound */
 
+/* Kind of output that --out asks for; NONE: an unknown file ending. */
 typedef enum Kind { SVG, PNG, VIDEO, FRAMES, NONE } Kind;
 
+/* One call of jo_render. */
 typedef struct Job {
     JoxRender render;
     Kind kind;
     JoxCanvas *canvas;
     JoxVideo *video;
-    char folder[1024]; /* of frames */
-    uint32_t done, count;
-    double from, until, begun, shown; /* s */
-    int tenth;
+    char folder[1024];    /* folder of frames; "" if one file is written */
+    uint32_t done, count; /* pictures written, and in all */
+    double from, until;   /* s: time range of the pictures */
+    double begun, shown;  /* s, wall clock: start of the call, last line of progress */
+    int tenth;            /* tenths of the way, in the last line of progress */
 } Job;
 
 JoRenderDef jo_default_render_def(void) {
@@ -41,13 +45,14 @@ bool jo_render_has_images(void) {
     return jox_canvas_has_images();
 }
 
-static bool fail(JoError *error, JoxText *why) {
+/* Sets JO_FAILED with a text, which it frees. Returns false. */
+static bool fail_with_text(JoError *error, JoxText *why) {
     jox_error(error, JO_FAILED, "%s", why->data ? why->data : "writing failed");
     jox_text_free(why);
     return false;
 }
 
-static void say(const JoRenderDef *def, const char *format, const char *what) {
+static void pass_message(const JoRenderDef *def, const char *format, const char *what) {
     char text[1200];
     snprintf(text, sizeof text, format, what);
     jox_run_message(def->message, def->message_context, text);
@@ -59,9 +64,9 @@ static const struct {
 } ENDINGS[] = {{".png", PNG}, {".svg", SVG}, {".mp4", VIDEO}, {".mkv", VIDEO}, {".webm", VIDEO}};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
-/* By the ending; a folder is one that is there, that ends with '/' or "-frames", or whose name has
-   no ending. */
-static Kind kind_of(const char *out) {
+/* Returns what `out` asks for, by its ending. A path is a folder of frames if it is an existing
+   folder, ends with '/' or "-frames", or has no ending. */
+static Kind find_output_kind(const char *out) {
     struct stat info;
     const char *name = jox_path_name(out), *dot = strrchr(name, '.');
     if (!dot || dot == name || strcmp(dot, "..") == 0 || strstr(dot, "-frames") ||
@@ -73,7 +78,7 @@ static Kind kind_of(const char *out) {
     return NONE;
 }
 
-/* JO_USAGE for a file of an ending that there is not. */
+/* Fails with JO_USAGE for an unknown file ending. */
 static bool refuse_ending(const char *out, JoError *error) {
     const char *endings[ENDING_COUNT], *dot = strrchr(out, '.');
     char hint[JOX_HINT];
@@ -87,8 +92,8 @@ static bool refuse_ending(const char *out, JoError *error) {
     return false;
 }
 
-/* Whether the def makes sense; else JO_USAGE with the way out. */
-static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
+/* Checks the def's options against each other; on failure sets JO_USAGE with a way out. */
+static bool check_render_def(const JoRenderDef *def, Kind kind, JoError *error) {
     if (kind == NONE)
         return refuse_ending(def->out, error);
     bool series = kind == VIDEO || kind == FRAMES;
@@ -116,8 +121,8 @@ static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
     return !why;
 }
 
-/* That a file can be written is found out before an hour of simulation. */
-static bool writable(const char *path, JoError *error) {
+/* Checks that a file can be written, before an hour of simulation is spent on it. */
+static bool require_writable(const char *path, JoError *error) {
     const bool good = jox_file_can_be_written(path);
     if (!good)
         jox_error(error, JO_FAILED, "cannot write '%s': %s", path, strerror(errno));
@@ -126,11 +131,12 @@ static bool writable(const char *path, JoError *error) {
 
 /* ---- times ---- */
 
-/* A time of the def, or what stands for it; false where there is none such. */
-static bool find_time(const Job *job, double asked, double usual, double *out, JoError *error) {
+/* Sets a time, s, to the option's value, or to a default if it was not given. Returns false if
+   the crowd has no such time. */
+static bool resolve_time(const Job *job, double asked, double usual, double *out, JoError *error) {
     const JoxRender *r = &job->render;
     *out = isfinite(asked) ? asked : usual;
-    if (*out >= r->first - 0.5 * r->pace && *out <= r->last + 0.5 * r->pace)
+    if (*out >= r->first - 0.5 * r->interval && *out <= r->last + 0.5 * r->interval)
         return true;
     if (r->crowd)
         jox_error(error, JO_INPUT, "%g s is not in this recording, which has %.6g to %.6g s", *out,
@@ -140,25 +146,27 @@ static bool find_time(const Job *job, double asked, double usual, double *out, J
     return false;
 }
 
-/* The most frames a second, up to MOST_FPS, that fall on steps. */
-static double usual_fps(double pace) {
-    double every = ceil(1.0 / (pace * MOST_FPS) - 1e-9);
-    return 1.0 / (pace * (every > 1.0 ? every : 1.0));
+/* Returns the greatest number of frames per second, up to MOST_FPS, at which each frame falls on
+   a step. */
+static double choose_fps(double interval) {
+    double every = ceil(1.0 / (interval * MOST_FPS) - 1e-9);
+    return 1.0 / (interval * (every > 1.0 ? every : 1.0));
 }
 
-static bool find_times(Job *job, double *fps, JoError *error) {
+/* Sets the job's times and number of pictures, and the frames per second. */
+static bool resolve_times(Job *job, double *fps, JoError *error) {
     const JoxRender *r = &job->render;
     const JoRenderDef *def = r->def;
     double end = r->scene ? jo_scene_duration(r->scene) : r->last;
     if (job->kind == SVG || job->kind == PNG) {
         job->count = 1;
         *fps = 1.0;
-        return find_time(job, def->at, r->first, &job->from, error) &&
-               find_time(job, def->at, r->first, &job->until, error);
+        return resolve_time(job, def->at, r->first, &job->from, error) &&
+               resolve_time(job, def->at, r->first, &job->until, error);
     }
-    *fps = def->fps > 0.0 ? def->fps : usual_fps(r->pace);
-    if (!find_time(job, def->from, r->first, &job->from, error) ||
-        !find_time(job, def->until, end, &job->until, error))
+    *fps = def->fps > 0.0 ? def->fps : choose_fps(r->interval);
+    if (!resolve_time(job, def->from, r->first, &job->from, error) ||
+        !resolve_time(job, def->until, end, &job->until, error))
         return false;
     double count = floor((job->until - job->from) * *fps + 1e-6) + 1.0;
     if (count >= 1.0 && count <= MOST_FRAMES) {
@@ -174,7 +182,9 @@ static bool find_times(Job *job, double *fps, JoError *error) {
 
 /* ---- progress ---- */
 
-static void progress(Job *job, bool ended) {
+/* Writes a line of progress to stderr: on a terminal every 0.2 s over the last one, else every
+   tenth of the way. */
+static void show_render_progress(Job *job, bool ended) {
     double wall = jox_clock_wall(), spent = wall - job->begun;
     double span = job->until - job->render.first, share = 1.0;
     bool terminal = isatty(2);
@@ -194,24 +204,25 @@ static void progress(Job *job, bool ended) {
 
 /* ---- output ---- */
 
-/* Where pictures go, before any is made. */
-static bool prepare(Job *job, JoError *error) {
+/* Prepares the file or folder before any picture is drawn. Without ffmpeg, a video's frames go
+   to a folder. */
+static bool prepare_output(Job *job, JoError *error) {
     const JoRenderDef *def = job->render.def;
     JoxText why = {0};
-    if (job->kind != FRAMES && !writable(def->out, error))
+    if (job->kind != FRAMES && !require_writable(def->out, error))
         return false;
     if (job->kind == VIDEO && !jox_video_available()) {
         snprintf(job->folder, sizeof job->folder, "%.*s-frames",
                  (int)(strrchr(def->out, '.') - def->out), def->out);
-        say(def, "there is no ffmpeg to make a video; its frames go to %s\n", job->folder);
+        pass_message(def, "there is no ffmpeg to make a video; its frames go to %s\n", job->folder);
     } else if (job->kind == FRAMES) {
         snprintf(job->folder, sizeof job->folder, "%s", def->out);
     }
-    return !*job->folder || jox_plot_folder(job->folder, &why) || fail(error, &why);
+    return !*job->folder || jox_plot_folder(job->folder, &why) || fail_with_text(error, &why);
 }
 
-/* The canvas, of the size asked for or that suits the area, and the video. */
-static bool begin(Job *job, double fps, JoError *error) {
+/* Creates the canvas, of the given size or one that suits the area, and starts the video. */
+static bool open_output(Job *job, double fps, JoError *error) {
     const JoRenderDef *def = job->render.def;
     uint32_t width = def->width, height = def->height;
     JoxText why = {0};
@@ -221,14 +232,15 @@ static bool begin(Job *job, double fps, JoError *error) {
         job->kind == SVG ? jox_canvas_svg(width, height) : jox_canvas_image(width, height);
     if (job->kind == VIDEO && !*job->folder)
         job->video = jox_video_open(def->out, width, height, fps, &why);
-    return job->kind != VIDEO || *job->folder || job->video || fail(error, &why);
+    return job->kind != VIDEO || *job->folder || job->video || fail_with_text(error, &why);
 }
 
 static void frame_path(const Job *job, uint32_t number, char path[1100]) {
     snprintf(path, 1100, "%s/frame-%06u.png", job->folder, number);
 }
 
-static bool put(Job *job, JoError *error) {
+/* Draws the current frame and writes it as a file or into the video. */
+static bool write_next_picture(Job *job, JoError *error) {
     char path[1100];
     JoxText why = {0};
     jox_draw(job->canvas, jox_render_picture(&job->render));
@@ -237,26 +249,27 @@ static bool put(Job *job, JoError *error) {
     bool good = job->video ? jox_video_frame(job->video, jox_canvas_pixels(job->canvas), &why)
                            : jox_canvas_write(job->canvas,
                                               *job->folder ? path : job->render.def->out, &why);
-    return good || fail(error, &why);
+    return good || fail_with_text(error, &why);
 }
 
-/* Says what there is now. */
-static bool end(Job *job, double fps, bool good, JoError *error) {
+/* Closes the video and reports which files were written. Fails if a video was asked for and
+   there is no ffmpeg. */
+static bool finish_output(Job *job, double fps, bool good, JoError *error) {
     const JoRenderDef *def = job->render.def;
     JoxText why = {0};
     if (job->video && !jox_video_close(job->video, &why) && good)
-        good = fail(error, &why);
+        good = fail_with_text(error, &why);
     jox_text_free(&why);
     if (!good)
         return false;
     char path[1100];
-    if (*job->folder) { /* frames of a longer series before this one */
+    if (*job->folder) { /* deletes frames that an earlier, longer series left */
         for (uint32_t n = job->done + 1; frame_path(job, n, path), unlink(path) == 0;)
             n++;
         snprintf(path, sizeof path, "%s/frame-000001.png to frame-%06u.png", job->folder,
                  job->done);
     }
-    say(def, "pictures: %s\n", *job->folder ? path : def->out);
+    pass_message(def, "pictures: %s\n", *job->folder ? path : def->out);
     if (job->kind == VIDEO && *job->folder) {
         jox_error(error, JO_FAILED,
                   "no video was made, as there is no ffmpeg (Debian: apt-get install ffmpeg); its "
@@ -268,39 +281,39 @@ static bool end(Job *job, double fps, bool good, JoError *error) {
     return true;
 }
 
-/* Long ways to the first picture show how far they are. */
-static bool go_on(Job *job, double time, JoError *error) {
+/* Advances to a time, s, and shows progress once per second of simulated time. */
+static bool advance_with_progress(Job *job, double time, JoError *error) {
     bool good = true;
     for (double on = jox_render_time(&job->render) + 1.0; good && on < time; on += 1.0) {
         good = jox_render_advance(&job->render, on, error);
-        progress(job, false);
+        show_render_progress(job, false);
     }
     return good && jox_render_advance(&job->render, time, error);
 }
 
-static bool draw_all(const JoRenderDef *def, JoError *error) {
+static bool render_pictures(const JoRenderDef *def, JoError *error) {
     Job *job = jox_alloc(1, sizeof *job);
     double fps = 1.0;
-    job->kind = kind_of(def->out);
+    job->kind = find_output_kind(def->out);
     job->render.def = def;
     job->begun = jox_clock_wall();
     job->tenth = -1;
-    bool good = check(def, job->kind, error) && jox_render_load(&job->render, error) &&
-                find_times(job, &fps, error) && prepare(job, error);
+    bool good = check_render_def(def, job->kind, error) && jox_render_load(&job->render, error) &&
+                resolve_times(job, &fps, error) && prepare_output(job, error);
     bool began = false;
     for (uint32_t n = 0; good && n < job->count; n++) {
         double time = job->from + (double)n / fps;
-        good = go_on(job, time, error);
+        good = advance_with_progress(job, time, error);
         if (good && n == 0) {
             if (job->count == 1)
-                jox_render_widen(&job->render);
-            good = began = begin(job, fps, error);
+                jox_render_widen_area(&job->render);
+            good = began = open_output(job, fps, error);
         }
-        good = good && put(job, error);
-        progress(job, n + 1 == job->count && good);
+        good = good && write_next_picture(job, error);
+        show_render_progress(job, n + 1 == job->count && good);
     }
     if (began)
-        good = end(job, fps, good, error);
+        good = finish_output(job, fps, good, error);
     jox_canvas_free(job->canvas);
     jox_render_free(&job->render);
     jox_free(job);
@@ -315,5 +328,5 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3 && !isinf(def->at), false);
     JOX_GUARD (NULL, error)
         return false;
-    return draw_all(def, error);
+    return render_pictures(def, error);
 }

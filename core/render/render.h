@@ -1,4 +1,6 @@
-/* What pictures are made of: a crowd that is run or read, moment by moment. For render*.c alone. */
+/* A crowd for pictures, run as a scene or read from a recording, moment by moment. Shared by
+   render.c, which writes the files, and render_crowd.c, which implements these functions;
+   private to render*.c. */
 #ifndef JOX_RENDER_RENDER_H
 #define JOX_RENDER_RENDER_H
 
@@ -8,47 +10,53 @@
 #include "record/trajectory_reader.h"
 #include "run/run.h"
 
+/* Exactly one of `scene` and `crowd` is set. jox_render_free frees all that it owns. */
 typedef struct JoxRender {
     const JoRenderDef *def;
-    JoScene *scene; /* that is run, or */
-    JoxTrajectories *crowd;
-    JoxSceneSpec *spec; /* with a recording: whose walls and places are drawn, or NULL */
-    uint32_t at;        /* frame of the recording */
-    double first, last; /* s: times that there are; of a scene without end */
-    double pace;        /* s between two of them */
+    JoScene *scene;         /* a scene that is run, or NULL */
+    JoxTrajectories *crowd; /* a recording, or NULL */
+    JoxSceneSpec *spec; /* with a recording: the scene whose walls and places are drawn, or NULL */
+    uint32_t at;        /* index of the recording's current frame */
+    double first, last; /* s: range of times; `last` of a scene is infinite */
+    double interval;    /* s: between two frames */
 
-    JoxFrame frame; /* of now */
+    JoxFrame frame; /* the current frame */
     JoxPicture picture;
     char title[256];
-    JoxShow colour, floor;
-    JoxDensity *grid;  /* for density; NULL where it is not asked for */
-    JoxDanger *danger; /* of a recording, for pressure */
-    float *density;    /* of each person */
+    JoxDensity *grid;  /* grid of density, if density is shown; else NULL */
+    JoxDanger *danger; /* for crowd pressure of a recording; else NULL */
+    float *density;    /* 1/m2, per person of the frame */
     size_t density_capacity;
-    JoxTrajectoryReader *reader; /* of a recording that has bodies, for these; else NULL */
-    JoxDrawnBodies bodies;
-    const char **states; /* of a scene: with their machines' names where there are several */
-    char **state_texts;
+    JoxTrajectoryReader *reader; /* for the bodies of a recording; NULL if it has none */
+    JoxDrawnBodies bodies;       /* in the current frame */
+    /* names of a scene's states by row, with the machine's name if there are several */
+    const char **states;
+    char **state_texts; /* the same strings, to be freed */
     uint32_t state_count;
 
     JoxTrail *trails;
-    uint32_t trail_count, trail_capacity, trail_stride;
-    uint32_t *trail_of; /* by key: number of the trail, plus 1 */
-    uint32_t trail_keys;
+    uint32_t trail_count, trail_capacity;
+    uint32_t trail_stride; /* people whose key is a multiple of it get a trail */
+    uint32_t *trail_of;    /* per key: index of the trail plus 1, or 0 */
+    uint32_t trail_keys;   /* length of trail_of */
 } JoxRender;
 
-/* render_crowd.c: loads what the def names; false with `error`. */
+/* Loads the scene or recording that the def names, up to its first frame. Returns false with
+   `error`. */
 bool jox_render_load(JoxRender *render, JoError *error);
-/* Goes on to the moment nearest to a time; times ascend. */
+/* Advances to the frame nearest to a time, s, by running or reading. Times must not descend.
+   Returns false with `error`. */
 bool jox_render_advance(JoxRender *render, double time, JoError *error);
-/* Time of the present moment, s. */
+/* Returns the time of the current frame, s. */
 double jox_render_time(const JoxRender *render);
-/* Widens what is shown, unless the def says it, by everyone who is outside now. */
-void jox_render_widen(JoxRender *render);
-/* The picture of now. */
+/* Widens the area shown so that it includes the people of the current frame, except those far
+   away. No effect if the def gives an area. */
+void jox_render_widen_area(JoxRender *render);
+/* Returns the picture of the current frame, which holds until the next call on the render. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);
-/* What colours can tell of this crowd; false with `error`. */
-bool jox_render_choose(JoxRender *render, JoError *error);
+/* Chooses the quantities that colours show, from the def's options or by the crowd. Returns
+   false with `error` if the crowd does not have them. */
+bool jox_render_choose_colours(JoxRender *render, JoError *error);
 
 #endif

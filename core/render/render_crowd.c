@@ -1,4 +1,5 @@
-/* A crowd for pictures: a scene that is run, or a recording. */
+/* Implements render.h: loads a scene or recording, advances it, and fills in the picture of a
+   frame. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,43 +10,47 @@
 #include "base/mem.h"
 #include "render/render.h"
 
+/* Above MOST_FOLLOWED people, only a sample of them gets trails. */
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };
 static const float STRIDE = 0.1f; /* m between points of a trail */
-static const float RADIUS = 0.2f; /* m: of people whose recording does not say */
+static const float RADIUS = 0.2f; /* m: of people in recordings without radii */
 
-/* ---- what is shown ---- */
+/* ---- area shown ---- */
 
 typedef struct Box {
     JoxV2 low, high;
 } Box;
 
-static void widen(Box *box, JoxV2 p) {
+static void widen_box(Box *box, JoxV2 p) {
     box->low = jox_v2(jox_minf(box->low.x, p.x), jox_minf(box->low.y, p.y));
     box->high = jox_v2(jox_maxf(box->high.x, p.x), jox_maxf(box->high.y, p.y));
 }
 
-/* What is no farther off a box than so many times its length; else all the rest would be small. */
-static Box near_to(const Box *box, float times) {
+/* Returns a box grown on each side by so many times its longer side. What lies outside would
+   make the rest of the picture too small. */
+static Box expand_box(const Box *box, float times) {
     float reach = times * jox_maxf(box->high.x - box->low.x, box->high.y - box->low.y);
     return (Box){jox_sub(box->low, jox_v2(reach, reach)), jox_add(box->high, jox_v2(reach, reach))};
 }
 
-/* Places count where they are near: some are only directions. Without walls they are all there is.
- */
+/* Widens the box by places that are near it; distant places may serve only as directions.
+   Without walls, places are all there is, so more distant ones count. */
 static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bool walls) {
-    Box near = near_to(box, walls ? 1.0f : 10.0f);
+    Box near = expand_box(box, walls ? 1.0f : 10.0f);
     for (uint32_t p = 0; p < count; p++)
         for (uint32_t i = 0; i < places[p].count; i++) {
             JoxV2 at = places[p].points[i];
             float around = jox_place_radius(&places[p]);
             if (at.x < near.low.x || at.y < near.low.y || at.x > near.high.x || at.y > near.high.y)
                 continue;
-            widen(box, jox_sub(at, jox_v2(around, around)));
-            widen(box, jox_add(at, jox_v2(around, around)));
+            widen_box(box, jox_sub(at, jox_v2(around, around)));
+            widen_box(box, jox_add(at, jox_v2(around, around)));
         }
 }
 
-static void find_area(JoxRender *r) {
+/* Sets the area shown: that of the options, else the scene's bounds, else walls, people and near
+   places with a margin. */
+static void choose_map_area(JoxRender *r) {
     JoxPicture *p = &r->picture;
     const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
     const double *area = r->def->area;
@@ -61,18 +66,18 @@ static void find_area(JoxRender *r) {
     }
     Box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (uint32_t i = 0; p->walls && i < p->walls->count; i++)
-        widen(&box, p->walls->vertices[i].point);
+        widen_box(&box, p->walls->vertices[i].point);
     if (r->crowd) {
-        widen(&box, r->crowd->low);
-        widen(&box, r->crowd->high);
+        widen_box(&box, r->crowd->low);
+        widen_box(&box, r->crowd->high);
     }
     const JoxFrame *frame = r->scene ? jox_run_frame(r->scene, 0) : NULL;
     for (uint32_t i = 0; frame && i < frame->count; i++)
-        widen(&box, jox_v2(frame->x[i], frame->y[i]));
-    if (!(box.low.x <= box.high.x)) /* nobody, and no walls: places alone */
+        widen_box(&box, jox_v2(frame->x[i], frame->y[i]));
+    if (!(box.low.x <= box.high.x)) /* no people and no walls: places alone */
         for (uint32_t k = 0; k < p->place_count; k++)
             if (p->places[k].count)
-                widen(&box, p->places[k].points[0]);
+                widen_box(&box, p->places[k].points[0]);
     if (!(box.low.x <= box.high.x))
         box = (Box){{-1, -1}, {1, 1}};
     widen_by_places(&box, p->places, p->place_count, p->walls && p->walls->count > 0);
@@ -81,10 +86,10 @@ static void find_area(JoxRender *r) {
     p->high = jox_add(box.high, jox_v2(edge, edge));
 }
 
-void jox_render_widen(JoxRender *r) {
+void jox_render_widen_area(JoxRender *r) {
     JoxPicture *p = &r->picture;
     Box box = {p->low, p->high};
-    const Box near = near_to(&box, 2.0f);
+    const Box near = expand_box(&box, 2.0f);
     if (r->def->area)
         return;
     for (uint32_t i = 0; i < r->frame.count; i++) {
@@ -93,8 +98,8 @@ void jox_render_widen(JoxRender *r) {
                      at.y <= near.high.y);
         if (far)
             continue;
-        widen(&box, jox_sub(at, edge));
-        widen(&box, jox_add(at, edge));
+        widen_box(&box, jox_sub(at, edge));
+        widen_box(&box, jox_add(at, edge));
     }
     p->low = box.low;
     p->high = box.high;
@@ -106,9 +111,10 @@ void jox_render_widen(JoxRender *r) {
 
 /* ---- colours ---- */
 
-/* "speed" or "speed:1.5"; false with `error`. */
-static bool read_show(const char *option, const char *text, const char *choices, JoxShow *show,
-                      float *most, JoError *error) {
+/* Parses an option such as "speed" or "speed:1.5" into a quantity and the value at its bar's
+   upper end. Returns false with `error`. */
+static bool parse_show_option(const char *option, const char *text, const char *choices,
+                              JoxShow *show, float *most, JoError *error) {
     const char *colon = strchr(text, ':'), *found = NULL;
     size_t length = colon ? (size_t)(colon - text) : strlen(text);
     for (int s = 0; s < JOX_SHOWS; s++) {
@@ -139,7 +145,8 @@ static bool read_show(const char *option, const char *text, const char *choices,
     return true;
 }
 
-static bool known(const JoxRender *r, JoxShow show) {
+/* Returns whether the current frame has the values of a quantity. */
+static bool has_shown_values(const JoxRender *r, JoxShow show) {
     const JoxFrame *f = &r->frame;
     return show == JOX_SHOW_STATE         ? f->state != NULL && f->state_count > 0
            : show == JOX_SHOW_GROUP       ? f->group != NULL
@@ -149,9 +156,9 @@ static bool known(const JoxRender *r, JoxShow show) {
                                           : true;
 }
 
-/* Whether the crowd has what the colours tell; else the way out. */
-static bool check_known(const JoxRender *r, JoxShow show, JoError *error) {
-    if (known(r, show))
+/* Fails with a way out if the crowd does not have the values of a quantity. */
+static bool require_shown_values(const JoxRender *r, JoxShow show, JoError *error) {
+    if (has_shown_values(r, show))
         return true;
     jox_error(error, JO_INPUT,
               "this recording does not know the %s of people; --colour speed, or density",
@@ -159,36 +166,40 @@ static bool check_known(const JoxRender *r, JoxShow show, JoError *error) {
     return false;
 }
 
-/* What the scene says, or what tells most. Levels of service are of density. */
-static JoxShow first_colour(const JoxRender *r) {
+/* Returns the quantity that the scene asks for, or the most telling one that the crowd has.
+   "service" (levels of service) is shown as density. */
+static JoxShow choose_default_colour(const JoxRender *r) {
     const JoxFrame *f = &r->frame;
-    const uint32_t states = f->state && f->state_count > 0 ? f->state_count - 1 : 0; /* "none" */
+    /* the first is "none" */
+    const uint32_t states = f->state && f->state_count > 0 ? f->state_count - 1 : 0;
     const char *name = jox_scene_colour(r->scene ? r->scene->spec : r->spec, states,
                                         f->group ? f->group_count : 0);
     for (int s = 0; s < JOX_SHOWS; s++)
-        if (strcmp(jox_shown[s].name, name) == 0 && known(r, (JoxShow)s))
+        if (strcmp(jox_shown[s].name, name) == 0 && has_shown_values(r, (JoxShow)s))
             return (JoxShow)s;
     return strcmp(name, "service") == 0 ? JOX_SHOW_DENSITY : JOX_SHOW_SPEED;
 }
 
-bool jox_render_choose(JoxRender *r, JoError *error) {
+bool jox_render_choose_colours(JoxRender *r, JoError *error) {
     const JoRenderDef *def = r->def;
     JoxPicture *p = &r->picture;
-    if (def->field &&
-        !read_show("field", def->field, "density or pressure", &p->floor, &p->floor_most, error))
+    if (def->field && !parse_show_option("field", def->field, "density or pressure", &p->floor,
+                                         &p->floor_most, error))
         return false;
     if (def->colour)
-        return read_show(
+        return parse_show_option(
                    "colour", def->colour,
                    "state, group, speed, force, compression, load, density, direction or none",
                    &p->colour, &p->colour_most, error) &&
-               check_known(r, p->colour, error);
-    p->colour = def->field ? JOX_SHOW_NOTHING : first_colour(r); /* then people are rings */
+               require_shown_values(r, p->colour, error);
+    /* with a field, people are rings */
+    p->colour = def->field ? JOX_SHOW_NOTHING : choose_default_colour(r);
     p->colour_most = jox_shown[p->colour].most;
     return true;
 }
 
-static void make_fields(JoxRender *r) {
+/* Creates what the chosen quantities need: a grid of density, collection of crowd pressure. */
+static void create_fields(JoxRender *r) {
     JoxPicture *p = &r->picture;
     if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
         r->grid = jox_local_grid(p->low, p->high);
@@ -200,8 +211,8 @@ static void make_fields(JoxRender *r) {
         r->danger = jox_danger_create(p->low, p->high);
 }
 
-/* Density of now. */
-static void measure_density(JoxRender *r) {
+/* Measures the density of the current frame on the grid and at each person. */
+static void measure_local_density(JoxRender *r) {
     JoxDensity *g = r->grid;
     const JoxFrame *f = &r->frame;
     jox_density_walls(g, f->walls);
@@ -214,9 +225,11 @@ static void measure_density(JoxRender *r) {
     }
 }
 
-/* ---- where they went ---- */
+/* ---- trails ---- */
 
-static void follow(JoxTrail *trail, JoxV2 at, JoxV2 period) {
+/* Appends a position to a trail once it is STRIDE away from the last. Where somebody crossed a
+   periodic edge, a NAN point interrupts the line. */
+static void extend_trail(JoxTrail *trail, JoxV2 at, JoxV2 period) {
     JoxV2 last = trail->count ? trail->points[trail->count - 1] : jox_v2(INFINITY, 0.0f);
     JoxV2 step = jox_sub(at, last);
     if (trail->count && jox_length2(step) < STRIDE * STRIDE)
@@ -224,17 +237,17 @@ static void follow(JoxTrail *trail, JoxV2 at, JoxV2 period) {
     JOX_RESERVE(trail->points, trail->capacity, trail->count + 2);
     if (trail->count && ((period.x > 0.0f && fabsf(step.x) > 0.5f * period.x) ||
                          (period.y > 0.0f && fabsf(step.y) > 0.5f * period.y)))
-        trail->points[trail->count++] = (JoxV2){NAN, NAN}; /* came round */
+        trail->points[trail->count++] = (JoxV2){NAN, NAN}; /* crossed a periodic edge */
     trail->points[trail->count++] = at;
 }
 
-static JoxTrail *begin_trail(JoxRender *r, uint32_t key, uint16_t group, bool body) {
+static JoxTrail *add_trail(JoxRender *r, uint32_t key, uint16_t group, bool body) {
     JOX_RESERVE(r->trails, r->trail_capacity, r->trail_count + 1);
     r->trails[r->trail_count] = (JoxTrail){.key = key, .group = group, .body = body};
     return &r->trails[r->trail_count++];
 }
 
-static void follow_people(JoxRender *r) {
+static void extend_people_trails(JoxRender *r) {
     const JoxFrame *f = &r->frame;
     if (f->keys > r->trail_keys) {
         r->trail_of = jox_realloc(r->trail_of, f->keys, sizeof *r->trail_of);
@@ -248,15 +261,15 @@ static void follow_people(JoxRender *r) {
         if (f->key[i] % r->trail_stride != 0 || (!*of && r->trail_count >= MOST_TRAILS))
             continue;
         if (!*of) {
-            begin_trail(r, f->key[i], f->group ? f->group[i] : 0, false);
+            add_trail(r, f->key[i], f->group ? f->group[i] : 0, false);
             *of = r->trail_count;
             r->picture.trail_people++;
         }
-        follow(&r->trails[*of - 1], jox_v2(f->x[i], f->y[i]), f->period);
+        extend_trail(&r->trails[*of - 1], jox_v2(f->x[i], f->y[i]), f->period);
     }
 }
 
-static void follow_bodies(JoxRender *r) {
+static void extend_body_trails(JoxRender *r) {
     const JoxObjects *objects = &r->scene->world->scratch.objects;
     uint32_t count = 0;
     for (uint32_t o = 0; o < objects->count; o++) {
@@ -268,16 +281,15 @@ static void follow_bodies(JoxRender *r) {
             if (r->trails[t].body && r->trails[t].key == object->id)
                 trail = &r->trails[t];
         if (!trail)
-            trail = begin_trail(r, object->id, 0, true);
-        follow(trail, jox_v2(object->position.x, object->position.y), (JoxV2){0, 0});
+            trail = add_trail(r, object->id, 0, true);
+        extend_trail(trail, jox_v2(object->position.x, object->position.y), (JoxV2){0, 0});
     }
 }
 
 /* ---- moments ---- */
 
-/* States by number as frames have them, called "machine: state" where there are several machines.
- */
-static void name_states(JoxRender *r) {
+/* Builds the names of states by row, as "machine: state" if there are several machines. */
+static void build_state_names(JoxRender *r) {
     const JoxMachineRun *machines = &r->scene->world->machines;
     r->states = jox_alloc(r->frame.state_count + 1, sizeof *r->states);
     r->state_texts = jox_alloc(r->frame.state_count + 1, sizeof *r->state_texts);
@@ -294,29 +306,30 @@ static void name_states(JoxRender *r) {
         r->states[s] = r->state_texts[s];
 }
 
-/* Whether walls are those of the scene beside a recording, which has none of its own over time. */
-static bool is_walled_by_plan(const JoxRender *r) {
+/* Returns whether the scene given with a recording supplies the walls: the recording has no
+   history of its own walls. */
+static bool uses_scene_walls(const JoxRender *r) {
     return r->spec && r->spec->walls.ring_count && !r->crowd->history;
 }
 
-/* Takes the present moment in. */
-static void look(JoxRender *r) {
+/* Takes the current step or frame as r->frame, and extends the trails. */
+static void take_frame(JoxRender *r) {
     if (r->scene) {
         r->frame = *jox_run_frame(r->scene, JOX_FRAME_WHOLE);
         if (!r->states)
-            name_states(r);
+            build_state_names(r);
         r->frame.states = r->states;
     } else {
         jox_trajectories_frame(r->crowd, r->at, &r->frame);
-        if (is_walled_by_plan(r))
+        if (uses_scene_walls(r))
             r->frame.walls = &r->spec->walls;
         if (r->danger)
             jox_danger_frame(r->danger, &r->frame, NULL);
     }
     if (r->def->paths)
-        follow_people(r);
+        extend_people_trails(r);
     if (r->def->paths && r->scene)
-        follow_bodies(r);
+        extend_body_trails(r);
 }
 
 double jox_render_time(const JoxRender *r) {
@@ -327,8 +340,8 @@ static double frame_time(const JoxTrajectories *t, uint32_t f) {
     return (double)t->number[t->first[f]] / t->fps;
 }
 
-/* The least time between two frames: not every one need be written. */
-static double pace_of(const JoxTrajectories *t) {
+/* Returns the least time between two consecutive frames, s; recordings may leave frames out. */
+static double find_frame_interval(const JoxTrajectories *t) {
     int64_t least = INT64_MAX;
     for (uint32_t f = 1; f < t->frame_count; f++) {
         int64_t gap = t->number[t->first[f]] - t->number[t->first[f - 1]];
@@ -339,32 +352,33 @@ static double pace_of(const JoxTrajectories *t) {
 
 bool jox_render_advance(JoxRender *r, double time, JoError *error) {
     JoxFrame next;
-    while (r->scene && r->frame.time < time - 0.5 * r->pace - 1e-9) {
+    while (r->scene && r->frame.time < time - 0.5 * r->interval - 1e-9) {
         if (!jo_scene_step(r->scene, error))
             return false;
-        look(r);
+        take_frame(r);
     }
     if (r->scene)
         return true;
     while (jox_trajectories_frame(r->crowd, r->at + 1, &next) &&
            next.time - time <= time - frame_time(r->crowd, r->at) + 1e-9) {
         r->at++;
-        look(r);
+        take_frame(r);
     }
-    /* Frames without anybody are not written: then there is nobody. */
-    if (fabs(frame_time(r->crowd, r->at) - time) > 0.75 * r->pace) {
+    /* Recordings leave out frames without people, so a gap means that nobody is there. */
+    if (fabs(frame_time(r->crowd, r->at) - time) > 0.75 * r->interval) {
         r->frame.count = 0;
-        r->frame.time = r->first + floor((time - r->first) / r->pace + 0.5) * r->pace;
+        r->frame.time = r->first + floor((time - r->first) / r->interval + 0.5) * r->interval;
     }
     return true;
 }
 
-static void draw_bodies(JoxRender *r) {
+/* Sets the picture's bodies to those of the current frame. */
+static void collect_drawn_bodies(JoxRender *r) {
     r->bodies.count = 0;
     if (r->scene)
         jox_draw_add_bodies(&r->bodies, r->scene->world->state.bodies);
     else if (r->reader)
-        jox_draw_add_recorded(&r->bodies, r->reader, r->frame.time + 0.25 * r->pace);
+        jox_draw_add_recorded(&r->bodies, r->reader, r->frame.time + 0.25 * r->interval);
     r->picture.bodies = r->bodies.items;
     r->picture.body_count = (uint32_t)r->bodies.count;
 }
@@ -378,17 +392,17 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->face_y = a->face_y;
         p->walls = &r->scene->world->model.all_walls;
     } else {
-        p->walls = is_walled_by_plan(r) ? &r->spec->walls : jox_trajectories_walls(r->crowd, r->at);
+        p->walls = uses_scene_walls(r) ? &r->spec->walls : jox_trajectories_walls(r->crowd, r->at);
     }
     if (!r->scene && r->crowd->face_x) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
     }
-    draw_bodies(r);
+    collect_drawn_bodies(r);
     p->trails = r->trails;
     p->trail_count = r->trail_count;
     if (r->grid)
-        measure_density(r);
+        measure_local_density(r);
     p->density = r->density;
     if (p->floor == JOX_SHOW_DENSITY) {
         p->grid = r->grid;
@@ -432,8 +446,8 @@ static bool load_recording(JoxRender *r, JoError *error) {
     jox_trajectories_frame(r->crowd, 0, &r->frame);
     r->first = r->frame.time;
     r->last = (double)r->crowd->last / r->crowd->fps;
-    r->pace = pace_of(r->crowd);
-    r->picture.walls = is_walled_by_plan(r) ? &r->spec->walls : &r->crowd->walls;
+    r->interval = find_frame_interval(r->crowd);
+    r->picture.walls = uses_scene_walls(r) ? &r->spec->walls : &r->crowd->walls;
     return true;
 }
 
@@ -442,7 +456,7 @@ static bool load_scene(JoxRender *r, JoError *error) {
     if (!r->scene)
         return false;
     r->last = INFINITY;
-    r->pace = r->scene->world->model.def.dt;
+    r->interval = r->scene->world->model.def.dt;
     r->picture.walls = &r->scene->world->model.all_walls;
     return true;
 }
@@ -461,11 +475,11 @@ bool jox_render_load(JoxRender *r, JoError *error) {
         r->picture.places = spec->places;
         r->picture.place_count = spec->place_count;
     }
-    find_area(r);
-    look(r);
-    if (!jox_render_choose(r, error))
+    choose_map_area(r);
+    take_frame(r);
+    if (!jox_render_choose_colours(r, error))
         return false;
-    make_fields(r);
+    create_fields(r);
     if (r->danger)
         jox_danger_frame(r->danger, &r->frame, NULL);
     return true;

@@ -1,4 +1,4 @@
-/* Pictures: the same crowd as an image and as SVG, looked at where things must be. */
+/* Top views: draws one crowd as an image and as SVG and looks at pixels and elements. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,8 +24,8 @@ const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig\n";
 }
 
-/* A hall of 20 m by 10 m: a solid in its middle, a gate on the right, a person of state 1 at
-   (5, 5), one of state 2 at (5, 8), and a box at (15, 5). */
+/* A hall of 20 m by 10 m: a solid in its middle, a gate on the right, a person in state 1 at (5,
+   5), one in state 2 at (5, 8), and a box at (15, 5). */
 typedef struct Hall {
     JoxPicture picture;
     JoxFrame frame;
@@ -95,22 +95,23 @@ static void make_hall(Hall *h) {
                               .high = {20, 10}};
 }
 
-/* The map takes all the width: 16 px at the left, 206 and twice 16 px less than the picture. */
-static JoxV2 pixel(float x, float y) {
+/* Returns the pixel of a point, m. The map takes the full width less 16 px at the left and, on
+   the right, the legend's 206 px and 16 px. */
+static JoxV2 to_picture_pixel(float x, float y) {
     float scale = (WIDTH - 206 - 32) / 20.0f, tall = 10 * scale;
     float spare = 0.5f * (HEIGHT - 46 - 16 - tall);
     return jox_v2(16 + x * scale, HEIGHT - 16 - spare - y * scale);
 }
 
-static void expect(const uint8_t *pixels, float x, float y, JoxInk ink) {
-    JoxV2 at = pixel(x, y);
+static void expect_pixel_colour(const uint8_t *pixels, float x, float y, JoxInk ink) {
+    JoxV2 at = to_picture_pixel(x, y);
     const uint8_t *p = pixels + 4 * ((size_t)at.y * WIDTH + (size_t)at.x);
     if (abs(p[2] - ink.r) > 2 || abs(p[1] - ink.g) > 2 || abs(p[0] - ink.b) > 2)
         fail_msg("at %g, %g m: #%02x%02x%02x, not #%02x%02x%02x", (double)x, (double)y, p[2], p[1],
                  p[0], ink.r, ink.g, ink.b);
 }
 
-static void things_are_where_they_are(void **state) {
+static void draws_each_thing_at_its_place(void **state) {
     (void)state;
     Hall h;
     make_hall(&h);
@@ -119,29 +120,31 @@ static void things_are_where_they_are(void **state) {
         skip();
     jox_draw(canvas, &h.picture);
     const uint8_t *pixels = jox_canvas_pixels(canvas);
-    expect(pixels, 4.8f, 5, (JoxInk){0x00, 0x72, 0xb2, 1});   /* the first of the classes */
-    expect(pixels, 5, 7.8f, (JoxInk){0xe6, 0x9f, 0x00, 1});   /* the second */
-    expect(pixels, 10, 5, (JoxInk){0xa3, 0xac, 0xb5, 1});     /* the solid */
-    expect(pixels, 15, 5, (JoxInk){0xc4, 0xa4, 0x84, 1});     /* the body */
-    expect(pixels, 18, 3, (JoxInk){0xa4, 0x26, 0x12, 1});     /* the gate */
-    expect(pixels, 13, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});     /* the floor */
-    expect(pixels, 21, -0.5f, (JoxInk){0xff, 0xff, 0xff, 1}); /* outside */
-    JoxV2 at = pixel(5.3f, 5); /* the first looks to the right, along its heading */
+    expect_pixel_colour(pixels, 4.8f, 5,
+                        (JoxInk){0x00, 0x72, 0xb2, 1}); /* the first of the classes */
+    expect_pixel_colour(pixels, 5, 7.8f, (JoxInk){0xe6, 0x9f, 0x00, 1});   /* the second */
+    expect_pixel_colour(pixels, 10, 5, (JoxInk){0xa3, 0xac, 0xb5, 1});     /* the solid */
+    expect_pixel_colour(pixels, 15, 5, (JoxInk){0xc4, 0xa4, 0x84, 1});     /* the body */
+    expect_pixel_colour(pixels, 18, 3, (JoxInk){0xa4, 0x26, 0x12, 1});     /* the gate */
+    expect_pixel_colour(pixels, 13, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});     /* the floor */
+    expect_pixel_colour(pixels, 21, -0.5f, (JoxInk){0xff, 0xff, 0xff, 1}); /* outside */
+    /* the first person looks to the right: the heading's mark is there */
+    JoxV2 at = to_picture_pixel(5.3f, 5);
     const uint8_t *mark = pixels + 4 * ((size_t)at.y * WIDTH + (size_t)at.x);
     assert_true(mark[0] < 0x60 && mark[1] < 0x60 && mark[2] < 0x60);
-    /* A colour that a state was given is its own, and no other's. */
+    /* A given colour is that state's alone: the other state takes another colour. */
     const JoxColour given[3] = {0, 0, JOX_COLOUR_GIVEN | 0x0072b2};
     h.frame.state_colours = given;
     jox_draw(canvas, &h.picture);
-    expect(jox_canvas_pixels(canvas), 4.8f, 5, (JoxInk){0xe6, 0x9f, 0x00, 1});
-    expect(jox_canvas_pixels(canvas), 5, 7.8f, (JoxInk){0x00, 0x72, 0xb2, 1});
+    expect_pixel_colour(jox_canvas_pixels(canvas), 4.8f, 5, (JoxInk){0xe6, 0x9f, 0x00, 1});
+    expect_pixel_colour(jox_canvas_pixels(canvas), 5, 7.8f, (JoxInk){0x00, 0x72, 0xb2, 1});
     h.frame.state_colours = NULL;
-    /* An open gate lets the floor through: its line is broken. */
+    /* An open gate is a dashed line, with floor between the dashes. */
     h.walls.rings[1].open = true;
     jox_draw(canvas, &h.picture);
     uint32_t bare = 0, red = 0;
     for (float y = 2.5f; y < 7.5f; y += 0.02f) {
-        JoxV2 on = pixel(18, y);
+        JoxV2 on = to_picture_pixel(18, y);
         const uint8_t *p = jox_canvas_pixels(canvas) + 4 * ((size_t)on.y * WIDTH + (size_t)on.x);
         bare += p[0] > 0xe0;
         red += p[0] < 0x90;
@@ -151,7 +154,7 @@ static void things_are_where_they_are(void **state) {
     jox_walls_free(&h.walls);
 }
 
-static void values_are_colours(void **state) {
+static void colours_follow_values_and_scales(void **state) {
     (void)state;
     Hall h;
     make_hall(&h);
@@ -161,21 +164,21 @@ static void values_are_colours(void **state) {
     h.picture.colour = JOX_SHOW_SPEED; /* 1 and 0.5 m/s of 2: bins 16 and 8 of 32 */
     h.picture.colour_most = 2;
     jox_draw(canvas, &h.picture);
-    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_calm(16.5f / 32));
-    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_calm(8.5f / 32));
+    expect_pixel_colour(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_calm(16.5f / 32));
+    expect_pixel_colour(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_calm(8.5f / 32));
     h.picture.colour = JOX_SHOW_DIRECTION;
     jox_draw(canvas, &h.picture);
-    for (uint32_t i = 0; i < 2; i++) { /* the nearest of 32 ways */
+    for (uint32_t i = 0; i < 2; i++) { /* the nearest of 32 directions */
         const float turn = atan2f(h.frame.vy[i], h.frame.vx[i]) / 6.2831853f;
-        expect(jox_canvas_pixels(canvas), i ? 5 : 4.8f, i ? 7.8f : 5,
-               jox_palette_way(roundf(32 * turn) / 32));
+        expect_pixel_colour(jox_canvas_pixels(canvas), i ? 5 : 4.8f, i ? 7.8f : 5,
+                            jox_palette_way(roundf(32 * turn) / 32));
     }
     h.picture.colour = JOX_SHOW_FORCE;
-    h.picture.colour_most = 400; /* above the bar's end: its last colour */
+    h.picture.colour_most = 400; /* the value of 500 is above the bar's end: last colour */
     jox_draw(canvas, &h.picture);
-    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_value(0.5f / 32));
-    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_value(31.5f / 32));
-    /* The floor: a field whose cells are 1 m; the upper right quarter has the greatest value. */
+    expect_pixel_colour(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_value(0.5f / 32));
+    expect_pixel_colour(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_value(31.5f / 32));
+    /* The floor: a field with cells of 1 m, whose upper right quarter has the greatest value. */
     JoxDensity *grid = jox_density_create(jox_v2(0, 0), jox_v2(20, 10), 1, 1);
     assert_true(grid->columns == 20 && grid->rows == 10);
     for (uint32_t r = 5; r < 10; r++)
@@ -187,10 +190,10 @@ static void values_are_colours(void **state) {
     h.picture.grid = grid;
     h.picture.field = grid->now;
     jox_draw(canvas, &h.picture);
-    expect(jox_canvas_pixels(canvas), 13, 9, jox_palette_value(28.5f / 32));
-    expect(jox_canvas_pixels(canvas), 16.5f, 7.5f, jox_palette_value(28.5f / 32));
-    expect(jox_canvas_pixels(canvas), 13, 2, (JoxInk){0xf8, 0xf8, 0xf6, 1});
-    expect(jox_canvas_pixels(canvas), 7, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});
+    expect_pixel_colour(jox_canvas_pixels(canvas), 13, 9, jox_palette_value(28.5f / 32));
+    expect_pixel_colour(jox_canvas_pixels(canvas), 16.5f, 7.5f, jox_palette_value(28.5f / 32));
+    expect_pixel_colour(jox_canvas_pixels(canvas), 13, 2, (JoxInk){0xf8, 0xf8, 0xf6, 1});
+    expect_pixel_colour(jox_canvas_pixels(canvas), 7, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});
     jox_density_free(grid);
     jox_canvas_free(canvas);
     jox_walls_free(&h.walls);
@@ -213,7 +216,7 @@ static char *draw_svg(const JoxPicture *picture) {
     return text;
 }
 
-static void svg_says_what_it_shows(void **state) {
+static void svg_has_layers_classes_and_texts(void **state) {
     (void)state;
     static const char *const wanted[] = {
         "<g id=\"walls\"",
@@ -241,12 +244,12 @@ static void svg_says_what_it_shows(void **state) {
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
         if (!strstr(text, wanted[i]))
             fail_msg("%s is missing", wanted[i]);
-    JoxV2 at = pixel(5, 8); /* to a tenth of a pixel */
+    JoxV2 at = to_picture_pixel(5, 8); /* compared to 0.1 px */
     snprintf(place, sizeof place, "<circle id=\"p3\" cx=\"%.1f", (double)at.x);
     assert_non_null(strstr(text, place));
     assert_non_null(strstr(text, "</svg>"));
     jox_free(text);
-    /* Who is outside the area is not drawn, and the legend says that there are more. */
+    /* People outside the area are not drawn, and the legend says "in all". */
     h.picture.high = jox_v2(20, 6);
     text = draw_svg(&h.picture);
     assert_non_null(strstr(text, "id=\"p7\""));
@@ -256,12 +259,12 @@ static void svg_says_what_it_shows(void **state) {
     jox_walls_free(&h.walls);
 }
 
-static void bodies_are_seen_from_above(void **state) {
+static void outlines_of_bodies_follow_their_rotation(void **state) {
     (void)state;
     const float half = 0.70710678f, none[4] = {0, 0, 0, 1}, about_z[4] = {0, 0, half, half},
                 about_x[4] = {half, 0, 0, half};
     JoxDrawnBody drawn;
-    /* A plank of 4 m by 1 m, a quarter of a turn: 1 m along x, 4 m along y. */
+    /* A plank of 4 m by 1 m, rotated by a quarter turn: 1 m along x, 4 m along y. */
     JoxBodyLook plank = {.kind = JOX_SHAPE_BOX, .size = {4, 1, 0.2f}, .turn = {0, 0, 0, 1}};
     assert_true(jox_draw_outline(&plank, (JoxV3){10, 5, 1}, about_z, &drawn));
     assert_int_equal(drawn.count, 4);
@@ -272,20 +275,20 @@ static void bodies_are_seen_from_above(void **state) {
     assert_true(jox_polygon_area(drawn.ring, 4) > 0);
     assert_float_equal(drawn.low, 0.9, 1e-4);
     assert_float_equal(drawn.top, 1.1, 1e-4);
-    jox_draw_reach(&drawn, 1);
+    jox_draw_mark_high(&drawn, 1);
     assert_false(drawn.high);
-    /* On edge about x: its height of 1 m stands up, 0.2 m are seen. */
+    /* Rotated about x it stands on its edge: its thickness of 0.2 m is seen. */
     assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 3}, about_x, &drawn));
     for (uint32_t c = 0; c < drawn.count; c++)
         assert_float_equal(fabsf(drawn.ring[c].y), 0.1, 1e-4);
-    jox_draw_reach(&drawn, 1);
+    jox_draw_mark_high(&drawn, 1);
     assert_true(drawn.high);
-    /* A part off the middle turns with its body. */
+    /* A part beside the body's origin rotates about that origin. */
     plank.at = (JoxV3){2, 0, 0};
     assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 1}, about_z, &drawn));
     assert_float_equal(drawn.at.x, 0, 1e-4);
     assert_float_equal(drawn.at.y, 2, 1e-4);
-    /* A cylinder is a disc while it stands, and as long as it is when it lies. */
+    /* An upright cylinder is a disc, a lying one a rectangle of its length. */
     JoxBodyLook drum = {.kind = JOX_SHAPE_CYLINDER, .size = {0.5f, 3}, .turn = {0, 0, 0, 1}};
     assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 1.5f}, none, &drawn));
     assert_int_equal(drawn.count, 0);
@@ -294,7 +297,7 @@ static void bodies_are_seen_from_above(void **state) {
     assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 0.5f}, about_x, &drawn));
     assert_in_range(drawn.count, 4, JOX_OUTLINE_POINTS);
     assert_float_equal(jox_polygon_area(drawn.ring, drawn.count), 3, 0.05);
-    /* A hull, and numbers that are none. */
+    /* A hull, and positions that are not finite. */
     const JoxV3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5f, 0.5f, 2}};
     JoxBodyLook hull = {
         .kind = JOX_SHAPE_HULL, .turn = {0, 0, 0, 1}, .corners = corners, .corner_count = 4};
@@ -305,8 +308,9 @@ static void bodies_are_seen_from_above(void **state) {
     assert_false(jox_draw_outline(&drum, (JoxV3){0, 0, 0}, about_x, &drawn));
 }
 
-/* Names and numbers as hostile as a recording may have them. */
-static void nothing_is_taken_for_granted(void **state) {
+/* Hostile names and numbers, as a recording may contain: invalid UTF-8, markup, NAN, an unknown
+   group. */
+static void draws_hostile_names_and_numbers(void **state) {
     (void)state;
     Hall h;
     make_hall(&h);
@@ -317,7 +321,7 @@ static void nothing_is_taken_for_granted(void **state) {
     h.picture.title = long_title;
     h.picture.colour = JOX_SHOW_GROUP;
     h.group[0] = 0;
-    h.group[1] = 65535; /* that nobody has named */
+    h.group[1] = 65535; /* a group without a name */
     h.vx[0] = NAN;
     h.picture.face_x = NULL;
     h.x[1] = 1e30f;
@@ -340,12 +344,12 @@ static void nothing_is_taken_for_granted(void **state) {
     jox_walls_free(&h.walls);
 }
 
-/* In thousandths of white, as the eye weighs the channels (ITU-R BT.709). */
+/* Returns lightness in thousandths of white, with the weights of ITU-R BT.709. */
 static int lightness(JoxInk ink) {
     return (int)(0.8 * (213 * ink.r + 715 * ink.g + 72 * ink.b) / 204);
 }
 
-static void values_darken_and_classes_differ(void **state) {
+static void greater_values_are_darker_and_classes_differ(void **state) {
     (void)state;
     JoxInk low = jox_palette_value(-1), high = jox_palette_value(2);
     assert_true(lightness(low) > 900 && lightness(high) < 150);
@@ -359,7 +363,7 @@ static void values_darken_and_classes_differ(void **state) {
         }
 }
 
-static void sizes_suit_areas(void **state) {
+static void picture_sizes_are_even_and_bounded(void **state) {
     (void)state;
     static const JoxV2 areas[] = {{20, 10}, {1, 1}, {1000, 1}, {1, 1000}, {3, 4}};
     for (size_t i = 0; i < sizeof areas / sizeof *areas; i++) {
@@ -373,13 +377,13 @@ static void sizes_suit_areas(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(things_are_where_they_are),
-        cmocka_unit_test(values_are_colours),
-        cmocka_unit_test(svg_says_what_it_shows),
-        cmocka_unit_test(bodies_are_seen_from_above),
-        cmocka_unit_test(nothing_is_taken_for_granted),
-        cmocka_unit_test(values_darken_and_classes_differ),
-        cmocka_unit_test(sizes_suit_areas),
+        cmocka_unit_test(draws_each_thing_at_its_place),
+        cmocka_unit_test(colours_follow_values_and_scales),
+        cmocka_unit_test(svg_has_layers_classes_and_texts),
+        cmocka_unit_test(outlines_of_bodies_follow_their_rotation),
+        cmocka_unit_test(draws_hostile_names_and_numbers),
+        cmocka_unit_test(greater_values_are_darker_and_classes_differ),
+        cmocka_unit_test(picture_sizes_are_even_and_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
