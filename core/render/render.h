@@ -30,8 +30,7 @@ typedef struct JoxRender {
     JoxTrajectoryReader *reader; /* for the bodies of a recording; NULL if it has none */
     JoxDrawnBodies bodies;       /* in the current frame */
     /* names of a scene's states by row, with the machine's name if there are several */
-    const char **states;
-    char **state_texts; /* the same strings, to be freed */
+    char **states;
     uint32_t state_count;
 
     JoxTrail *trails;

@@ -26,15 +26,14 @@ static void widen_box(Box *box, JoxV2 p) {
     box->high = jox_v2(jox_maxf(box->high.x, p.x), jox_maxf(box->high.y, p.y));
 }
 
-/* Returns a box grown on each side by so many times its longer side. What lies outside would
-   make the rest of the picture too small. */
+/* Returns a box grown on each side by so many times its longer side. */
 static Box expand_box(const Box *box, float times) {
     float reach = times * jox_maxf(box->high.x - box->low.x, box->high.y - box->low.y);
     return (Box){jox_sub(box->low, jox_v2(reach, reach)), jox_add(box->high, jox_v2(reach, reach))};
 }
 
-/* Widens the box by places that are near it; distant places may serve only as directions.
-   Without walls, places are all there is, so more distant ones count. */
+/* Widens the box by the places near it; distant places may serve only as directions. Without
+   walls, places are all there is, and more distant ones count. */
 static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bool walls) {
     Box near = expand_box(box, walls ? 1.0f : 10.0f);
     for (uint32_t p = 0; p < count; p++)
@@ -166,8 +165,7 @@ static bool require_shown_values(const JoxRender *r, JoxShow show, JoError *erro
     return false;
 }
 
-/* Returns the quantity that the scene asks for, or the most telling one that the crowd has.
-   "service" (levels of service) is shown as density. */
+/* Returns the quantity that the scene asks for, or the most telling one that the crowd has. */
 static JoxShow choose_default_colour(const JoxRender *r) {
     const JoxFrame *f = &r->frame;
     /* the first is "none" */
@@ -292,18 +290,15 @@ static void extend_body_trails(JoxRender *r) {
 static void build_state_names(JoxRender *r) {
     const JoxMachineRun *machines = &r->scene->world->machines;
     r->states = jox_alloc(r->frame.state_count + 1, sizeof *r->states);
-    r->state_texts = jox_alloc(r->frame.state_count + 1, sizeof *r->state_texts);
-    r->state_texts[r->state_count++] = jox_strdup("");
+    r->states[r->state_count++] = jox_strdup("");
     for (uint32_t m = 0; m < machines->set->count; m++)
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             JoxText text = {0};
             if (machines->set->count > 1)
                 jox_text_printf(&text, "%s: ", machines->set->items[m]->name);
             jox_text_add(&text, machines->set->items[m]->states[s].name);
-            r->state_texts[r->state_count++] = text.data;
+            r->states[r->state_count++] = text.data;
         }
-    for (uint32_t s = 0; s < r->state_count; s++)
-        r->states[s] = r->state_texts[s];
 }
 
 /* Returns whether the scene given with a recording supplies the walls: the recording has no
@@ -318,7 +313,7 @@ static void take_frame(JoxRender *r) {
         r->frame = *jox_run_frame(r->scene, JOX_FRAME_WHOLE);
         if (!r->states)
             build_state_names(r);
-        r->frame.states = r->states;
+        r->frame.states = (const char *const *)r->states;
     } else {
         jox_trajectories_frame(r->crowd, r->at, &r->frame);
         if (uses_scene_walls(r))
@@ -340,7 +335,7 @@ static double frame_time(const JoxTrajectories *t, uint32_t f) {
     return (double)t->number[t->first[f]] / t->fps;
 }
 
-/* Returns the least time between two consecutive frames, s; recordings may leave frames out. */
+/* Returns the least time between two frames, s; recordings may leave frames out. */
 static double find_frame_interval(const JoxTrajectories *t) {
     int64_t least = INT64_MAX;
     for (uint32_t f = 1; f < t->frame_count; f++) {
@@ -495,8 +490,7 @@ void jox_render_free(JoxRender *r) {
     jox_free(r->density);
     jox_free(r->bodies.items);
     for (uint32_t s = 0; s < r->state_count; s++)
-        jox_free(r->state_texts[s]);
-    jox_free(r->state_texts);
+        jox_free(r->states[s]);
     jox_free(r->states);
     for (uint32_t t = 0; t < r->trail_count; t++)
         jox_free(r->trails[t].points);
