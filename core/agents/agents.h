@@ -15,18 +15,27 @@
 
 enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last agent */
 
-/* The terms of the net force, equation 10, N: each row gives two columns, NAME_x and NAME_y, and a
-   part of what is shown of an agent that is inspected. ROW(X, keep, name, label): STATE carries
-   over from step to step, SCRATCH starts every step at zero. A new term is a row here, a stage in
-   force/ that fills its columns, and the call of that stage in the step. The order is that of the
-   sum. */
+/* The terms of the net force, equation 10, N. Each row gives two columns, NAME_x and NAME_y, a part
+   of the force that is shown of an inspected agent, and, by its role, a share in what moves the
+   agent. ROW(X, keep, role, name, label): keep is STATE, carried over from step to step, or
+   SCRATCH, zero at the beginning of every step; role is one of JoxForceRole. The net force is
+   summed in the order of the rows. A new term is a row here, a stage in force/ that fills its
+   columns, and the call of that stage in the step. */
 #define JOX_FORCE_TERMS(ROW, X)                                                                    \
-    ROW(X, STATE, ext, "external")        /* given from outside for this step */                   \
-    ROW(X, STATE, inferred, "resistance") /* filtered deceleration and resistance, eq. 8, 9 */     \
-    ROW(X, SCRATCH, push, "push")         /* pushes received, eq. 5 */                             \
-    ROW(X, SCRATCH, contact, "contact")   /* contacts with agents and bodies, eq. 6, 7 */
-#define JOX_FORCE_TERM_COLUMNS(X, keep, name, label)                                               \
+    ROW(X, STATE, FREE, ext, "external")          /* given by callers and events for one step */   \
+    ROW(X, STATE, BRACED, inferred, "resistance") /* filtered, eq. 8 and 9 */                      \
+    ROW(X, SCRATCH, BRACED, push, "push")         /* pushes received, eq. 5 */                     \
+    ROW(X, SCRATCH, CONTACT, contact, "contact")  /* with agents, walls and bodies, eq. 6, 7 */
+#define JOX_FORCE_TERM_COLUMNS(X, keep, role, name, label)                                         \
     X(keep, float, name##_x) X(keep, float, name##_y)
+
+/* How a force term moves an agent. Flags, so that a sum over terms can take several. */
+typedef enum JoxForceRole {
+    JOX_FORCE_FREE = 1,    /* accelerates the agent whole */
+    JOX_FORCE_BRACED = 2,  /* feet that brace hold up to `brace` newtons of the sum of these */
+    JOX_FORCE_CONTACT = 4, /* the result of the contact solve; may raise the speed limit */
+    JOX_FORCE_ALL = 7
+} JoxForceRole;
 
 /* X(keep, type, name): what it is. Units: m, m/s, N, s.
    STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before

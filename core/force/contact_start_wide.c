@@ -15,9 +15,7 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats lightness = 1.0f / jox_param_lanes(a, JOX_PARAM_mass, i);
-        const JoxVector unheld =
-            jox_unheld_lanes(a, i, jox_others_lanes(a, i), jox_stands_lanes(a, i));
-        const JoxVector force = jv_add(jv_load(a->ext_x, a->ext_y, i), unheld);
+        const JoxVector force = jox_moving_lanes(a, i, jox_stands_lanes(a, i));
         const JoxVector change = jv_scale(jv_scale(force, lightness), dt);
         const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
         const JoxMask finite = jm_and(is_finite(begins.x), is_finite(begins.y));

@@ -100,7 +100,7 @@ static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
 #define ZERO_SCRATCH(column) jox_mem_fill((column) + begin, 0, (end - begin) * sizeof *(column));
 #define ZERO_STATE(column)
-#define ZERO(X, keep, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
+#define ZERO(X, keep, role, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
     JOX_FORCE_TERMS(ZERO, )
     ZERO_SCRATCH(f->braced)
     ZERO_SCRATCH(a->compression)

@@ -174,9 +174,21 @@ static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) 
     return jox_planning(step, jox_stands_pressed(step->agents, i));
 }
 
-/* What of the others' pushes an agent's feet do not hold, N. */
+/* Sum of an agent's force terms of some roles (flags of JoxForceRole), N, in the order of the
+   table. -0 is the neutral element: it keeps the sign of a zero. */
+static inline JoxV2 jox_sum_terms(const JoxAgents *a, uint32_t i, uint32_t roles) {
+    JoxV2 sum = {-0.0f, -0.0f};
+#define ADD_TERM(X, keep, role, name, label)                                                       \
+    if (JOX_FORCE_##role & roles)                                                                  \
+        sum = jox_add(sum, (JoxV2){a->name##_x[i], a->name##_y[i]});
+    JOX_FORCE_TERMS(ADD_TERM, )
+#undef ADD_TERM
+    return sum;
+}
+
+/* The part of the pushes of others that an agent's feet do not hold, N. */
 static inline JoxV2 jox_unheld_pushes(const JoxAgents *a, uint32_t i) {
-    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
     float size = jox_length(others),
           held = jox_stands(a, i) ? 0.0f : jox_param(a, JOX_PARAM_brace, i);
     return jox_scale(others, size > held ? (size - held) / size : 0.0f);
@@ -188,9 +200,10 @@ static inline JoxV2 jox_velocity_before(const JoxForces *f, uint32_t i) {
     return (JoxV2){motion->vx, motion->vy};
 }
 
-/* Force that moves an agent, contacts apart, N: from outside, and of the others' pushes. */
+/* Force that moves an agent before contacts are solved, N: the free terms, and of the others'
+   pushes what the feet do not hold. */
 static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
-    return jox_add((JoxV2){a->ext_x[i], a->ext_y[i]}, jox_unheld_pushes(a, i));
+    return jox_add(jox_sum_terms(a, i, JOX_FORCE_FREE), jox_unheld_pushes(a, i));
 }
 
 /* contact_find.c: what each agent touches. */

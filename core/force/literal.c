@@ -85,25 +85,17 @@ static void bound_by_force(JoxForces *f, uint32_t i) {
     a->speed_limit[i] = jox_maxf(a->speed_limit[i], jox_length(forced));
 }
 
-/* (10) The net force. */
-static JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
-#define PLUS_X(X, keep, name, label) +a->name##_x[i]
-#define PLUS_Y(X, keep, name, label) +a->name##_y[i]
-    return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
-#undef PLUS_X
-#undef PLUS_Y
-}
-
 void jox_literal_sum(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
-    const JoxV2 force = sum_of_terms(a, i), moving = jox_moving_force(a, i);
+    const JoxV2 force = jox_sum_terms(a, i, JOX_FORCE_ALL); /* (10) */
+    const JoxV2 given = jox_add(jox_moving_force(a, i), jox_sum_terms(a, i, JOX_FORCE_CONTACT));
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
-    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass;
-    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
+    a->forced_x[i] = a->vx[i] + given.x * dt / mass;
+    a->forced_y[i] = a->vy[i] + given.y * dt / mass;
     if (force.x != 0.0f || force.y != 0.0f)
         bound_by_force(f, i);
 }

@@ -1,5 +1,5 @@
-/* Others' pushes, and who holds against them, for all lanes of a packet of agents from `i` on. For
-   kernels: part of those that include it. */
+/* Forces on the agents of a packet, from agent `i` on: sums of force terms, and the part of pushes
+   that feet hold. internal.h has the same of one agent. Kernels include it. */
 #ifndef JOX_FORCE_PUSHES_LANES_H
 #define JOX_FORCE_PUSHES_LANES_H
 
@@ -13,18 +13,31 @@ static inline JoxMask jox_stands_lanes(const JoxAgents *a, uint32_t i) {
     return jf_lt(jv_dot(preferred, preferred), jf_set((float)(JOX_STANDS * JOX_STANDS)));
 }
 
-/* Pushes of others, N: deliberate ones, and those that were passed on. */
-static inline JoxVector jox_others_lanes(const JoxAgents *a, uint32_t i) {
-    return jv_add(jv_load(a->push_x, a->push_y, i), jv_load(a->inferred_x, a->inferred_y, i));
+/* jox_sum_terms; `roles` is a constant, so that no lane asks for it. */
+static inline JoxVector jox_sum_terms_lanes(const JoxAgents *a, uint32_t i, uint32_t roles) {
+    JoxVector sum = {jf_set(-0.0f), jf_set(-0.0f)};
+#define ADD_TERM(X, keep, role, name, label)                                                       \
+    if (JOX_FORCE_##role & roles)                                                                  \
+        sum = jv_add(sum, jv_load(a->name##_x, a->name##_y, i));
+    JOX_FORCE_TERMS(ADD_TERM, )
+#undef ADD_TERM
+    return sum;
 }
 
-/* What is left of them against who braces: jox_unheld_pushes. */
+/* jox_unheld_pushes, of the sum `others` of the braced terms. */
 static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVector others,
                                          JoxMask stands) {
     const JoxFloats zero = jf_set(0.0f), size = jf_sqrt(jv_dot(others, others));
     const JoxFloats held = jf_select(stands, zero, jox_param_lanes(a, JOX_PARAM_brace, i));
     const JoxFloats share = (size - held) / size;
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
+}
+
+/* jox_moving_force */
+static inline JoxVector jox_moving_lanes(const JoxAgents *a, uint32_t i, JoxMask stands) {
+    const JoxVector others = jox_sum_terms_lanes(a, i, JOX_FORCE_BRACED);
+    return jv_add(jox_sum_terms_lanes(a, i, JOX_FORCE_FREE),
+                  jox_unheld_lanes(a, i, others, stands));
 }
 
 /* exp(-damping time) of each: jox_decay. Most have the damping of those before. */

@@ -11,15 +11,6 @@ static inline JoxMask is_set(JoxVector a) {
     return jf_lt(jf_set(0.0f), jf_max(jf_abs(a.x), jf_abs(a.y)));
 }
 
-/* (10) The net force. */
-static inline JoxVector sum_of_terms(const JoxAgents *a, uint32_t i) {
-    JoxVector sum = {jf_set(-0.0f), jf_set(-0.0f)}; /* changes nothing, not even a zero's sign */
-#define PLUS(X, keep, name, label) sum = jv_add(sum, jv_load(a->name##_x, a->name##_y, i));
-    JOX_FORCE_TERMS(PLUS, )
-#undef PLUS
-    return sum;
-}
-
 /* Whether no bit of any lane is set. */
 static inline bool is_nothing(JoxVector a) {
     return jm_bits(ji_equal(ji_or(jf_bits(a.x), jf_bits(a.y)), ji_set(0))) == JOX_ALL_LANES;
@@ -63,13 +54,11 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     const JoxFloats mass = jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxFloats most = jox_param_lanes(a, JOX_PARAM_max_speed, i);
     const JoxVector velocity = jv_load(a->vx, a->vy, i),
-                    contact = jv_load(a->contact_x, a->contact_y, i);
-    const JoxVector force = sum_of_terms(a, i);
+                    contact = jox_sum_terms_lanes(a, i, JOX_FORCE_CONTACT);
+    const JoxVector force = jox_sum_terms_lanes(a, i, JOX_FORCE_ALL); /* (10) */
     const JoxMask touched = is_set(contact);
     const JoxMask stands = jox_stands_lanes(a, i);
-    const JoxVector moving =
-        jv_add(jv_load(a->ext_x, a->ext_y, i),
-               jox_unheld_lanes(a, i, jox_others_lanes(a, i), stands)); /* jox_moving_force */
+    const JoxVector moving = jox_moving_lanes(a, i, stands);
     const JoxVector given = jv_add(moving, contact);
     const JoxVector forced = {velocity.x + given.x * dt / mass, velocity.y + given.y * dt / mass};
     jv_store(a->forced_x, a->forced_y, i, forced);

@@ -67,14 +67,19 @@ static const char *numbers_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
     const uint32_t n = a->count;
     const float *const positions[] = {a->x, a->y, a->prev_x, a->prev_y, a->still_x, a->still_y};
-    const float *const others[] = {
-        a->vx,      a->vy,      a->pref_x,   a->pref_y,   a->next_x,      a->next_y,
-        a->eager,   a->still,   a->ext_x,    a->ext_y,    a->inferred_x,  a->inferred_y,
-        a->force_x, a->force_y, a->course_x, a->course_y, a->compression, a->load};
+    const float *const others[] = {a->vx,       a->vy,       a->pref_x,      a->pref_y,  a->next_x,
+                                   a->next_y,   a->eager,    a->still,       a->force_x, a->force_y,
+                                   a->course_x, a->course_y, a->compression, a->load};
+#define COLUMNS_OF_STATE(name) a->name##_x, a->name##_y,
+#define COLUMNS_OF_SCRATCH(name)
+#define TERM_COLUMNS(X, keep, role, name, label) COLUMNS_OF_##keep(name)
+    const float *const terms[] = {JOX_FORCE_TERMS(TERM_COLUMNS, )};
     for (size_t c = 0; c < sizeof positions / sizeof *positions; c++)
         JOX_MUST(all_within(positions[c], n, JOX_WORLD_FARTHEST));
     for (size_t c = 0; c < sizeof others / sizeof *others; c++)
         JOX_MUST(all_within(others[c], n, MOST));
+    for (size_t c = 0; c < sizeof terms / sizeof *terms; c++)
+        JOX_MUST(all_within(terms[c], n, MOST));
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         for (uint32_t i = 0; i < n; i++)
             JOX_MUST(jox_parameter_is_stored((JoxParameter)p, jox_param(a, p, i)));

@@ -14,6 +14,10 @@ enum { MOST_TOLD = 5 };
 /* X(what, column, rest): numbers of agents, and what they are where nothing is known. Causes before
    effects: an agent whose preferred velocity is no number spoils its neighbours' velocities in the
    same step. */
+#define COLUMNS_OF_STATE(X, name, label)                                                           \
+    X(label " force", name##_x, 0.0f) X(label " force", name##_y, 0.0f)
+#define COLUMNS_OF_SCRATCH(X, name, label)
+#define TERM_COLUMNS(X, keep, role, name, label) COLUMNS_OF_##keep(X, name, label)
 #define COLUMNS(X)                                                                                 \
     X("eagerness", eager, 0.0f)                                                                    \
     X("course", course_x, 0.0f)                                                                    \
@@ -26,8 +30,7 @@ enum { MOST_TOLD = 5 };
     X("net force", force_y, 0.0f)                                                                  \
     X("planned velocity", next_x, 0.0f)                                                            \
     X("planned velocity", next_y, 0.0f)                                                            \
-    X("inferred force", inferred_x, 0.0f)                                                          \
-    X("inferred force", inferred_y, 0.0f)                                                          \
+    JOX_FORCE_TERMS(TERM_COLUMNS, X)                                                               \
     X("velocity", vx, 0.0f)                                                                        \
     X("velocity", vy, 0.0f)                                                                        \
     X("position", x, 0.0f)                                                                         \
@@ -127,7 +130,7 @@ static void add_who(const JoWorld *w, uint32_t i, JoxText *out) {
 
 static void add_forces(const JoxAgents *a, uint32_t i, JoxText *out) {
     jox_text_add(out, "; forces, N:");
-#define ADD(X, keep, name, label)                                                                  \
+#define ADD(X, keep, role, name, label)                                                            \
     if (a->name##_x != a->ext_x) /* which is used up by now, and in the net force */               \
         jox_text_printf(out, " " label " (%.6g, %.6g),", (double)a->name##_x[i],                   \
                         (double)a->name##_y[i]);

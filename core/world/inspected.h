@@ -14,7 +14,7 @@ enum { JOX_MOST_INSPECTED = 16 };
 typedef enum JoxForcePart {
     JOX_FORCE_PART_body,         /* of contact: with bodies, and hits by fast ones */
     JOX_FORCE_PART_deceleration, /* of inferred: equation 8 */
-#define PART(X, keep, name, label) JOX_FORCE_PART_##name,
+#define PART(X, keep, role, name, label) JOX_FORCE_PART_##name,
     JOX_FORCE_TERMS(PART, ) JOX_FORCE_PARTS
 #undef PART
 } JoxForcePart;

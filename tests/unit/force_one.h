@@ -9,8 +9,8 @@
 
 /* (10) The net force. */
 static JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
-#define PLUS_X(X, keep, name, label) +a->name##_x[i]
-#define PLUS_Y(X, keep, name, label) +a->name##_y[i]
+#define PLUS_X(X, keep, role, name, label) +a->name##_x[i]
+#define PLUS_Y(X, keep, role, name, label) +a->name##_y[i]
     return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
 #undef PLUS_X
 #undef PLUS_Y
@@ -78,7 +78,7 @@ static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *
     const float dt = (float)f->step.dt, response = (float)f->step.response;
     float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
     float damping = jox_param(a, JOX_PARAM_damping, i);
-    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
     JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
     float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
