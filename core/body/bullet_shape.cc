@@ -181,10 +181,10 @@ btCollisionShape *make_hull(const JoxShape *shape, JoxConvexPart *part, Solid *s
     }
     part->edge_count = edges;
     btConvexHullShape *made = new btConvexHullShape();
+    made->setMargin(0.002f); /* before its box is measured, which includes the margin */
     for (int i = 0; i < hull.vertices.size(); i++)
         made->addPoint(hull.vertices[i], false);
     made->recalcLocalAabb();
-    made->setMargin(0.002f);
     return made;
 }
 
@@ -314,6 +314,8 @@ void settle_parts(JoxBodyShape *out) {
         out->children[p]->getAabb(btTransform::getIdentity(), low, high);
         btVector3 half = (high - low) * 0.5f;
         float least = half[half.minAxis()];
+        if (part->kind == JOX_SHAPE_HULL) /* its box has the margin twice */
+            least -= 2 * out->children[p]->getMargin();
         out->inner = least < out->inner ? least : out->inner;
         for (uint32_t i = 0; i < part->corner_count; i++) {
             btVector3 at = part->frame * jox_bt(part->corners[i]);

@@ -143,6 +143,39 @@ static void a_ball_bounces_off_walls_and_does_not_pass_them(void **state) {
     }
 }
 
+/* How many of 40 speeds carry a cube of 4 cm through a plate of 2 cm. */
+static uint32_t passages_of(const JoxShape *cube) {
+    uint32_t passed = 0;
+    for (int speed = 1; speed <= 40; speed++) {
+        JoxBodies *bodies = space();
+        JoxBodyDef plate = jox_body_def(), chip = sphere(0.02, 0.05, 0, 0, 1);
+        plate.still = true;
+        plate.shape.size[0] = 0.02;
+        plate.shape.size[1] = plate.shape.size[2] = 2;
+        plate.position[0] = 1, plate.position[2] = 1;
+        add(bodies, &plate);
+        chip.shape = *cube;
+        chip.velocity[0] = speed;
+        const uint32_t row = add(bodies, &chip);
+        for (int i = 0; i < 40; i++)
+            jox_bodies_step(bodies, 0.05f, NULL, 0);
+        passed += pose_of(bodies, row).centre.x > 1.0f;
+        jox_bodies_free(bodies);
+    }
+    return passed;
+}
+
+static void a_small_hull_passes_no_more_plates_than_a_box(void **state) {
+    (void)state;
+    need_bullet();
+    JoxShape box = {.kind = JOX_SHAPE_BOX, .size = {0.04, 0.04, 0.04}};
+    double corners[24];
+    for (int k = 0; k < 24; k++)
+        corners[k] = k / 3 >> k % 3 & 1 ? 0.02 : -0.02;
+    JoxShape hull = {.kind = JOX_SHAPE_HULL, .points = corners, .point_count = 8};
+    assert_true(passages_of(&hull) <= passages_of(&box));
+}
+
 static void footprints_follow_the_shape(void **state) {
     (void)state;
     need_bullet();
@@ -319,6 +352,7 @@ int main(void) {
         cmocka_unit_test(an_impulse_off_the_centre_moves_and_turns),
         cmocka_unit_test(inertia_and_mass_of_the_shapes),
         cmocka_unit_test(a_ball_bounces_off_walls_and_does_not_pass_them),
+        cmocka_unit_test(a_small_hull_passes_no_more_plates_than_a_box),
         cmocka_unit_test(footprints_follow_the_shape),
         cmocka_unit_test(a_hair_of_tilt_costs_no_corner),
         cmocka_unit_test(a_ring_goes_round_all_corners),

@@ -1,0 +1,266 @@
+/* Random small scenes of people and bodies of any mass, size and speed that definitions allow: they
+   run without a broken assertion, and their numbers stay finite. JOSTLE_MASSES: how many scenes;
+   JOSTLE_MASSES_FROM: number of the first one. */
+#include <math.h>
+
+#include "base/number/random.h"
+#include "body/body.h"
+#include "unit/live_page.h"
+
+enum { SCENES = 40, STEPS = 200, MOST_BODIES = 9 };
+
+typedef struct Mix {
+    uint64_t number;
+    uint32_t drawn;
+    JoxText yaml, lua;
+} Mix;
+
+/* Number of the scene that runs, for the message of a broken assertion. */
+static uint64_t running;
+
+static double draw(Mix *m, double low, double high) {
+    return low + (high - low) * jox_random_unit(m->number, m->drawn++, 0, JOX_DRAW_FILL, 0);
+}
+
+/* Each magnitude between two numbers is as likely. */
+static double draw_magnitude(Mix *m, double low, double high) {
+    return exp(draw(m, log(low), log(high)));
+}
+
+static bool chance(Mix *m, double share) {
+    return draw(m, 0.0, 1.0) < share;
+}
+
+/* ---- scenes ---- */
+
+/* A speed along an axis, m/s: mostly that of throws and vehicles, at times the greatest. */
+static double draw_speed(Mix *m) {
+    const double most = chance(m, 0.2) ? 100.0 : chance(m, 0.5) ? 10.0 : 1.0;
+    return draw(m, -most, most);
+}
+
+/* m: up to so many times a size, and down to a tenth of it. */
+static double draw_length(Mix *m, double size, double most) {
+    return fmax(0.02, size * draw_magnitude(m, 0.1, most));
+}
+
+/* Adds one number. The order in which the arguments of a call are drawn is the compiler's. */
+static void add(Mix *m, const char *format, double number) {
+    jox_text_printf(&m->yaml, format, number);
+}
+
+static void write_solid(Mix *m, double size) {
+    switch ((int)draw(m, 0.0, 4.0)) {
+    case 0:
+        add(m, "{sphere: {radius: %.4g}}", size / 2.0);
+        break;
+    case 1:
+        add(m, "{cylinder: {radius: %.4g, ", size / 2.0);
+        add(m, "height: %.4g}}", draw_length(m, size, 3.0));
+        break;
+    case 2:
+        add(m, "{hull: {points: [[-%.4g, 0, 0], ", size);
+        add(m, "[%.4g, 0.01, 0], ", size);
+        add(m, "[0, %.4g, 0], ", draw_length(m, size, 2.0));
+        add(m, "[0, 0, %.4g]]}}", draw_length(m, size, 2.0));
+        break;
+    default:
+        add(m, "{box: {size: [%.4g, ", size);
+        add(m, "%.4g, ", draw_length(m, size, 10.0));
+        add(m, "%.4g]}}", draw_length(m, size, 3.0));
+    }
+}
+
+static void write_shape(Mix *m, double size) {
+    const double kind = draw(m, 0.0, 1.0);
+    jox_text_add(&m->yaml, "shape: ");
+    if (kind < 0.2) {
+        add(m, "{blocks: {size: [%.4g, ", size);
+        add(m, "%.4g, ", size);
+        add(m, "%.4g], ", draw_length(m, size, 1.0));
+        add(m, "count: [%.0f, 1, 3], ", ceil(draw(m, 0.0, 4.0)));
+        add(m, "bond: %.4g}}", draw_magnitude(m, 1e-3, 1e9));
+    } else if (kind < 0.3) {
+        jox_text_add(&m->yaml, "{compound: [{shape: ");
+        write_solid(m, size);
+        add(m, ", mass: %.4g}, ", draw_magnitude(m, 1e-3, 1e7));
+        add(m, "{at: [%.4g, 0, 0.1], shape: ", size);
+        write_solid(m, size / 2.0);
+        jox_text_add(&m->yaml, "}]}");
+    } else {
+        write_solid(m, size);
+    }
+}
+
+static void write_driven(Mix *m) {
+    add(m, ", kinematic: true, force_limit: %.4g, path: {through: [", draw_magnitude(m, 1.0, 1e6));
+    add(m, "[%.3f, ", draw(m, -4.0, 4.0));
+    add(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw(m, -4.0, 4.0));
+    add(m, "speed: %.4g, ", draw_magnitude(m, 1e-2, 100.0));
+    jox_text_printf(&m->yaml, "reopens: %s}", chance(m, 0.3) ? "true" : "false");
+}
+
+static void write_free(Mix *m) {
+    add(m, ", mass: %.4g", draw_magnitude(m, 2e-8, 1e7)); /* of up to 12 blocks in all */
+    add(m, ", velocity: [%.4g, ", draw_speed(m));
+    add(m, "%.4g, ", draw_speed(m));
+    add(m, "%.4g], ", draw_speed(m) / 4.0);
+    add(m, "spin: [0, %.4g, ", draw_speed(m));
+    add(m, "%.4g]", draw_speed(m));
+}
+
+/* Each stands in a cell of its own, so that none begins in another. */
+static void write_body(Mix *m, int cell) {
+    jox_text_printf(&m->yaml, "  - {name: b%d, tags: [thing], at: [%d, %d, 1.2], ", cell,
+                    3 * (cell % 3) - 3, 3 * (cell / 3) - 3);
+    write_shape(m, draw_magnitude(m, 0.041, 0.6));
+    add(m, ", friction: %.3g", draw(m, 0.0, 3.0));
+    add(m, ", restitution: %.3g", chance(m, 0.5) ? 0.0 : draw(m, 0.0, 1.0));
+    if (chance(m, 0.2))
+        write_driven(m);
+    else
+        write_free(m);
+    jox_text_add(&m->yaml, "}\n");
+}
+
+static void write_scene(Mix *m) {
+    static const double TIMES[] = {0.01, 0.05, 0.1};
+    m->yaml.length = 0;
+    jox_text_printf(&m->yaml,
+                    "jostle: 1\nstep: %g\nguard: {people: remove, bodies: remove}\n"
+                    "places: {out: {point: [0, 0], radius: 0.5}}\n"
+                    "walls: [{line: [[-5, -5], [5, -5], [5, 5], [-5, 5]], closed: true}]\n"
+                    "bodies:\n",
+                    TIMES[m->number % 3]);
+    const int count = 1 + (int)draw(m, 0.0, MOST_BODIES);
+    for (int cell = 0; cell < count; cell++)
+        write_body(m, cell);
+    jox_text_add(&m->yaml, "groups: {people: {behaviour: own.lua, at: [[-4.5, -4.5]");
+    for (int n = 0; n < 16; n++)
+        jox_text_printf(&m->yaml, ", [%.2f, %.2f]", 1.1 * (n % 8) - 4.0, n < 8 ? -1.5 : 1.5);
+    jox_text_add(&m->yaml, "]}}\n");
+}
+
+/* Who comes to a body takes it and throws it, and holds on to others at times. */
+static void write_behaviour(Mix *m) {
+    const double speed = draw(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
+    const double spread = draw(m, 0.0, 1.5), kick = draw(m, 0.0, 30.0), thrown = draw(m, 0.0, 40.0);
+    m->lua.length = 0;
+    jox_text_printf(
+        &m->lua,
+        "local thing, other = nearest \"thing\", nearest \"anyone\"\n" HEAD "\"Fetch\",\n"
+        "  defaults = { speed = %.3g, max_speed = %.3g, perception = 6, push = %.4g,\n"
+        "    radius = uniform(0.05, 0.35), mass = lognormal(4.2, %.3g, 1, 10000) },\n"
+        "  states = {\n"
+        "    Fetch = { steer = seek(thing), approach = thing, take = thing,\n"
+        "      kick = { thing, at = \"out\", impulse = %.4g },\n"
+        "      { to = \"Throw\", when = has(thing) & after(0.5) },\n"
+        "      { to = \"Hold\", when = after(4) } },\n"
+        "    Throw = { steer = hold, throw = { thing, at = \"out\", speed = %.4g },\n"
+        "      { to = \"Fetch\", when = after(0.2) } },\n"
+        "    Hold = { steer = seek \"out\", grasp = other, { to = \"Fetch\", when = after(2) } } } "
+        "}\n",
+        speed, 1.2 * speed, push, spread, kick, thrown);
+}
+
+/* Bodies heavier than scenes allow, which calls add. */
+static void add_bodies(Mix *m, JoWorld *world) {
+    const int count = (int)draw(m, 0.0, 4.0);
+    for (int n = 0; n < count; n++) {
+        JoError error = {0};
+        JoBodyDef def = jo_default_body_def();
+        def.shape = (JoShape)draw(m, 0.0, 3.0);
+        for (int k = 0; k < 3; k++)
+            def.size[k] = draw_magnitude(m, 0.02, 0.8);
+        def.mass = chance(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);
+        def.x = 2.0 * n - 3.0;
+        def.y = n % 2 ? 4.2 : -4.2;
+        def.z = 0.5;
+        def.vx = draw_speed(m);
+        def.vy = draw_speed(m);
+        jo_world_add_body(world, &def, &error); /* refused where moments are no floats */
+    }
+}
+
+/* ---- runs ---- */
+
+static void end_at_assertion(const char *condition, const char *file, int line) {
+    print_message("scene %llu: %s:%d: %s\n", (unsigned long long)running, file, line, condition);
+    abort();
+}
+
+static void check_bodies(const Mix *m, const JoWorld *world) {
+    for (uint32_t slot = 0; slot < jo_world_body_count(world); slot++) {
+        const JoBodyState b = jo_body_state(world, jo_world_body_at(world, slot));
+        if (!isfinite(b.x + b.y + b.z) || !isfinite(b.vx + b.vy + b.vz))
+            fail_msg("scene %llu: body %u has a number that is not finite",
+                     (unsigned long long)m->number, slot);
+    }
+}
+
+/* What all scenes came to. */
+typedef struct Sums {
+    uint64_t contacts, throws, kicks, broken, held_up, people_lost, bodies_lost;
+} Sums;
+
+static void add_figures(Sums *all, const JoxStatistics *s) {
+    all->contacts += s->exchange.contacts;
+    all->throws += s->throws;
+    all->kicks += s->kicks;
+    all->broken += s->bonds.broken;
+    all->held_up += s->drives.held_up;
+    all->people_lost += s->people_lost;
+    all->bodies_lost += s->bodies_lost;
+}
+
+static void run_mix(Mix *m, Sums *all) {
+    running = m->number;
+    m->drawn = 0;
+    write_scene(m);
+    write_behaviour(m);
+    JoScene *scene = load_own(m->yaml.data, m->lua.data);
+    add_bodies(m, scene->world);
+    for (int n = 0; n < STEPS; n++) {
+        step(scene, 1);
+        const char *fault = jox_world_fault(scene->world);
+        if (fault)
+            fail_msg("scene %llu, step %d: %s", (unsigned long long)m->number, n, fault);
+        check_bodies(m, scene->world);
+    }
+    add_figures(all, &scene->world->state.statistics);
+    jo_scene_free(scene);
+}
+
+static void bodies_of_any_mass_meet_people(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    const char *wanted = getenv("JOSTLE_MASSES"), *from = getenv("JOSTLE_MASSES_FROM");
+    const uint64_t scenes = wanted ? strtoull(wanted, NULL, 10) : SCENES;
+    const uint64_t first = from ? strtoull(from, NULL, 10) : 0;
+    Mix *m = jox_alloc(1, sizeof *m);
+    Sums all = {0};
+    jo_set_assert_handler(end_at_assertion);
+    for (m->number = first; m->number < first + scenes; m->number++)
+        run_mix(m, &all);
+    jo_set_assert_handler(NULL);
+    print_message(
+        "  contacts %llu, throws %llu, kicks %llu, bonds broken %llu, drives held up %llu, "
+        "lost: people %llu, bodies %llu\n",
+        (unsigned long long)all.contacts, (unsigned long long)all.throws,
+        (unsigned long long)all.kicks, (unsigned long long)all.broken,
+        (unsigned long long)all.held_up, (unsigned long long)all.people_lost,
+        (unsigned long long)all.bodies_lost);
+    assert_true(all.contacts > 10 * scenes && all.throws > scenes && all.kicks > scenes);
+    assert_true(all.broken > scenes / 4 && all.held_up > scenes / 4);
+    jox_text_free(&m->yaml);
+    jox_text_free(&m->lua);
+    jox_free(m);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bodies_of_any_mass_meet_people),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
