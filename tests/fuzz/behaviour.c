@@ -5,7 +5,9 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const JoxScope ANY = {.complete = false};
     JoxDiagnostics diagnostics = {0};
-    JoxLua *lua = jox_lua_create(NULL);
+    JoxLuaLimits limits = jox_lua_default_limits();
+    limits.load_instructions = 500000; /* time for more inputs */
+    JoxLua *lua = jox_lua_create(&limits);
     JoxMachine *machine =
         jox_lua_load_text(lua, "behaviours/fuzz.lua", (const char *)data, size, &ANY, &diagnostics);
     FUZZ_CHECK((machine != NULL) == (diagnostics.errors == 0));

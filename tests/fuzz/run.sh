@@ -9,6 +9,8 @@ B=${B:-build/fuzz} TIME=${TIME:-60}
 [ -w /dev/shm ] && export TMPDIR=${TMPDIR:-/dev/shm} # a file for each input: a disk would be waited for
 status=0
 mkdir -p "$B/findings"
+# Words of the reference pages, which libFuzzer puts into inputs.
+grep -ohE '`[a-z_]+`' scripts/scene.md scripts/behaviour.md scripts/input.md | sort -u | tr '`' '"' >"$B/words"
 TIMEFORMAT='%U %S'
 for target in tests/fuzz/${1:-*}.c; do
     name=$(basename "$target" .c)
@@ -17,6 +19,7 @@ for target in tests/fuzz/${1:-*}.c; do
     largest=4096
     case $name in checkpoint | recording | schema) largest=200000 ;; scene | behaviour) largest=20000 ;; esac
     { time ASAN_OPTIONS=detect_leaks=1 "$B/fuzz/$name" -max_total_time="$TIME" -timeout=120 -rss_limit_mb=2560 -max_len=$largest -close_fd_mask=3 \
+        -dict="$B/words" \
         -print_final_stats=1 -artifact_prefix="$B/findings/$name-" "$B/corpus/$name" "$B/seeds/$name" >"$B/$name.log" 2>&1; } 2>"$B/$name.time"
     good=$?
     runs=$(awk '/stat::number_of_executed_units/ {print $2}' "$B/$name.log")
