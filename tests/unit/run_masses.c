@@ -101,7 +101,7 @@ static void write_driven(Mix *m) {
 }
 
 static void write_free(Mix *m) {
-    add(m, ", mass: %.4g", draw_magnitude(m, 2e-8, 1e7)); /* of up to 12 blocks in all */
+    add(m, ", mass: %.4g", draw_magnitude(m, 2e-8, 1e7)); /* shared by up to 12 blocks */
     add(m, ", velocity: [%.4g, ", draw_speed(m));
     add(m, "%.4g, ", draw_speed(m));
     add(m, "%.4g], ", draw_speed(m) / 4.0);
@@ -109,7 +109,7 @@ static void write_free(Mix *m) {
     add(m, "%.4g]", draw_speed(m));
 }
 
-/* Each stands in a cell of its own, so that none begins in another. */
+/* Bodies have cells of their own, so that none begins in another. */
 static void write_body(Mix *m, int cell) {
     jox_text_printf(&m->yaml, "  - {name: b%d, tags: [thing], at: [%d, %d, 1.2], ", cell,
                     3 * (cell % 3) - 3, 3 * (cell / 3) - 3);
@@ -141,7 +141,7 @@ static void write_scene(Mix *m) {
     jox_text_add(&m->yaml, "]}}\n");
 }
 
-/* Who comes to a body takes it and throws it, and holds on to others at times. */
+/* Agents take and throw the bodies that they reach, and hold on to others at times. */
 static void write_behaviour(Mix *m) {
     const double speed = draw(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
     const double spread = draw(m, 0.0, 1.5), kick = draw(m, 0.0, 30.0), thrown = draw(m, 0.0, 40.0);
@@ -198,7 +198,7 @@ static void check_bodies(const Mix *m, const JoWorld *world) {
     }
 }
 
-/* What all scenes came to. */
+/* Sums over all scenes. */
 typedef struct Sums {
     uint64_t contacts, throws, kicks, broken, held_up, people_lost, bodies_lost;
 } Sums;
