@@ -27,12 +27,13 @@ JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) 
     return d;
 }
 
-static size_t inner(const JoxDensity *d, size_t cell) { /* a cell that is read, among all */
+static size_t index_in_working_grid(const JoxDensity *d,
+                                    size_t cell) { /* index with the edge of a cell without it */
     size_t row = cell / d->columns + (size_t)d->edge, column = cell % d->columns + (size_t)d->edge;
     return row * (size_t)d->wide + column;
 }
 
-/* Within walls, on the whole floor at once. */
+/* Samples within walls, on the whole floor at once. */
 static void sample_floor(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
                          float *const *out) {
     const float per = 1.0f / (d->cell * d->cell);
@@ -41,7 +42,8 @@ static void sample_floor(JoxDensity *d, const JoxDensityCrowd *crowd, int fields
     for (int f = 0; f < fields; f++) {
         jox_density_diffuse(d, f);
         for (uint32_t row = 0; row < d->rows; row++) {
-            const float *from = d->work.mass[f] + inner(d, (size_t)row * d->columns);
+            const float *from =
+                d->work.mass[f] + index_in_working_grid(d, (size_t)row * d->columns);
             float *to = out[f] + (size_t)row * d->columns;
             for (uint32_t c = 0; c < d->columns; c++)
                 to[c] = from[c] * per;
@@ -76,7 +78,7 @@ void jox_density_note(JoxDensity *d, double t, bool mean) {
         add_to_mean(d);
     for (size_t c = 0; c < cells; c += AT_ONCE) {
         const size_t end = c + AT_ONCE < cells ? c + AT_ONCE : cells;
-        int some = 0; /* is greater than any before */
+        int some = 0; /* a cell in the block is greater than any before */
         for (size_t k = c; k < end; k++)
             some |= now[k] > d->most;
         for (size_t k = c; k < end && some; k++)
@@ -100,7 +102,9 @@ bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
     if (!jox_density_locate(d, x, y, &column, &row))
         return false;
     if (d->floor && d->floor->near[row * d->wide + column])
-        (void)jox_density_node(d, x, y, &column, &row); /* who stands in a wall: their own cell */
+        (void)jox_density_node(
+            d, x, y, &column,
+            &row); /* a person inside a wall is read at the cell that received the person's mass */
     column -= d->edge;
     row -= d->edge;
     if (column < 0 || row < 0 || column >= (int)d->columns || row >= (int)d->rows)
@@ -115,15 +119,16 @@ JoxV2 jox_density_middle(const JoxDensity *d, size_t cell) {
 }
 
 float jox_density_area(const JoxDensity *d, size_t cell) {
-    return d->cell * d->cell * (d->floor ? d->floor->area[inner(d, cell)] : 1.0f);
+    return d->cell * d->cell * (d->floor ? d->floor->area[index_in_working_grid(d, cell)] : 1.0f);
 }
 
 double jox_density_mean(const JoxDensity *d, uint32_t column, uint32_t row) {
     return d->frames ? d->sum[(size_t)row * d->columns + column] / d->frames : 0.0;
 }
 
-/* Zeros where there are no means, so that the format is one; what was read of those is not kept. */
-static void sum_sections(JoxDensity *d, JoxSections *s) {
+/* Lists the sums for means. Without means it lists zeros, so that the format is always the same,
+   and frees the sums unless a restored state has some. */
+static void list_sum_sections(JoxDensity *d, JoxSections *s) {
     const bool wanted = d->sum != NULL;
     jox_density_want_mean(d);
     jox_section(s, "sum", d->sum, sizeof *d->sum, (size_t)d->columns * d->rows);
@@ -137,7 +142,7 @@ static void sum_sections(JoxDensity *d, JoxSections *s) {
 void jox_density_sections(JoxDensity *d, JoxSections *s) {
     const size_t cells = (size_t)d->columns * d->rows;
     jox_section(s, "now", d->now, sizeof *d->now, cells);
-    sum_sections(d, s);
+    list_sum_sections(d, s);
     JOX_SECTION(s, "most", d->most);
     JOX_SECTION(s, "most_at", d->most_at);
     JOX_SECTION(s, "most_time", d->most_time);

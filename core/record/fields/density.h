@@ -1,13 +1,18 @@
 /* People per square metre on a grid: the one density of maps, tables, summaries and levels of
    service. Each person is spread by the Gaussian exp(-d2 / R2) / (pi R2), R = 1 m, of Helbing,
-   Johansson and Al-Abideen (Phys. Rev. E 75, 046109, 2007), as heat would spread over the floor
-   that can be walked on: walls let nothing through and give back what comes to them. So
-   - far from walls it is that Gaussian;
-   - the integral over the floor is the number of people, wherever they stand;
-   - people who stand evenly read the same density in the open, at a wall and in a corner;
-   - those behind a wall, however thin, do not count, but round its end and through its doors.
-   Walls are solids, thin lines and closed gates. Without walls (through which a kernel passes, as
-   in Curtis et al.'s study of the Mataf) it is the Gaussian alone. */
+   Johansson and Al-Abideen (Phys. Rev. E 75, 046109, 2007), as heat spreads over the walkable
+   floor: walls are impermeable and reflect. So
+
+   - far from walls the density is that Gaussian
+   - the integral over the floor is the number of people, wherever they stand
+   - an evenly spaced crowd has the same density in the open, at a wall and in a corner
+   - people behind a wall, however thin, count only by the way round its end and through its doors
+
+   Walls are solids, thin lines and closed gates. Without walls the kernel is the Gaussian alone; a
+   map may ask for that, as in Curtis et al.'s study of the Mataf.
+
+   A caller creates a density, sets the walls by jox_density_walls before each sample, samples
+   crowds, and frees it. record/local.h does this for most users. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_H
 #define JOX_RECORD_FIELDS_DENSITY_H
 
@@ -20,87 +25,93 @@
 #include "geom/walls.h"
 #include "simd/isa.h"
 
-#define JOX_DENSITY_KERNEL 0.70710678f       /* m: R / sqrt 2, the Gaussian's standard deviation */
-#define JOX_DENSITY_BY "(Gaussian, R = 1 m)" /* how people are told of it */
-#define JOX_DENSITY_CELL 0.2f                /* m */
-enum { JOX_DENSITY_FIELDS = 3 };             /* that can be spread at once */
+#define JOX_DENSITY_KERNEL 0.70710678f /* m: R / sqrt 2, the standard deviation of the Gaussian */
+#define JOX_DENSITY_BY "(Gaussian, R = 1 m)" /* its description in titles */
+#define JOX_DENSITY_CELL 0.2f                /* m: side of a cell */
+enum { JOX_DENSITY_FIELDS = 3 };             /* most fields sampled at once */
 
-typedef struct JoxDensityFloor JoxDensityFloor; /* where the walls let people through */
+typedef struct JoxDensityFloor JoxDensityFloor; /* where walls let people through */
 
-/* What a sample works with, of a strip of rows at a time. */
+/* Scratch of a sample, for one strip of rows at a time: rows first to end - 1. */
 typedef struct JoxDensityWork {
     int first, end, fields;
-    size_t room;                     /* cells of `mass` */
-    float *mass[JOX_DENSITY_FIELDS]; /* of who was put there */
-    /* Without walls: for each row of all, as bits, which stretches of columns may hold something;
-       the last rows, spread along x. */
+    size_t room;                     /* cells allocated in `mass` */
+    float *mass[JOX_DENSITY_FIELDS]; /* sums of weights at each node, before the kernel */
+    /* Without walls: for each row of the grid, bits of the column groups that may be non-zero; and
+       the last rows after the pass along x. */
     uint64_t *marks;
     float *lines[JOX_DENSITY_FIELDS];
-    /* With walls: a number of each cell; as bits, which cells may hold something before a step and
-       after it; and the cells that are stepped. */
+    /* With walls: a number for each cell; bits of the cells that may be non-zero before and after a
+       step; and the cells that a step computes. */
     float *spare;
     uint64_t *reached[2];
-    struct JoxDensitySpan {     /* cells of a row that are stepped: from..to - 1 */
-        int row, low, from, to; /* those from `low` on may be stepped with them */
-        bool plain;             /* open on all sides */
+    struct JoxDensitySpan {     /* cells from..to - 1 of a row, computed in a step */
+        int row, low, from, to; /* cells from `low` on may be computed, too */
+        bool plain;             /* all ways to the four neighbours are fully open */
     } * spans;
     size_t span_count, span_capacity;
 } JoxDensityWork;
 
 typedef struct JoxDensity {
     JoxV2 low;
-    float cell; /* m */
+    float cell; /* m: side of a cell */
     uint32_t columns, rows;
-    float *now;  /* of the last frame, 1/m2, row by row from the lowest y */
-    double *sum; /* over frames; NULL where means are not wanted */
+    float *now;  /* 1/m2: values of the last sample, row by row from the lowest y */
+    double *sum; /* 1/m2: sum over samples; NULL unless means are wanted */
     uint32_t frames;
-    float most; /* greatest value of any frame */
+    float most; /* 1/m2: greatest value of any sample */
     JoxV2 most_at;
     double most_time; /* s */
 
-    /* The cells that are read and `edge` more at every side, for who stands outside. */
-    JoIsa isa;    /* of the kernels; results do not depend on it */
-    float kernel; /* m: the standard deviation */
+    /* The working grid has `edge` more cells on each side than the grid that is read, for people
+       outside it. */
+    JoIsa isa;    /* instruction set of the kernels; results do not depend on it */
+    float kernel; /* m: standard deviation */
     int edge, wide, high;
-    int stretch; /* the columns of a mark are two to the power of this */
+    int stretch; /* a bit of `marks` stands for 2^stretch columns */
     JoxDensityWork work;
     JoxDensityFloor *floor; /* NULL: no walls */
 } JoxDensity;
 
-/* The people of a sample. */
+/* People of a sample. */
 typedef struct JoxDensityCrowd {
     uint32_t count;
-    const float *x, *y;  /* m */
-    JoxV2 period;        /* m: who stands beyond a periodic edge is put there too; 0: none */
-    const uint8_t *seen; /* 1 for who is put; NULL: everyone */
-    const float *weights[JOX_DENSITY_FIELDS]; /* of each, by field; NULL: 1 */
+    const float *x, *y; /* m */
+    /* m: a person near a periodic edge is added beyond the opposite edge, too; 0: not periodic */
+    JoxV2 period;
+    const uint8_t *seen;                      /* 1 for people who count; NULL: everybody counts */
+    const float *weights[JOX_DENSITY_FIELDS]; /* weight of each person, by field; NULL: 1 */
 } JoxDensityCrowd;
 
-/* Cells are widened where the area would take more than two million. */
+/* Creates a density of the area `low` to `high`, m. Cells are enlarged if there would be more than
+   two million. */
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
-/* The walls as they stand now; NULL for none. Cheap where nothing has changed. */
+/* Sets the walls that stand at present; NULL for none. Cheap if they have not
+   changed. */
 void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
-/* Another number where these are others; 0: none. */
+/* Returns a hash of the walls; 0: none. */
 uint64_t jox_density_walls_hash(const JoxDensity *density);
-/* A sample. `out`: columns times rows values for each of the fields, the sums of weights per m2. */
+/* Samples a crowd. out[f] receives columns * rows values for each field: the sum of weights per
+   m2. */
 void jox_density_sample(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
                         float *const *out);
-/* From here on means over frames are kept, which takes eight bytes a cell. */
+/* Keeps means over samples from now on, at eight bytes per cell. */
 void jox_density_want_mean(JoxDensity *density);
-/* Notes `now` as of time t, s, for the greatest value and, where it is wanted, the mean. */
+/* Updates the greatest value and, if wanted and with `mean`, the mean from the sample in `now`,
+   taken at t, s. */
 void jox_density_note(JoxDensity *density, double t, bool mean);
-/* A frame of `count` people: a sample into `now`, noted. */
+/* Samples `count` people into `now` and updates as jox_density_note does. */
 void jox_density_add(JoxDensity *density, JoxV2 period, const float *x, const float *y,
                      uint32_t count, double t);
-/* The cell whose value holds for somebody at (x, y): the nearest on the same side of the walls.
-   False outside the area. */
+/* Sets the cell whose value applies to a person at (x, y): the nearest one on the same side of
+   walls. Returns false outside the area. */
 bool jox_density_cell_of(const JoxDensity *density, float x, float y, size_t *cell);
 JoxV2 jox_density_middle(const JoxDensity *density, size_t cell);
-/* Square metres of a cell that can be walked on. */
+/* Returns the walkable area of a cell, m2. */
 float jox_density_area(const JoxDensity *density, size_t cell);
-/* Mean of all frames at a cell; 0 before the first. */
+/* Returns the mean of a cell over samples, 1/m2; 0 before the first. */
 double jox_density_mean(const JoxDensity *density, uint32_t column, uint32_t row);
-/* What was noted so far, of one over the same area. */
+/* Lists the values and maxima; a restored state must be of the same area. */
 void jox_density_sections(JoxDensity *density, JoxSections *sections);
 void jox_density_free(JoxDensity *density);
 

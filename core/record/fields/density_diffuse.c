@@ -1,7 +1,7 @@
-/* The kernel within walls: diffusion by steps from node to node, as in finite volumes. In a step
-   the share l of the difference of two nodes' densities goes over each whole side between them. So
-   what one loses the other gets, what is even stays even, and the variance along each axis grows by
-   2 l cells2. */
+/* The kernel within walls: explicit diffusion on the nodes, a finite-volume scheme. In a step, the
+   flow between two nodes is the share l of the difference of their densities, times the open part
+   of the side between them. So mass is conserved, an even density stays even, and the variance
+   along each axis grows by 2 l cells2. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ static const struct Kernels {
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static size_t at(const JoxDensity *d, int column, int row) {
+static size_t cell_index(const JoxDensity *d, int column, int row) {
     return (size_t)row * (size_t)d->wide + (size_t)column;
 }
 
@@ -27,15 +27,16 @@ static size_t at(const JoxDensity *d, int column, int row) {
 
 typedef enum CellKind { NO_NODE, PLAIN, MIXED } CellKind;
 
-static CellKind kind_of(const JoxDensity *d, size_t cell) {
+static CellKind classify_cell(const JoxDensity *d, size_t cell) {
     const JoxDensityFloor *f = d->floor;
     const bool open = f->open_x[cell] == 1.0f && f->open_x[cell - 1] == 1.0f &&
                       f->open_y[cell] == 1.0f && f->open_y[cell - (size_t)d->wide] == 1.0f;
     return f->per[cell] == 0.0f ? NO_NODE : open && f->per[cell] == 1.0f ? PLAIN : MIXED;
 }
 
-/* Short runs join those beside them, as what holds for any cell holds for theirs. */
-static void add_run(JoxDensityFloor *f, uint32_t first, int from, int to, CellKind kind) {
+/* Adds a run of cells of one kind. A short run joins the one before as MIXED: the mixed kernel is
+   valid for every cell. */
+static void add_cell_run(JoxDensityFloor *f, uint32_t first, int from, int to, CellKind kind) {
     enum { SHORT = 8 };
     struct JoxDensityRun *last = f->run_count > first ? &f->runs[f->run_count - 1] : NULL;
     if (to - from < SHORT)
@@ -55,36 +56,37 @@ static void list_runs(JoxDensity *d) {
         const uint32_t first = f->run_first[row] = f->run_count;
         const bool inner = row > 0 && row < d->high - 1;
         for (int from = 1, to; inner && from < d->wide - 1; from = to) {
-            const CellKind kind = kind_of(d, at(d, from, row));
-            for (to = from + 1; to < d->wide - 1 && kind_of(d, at(d, to, row)) == kind; to++)
+            const CellKind kind = classify_cell(d, cell_index(d, from, row));
+            for (to = from + 1;
+                 to < d->wide - 1 && classify_cell(d, cell_index(d, to, row)) == kind; to++)
                 continue;
-            add_run(f, first, from, to, kind);
+            add_cell_run(f, first, from, to, kind);
         }
     }
     f->run_first[d->high] = f->run_count;
 }
 
-/* ---- what can be reached ---- */
+/* ---- reachable cells ---- */
 
-/* Cells are bits of words, row by row. */
+/* Sets of cells are bits of words, row by row. */
 
-static size_t words_of(const JoxDensity *d) {
+static size_t count_words(const JoxDensity *d) {
     return jox_density_words(d) * (size_t)d->high;
 }
 
 static void list_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     if (!f->right) {
-        f->right = jox_alloc(words_of(d), sizeof *f->right);
-        f->up = jox_alloc(words_of(d), sizeof *f->up);
+        f->right = jox_alloc(count_words(d), sizeof *f->right);
+        f->up = jox_alloc(count_words(d), sizeof *f->up);
     }
-    memset(f->right, 0, words_of(d) * sizeof *f->right);
-    memset(f->up, 0, words_of(d) * sizeof *f->up);
+    memset(f->right, 0, count_words(d) * sizeof *f->right);
+    memset(f->up, 0, count_words(d) * sizeof *f->up);
     for (int row = 0; row < d->high; row++)
         for (int c = 0; c < d->wide; c++) {
-            if (f->open_x[at(d, c, row)] > 0.0f)
+            if (f->open_x[cell_index(d, c, row)] > 0.0f)
                 *jox_density_word(d, f->right, c, row) |= jox_density_bit(c);
-            if (f->open_y[at(d, c, row)] > 0.0f)
+            if (f->open_y[cell_index(d, c, row)] > 0.0f)
                 *jox_density_word(d, f->up, c, row) |= jox_density_bit(c);
         }
 }
@@ -94,29 +96,31 @@ void jox_density_list_floor(JoxDensity *d) {
     list_ways(d);
 }
 
-static void reach_cell(const JoxDensity *d, uint32_t from, uint32_t to, uint64_t *is,
-                       uint64_t *next) {
+static void spread_reached_cell(const JoxDensity *d, uint32_t from, uint32_t to, uint64_t *reached,
+                                uint64_t *next) {
     const int wide = d->wide, column = (int)from % wide, row = (int)from / wide;
-    if (*jox_density_word(d, is, column, row) & jox_density_bit(column))
+    if (*jox_density_word(d, reached, column, row) & jox_density_bit(column))
         *jox_density_word(d, next, (int)to % wide, (int)to / wide) |=
             jox_density_bit((int)to % wide);
 }
 
-/* What is somewhere now is there or in a cell beside it after a step. */
-static void reach(const JoxDensity *d, uint64_t *is, uint64_t *next) {
+/* Sets `next` to the cells of `reached` and their neighbours over open ways: a step moves mass no
+   farther. */
+static void spread_reached(const JoxDensity *d, uint64_t *reached, uint64_t *next) {
     const JoxDensityFloor *f = d->floor;
     const int row = (int)jox_density_words(d);
-    KERNELS[jox_isa_resolve(d->isa)].reach(is, f->right, f->up, row, row, row * (d->high - 1),
+    KERNELS[jox_isa_resolve(d->isa)].reach(reached, f->right, f->up, row, row, row * (d->high - 1),
                                            next);
     for (uint32_t s = 0; s < f->slant_count; s++) {
-        reach_cell(d, f->slants[s].a, f->slants[s].b, is, next);
-        reach_cell(d, f->slants[s].b, f->slants[s].a, is, next);
+        spread_reached_cell(d, f->slants[s].a, f->slants[s].b, reached, next);
+        spread_reached_cell(d, f->slants[s].b, f->slants[s].a, reached, next);
     }
 }
 
-/* The first column from `from` on whose eight have a bit set, or, with all bits of `flip`, have
-   none; `to` where there is none below that. Eight begin at each multiple of eight. */
-static int seek(const uint64_t *row, int from, int to, uint64_t flip) {
+/* Returns the first column from `from` on whose group of eight columns has a bit set or, if all
+   bits of `flip` are set, has none; `to` if there is none before `to`. Groups begin at multiples of
+   eight. */
+static int find_column_group(const uint64_t *row, int from, int to, uint64_t flip) {
     while (from < to) {
         uint64_t word = row[from / 64];
         word |= word >> 4 & UINT64_C(0x0f0f0f0f0f0f0f0f);
@@ -135,23 +139,25 @@ static int seek(const uint64_t *row, int from, int to, uint64_t flip) {
 
 /* ---- spans ---- */
 
-/* The cells of a run where `is` has something. All else is zero and stays so, in both arrays that
-   steps go to and fro between, as what is listed only grows. */
+/* Adds the cells of a run at which `reached` has bits. All other cells are zero in both arrays that
+   steps alternate between, and stay zero: sets of cells only grow. */
 static void add_spans(JoxDensityWork *w, const struct JoxDensityRun *run, int row,
-                      const uint64_t *is) {
-    const int low = run->plain ? run->from : 1; /* what holds for any cell holds for others, too */
-    for (int end, c = seek(is, run->from, run->to, 0); c < run->to; c = seek(is, end, run->to, 0)) {
-        end = seek(is, c, run->to, ~UINT64_C(0));
+                      const uint64_t *reached) {
+    const int low =
+        run->plain ? run->from : 1; /* the mixed kernel is valid for cells outside its run, too */
+    for (int end, c = find_column_group(reached, run->from, run->to, 0); c < run->to;
+         c = find_column_group(reached, end, run->to, 0)) {
+        end = find_column_group(reached, c, run->to, ~UINT64_C(0));
         JOX_RESERVE(w->spans, w->span_capacity, w->span_count + 1);
         w->spans[w->span_count++] = (struct JoxDensitySpan){row, low, c, end, run->plain};
     }
 }
 
-static void list_spans(JoxDensity *d, uint64_t *is) {
+static void list_spans(JoxDensity *d, uint64_t *reached) {
     const JoxDensityFloor *f = d->floor;
     d->work.span_count = 0;
     for (int row = 1; row < d->high - 1; row++) {
-        const uint64_t *bits = jox_density_word(d, is, 0, row);
+        const uint64_t *bits = jox_density_word(d, reached, 0, row);
         uint64_t any = 0;
         for (size_t k = 0; k < jox_density_words(d); k++)
             any |= bits[k];
@@ -162,13 +168,13 @@ static void list_spans(JoxDensity *d, uint64_t *is) {
 
 /* ---- steps ---- */
 
-/* One step of what is listed. */
-static void step(const JoxDensity *d, float share, const float *from, float *to) {
+/* Takes one step from `from` to `to`, for all spans and slanted ways. */
+static void step_spans(const JoxDensity *d, float share, const float *from, float *to) {
     const JoxDensityFloor *f = d->floor;
     const struct Kernels *kernels = &KERNELS[jox_isa_resolve(d->isa)];
     for (size_t k = 0; k < d->work.span_count; k++) {
         const struct JoxDensitySpan *span = &d->work.spans[k];
-        const size_t line = at(d, 0, span->row);
+        const size_t line = cell_index(d, 0, span->row);
         const JoxDensityStep s = {.share = share,
                                   .wide = d->wide,
                                   .u = from + line,
@@ -186,17 +192,17 @@ static void step(const JoxDensity *d, float share, const float *from, float *to)
     }
 }
 
-/* Masses become densities; `held`: where there are some. */
+/* Turns masses into densities and sets `held` to the cells that are not zero. */
 static void divide_by_area(JoxDensity *d, float *mass, uint64_t *held) {
-    JoxDensityHeldKernel *const look = KERNELS[jox_isa_resolve(d->isa)].held;
+    JoxDensityHeldKernel *const find_held = KERNELS[jox_isa_resolve(d->isa)].held;
     for (int row = 0; row < d->high; row++)
         for (int c = 0; c < d->wide; c += 64) {
             const int count = d->wide - c < 64 ? d->wide - c : 64;
-            const float *per = d->floor->per + at(d, c, row);
-            float *cells = mass + at(d, c, row);
-            const uint64_t some = look(cells, count);
-            *jox_density_word(d, held, c, row) = some;
-            for (int k = 0; k < count && some; k++)
+            const float *per = d->floor->per + cell_index(d, c, row);
+            float *cells = mass + cell_index(d, c, row);
+            const uint64_t nonzero = find_held(cells, count);
+            *jox_density_word(d, held, c, row) = nonzero;
+            for (int k = 0; k < count && nonzero; k++)
                 cells[k] *= per[k];
         }
 }
@@ -208,23 +214,23 @@ float *jox_density_spare(JoxDensity *d) {
 }
 
 void jox_density_diffuse(JoxDensity *d, int field) {
-    enum { LISTED = 8 }; /* steps for which cells are listed at once */
+    enum { LISTED = 8 }; /* number of steps that use the same list of spans */
     JoxDensityWork *w = &d->work;
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     const float whole = 0.5f * jox_density_variance(d);
     const int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
     for (int k = 0; k < 2; k++)
         if (!w->reached[k])
-            w->reached[k] = jox_alloc(words_of(d), sizeof *w->reached[k]);
+            w->reached[k] = jox_alloc(count_words(d), sizeof *w->reached[k]);
     memset(jox_density_spare(d), 0, cells * sizeof *w->spare);
     divide_by_area(d, w->mass[field], w->reached[0]);
     for (int s = 0; s < steps; s++) {
         if (s % LISTED == 0) {
             for (int k = s; k < s + LISTED && k < steps; k++)
-                reach(d, w->reached[k % 2], w->reached[(k + 1) % 2]);
+                spread_reached(d, w->reached[k % 2], w->reached[(k + 1) % 2]);
             list_spans(d, w->reached[(s + LISTED < steps ? s + LISTED : steps) % 2]);
         }
-        step(d, whole / (float)steps, w->mass[field], w->spare);
+        step_spans(d, whole / (float)steps, w->mass[field], w->spare);
         float *swap = w->mass[field];
         w->mass[field] = w->spare;
         w->spare = swap;

@@ -1,6 +1,6 @@
-/* The loops of density that are compiled for each instruction set (density_wide.c). Whatever the
-   width, each number comes of the same operations in the same order, so that all give the same
-   bits. */
+/* Loops of the density that are compiled for each instruction set (density_wide.c); density_put.c,
+   density_spread.c and density_diffuse.c call them. For any lane count, each number results from
+   the same operations in the same order, so all results are equal bit by bit. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_KERNELS_H
 #define JOX_RECORD_FIELDS_DENSITY_KERNELS_H
 
@@ -9,48 +9,49 @@
 #include "simd/isa.h"
 
 enum {
-    JOX_DENSITY_AT_ONCE = 128, /* people; a multiple of every width */
-    JOX_DENSITY_IMAGES = 3     /* somebody, and they beyond a periodic edge at either side */
+    JOX_DENSITY_AT_ONCE = 128, /* people in a chunk; a multiple of all lane counts */
+    JOX_DENSITY_IMAGES = 3     /* a person, and the images across each of the two periodic edges */
 };
 
-/* The nodes along x or y. Places from `first` to below `end`, in cells, are wanted. */
+/* The nodes along x or y. A position is wanted if first <= position < end, in cells. */
 typedef struct JoxDensityAxis {
-    float low, cell; /* m: where the first cell begins, and of each */
+    float low, cell; /* m: lower end of the first cell, and side of a cell */
     float first, end;
-    float period; /* m; 0: none */
+    float period; /* m; 0: not periodic */
 } JoxDensityAxis;
 
-/* Where people are along an axis, each between two nodes. */
+/* Positions of a chunk of people along an axis, each between two nodes. */
 typedef struct JoxDensityPlaced {
-    uint32_t images[JOX_DENSITY_AT_ONCE]; /* bit k: image k is wanted; what follows then holds */
-    uint32_t node[JOX_DENSITY_IMAGES][JOX_DENSITY_AT_ONCE]; /* the lower */
-    float share[JOX_DENSITY_IMAGES][JOX_DENSITY_AT_ONCE];   /* of the higher one */
+    /* bit k: image k is wanted; only then are the arrays below set */
+    uint32_t images[JOX_DENSITY_AT_ONCE];
+    uint32_t node[JOX_DENSITY_IMAGES][JOX_DENSITY_AT_ONCE]; /* index of the lower node */
+    float share[JOX_DENSITY_IMAGES][JOX_DENSITY_AT_ONCE];   /* share of the upper node */
 } JoxDensityPlaced;
 
-/* Places `count` people, no more than at once; false: none is wanted. */
+/* Places `count` people, at most JOX_DENSITY_AT_ONCE. Returns false if no image is wanted. */
 typedef bool JoxDensityPlaceKernel(const JoxDensityAxis *axis, const float *at, uint32_t count,
                                    JoxDensityPlaced *placed);
-/* Which of so many cells, no more than 64, hold something: bits. */
+/* Returns bits of the cells that are not zero, among at most 64. */
 typedef uint64_t JoxDensityHeldKernel(const float *cells, int count);
-/* out[c] = scale * the sum of taps[k] * rows[k][c], added from the first row on. */
+/* Sets out[c] to scale * the sum of taps[k] * rows[k][c], added in order of k. */
 typedef void JoxDensitySumKernel(const float *const *rows, const float *taps, int count,
                                  float scale, float *out, int columns);
 
-/* A step of diffusion along a row: what it reads, from the row's first cell on (see
-   density_diffuse.c). */
+/* Input of a diffusion step along a row; pointers are to the first cell of the row
+   (density_diffuse.c). */
 typedef struct JoxDensityStep {
     float share;
-    int wide;       /* from a row to the next */
+    int wide;       /* cells from one row to the next */
     const float *u; /* densities */
     const float *open_x, *open_y, *per;
 } JoxDensityStep;
-/* Cells from..to - 1; those from `low` on may be stepped, too. */
+/* Computes cells from..to - 1 of `out`; it may compute further cells from `low` on. */
 typedef void JoxDensityStepKernel(const JoxDensityStep *step, int low, int from, int to,
                                   float *out);
-/* Of words from..to - 1 of cells as bits, `row` words to a row: what can be reached from `is` in a
-   step by the ways to the right of cells and up from them. */
-typedef void JoxDensityReachKernel(const uint64_t *is, const uint64_t *right, const uint64_t *up,
-                                   int row, int from, int to, uint64_t *next);
+/* Computes words from..to - 1 of `next`, the cells reached from `reached` in a step over the ways
+   to the right (`right`) and up (`up`) of each cell; `row` is the number of words in a row. */
+typedef void JoxDensityReachKernel(const uint64_t *reached, const uint64_t *right,
+                                   const uint64_t *up, int row, int from, int to, uint64_t *next);
 
 #define X(name, isa)                                                                               \
     JoxDensityPlaceKernel jox_density_place_##name;                                                \

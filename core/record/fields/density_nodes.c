@@ -1,9 +1,9 @@
-/* Which nodes somebody belongs to, and what hides them. */
+/* Finds the nodes that a person is shared among, and whether walls hide a node from a point. */
 #include <math.h>
 
 #include "record/fields/density_parts.h"
 
-static const double TOUCHES = 1e-9; /* of a length: as near as that is on it */
+static const double TOUCHES = 1e-9; /* share of a length that counts as touching */
 
 JoxV2 jox_density_corner(const JoxDensity *d) {
     return (JoxV2){d->low.x - (float)d->edge * d->cell, d->low.y - (float)d->edge * d->cell};
@@ -13,8 +13,9 @@ int jox_density_clamped(double value, int most) {
     return value < 0.0 ? 0 : value > most ? most : (int)value;
 }
 
-/* Whether a-b touches a bar, of which a length of `slack` is nothing. */
-static bool touches(const struct JoxDensityBar *bar, double ax, double ay, double bx, double by) {
+/* Returns whether segment a-b touches a bar, within rounding of both lengths. */
+static bool touches_bar(const struct JoxDensityBar *bar, double ax, double ay, double bx,
+                        double by) {
     double wx = bar->bx - bar->ax, wy = bar->by - bar->ay, px = bx - ax, py = by - ay;
     double a = wx * (ay - bar->ay) - wy * (ax - bar->ax);
     double b = wx * (by - bar->ay) - wy * (bx - bar->ax);
@@ -36,7 +37,7 @@ bool jox_density_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
         for (int c = jox_density_clamped(fmin(ax, bx), d->wide - 1); c <= right; c++) {
             size_t cell = (size_t)r * (size_t)d->wide + (size_t)c;
             for (uint32_t k = f->first[cell]; k < f->first[cell + 1]; k++)
-                if (touches(&f->bars[f->passing[k]], a.x, a.y, b.x, b.y))
+                if (touches_bar(&f->bars[f->passing[k]], a.x, a.y, b.x, b.y))
                     return true;
         }
     return false;
@@ -87,9 +88,10 @@ JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *colu
     return seen ? JOX_DENSITY_SEEN : nearest < INFINITY ? JOX_DENSITY_HIDDEN : JOX_DENSITY_NO_NODE;
 }
 
-/* Shares between the nearest node and those beside it, of which some may be behind walls. */
-static int share_near(const JoxDensity *d, float x, float y, int column, int row, uint32_t nodes[4],
-                      float shares[4]) {
+/* Sets the shares of the nearest node and three beside it; nodes behind walls get none. Returns the
+   number of nodes. */
+static int share_near_wall(const JoxDensity *d, float x, float y, int column, int row,
+                           uint32_t nodes[4], float shares[4]) {
     if (jox_density_node(d, x, y, &column, &row) == JOX_DENSITY_NO_NODE)
         return 0;
     const JoxDensityFloor *f = d->floor;
@@ -120,7 +122,7 @@ int jox_density_share(const JoxDensity *d, float x, float y, uint32_t nodes[4], 
     if (!jox_density_locate(d, x, y, &column, &row))
         return 0;
     if (d->floor && d->floor->near[row * d->wide + column])
-        return share_near(d, x, y, column, row, nodes, shares);
+        return share_near_wall(d, x, y, column, row, nodes, shares);
     const JoxV2 low = jox_density_corner(d);
     float right = (x - low.x) / d->cell - 0.5f, above = (y - low.y) / d->cell - 0.5f;
     const int c = (int)floorf(right), r = (int)floorf(above);

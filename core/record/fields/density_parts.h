@@ -1,38 +1,43 @@
-/* What the files of density share. Cells are counted with the edge about what is read. */
+/* The floor of a density, and functions that density*.c share. Columns and rows are those of the
+   working grid, with the edge. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_PARTS_H
 #define JOX_RECORD_FIELDS_DENSITY_PARTS_H
 
 #include "record/fields/density.h"
 
-/* Of the difference of two nodes' densities, most that goes over a whole side in a step; more than
-   1/4 would overshoot. */
+/* Share l of a step of diffusion: the flow over a fully open side is l times the difference of the
+   two densities. Above 1/4 a step would overshoot. */
 #define JOX_DENSITY_SHARE 0.2f
-enum { JOX_DENSITY_MOST_REACH = 511 }; /* cells that the kernel reaches over, and edges are wider */
+enum { JOX_DENSITY_MOST_REACH = 511 }; /* cells: greatest reach of the kernel; edges are wider */
 
-/* Each cell is a point of the floor, its node. Who stands between nodes is shared among those
-   around, and what is shared goes from node to node in steps. */
+/* The walkable floor. Each cell has at most one node, a point of the floor. A person between nodes
+   is shared among the nodes around, and steps of diffusion move mass from node to node. */
 struct JoxDensityFloor {
-    uint64_t hash; /* of the walls */
-    JoxV2 *node;   /* m: by `first`, of cells that have walls in them: see jox_density_node_at */
+    uint64_t hash; /* hash of the walls */
+    /* m: nodes of the cells with walls, at `first` of the cell (jox_density_node_at) */
+    JoxV2 *node;
     uint32_t node_capacity;
-    float *open_x; /* how wide the way is from a node to the next along x, in cells; 0: none */
+    /* cells: width of the way from a node to the next along x, and along y; 0: closed */
+    float *open_x;
     float *open_y;
-    struct JoxDensitySlant { /* ways to others, over floor that lies in cells between */
+    struct JoxDensitySlant { /* ways between nodes that are not next to each other along x or y */
         uint32_t a, b;
         float open;
     } * slants;
     uint32_t slant_count, slant_capacity;
-    uint8_t *near; /* walls may stand between the cell's people and the nodes around */
-    float *area;   /* of the floor that belongs to a node, in cells */
-    float *per;    /* 1 / area; 0: no node, nobody can stand there */
-    /* By row, the cells that have nodes: from..to - 1, which are open on all sides if `plain`. */
+    uint8_t *near; /* 1: a wall or solid may lie between a point of the cell and the nodes around */
+    float *area;   /* cells: area of the floor that belongs to a node */
+    float *per;    /* 1 / area; 0: the cell has no node, since nobody can stand there */
+    /* Runs of cells with nodes, row by row: cells from..to - 1; `plain` if all ways are fully
+       open. */
     struct JoxDensityRun {
         int from, to;
         bool plain;
     } * runs;
     uint32_t run_count, run_capacity, *run_first;
-    uint64_t *right, *up; /* cells as bits: whether there is a way to the next along x, along y */
-    /* Stretches of walls, and by cell those that pass through it. */
+    uint64_t *right, *up; /* bits of the cells with a way to the next along x, and along y */
+    /* Edges of walls; `passing` lists those through each cell, from `first` of the cell to `first`
+       of the next. */
     struct JoxDensityBar {
         double ax, ay, bx, by;
     } * bars;
@@ -43,35 +48,37 @@ struct JoxDensityFloor {
 static inline bool jox_density_has_wall(const JoxDensityFloor *floor, size_t cell) {
     return floor->first[cell] < floor->first[cell + 1];
 }
-/* density_put.c: makes room for the given rows, in which there is nobody then; puts a crowd there.
-   Within walls a strip is all there is. */
+/* density_put.c: makes rows first..end - 1 the strip and clears it; adds a crowd to it. Within
+   walls the strip must be the whole grid. */
 void jox_density_strip(JoxDensity *density, int fields, int first, int end);
 void jox_density_put(JoxDensity *density, const JoxDensityCrowd *crowd);
-/* density_nodes.c: the lowest corner of all cells; a whole number within 0..most. */
+/* density_nodes.c: returns the lower left corner of the working grid, m; returns a value rounded
+   down and limited to 0..most. */
 JoxV2 jox_density_corner(const JoxDensity *density);
 int jox_density_clamped(double value, int most);
-/* The cell that (x, y) lies in, if there are cells around it too. */
+/* Sets the cell of (x, y). Returns false unless it has cells on all sides. */
 bool jox_density_locate(const JoxDensity *density, float x, float y, int *column, int *row);
-/* Whether a wall stands between two points that are at most two cells apart. */
+/* Returns whether a wall lies between two points that are at most two cells apart. */
 bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
-/* From the cell of (x, y) to that of the node which holds for there: its own, if it is seen from
-   there, or else the nearest that is, or if none is, as within a wall, the nearest of any floor. */
+/* Moves from the cell of (x, y) to the cell of the node that applies there: its own if visible,
+   else the nearest visible one, else (inside a wall) the nearest one. */
 typedef enum { JOX_DENSITY_NO_NODE, JOX_DENSITY_HIDDEN, JOX_DENSITY_SEEN } JoxDensityNode;
 JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int *column, int *row);
-/* Where the node of a cell is: in the middle, or at a point of the cell that can be walked on. */
+/* Returns the position of a cell's node, m: the middle of the cell, or a walkable point in it. */
 JoxV2 jox_density_node_at(const JoxDensity *density, int column, int row);
-/* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
+/* Sets the nodes that share a person at (x, y), and their shares. Returns their number; 0 outside
+   the grid. */
 int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
                       float shares[4]);
-/* density_solids.c: the solids that stand among walls, so that one can ask what lies within, as
-   often as need be. */
+/* density_solids.c: tests points against the solid walls that stand. Made for many queries. */
 typedef struct JoxDensitySolids JoxDensitySolids;
 JoxDensitySolids *jox_density_solids_create(const JoxDensity *density, const JoxWalls *walls);
 bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
-/* density_walls.c */
+/* density_walls.c: frees a floor. */
 void jox_density_free_floor(JoxDensityFloor *floor);
-/* Cells as bits, in whole words for each row. */
+/* Sets of cells are bits in whole words for each row: words per row, the word of a cell, the bit of
+   a column. */
 static inline size_t jox_density_words(const JoxDensity *density) {
     return (size_t)density->wide / 64 + 1;
 }
@@ -82,14 +89,15 @@ static inline uint64_t *jox_density_word(const JoxDensity *density, uint64_t *bi
 static inline uint64_t jox_density_bit(int column) {
     return UINT64_C(1) << (column % 64);
 }
-/* density_diffuse.c: lists the runs and ways of a floor; makes a field's masses densities, in
-   1/cell, by the kernel. */
+/* density_diffuse.c: lists runs and ways of the floor; turns the masses of a field into densities,
+   in 1/cell, by the kernel. */
 void jox_density_list_floor(JoxDensity *density);
 void jox_density_diffuse(JoxDensity *density, int field);
-/* A number of each cell, for work of the moment. */
+/* Returns scratch of one number for each cell. */
 float *jox_density_spare(JoxDensity *density);
-/* density_spread.c: what the kernel has left to add, cells2, as sharing somebody among the nodes
-   around has added 1/6 already, in the mean over where one can stand; a sample without walls. */
+/* density_spread.c: returns the variance that the kernel has yet to add, cells2. Sharing a person
+   among the nodes around has added 1/6 already, averaged over positions. jox_density_spread samples
+   a crowd without walls. */
 float jox_density_variance(const JoxDensity *density);
 void jox_density_spread(JoxDensity *density, const JoxDensityCrowd *crowd, int fields,
                         float *const *out);

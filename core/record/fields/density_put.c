@@ -1,4 +1,4 @@
-/* Who is put on the nodes of a strip of rows. */
+/* Adds people to the nodes of a strip of rows. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -35,8 +35,8 @@ void jox_density_strip(JoxDensity *d, int fields, int first, int end) {
 
 /* ---- people ---- */
 
-/* Somebody within sight of a wall or a solid. */
-static void put_near(JoxDensity *d, float x, float y, const float *weights) {
+/* Adds a person near a wall or solid. */
+static void put_near_wall(JoxDensity *d, float x, float y, const float *weights) {
     uint32_t nodes[4];
     float shares[4];
     const int count = jox_density_share(d, x, y, nodes, shares);
@@ -45,10 +45,10 @@ static void put_near(JoxDensity *d, float x, float y, const float *weights) {
             d->work.mass[f][nodes[k]] += shares[k] * weights[f];
 }
 
-/* Of an array of a strip, at the lower left of four nodes that take `mass`, of rows `below` and
-   `above` those that the strip has. */
-static inline void add(float *at, ptrdiff_t wide, const float shares[4], float weight, bool below,
-                       bool above) {
+/* Adds `weight` by shares to four nodes of a strip, `at` being the lower left one. `below` and
+   `above` tell which of the two rows the strip has. */
+static inline void add_node_shares(float *at, ptrdiff_t wide, const float shares[4], float weight,
+                                   bool below, bool above) {
     if (below) {
         at[0] += shares[0] * weight;
         at[1] += shares[1] * weight;
@@ -59,33 +59,34 @@ static inline void add(float *at, ptrdiff_t wide, const float shares[4], float w
     }
 }
 
-/* A chunk of a crowd. */
+/* A chunk of the crowd. */
 typedef struct Chunk {
     JoxDensityPlaced across, up;
-    uint32_t from, count; /* of the crowd's people */
+    uint32_t from, count; /* range of its people */
 } Chunk;
 
-static bool is_near(const JoxDensity *d, int column, int row, float right, float above) {
+static bool is_near_wall(const JoxDensity *d, int column, int row, float right, float above) {
     const int own_column = column + (right >= 0.5f), own_row = row + (above >= 0.5f);
     return d->floor && d->floor->near[own_row * d->wide + own_column];
 }
 
-/* The k-th of the chunk, as images a along x and b along y. */
+/* Adds person k of the chunk, as image a along x and b along y. */
 static inline void put_image(JoxDensity *d, const JoxDensityCrowd *crowd, const Chunk *chunk,
                              uint32_t k, int a, int b, int fields, const float *weights) {
     const JoxDensityWork *w = &d->work;
     const int column = (int)chunk->across.node[a][k], row = (int)chunk->up.node[b][k];
     const float right = chunk->across.share[a][k], above = chunk->up.share[b][k];
-    if (is_near(d, column, row, right, above)) {
-        put_near(d, crowd->x[chunk->from + k] + (float)(a - 1) * crowd->period.x,
-                 crowd->y[chunk->from + k] + (float)(b - 1) * crowd->period.y, weights);
+    if (is_near_wall(d, column, row, right, above)) {
+        put_near_wall(d, crowd->x[chunk->from + k] + (float)(a - 1) * crowd->period.x,
+                      crowd->y[chunk->from + k] + (float)(b - 1) * crowd->period.y, weights);
         return;
     }
     const float left = 1.0f - right, below = 1.0f - above;
     const float shares[4] = {left * below, right * below, left * above, right * above};
     const ptrdiff_t node = (ptrdiff_t)(row - w->first) * d->wide + column;
     for (int f = 0; f < fields; f++)
-        add(w->mass[f] + node, d->wide, shares, weights[f], row >= w->first, row + 1 < w->end);
+        add_node_shares(w->mass[f] + node, d->wide, shares, weights[f], row >= w->first,
+                        row + 1 < w->end);
 }
 
 static inline __attribute__((always_inline)) void
@@ -107,7 +108,8 @@ void jox_density_put(JoxDensity *d, const JoxDensityCrowd *crowd) {
     JoxDensityPlaceKernel *const place = PLACE[jox_isa_resolve(d->isa)];
     const JoxDensityWork *w = &d->work;
     const JoxV2 low = jox_density_corner(d);
-    /* There are cells around each; between nodes of which one is in the strip. */
+    /* Positions need cells on all sides; along y, at least one of the two nodes must lie in the
+       strip. */
     const JoxDensityAxis across = {low.x, d->cell, 1.0f, (float)(d->wide - 1), crowd->period.x};
     const JoxDensityAxis up = {low.y, d->cell, jox_maxf((float)w->first - 0.5f, 1.0f),
                                jox_minf((float)w->end + 0.5f, (float)(d->high - 1)),
@@ -121,7 +123,7 @@ void jox_density_put(JoxDensity *d, const JoxDensityCrowd *crowd) {
         if (!place(&up, crowd->y + from, chunk.count, &chunk.up) ||
             !place(&across, crowd->x + from, chunk.count, &chunk.across))
             continue;
-        if (w->fields == 1) /* known when this is compiled, as it mostly is */
+        if (w->fields == 1) /* lets the compiler unroll for one field, the common case */
             put_chunk(d, crowd, &chunk, 1);
         else
             put_chunk(d, crowd, &chunk, w->fields);

@@ -1,6 +1,6 @@
-/* What lies within solids. Along a line of one y they are stretches of x between the places where
-   their outlines cross it; lines are kept, as many points of a row of cells share them. A point is
-   within where jox_polygon_contains says so of one of the solids. */
+/* Tests points against solid walls. A line of constant y lies inside solids on stretches of x
+   between crossings with their outlines; lines are cached, since many points of a row of cells
+   share their y. A point is inside if jox_polygon_contains says so for one of the solids. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -9,7 +9,7 @@
 #include "geom/polygon.h"
 #include "record/fields/density_parts.h"
 
-enum { LINES = 1 << 14 }; /* kept at a time, by their bits */
+enum { LINES = 1 << 14 }; /* cached lines, hashed by the bits of y */
 
 typedef struct Edge {
     JoxV2 a, b;
@@ -21,41 +21,41 @@ typedef struct Crossing {
     float x;
 } Crossing;
 
-/* From the first to before the second, m. */
+/* Points from <= x < to, m. */
 typedef struct Stretch {
     float from, to;
 } Stretch;
 
 typedef struct Line {
     float y;
-    bool made;
-    Stretch *stretches; /* ascending, and apart */
+    bool built;
+    Stretch *stretches; /* ascending and disjoint */
     uint32_t count, capacity;
 } Line;
 
 struct JoxDensitySolids {
     struct Box {
         JoxV2 low, high;
-    } * boxes; /* by solid */
+    } * boxes; /* bounding boxes by solid */
     Edge *edges;
     uint32_t edge_count;
-    float low, cell; /* of the rows, m */
+    float low, cell; /* m: lower end and height of the rows */
     int rows;
-    uint32_t *first, *list; /* by row of cells: the edges that reach into it */
+    uint32_t *first, *list; /* edges that reach into each row of cells */
     Crossing *crossings;    /* scratch: room for all edges */
     Line *lines;
 };
 
 /* ---- edges by row ---- */
 
-static int row_of(const JoxDensitySolids *s, float y) {
+static int find_edge_row(const JoxDensitySolids *s, float y) {
     return jox_density_clamped(((double)y - s->low) / s->cell, s->rows - 1);
 }
 
-static void enter(JoxDensitySolids *s, uint32_t edge, bool fill) {
+static void enter_solid_edge(JoxDensitySolids *s, uint32_t edge, bool fill) {
     const Edge *e = &s->edges[edge];
-    const int last = row_of(s, jox_maxf(e->a.y, e->b.y));
-    for (int row = row_of(s, jox_minf(e->a.y, e->b.y)); row <= last; row++) {
+    const int last = find_edge_row(s, jox_maxf(e->a.y, e->b.y));
+    for (int row = find_edge_row(s, jox_minf(e->a.y, e->b.y)); row <= last; row++) {
         if (fill)
             s->list[--s->first[row]] = edge;
         else
@@ -63,18 +63,20 @@ static void enter(JoxDensitySolids *s, uint32_t edge, bool fill) {
     }
 }
 
-static void list_edges(JoxDensitySolids *s) {
+static void list_row_edges(JoxDensitySolids *s) {
     s->first = jox_alloc((size_t)s->rows + 1, sizeof *s->first);
     for (uint32_t e = 0; e < s->edge_count; e++)
-        enter(s, e, false);
-    for (int row = 0; row < s->rows; row++) /* the ends of the lists, which filling moves down */
+        enter_solid_edge(s, e, false);
+    for (int row = 0; row < s->rows;
+         row++) /* `first` becomes the end of each list; filling moves it down to the beginning */
         s->first[row + 1] += s->first[row];
     s->list = jox_alloc((size_t)s->first[s->rows] + 1, sizeof *s->list);
     for (uint32_t e = s->edge_count; e-- > 0;)
-        enter(s, e, true);
+        enter_solid_edge(s, e, true);
 }
 
-static void add_solid(JoxDensitySolids *s, uint32_t solid, const JoxV2 *ring, uint32_t count) {
+static void add_solid_edges(JoxDensitySolids *s, uint32_t solid, const JoxV2 *ring,
+                            uint32_t count) {
     struct Box *box = &s->boxes[solid];
     jox_bounds(ring, count, &box->low, &box->high);
     for (uint32_t i = 0, j = count - 1; i < count; j = i++)
@@ -94,11 +96,11 @@ JoxDensitySolids *jox_density_solids_create(const JoxDensity *d, const JoxWalls 
         if (!walls->rings[r].solid || walls->rings[r].open)
             continue;
         JoxV2 *ring = jox_walls_ring_points(walls, r);
-        add_solid(s, count++, ring, walls->rings[r].count);
+        add_solid_edges(s, count++, ring, walls->rings[r].count);
         jox_free(ring);
     }
     if (s->edge_count) {
-        list_edges(s);
+        list_row_edges(s);
         s->lines = jox_alloc(LINES, sizeof *s->lines);
     }
     return s;
@@ -118,7 +120,7 @@ void jox_density_solids_free(JoxDensitySolids *s) {
 
 /* ---- lines ---- */
 
-static int by_solid(const void *left, const void *right, const void *context) {
+static int compare_crossings(const void *left, const void *right, const void *context) {
     const Crossing *a = left, *b = right;
     (void)context;
     if (a->solid != b->solid)
@@ -126,16 +128,17 @@ static int by_solid(const void *left, const void *right, const void *context) {
     return (a->x > b->x) - (a->x < b->x);
 }
 
-static int by_beginning(const void *left, const void *right, const void *context) {
+static int compare_stretches(const void *left, const void *right, const void *context) {
     const Stretch *a = left, *b = right;
     (void)context;
     return (a->from > b->from) - (a->from < b->from);
 }
 
-/* Where the outlines cross it, solid by solid: an even number of times each. */
-static uint32_t cross(JoxDensitySolids *s, float y) {
+/* Finds the crossings of outlines with the line at y, sorted by solid, then x: an even number for
+   each solid. Returns their number. */
+static uint32_t find_crossings(JoxDensitySolids *s, float y) {
     uint32_t count = 0;
-    const int row = row_of(s, y);
+    const int row = find_edge_row(s, y);
     for (uint32_t k = s->first[row]; k < s->first[row + 1]; k++) {
         const Edge *e = &s->edges[s->list[k]];
         const JoxV2 a = e->a, b = e->b;
@@ -143,13 +146,13 @@ static uint32_t cross(JoxDensitySolids *s, float y) {
             s->crossings[count++] =
                 (Crossing){e->solid, (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x};
     }
-    jox_sort(s->crossings, count, sizeof *s->crossings, by_solid, NULL, NULL);
+    jox_sort(s->crossings, count, sizeof *s->crossings, compare_crossings, NULL, NULL);
     return count;
 }
 
-static void join(Line *line) {
+static void merge_stretches(Line *line) {
     uint32_t kept = 0;
-    jox_sort(line->stretches, line->count, sizeof *line->stretches, by_beginning, NULL, NULL);
+    jox_sort(line->stretches, line->count, sizeof *line->stretches, compare_stretches, NULL, NULL);
     for (uint32_t k = 0; k < line->count; k++) {
         const Stretch *next = &line->stretches[k];
         Stretch *last = &line->stretches[kept - (kept > 0)];
@@ -161,36 +164,36 @@ static void join(Line *line) {
     line->count = kept;
 }
 
-static void make(JoxDensitySolids *s, Line *line, float y) {
-    const uint32_t count = cross(s, y);
+static void build_line(JoxDensitySolids *s, Line *line, float y) {
+    const uint32_t count = find_crossings(s, y);
     line->y = y;
-    line->made = true;
+    line->built = true;
     line->count = 0;
     JOX_RESERVE(line->stretches, line->capacity, count / 2 + 1);
     for (uint32_t k = 0; k + 1 < count; k += 2) {
         const Crossing *c = &s->crossings[k];
-        const struct Box *box = &s->boxes[c->solid]; /* which rounding does not pass */
+        const struct Box *box = &s->boxes[c->solid]; /* limits the rounding of crossings */
         const Stretch within = {jox_maxf(c[0].x, box->low.x),
                                 jox_minf(c[1].x, nextafterf(box->high.x, INFINITY))};
         if (within.from < within.to)
             line->stretches[line->count++] = within;
     }
-    join(line);
+    merge_stretches(line);
 }
 
-static Line *line_of(JoxDensitySolids *s, float y) {
+static Line *find_line(JoxDensitySolids *s, float y) {
     Line *line = &s->lines[(jox_float_bits(y) * 2654435761u) >> 16 & (LINES - 1)];
-    if (!line->made || line->y != y)
-        make(s, line, y);
+    if (!line->built || line->y != y)
+        build_line(s, line, y);
     return line;
 }
 
 bool jox_density_within(JoxDensitySolids *s, JoxV2 p) {
     if (s->edge_count == 0)
         return false;
-    const Line *line = line_of(s, p.y);
+    const Line *line = find_line(s, p.y);
     uint32_t low = 0, high = line->count;
-    while (low < high) { /* the first that ends beyond the point */
+    while (low < high) { /* find the first stretch that ends beyond the point */
         const uint32_t middle = (low + high) / 2;
         if (line->stretches[middle].to > p.x)
             high = middle;

@@ -1,5 +1,5 @@
-/* The kernel where there are no walls: the Gaussian itself, along x and then along y, strip by
-   strip of rows. What is along x is kept for as many rows as the Gaussian reaches over. */
+/* The kernel without walls: the Gaussian, first along x, then along y, in strips of rows. Results
+   along x are kept for as many rows as the Gaussian reaches. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ static const struct Kernels {
 
 enum {
     MOST_TAPS = 2 * JOX_DENSITY_MOST_REACH + 1,
-    STRIP_CELLS = 1 << 18 /* of a field at a time, which caches hold */
+    STRIP_CELLS = 1 << 18 /* cells of one field in a strip, so that it fits into the cache */
 };
 
 float jox_density_variance(const JoxDensity *d) {
@@ -26,13 +26,13 @@ float jox_density_variance(const JoxDensity *d) {
     return jox_maxf(wide * wide - 1.0f / 6.0f, 0.0f);
 }
 
-/* The Gaussian along one axis, from -reach to reach; its sum is one. */
+/* The Gaussian along one axis, from -reach to reach; the sum is 1. */
 typedef struct Taps {
     int reach, count;
     float values[MOST_TAPS];
 } Taps;
 
-static void tabulate(const JoxDensity *d, Taps *taps) {
+static void tabulate_taps(const JoxDensity *d, Taps *taps) {
     double v = jox_density_variance(d), sum = 0.0;
     const int reach = taps->reach =
         (int)jox_clampf(3.0f * sqrtf((float)v) + 1.0f, 1.0f, JOX_DENSITY_MOST_REACH);
@@ -46,34 +46,34 @@ static void tabulate(const JoxDensity *d, Taps *taps) {
         middle[k] = middle[-k] = middle[k] / (float)sum;
 }
 
-/* ---- where there is something ---- */
+/* ---- non-zero columns ---- */
 
-static float *row_of(const JoxDensity *d, int field, int row) {
+static float *strip_row(const JoxDensity *d, int field, int row) {
     return d->work.mass[field] + (size_t)(row - d->work.first) * (size_t)d->wide;
 }
 
-/* What is nothing adds nothing, to the bit, so that columns are passed over of which no mark is
-   set. */
+/* Zeros add exactly nothing to a sum, so columns without a mark are skipped. */
 
-/* Of a row of the strip. */
-static uint64_t marks_in(const JoxDensity *d, int field, int row) {
-    JoxDensityHeldKernel *const look = KERNELS[jox_isa_resolve(d->isa)].held;
-    const float *cells = row_of(d, field, row);
+/* Returns the marks of a row of the strip. */
+static uint64_t mark_row(const JoxDensity *d, int field, int row) {
+    JoxDensityHeldKernel *const find_held = KERNELS[jox_isa_resolve(d->isa)].held;
+    const float *cells = strip_row(d, field, row);
     uint64_t marks = 0;
     for (int c = 0; c < d->wide; c += 64) {
-        uint64_t some = look(cells + c, d->wide - c < 64 ? d->wide - c : 64);
-        while (some) {
-            const int first = __builtin_ctzll(some), beyond = ((first >> d->stretch) + 1)
-                                                              << d->stretch;
+        uint64_t nonzero = find_held(cells + c, d->wide - c < 64 ? d->wide - c : 64);
+        while (nonzero) {
+            const int first = __builtin_ctzll(nonzero), beyond = ((first >> d->stretch) + 1)
+                                                                 << d->stretch;
             marks |= UINT64_C(1) << ((c + first) >> d->stretch);
-            some = beyond < 64 ? some & ~UINT64_C(0) << beyond : 0;
+            nonzero = beyond < 64 ? nonzero & ~UINT64_C(0) << beyond : 0;
         }
     }
     return marks;
 }
 
-/* Takes the first stretches that stand side by side out of the marks: columns from..to. */
-static bool next_span(const JoxDensity *d, uint64_t *marks, int *from, int *to) {
+/* Takes the first group of adjacent marks out of `marks` and sets the columns from..to that it
+   covers. Returns false if there are no marks. */
+static bool take_marked_span(const JoxDensity *d, uint64_t *marks, int *from, int *to) {
     if (!*marks)
         return false;
     const int first = __builtin_ctzll(*marks);
@@ -86,24 +86,25 @@ static bool next_span(const JoxDensity *d, uint64_t *marks, int *from, int *to) 
     return true;
 }
 
-/* The marks of columns from..to. */
-static uint64_t marks_of(const JoxDensity *d, int from, int to) {
+/* Returns the marks of columns from..to. */
+static uint64_t mark_columns(const JoxDensity *d, int from, int to) {
     const int first = from >> d->stretch, last = to >> d->stretch;
     return (~UINT64_C(0) >> (63 - last)) & (~UINT64_C(0) << first);
 }
 
-/* The marks of all that lies within `reach` of what is marked. */
-static uint64_t marks_about(const JoxDensity *d, uint64_t marks, int reach) {
+/* Returns the marks of all columns within `reach` of a mark. */
+static uint64_t widen_marks(const JoxDensity *d, uint64_t marks, int reach) {
     uint64_t about = 0;
-    for (int from, to; next_span(d, &marks, &from, &to);)
-        about |= marks_of(d, from > reach ? from - reach : 0,
-                          to + reach < d->wide ? to + reach : d->wide - 1);
+    for (int from, to; take_marked_span(d, &marks, &from, &to);)
+        about |= mark_columns(d, from > reach ? from - reach : 0,
+                              to + reach < d->wide ? to + reach : d->wide - 1);
     return about;
 }
 
-/* The next span of columns that are read, counted from the first of them. */
-static bool next_read(const JoxDensity *d, uint64_t *marks, int *from, int *count) {
-    for (int first, last; next_span(d, marks, &first, &last);) {
+/* Takes the next columns that are read out of `marks`: `count` columns from `from` on, counted
+   without the edge. Returns false if there are none. */
+static bool take_read_span(const JoxDensity *d, uint64_t *marks, int *from, int *count) {
+    for (int first, last; take_marked_span(d, marks, &first, &last);) {
         *from = first > d->edge ? first - d->edge : 0;
         *count = (last - d->edge < (int)d->columns ? last - d->edge + 1 : (int)d->columns) - *from;
         if (*count > 0)
@@ -114,35 +115,35 @@ static bool next_read(const JoxDensity *d, uint64_t *marks, int *from, int *coun
 
 /* ---- rows ---- */
 
-static float *line_of(const JoxDensity *d, const Taps *taps, int field, int row) {
+static float *x_row(const JoxDensity *d, const Taps *taps, int field, int row) {
     return d->work.lines[field] + (size_t)(row % taps->count) * d->columns;
 }
 
-/* A row of the strip along x, where `marks` has something of it. */
-static void along_x(JoxDensity *d, const Taps *taps, int field, int row, uint64_t marks,
-                    JoxDensitySumKernel *sum) {
-    const float *in = row_of(d, field, row);
-    float *out = line_of(d, taps, field, row);
+/* Convolves a row of the strip along x, at marked columns. */
+static void convolve_along_x(JoxDensity *d, const Taps *taps, int field, int row, uint64_t marks,
+                             JoxDensitySumKernel *sum) {
+    const float *in = strip_row(d, field, row);
+    float *out = x_row(d, taps, field, row);
     const float *from[MOST_TAPS];
     memset(out, 0, d->columns * sizeof *out);
-    for (int first, count; next_read(d, &marks, &first, &count);) {
+    for (int first, count; take_read_span(d, &marks, &first, &count);) {
         for (int k = 0; k < taps->count; k++)
             from[k] = in + d->edge + first + taps->reach - k;
         sum(from, taps->values, taps->count, 1.0f, out + first, count);
     }
 }
 
-/* A row that is read, of those about it along y. */
-static void along_y(const JoxDensity *d, const Taps *taps, int field, int row, float *out,
-                    JoxDensitySumKernel *sum) {
+/* Convolves along y to get an output row. */
+static void convolve_along_y(const JoxDensity *d, const Taps *taps, int field, int row, float *out,
+                             JoxDensitySumKernel *sum) {
     const float per = 1.0f / (d->cell * d->cell);
     const uint64_t *marks = d->work.marks;
     uint64_t any = 0;
     memset(out, 0, d->columns * sizeof *out);
     for (int r = row - taps->reach; r <= row + taps->reach; r++)
         any |= marks[r];
-    for (int first, count; next_read(d, &any, &first, &count);) {
-        const uint64_t here = marks_of(d, d->edge + first, d->edge + first + count - 1);
+    for (int first, count; take_read_span(d, &any, &first, &count);) {
+        const uint64_t here = mark_columns(d, d->edge + first, d->edge + first + count - 1);
         const float *from[MOST_TAPS];
         float values[MOST_TAPS];
         int rows = 0;
@@ -150,7 +151,7 @@ static void along_y(const JoxDensity *d, const Taps *taps, int field, int row, f
             const int r = row - taps->reach + k;
             if (!(marks[r] & here))
                 continue;
-            from[rows] = line_of(d, taps, field, r) + first;
+            from[rows] = x_row(d, taps, field, r) + first;
             values[rows++] = taps->values[k];
         }
         sum(from, values, rows, per, out + first, count);
@@ -159,16 +160,16 @@ static void along_y(const JoxDensity *d, const Taps *taps, int field, int row, f
 
 static void spread_row(JoxDensity *d, const Taps *taps, int row, float *const *out) {
     JoxDensitySumKernel *const sum = KERNELS[jox_isa_resolve(d->isa)].sum;
-    const int done = row - taps->reach; /* all that it is made of is there */
+    const int done = row - taps->reach; /* the last row whose neighbours along y are complete */
     const int read = done - d->edge;
     uint64_t marks = 0;
     for (int f = 0; f < d->work.fields; f++)
-        marks |= marks_in(d, f, row);
-    marks = d->work.marks[row] = marks_about(d, marks, taps->reach);
+        marks |= mark_row(d, f, row);
+    marks = d->work.marks[row] = widen_marks(d, marks, taps->reach);
     for (int f = 0; f < d->work.fields && marks; f++)
-        along_x(d, taps, f, row, marks, sum);
+        convolve_along_x(d, taps, f, row, marks, sum);
     for (int f = 0; f < d->work.fields && read >= 0 && read < (int)d->rows; f++)
-        along_y(d, taps, f, done, out[f] + (size_t)read * d->columns, sum);
+        convolve_along_y(d, taps, f, done, out[f] + (size_t)read * d->columns, sum);
 }
 
 void jox_density_spread(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
@@ -176,7 +177,7 @@ void jox_density_spread(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
     JoxDensityWork *w = &d->work;
     const int rows = jox_density_clamped((double)STRIP_CELLS / d->wide, d->high - 1) + 1;
     Taps taps;
-    tabulate(d, &taps);
+    tabulate_taps(d, &taps);
     JOX_ASSERT(taps.reach < d->edge);
     if (!w->marks)
         w->marks = jox_alloc((size_t)d->high, sizeof *w->marks);

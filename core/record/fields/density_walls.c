@@ -1,5 +1,5 @@
-/* The floor that walls leave: the nodes of cells, where one can go from one to the next, and the
-   area that belongs to each. */
+/* Builds the floor that walls leave: the nodes of cells, the ways between adjacent nodes, and the
+   area of each node. jox_density_walls rebuilds it when walls change. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,16 +10,19 @@
 #include "record/fields/density_parts.h"
 
 typedef struct JoxDensityBar Bar;
-/* Points by which a cell is judged, a lattice of Fibonacci: along every axis all different. */
-enum { FINE = 89, TURN = 55, SIDE = 16 }; /* SIDE: along a side of it */
-static const double TOUCHES = 1e-9;       /* of a length: as near as that is on it */
-static const float OFF = 0.02f;           /* of a cell: nodes are at least so far from walls */
-static const float LEAST_AREA = 0.1f; /* of a cell: of a node that has less, those beside take it */
+/* Sample points of a cell: a Fibonacci lattice of FINE points, whose coordinates along each axis
+   are all different. */
+enum { FINE = 89, TURN = 55, SIDE = 16 }; /* SIDE: sample points along a side of a cell */
+static const double TOUCHES = 1e-9;       /* share of a length that counts as touching */
+static const float OFF = 0.02f;           /* cells: least distance of a node from walls */
+/* Cells: a node with less area is dropped; its area goes to nodes beside it. */
+static const float LEAST_AREA = 0.1f;
 
-/* ---- which walls pass through which cells ---- */
+/* ---- wall edges by cell ---- */
 
-/* Shows each cell that a bar passes through to the count of `first`, or with `fill` to the list. */
-static void pass_through(JoxDensity *d, uint32_t bar, bool fill) {
+/* Enters a bar for each cell that it passes through: counts it in `first` or, with `fill`, lists
+   it. */
+static void enter_bar(JoxDensity *d, uint32_t bar, bool fill) {
     JoxDensityFloor *f = d->floor;
     const Bar *b = &f->bars[bar];
     const JoxV2 low = jox_density_corner(d);
@@ -31,7 +34,7 @@ static void pass_through(JoxDensity *d, uint32_t bar, bool fill) {
         return;
     int last = jox_density_clamped(fmax(ay, by) + e, d->high - 1);
     for (int row = jox_density_clamped(fmin(ay, by) - e, d->high - 1); row <= last; row++) {
-        double from = 0.0, to = 1.0; /* the stretch of the bar within the row */
+        double from = 0.0, to = 1.0; /* part of the bar within the row */
         if (fabs(by - ay) > TOUCHES) {
             double s = (row - e - ay) / (by - ay), t = (row + 1 + e - ay) / (by - ay);
             from = fmax(from, fmin(s, t));
@@ -65,25 +68,26 @@ static void list_bars(JoxDensity *d, const JoxWalls *walls) {
     }
     memset(f->first, 0, (cells + 1) * sizeof *f->first);
     for (uint32_t b = 0; b < f->bar_count; b++)
-        pass_through(d, b, false);
-    for (size_t c = 0; c < cells; c++) /* the ends of the cells' lists, which filling moves down */
+        enter_bar(d, b, false);
+    for (size_t c = 0; c < cells;
+         c++) /* `first` becomes the end of each list; filling moves it down to the beginning */
         f->first[c + 1] += f->first[c];
     JOX_RESERVE(f->passing, f->passing_capacity, f->first[cells] + 1);
     JOX_RESERVE(f->node, f->node_capacity, f->first[cells] + 1);
     for (uint32_t b = f->bar_count; b-- > 0;)
-        pass_through(d, b, true);
+        enter_bar(d, b, true);
 }
 
 /* ---- nodes ---- */
 
-static JoxV2 fine_point(const JoxDensity *d, int column, int row, int k) {
+static JoxV2 sample_point(const JoxDensity *d, int column, int row, int k) {
     const JoxV2 low = jox_density_corner(d);
     return jox_v2(low.x + ((float)column + ((float)k + 0.5f) / FINE) * d->cell,
                   low.y + ((float)row + ((float)(k * TURN % FINE) + 0.5f) / FINE) * d->cell);
 }
 
-/* Whether a node can stand at p: on the floor, and not on a wall. */
-static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, JoxDensitySolids *solids) {
+/* Returns whether a node can be at p: on the floor, and off the walls. */
+static bool can_hold_node(const JoxDensity *d, size_t cell, JoxV2 p, JoxDensitySolids *solids) {
     const JoxDensityFloor *f = d->floor;
     float off = OFF * d->cell;
     for (uint32_t k = f->first[cell]; k < f->first[cell + 1]; k++) {
@@ -95,8 +99,9 @@ static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, JoxDensitySolids *
     return !jox_density_within(solids, p);
 }
 
-/* The middle of each cell, or where that cannot be walked on the nearest point that can. `per` is 1
-   where there is one. Cells without walls are as the one before them in their row. */
+/* Sets nodes to the middle of each cell or, if that is not walkable, to the nearest walkable sample
+   point; `per` is 1 for cells with a node. A cell without walls has a node if the cell before it in
+   its row has one, as no wall lies between them. */
 static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
@@ -113,13 +118,13 @@ static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
                 f->per[cell] = f->per[cell - 1];
                 continue;
             }
-            f->per[cell] = stands(d, cell, middle, solids) ? 1.0f : 0.0f;
+            f->per[cell] = can_hold_node(d, cell, middle, solids) ? 1.0f : 0.0f;
             float nearest = INFINITY;
             for (int k = 0; k < FINE && jox_density_has_wall(f, cell) && f->per[cell] == 0.0f;
                  k++) {
-                JoxV2 p = fine_point(d, column, row, k);
+                JoxV2 p = sample_point(d, column, row, k);
                 float away = jox_length2(jox_sub(p, middle));
-                if (away < nearest && stands(d, cell, p, solids)) {
+                if (away < nearest && can_hold_node(d, cell, p, solids)) {
                     nearest = away;
                     f->node[f->first[cell]] = p;
                 }
@@ -129,8 +134,9 @@ static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
         }
 }
 
-/* The node to which a point of the floor belongs; false: none that is seen from there. */
-static bool owner_of(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int *node) {
+/* Sets the node that a point of the floor belongs to. Returns false if no node is visible from
+   it. */
+static bool find_owner(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int *node) {
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
     int column = jox_density_clamped((p.x - low.x) / d->cell, d->wide - 1);
@@ -139,7 +145,7 @@ static bool owner_of(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int
     *node = cell;
     if (!f->near[cell])
         return true;
-    /* Without a wall in it a cell lies within a solid, or outside, as its node does. */
+    /* A cell without walls is entirely walkable or not, as its node tells. */
     if ((jox_density_has_wall(f, (size_t)cell) ? jox_density_within(solids, p)
                                                : f->per[cell] <= 0.0f) ||
         jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
@@ -148,46 +154,49 @@ static bool owner_of(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int
     return true;
 }
 
-static JoxV2 node_of(const JoxDensity *d, int cell) {
+static JoxV2 locate_node(const JoxDensity *d, int cell) {
     return jox_density_node_at(d, cell % d->wide, cell / d->wide);
 }
 
-/* People go from node a to node b over so much of a side. */
-static void link(JoxDensity *d, int a, int b, float side) {
+/* Adds a way between nodes a and b of the width `side`, in cells. */
+static void widen_way(JoxDensity *d, int a, int b, float side) {
     JoxDensityFloor *f = d->floor;
     const int first = a < b ? a : b, away = abs(b - a);
     if (away == 1)
         f->open_x[first] += side;
     else if (away == d->wide)
         f->open_y[first] += side;
-    else if (away > 0) { /* aslant: they are farther from each other */
+    else if (away > 0) { /* not along x or y: the flow is lower by the longer distance */
         JOX_RESERVE(f->slants, f->slant_capacity, f->slant_count + 1);
         f->slants[f->slant_count++] = (struct JoxDensitySlant){
             (uint32_t)a, (uint32_t)b,
-            side * d->cell / jox_maxf(jox_length(jox_sub(node_of(d, a), node_of(d, b))), d->cell)};
+            side * d->cell /
+                jox_maxf(jox_length(jox_sub(locate_node(d, a), locate_node(d, b))), d->cell)};
     }
 }
 
-/* The ways over the side from `from` by `along` between the cell and the one beyond. */
-static void link_side(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 along,
-                      JoxDensitySolids *solids) {
+/* Adds the ways over a side, which begins at `from` and extends by `along`, between a cell and the
+   one beyond it. */
+static void add_side_ways(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 along,
+                          JoxDensitySolids *solids) {
     const JoxDensityFloor *f = d->floor;
-    const JoxV2 off = {along.y * 1e-3f, along.x * 1e-3f}; /* to the cell beyond */
+    const JoxV2 off = {along.y * 1e-3f,
+                       along.x * 1e-3f}; /* a small offset towards the cell beyond */
     if (!f->near[cell] && !f->near[beyond]) {
-        link(d, cell, beyond, 1.0f);
+        widen_way(d, cell, beyond, 1.0f);
         return;
     }
     for (int k = 0; k < SIDE; k++) {
         int a, b;
         JoxV2 p = jox_add(from, jox_scale(along, ((float)k + 0.5f) / SIDE));
         JoxV2 before = jox_sub(p, off), behind = jox_add(p, off);
-        if (owner_of(d, before, solids, &a) && owner_of(d, behind, solids, &b) && a != b &&
+        if (find_owner(d, before, solids, &a) && find_owner(d, behind, solids, &b) && a != b &&
             !jox_density_hidden(d, before, behind))
-            link(d, a, b, 1.0f / SIDE);
+            widen_way(d, a, b, 1.0f / SIDE);
     }
 }
 
-/* Where one can go. Nothing goes beyond the outermost cells but one. */
+/* Adds all ways. The outermost ring of cells has none, so that no mass leaves the grid. */
 static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
@@ -201,14 +210,17 @@ static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
             const int cell = row * wide + column;
             const float x = low.x + (float)column * d->cell, y = low.y + (float)row * d->cell;
             if (column + 2 < wide)
-                link_side(d, cell, cell + 1, jox_v2(x + d->cell, y), jox_v2(0, d->cell), solids);
+                add_side_ways(d, cell, cell + 1, jox_v2(x + d->cell, y), jox_v2(0, d->cell),
+                              solids);
             if (row + 2 < d->high)
-                link_side(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0), solids);
+                add_side_ways(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0),
+                              solids);
         }
 }
 
-/* Which cells' people have walls or solids between them and the nodes around. */
-static void mark_near(JoxDensity *d) {
+/* Marks cells next to walls or solids, where these may lie between a point of the cell and nodes
+   around. */
+static void mark_near_walls(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     for (int row = 0; row < d->high; row++)
         for (int column = 0; column < d->wide; column++) {
@@ -224,11 +236,13 @@ static void mark_near(JoxDensity *d) {
 
 /* ---- areas ---- */
 
-/* What a cell's floor gives to the nodes around, if people stand anywhere on it alike. */
+/* Adds the floor of a cell to the areas of the nodes around, in the shares that people evenly
+   spread over the cell would have. */
 static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
-    if (!f->near[cell]) { /* means of the shares over the cell: 3/4 of each side, 1/8 to the next */
+    if (!f->near[cell]) { /* means of the shares over the cell: along each axis 3/4 for its node,
+                             1/8 for each next one */
         static const float MEAN[3] = {0.125f, 0.75f, 0.125f};
         for (int r = -1; r <= 1; r++)
             for (int c = -1; c <= 1; c++)
@@ -240,7 +254,7 @@ static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *sol
     for (int k = 0; k < FINE; k++) {
         uint32_t nodes[4];
         float shares[4];
-        JoxV2 p = fine_point(d, column, row, k);
+        JoxV2 p = sample_point(d, column, row, k);
         if (jox_density_has_wall(f, cell) && jox_density_within(solids, p))
             continue;
         int n = jox_density_share(d, p.x, p.y, nodes, shares);
@@ -249,7 +263,7 @@ static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *sol
     }
 }
 
-static void measure(JoxDensity *d, JoxDensitySolids *solids) {
+static void measure_areas(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
     memset(f->area, 0, (size_t)d->wide * (size_t)d->high * sizeof *f->area);
     for (int row = 1; row < d->high - 1; row++)
@@ -257,11 +271,13 @@ static void measure(JoxDensity *d, JoxDensitySolids *solids) {
             share_area(d, column, row, solids);
 }
 
-/* Narrows the ways of nodes with little area, so that no more leaves in a step than is there. */
+/* Narrows the ways of nodes with little area, so that a step never moves more mass than a node
+   has. */
 static void narrow_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     const int wide = d->wide, last = wide * (d->high - 1);
-    float *room = jox_density_spare(d); /* the ways from a node, then how much of them is used */
+    float *room =
+        jox_density_spare(d); /* total width of the ways of a node, then the factor for its ways */
     for (int c = wide; c < last; c++)
         room[c] = f->open_x[c] + f->open_x[c - 1] + f->open_y[c] + f->open_y[c - wide];
     for (uint32_t s = 0; s < f->slant_count; s++) {
@@ -281,12 +297,13 @@ static void narrow_ways(JoxDensity *d) {
         f->slants[s].open *= jox_minf(room[f->slants[s].a], room[f->slants[s].b]);
 }
 
-/* Once more where nodes have next to no area of their own, which they leave to those beside. */
+/* Builds ways and areas. Nodes with too little area are dropped, and all is built again, so that
+   nodes beside them get the area. */
 static void make_ways(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
-    mark_near(d);
+    mark_near_walls(d);
     open_ways(d, solids);
-    measure(d, solids);
+    measure_areas(d, solids);
     bool fewer = false;
     for (int cell = 0; cell < d->wide * d->high; cell++)
         if (f->per[cell] > 0.0f && f->area[cell] < LEAST_AREA) {
@@ -294,14 +311,14 @@ static void make_ways(JoxDensity *d, JoxDensitySolids *solids) {
             fewer = true;
         }
     if (fewer) {
-        mark_near(d);
+        mark_near_walls(d);
         open_ways(d, solids);
-        measure(d, solids);
+        measure_areas(d, solids);
     }
     narrow_ways(d);
 }
 
-static void make_floor(JoxDensity *d) {
+static void create_floor(JoxDensity *d) {
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     JoxDensityFloor *f = d->floor = jox_alloc(1, sizeof *f);
     f->open_x = jox_alloc(cells, sizeof *f->open_x);
@@ -313,7 +330,7 @@ static void make_floor(JoxDensity *d) {
     f->run_first = jox_alloc((size_t)d->high + 1, sizeof *f->run_first);
 }
 
-static uint64_t hash_of(const JoxWalls *walls) {
+static uint64_t hash_rings(const JoxWalls *walls) {
     JoxHash hash = jox_hash_begin();
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
@@ -331,11 +348,11 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
         d->floor = NULL;
         return;
     }
-    uint64_t hash = hash_of(walls);
+    uint64_t hash = hash_rings(walls);
     if (d->floor && d->floor->hash == hash)
         return;
     if (!d->floor)
-        make_floor(d);
+        create_floor(d);
     d->floor->hash = hash;
     JoxDensitySolids *solids = jox_density_solids_create(d, walls);
     list_bars(d, walls);

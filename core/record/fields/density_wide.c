@@ -1,4 +1,4 @@
-/* The kernels of density: people between nodes, sums of rows, steps of diffusion. */
+/* Kernels of density_kernels.h: positions between nodes, sums of rows, and steps of diffusion. */
 #include <math.h>
 #include <string.h>
 
@@ -7,13 +7,13 @@
 
 /* ---- people ---- */
 
-/* Image k of the people of a packet; which of them are wanted. */
+/* Places image k of the people in a packet, and returns the mask of those wanted. */
 static JoxMask place_image(const JoxDensityAxis *axis, JoxFloats at, uint32_t k, size_t to,
                            JoxDensityPlaced *placed) {
     const float shift = ((float)k - 1.0f) * axis->period;
     const JoxFloats place = (at + shift - axis->low) / axis->cell;
     const JoxFloats from_node = place - 0.5f;
-    const JoxInts node = jf_to_ints(from_node); /* what is wanted lies above zero */
+    const JoxInts node = jf_to_ints(from_node); /* floor: wanted positions are positive */
     ji_store(placed->node[k] + to, node);
     jf_store(placed->share[k] + to, from_node - ji_to_floats(node));
     return jm_and(jf_le(jf_set(axis->first), place), jf_lt(place, jf_set(axis->end)));
@@ -23,28 +23,28 @@ static uint32_t place_packet(const JoxDensityAxis *axis, JoxFloats at, size_t to
                              JoxDensityPlaced *placed) {
     const uint32_t from = axis->period > 0.0f ? 0 : 1, end = axis->period > 0.0f ? 3 : 2;
     JoxInts images = ji_set(0);
-    uint32_t some = 0;
+    uint32_t nonzero = 0;
     for (uint32_t k = from; k < end; k++) {
         const JoxMask wanted = place_image(axis, at, k, to, placed);
-        some |= jm_bits(wanted);
+        nonzero |= jm_bits(wanted);
         images = ji_or(images, ji_select(wanted, ji_set(1 << k), ji_set(0)));
     }
     ji_store(placed->images + to, images);
-    return some;
+    return nonzero;
 }
 
 bool JOX_WIDE(jox_density_place)(const JoxDensityAxis *axis, const float *at, uint32_t count,
                                  JoxDensityPlaced *placed) {
-    uint32_t some = 0, i = 0;
+    uint32_t nonzero = 0, i = 0;
     for (; i + JOX_WIDTH <= count; i += JOX_WIDTH)
-        some |= place_packet(axis, jf_load(at + i), i, placed);
-    if (i < count) { /* what is not a number is wanted nowhere */
+        nonzero |= place_packet(axis, jf_load(at + i), i, placed);
+    if (i < count) { /* unused lanes are NAN, which is never wanted */
         float rest[JOX_WIDTH];
         for (uint32_t l = 0; l < JOX_WIDTH; l++)
             rest[l] = i + l < count ? at[i + l] : NAN;
-        some |= place_packet(axis, jf_load(rest), i, placed);
+        nonzero |= place_packet(axis, jf_load(rest), i, placed);
     }
-    return some != 0;
+    return nonzero != 0;
 }
 
 uint64_t JOX_WIDE(jox_density_held)(const float *cells, int count) {
@@ -61,7 +61,7 @@ uint64_t JOX_WIDE(jox_density_held)(const float *cells, int count) {
 
 /* ---- sums of rows ---- */
 
-enum { BLOCK = 4 }; /* packets whose sums are in registers at a time */
+enum { BLOCK = 4 }; /* packets whose sums are kept in registers */
 
 static inline void sum_packets(const float *const *rows, const float *taps, int count, float scale,
                                float *out, int at, int packets) {
@@ -88,7 +88,8 @@ void JOX_WIDE(jox_density_sum)(const float *const *rows, const float *taps, int 
         sum_packets(rows, taps, count, scale, out, at, BLOCK);
     for (; at + JOX_WIDTH <= columns; at += JOX_WIDTH)
         sum_packets(rows, taps, count, scale, out, at, 1);
-    if (at < columns && columns >= JOX_WIDTH) { /* some of them once more, as they are */
+    if (at < columns && columns >= JOX_WIDTH) {
+        /* The last packet overlaps the one before: it computes the same values again. */
         sum_packets(rows, taps, count, scale, out, columns - JOX_WIDTH, 1);
         return;
     }
@@ -102,16 +103,17 @@ void JOX_WIDE(jox_density_sum)(const float *const *rows, const float *taps, int 
 
 /* ---- steps ---- */
 
-void JOX_WIDE(jox_density_reach)(const uint64_t *restrict is, const uint64_t *restrict right,
+void JOX_WIDE(jox_density_reach)(const uint64_t *restrict reached, const uint64_t *restrict right,
                                  const uint64_t *restrict up, int row, int from, int to,
                                  uint64_t *restrict next) {
     for (int i = from; i < to; i++)
-        next[i] = is[i] | (is[i] & right[i]) << 1 | (is[i - 1] & right[i - 1]) >> 63 |
-                  ((is[i] >> 1 | is[i + 1] << 63) & right[i]) | (is[i - row] & up[i - row]) |
-                  (is[i + row] & up[i]);
+        next[i] = reached[i] | (reached[i] & right[i]) << 1 |
+                  (reached[i - 1] & right[i - 1]) >> 63 |
+                  ((reached[i] >> 1 | reached[i + 1] << 63) & right[i]) |
+                  (reached[i - row] & up[i - row]) | (reached[i + row] & up[i]);
 }
 
-static inline void mixed_packet(const JoxDensityStep *s, int c, float *out) {
+static inline void step_mixed_packet(const JoxDensityStep *s, int c, float *out) {
     const float *at = s->u + c, *x = s->open_x + c, *y = s->open_y + c;
     const JoxFloats u = jf_load(at), share = s->share * jf_load(s->per + c);
     const JoxFloats right = jf_load(x) * (jf_load(at + 1) - u);
@@ -122,8 +124,8 @@ static inline void mixed_packet(const JoxDensityStep *s, int c, float *out) {
     jf_store(out + c, u + share * gained);
 }
 
-/* The same, where all that is multiplied by is 1. */
-static inline void plain_packet(const JoxDensityStep *s, int c, float *out) {
+/* As step_mixed_packet, where all open widths and `per` are 1. */
+static inline void step_plain_packet(const JoxDensityStep *s, int c, float *out) {
     const float *at = s->u + c;
     const JoxFloats u = jf_load(at);
     const JoxFloats right = jf_load(at + 1) - u, left = u - jf_load(at - 1);
@@ -140,8 +142,8 @@ static void step_cell(const JoxDensityStep *s, int c, float *out) {
                        y[-s->wide] * (*u - u[-s->wide]));
 }
 
-/* In packets, of which the last may have cells in it that were stepped before: what comes of them
-   is the same once more. */
+/* Steps cells in packets. The last packet may overlap cells computed before, and computes the same
+   values again. */
 #define STEP(name, packet)                                                                         \
     void JOX_WIDE(name)(const JoxDensityStep *s, int low, int from, int to, float *out) {          \
         for (; from + JOX_WIDTH <= to; from += JOX_WIDTH)                                          \
@@ -153,5 +155,5 @@ static void step_cell(const JoxDensityStep *s, int c, float *out) {
         for (; from < to; from++)                                                                  \
             step_cell(s, from, out);                                                               \
     }
-STEP(jox_density_step_mixed, mixed_packet)
-STEP(jox_density_step_plain, plain_packet)
+STEP(jox_density_step_mixed, step_mixed_packet)
+STEP(jox_density_step_plain, step_plain_packet)

@@ -8,9 +8,10 @@
 #include "base/vec.h"
 
 enum { QUARTERS = 4 };
-/* Share of the variance that is within a quarter, unless the flow changed. */
+/* Least share of the whole variance that lies within a quarter of the span, if the flow is
+   steady. */
 static const float STEADY = 0.25f;
-static const float NOBODY = 0.02f; /* 1/m2: below this there is no velocity */
+static const float NOBODY = 0.02f; /* 1/m2: at lower density a cell has no velocity */
 
 /* Sums of a cell over the samples of a quarter. */
 typedef struct Sums {
@@ -21,14 +22,14 @@ struct JoxPressure {
     uint32_t columns, rows;
     size_t cells;
     float cell; /* m */
-    /* Sums over all cells to the left and below, of pressures and of how many measured one; a
-       column and a row more than there are cells. */
+    /* Summed-area tables of pressures and of measured cells; one column and row more than the
+       grid. */
     double *sum;
     uint32_t *count;
-    Sums *quarters[QUARTERS]; /* the last is being filled */
+    Sums *quarters[QUARTERS]; /* the last one is being filled */
     float *now;
-    int samples[QUARTERS], filled; /* of each; quarters that are whole */
-    double begun, last;            /* s: of the last quarter; the last sample */
+    int samples[QUARTERS], filled; /* samples in each quarter; number of complete quarters */
+    double begun, last;            /* s: beginning of the last quarter; time of the last sample */
 };
 
 JoxPressure *jox_pressure_create(uint32_t columns, uint32_t rows, float cell) {
@@ -59,8 +60,8 @@ static void begin_quarter(JoxPressure *p, double t) {
     p->begun = t;
 }
 
-/* The second smallest of the four. */
-static float second(const float v[QUARTERS]) {
+/* Returns the second smallest of four values. */
+static float find_second_least(const float v[QUARTERS]) {
     float least = jox_minf(v[0], v[1]), next = jox_maxf(v[0], v[1]);
     for (int q = 2; q < QUARTERS; q++) {
         next = jox_minf(next, jox_maxf(v[q], least));
@@ -69,7 +70,7 @@ static float second(const float v[QUARTERS]) {
     return next;
 }
 
-static float of_cell(const JoxPressure *p, size_t c) {
+static float measure_cell_pressure(const JoxPressure *p, size_t c) {
     float density = 0.0f, vx = 0.0f, vy = 0.0f, square = 0.0f, within[QUARTERS];
     for (int q = 0; q < QUARTERS; q++) {
         const Sums *s = &p->quarters[q][c];
@@ -85,17 +86,17 @@ static float of_cell(const JoxPressure *p, size_t c) {
     vx /= QUARTERS;
     vy /= QUARTERS;
     float variance = jox_maxf(square / QUARTERS - vx * vx - vy * vy, 0.0f);
-    if (second(within) < STEADY * variance)
+    if (find_second_least(within) < STEADY * variance)
         return NAN;
     return density / QUARTERS * variance;
 }
 
-static void sum_up(JoxPressure *p) {
+static void build_sum_tables(JoxPressure *p) {
     const size_t wide = (size_t)p->columns + 1;
     for (uint32_t r = 0; r < p->rows; r++)
         for (uint32_t c = 0; c < p->columns; c++) {
             const float here = p->now[(size_t)r * p->columns + c];
-            const size_t k = r * wide + c; /* the corner to the left and below */
+            const size_t k = r * wide + c; /* corner at the lower left */
             p->sum[k + wide + 1] =
                 p->sum[k + 1] + p->sum[k + wide] - p->sum[k] + (isnan(here) ? 0.0 : (double)here);
             p->count[k + wide + 1] =
@@ -103,8 +104,9 @@ static void sum_up(JoxPressure *p) {
         }
 }
 
-/* Means over what was measured within the section about each cell that did. */
-static void take_sections(JoxPressure *p) {
+/* Replaces the pressure of each measured cell by the mean over the measured cells of the section
+   around it. */
+static void average_over_sections(JoxPressure *p) {
     const size_t wide = (size_t)p->columns + 1;
     const uint32_t half = (uint32_t)(0.5f * JOX_PRESSURE_SECTION / p->cell);
     const double enough = (double)JOX_PRESSURE_FLOOR / ((double)p->cell * p->cell);
@@ -150,10 +152,10 @@ void jox_pressure_add(JoxPressure *p, double t, const float *density, const floa
         return;
     p->filled += p->filled < QUARTERS;
     for (size_t c = 0; c < p->cells; c++)
-        p->now[c] = p->filled == QUARTERS ? of_cell(p, c) : NAN;
+        p->now[c] = p->filled == QUARTERS ? measure_cell_pressure(p, c) : NAN;
     if (p->filled == QUARTERS) {
-        sum_up(p);
-        take_sections(p);
+        build_sum_tables(p);
+        average_over_sections(p);
     }
     begin_quarter(p, t + JOX_PRESSURE_PACE);
 }

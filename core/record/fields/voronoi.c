@@ -8,7 +8,7 @@
 #include "geom/polygon.h"
 
 static const double TURN = 6.283185307179586;
-enum { MOST_BINS = 1 << 20, CROWDED = 200 /* sites in a bin */ };
+enum { MOST_BINS = 1 << 20, CROWDED = 200 /* sites in a bin that are too many for people */ };
 
 void jox_cell_begin(JoxCell *cell, double cutoff) {
     cell->count = JOX_CELL_CORNERS;
@@ -18,7 +18,7 @@ void jox_cell_begin(JoxCell *cell, double cutoff) {
     }
 }
 
-/* As many corners as there are: most cells have six of 256. */
+/* Copies the used corners only: most cells have six of 256. */
 static void copy_cell(JoxCell *to, const JoxCell *from) {
     to->count = from->count;
     for (uint32_t c = 0; c < from->count; c++) {
@@ -29,7 +29,7 @@ static void copy_cell(JoxCell *to, const JoxCell *from) {
 
 bool jox_cell_cut(JoxCell *cell, double x, double y) {
     double half = 0.5 * (x * x + y * y);
-    JoxCell kept; /* 4 KB: set as far as it is used */
+    JoxCell kept; /* 4 KB: only the used part is set */
     bool cuts = false;
     if (half == 0.0)
         return false;
@@ -67,7 +67,7 @@ double jox_cell_reach2(const JoxCell *cell) {
     return most;
 }
 
-static double area(const double *x, const double *y, uint32_t count) {
+static double measure_polygon_area(const double *x, const double *y, uint32_t count) {
     double sum = 0.0;
     for (uint32_t c = 0; c < count; c++) {
         uint32_t n = c + 1 < count ? c + 1 : 0;
@@ -77,12 +77,12 @@ static double area(const double *x, const double *y, uint32_t count) {
 }
 
 double jox_cell_area(const JoxCell *cell) {
-    return area(cell->x, cell->y, cell->count);
+    return measure_polygon_area(cell->x, cell->y, cell->count);
 }
 
-/* By Green's theorem over the ring's edges: each edge a-b gives the area, with its sign, that the
-   cell shares with the triangle of the person, a and b, where the person lies in the convex cell.
-   So the ring may have any shape. */
+/* Uses Green's theorem over the edges of the ring, which may have any shape: each edge a-b adds the
+   area that the cell shares with the triangle of person, a and b, with the sign of its orientation.
+   The person lies inside the convex cell. */
 double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, uint32_t count) {
     double sum = 0.0;
     for (uint32_t e = 0; e < count; e++) {
@@ -92,7 +92,8 @@ double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, ui
         x[0][0] = 0.0, y[0][0] = 0.0;
         x[0][1] = (double)from.x - at.x, y[0][1] = (double)from.y - at.y;
         x[0][2] = (double)to.x - at.x, y[0][2] = (double)to.y - at.y;
-        for (uint32_t c = 0; c < cell->count && corners > 0; c++) { /* clip by the cell's sides */
+        for (uint32_t c = 0; c < cell->count && corners > 0;
+             c++) { /* clip by the sides of the cell */
             uint32_t n = c + 1 < cell->count ? c + 1 : 0, kept = 0;
             double sx = cell->x[n] - cell->x[c], sy = cell->y[n] - cell->y[c];
             for (uint32_t k = 0; k < corners; k++) {
@@ -112,7 +113,8 @@ double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, ui
             corners = kept;
             now = !now;
         }
-        sum += area(x[now], y[now], corners); /* clockwise triangles count as negative */
+        sum += measure_polygon_area(x[now], y[now],
+                                    corners); /* clockwise triangles count as negative */
     }
     return fabs(sum);
 }
@@ -123,26 +125,26 @@ void jox_sites_clear(JoxSites *s) {
     s->count = 0;
 }
 
-void jox_sites_add(JoxSites *s, JoxV2 point, uint32_t who) {
+void jox_sites_add(JoxSites *s, JoxV2 point, uint32_t person) {
     JOX_RESERVE(s->points, s->capacity, s->count + 1);
-    JOX_RESERVE(s->who, s->who_capacity, s->count + 1);
+    JOX_RESERVE(s->person, s->person_capacity, s->count + 1);
     s->points[s->count] = point;
-    s->who[s->count++] = who;
+    s->person[s->count++] = person;
 }
 
-static uint32_t column_of(const JoxSites *s, float x) {
+static uint32_t find_bin_column(const JoxSites *s, float x) {
     return (uint32_t)fmin(fmax((x - s->low.x) / s->bin, 0.0), s->columns - 1);
 }
-static uint32_t row_of(const JoxSites *s, float y) {
+static uint32_t find_bin_row(const JoxSites *s, float y) {
     return (uint32_t)fmin(fmax((y - s->low.y) / s->bin, 0.0), s->rows - 1);
 }
-static uint32_t bin_of(const JoxSites *s, JoxV2 p) {
-    return row_of(s, p.y) * s->columns + column_of(s, p.x);
+static uint32_t find_bin(const JoxSites *s, JoxV2 p) {
+    return find_bin_row(s, p.y) * s->columns + find_bin_column(s, p.x);
 }
 
-/* Counts the sites of each bin, but for those that `again` marks, in the place behind it; returns
-   the most. */
-static uint32_t fill_bins(JoxSites *s, double wide, double tall, bool again) {
+/* Counts the sites of each bin, in the element of `first` after it. With `repeated`, repeated sites
+   are left out. Returns the greatest count. */
+static uint32_t fill_bins(JoxSites *s, double wide, double tall, bool repeated) {
     uint32_t most = 0;
     s->columns = (uint32_t)(wide / s->bin) + 1;
     s->rows = (uint32_t)(tall / s->bin) + 1;
@@ -150,30 +152,31 @@ static uint32_t fill_bins(JoxSites *s, double wide, double tall, bool again) {
     JOX_RESERVE(s->first, s->first_capacity, bins + 1);
     memset(s->first, 0, (bins + 1) * sizeof *s->first);
     for (uint32_t i = 0; i < s->count; i++) {
-        if (again && s->again[i])
+        if (repeated && s->repeated[i])
             continue;
-        const uint32_t now = ++s->first[bin_of(s, s->points[i]) + 1];
+        const uint32_t now = ++s->first[find_bin(s, s->points[i]) + 1];
         most = now > most ? now : most;
     }
     return most;
 }
 
-static int compare_places(const void *a, const void *b, const void *context) {
+static int compare_site_points(const void *a, const void *b, const void *context) {
     const JoxV2 p = ((const JoxV2 *)context)[*(const uint32_t *)a],
                 q = ((const JoxV2 *)context)[*(const uint32_t *)b];
     return p.x != q.x ? (p.x > q.x ? 1 : -1) : p.y != q.y ? (p.y > q.y ? 1 : -1) : 0;
 }
 
-/* Marks all but the first of the sites in one place: a cell is cut once by all of them. */
-static void mark_again(JoxSites *s) {
-    JOX_RESERVE(s->again, s->again_capacity, s->count + 1);
-    JOX_RESERVE(s->spare, s->spare_capacity, JOX_SORT_SPARE(s->count));
+/* Marks all but the first of the sites at the same point: cutting a cell by one of them is
+   enough. */
+static void mark_repeated_sites(JoxSites *s) {
+    JOX_RESERVE(s->repeated, s->repeated_capacity, s->count + 1);
+    JOX_RESERVE(s->sort_scratch, s->sort_scratch_capacity, JOX_SORT_SPARE(s->count));
     for (uint32_t i = 0; i < s->count; i++)
         s->order[i] = i;
-    jox_sort(s->order, s->count, sizeof *s->order, compare_places, s->points, s->spare);
+    jox_sort(s->order, s->count, sizeof *s->order, compare_site_points, s->points, s->sort_scratch);
     for (uint32_t k = 0; k < s->count; k++)
-        s->again[s->order[k]] =
-            k > 0 && compare_places(&s->order[k - 1], &s->order[k], s->points) == 0;
+        s->repeated[s->order[k]] =
+            k > 0 && compare_site_points(&s->order[k - 1], &s->order[k], s->points) == 0;
 }
 
 void jox_sites_sort(JoxSites *s, double cutoff) {
@@ -184,15 +187,15 @@ void jox_sites_sort(JoxSites *s, double cutoff) {
         s->low = jox_v2(jox_minf(s->low.x, s->points[i].x), jox_minf(s->low.y, s->points[i].y));
         high = jox_v2(jox_maxf(high.x, s->points[i].x), jox_maxf(high.y, s->points[i].y));
     }
-    jox_cell_begin(&s->whole, cutoff);
+    jox_cell_begin(&s->lone_cell, cutoff);
     s->bin = 0.5 * cutoff;
     if (s->count) {
         wide = (double)high.x - s->low.x, tall = (double)high.y - s->low.y;
         s->bin = fmax(s->bin, sqrt((wide + 1.0) * (tall + 1.0) / MOST_BINS));
     }
     JOX_RESERVE(s->order, s->order_capacity, s->count + 1);
-    /* Denser than people can stand: smaller bins, and each place once, so that the work does not
-       grow with the square of how many there are. */
+    /* Denser than people can stand: use smaller bins and each point once, so that the work does not
+       grow with the square of the number of sites. */
     uint32_t most = fill_bins(s, wide, tall, false);
     for (int halved = 0; most > CROWDED && halved < 3; halved++) {
         if (4.0 * s->columns * s->rows > MOST_BINS)
@@ -200,9 +203,9 @@ void jox_sites_sort(JoxSites *s, double cutoff) {
         s->bin *= 0.5;
         most = fill_bins(s, wide, tall, false);
     }
-    const bool again = most > CROWDED;
-    if (again) {
-        mark_again(s);
+    const bool repeated = most > CROWDED;
+    if (repeated) {
+        mark_repeated_sites(s);
         fill_bins(s, wide, tall, true);
     }
     const uint32_t bins = s->columns * s->rows;
@@ -210,24 +213,25 @@ void jox_sites_sort(JoxSites *s, double cutoff) {
         s->first[b + 1] += s->first[b];
     const uint32_t kept = s->first[bins];
     for (uint32_t i = s->count; i-- > 0;) /* backwards: bins keep the order of the sites */
-        if (!again || !s->again[i])
-            s->order[--s->first[bin_of(s, s->points[i]) + 1]] = i;
-    for (uint32_t b = 0; b < bins; b++) /* the bins' ends have become their beginnings */
+        if (!repeated || !s->repeated[i])
+            s->order[--s->first[find_bin(s, s->points[i]) + 1]] = i;
+    for (uint32_t b = 0; b < bins;
+         b++) /* `first` has moved from the end of each bin to its beginning */
         s->first[b] = s->first[b + 1];
     s->first[bins] = kept;
 }
 
-static bool hidden(const JoxSites *s, JoxV2 a, JoxV2 b) {
+static bool is_behind_bar(const JoxSites *s, JoxV2 a, JoxV2 b) {
     bool crossed = false;
     for (uint32_t k = 0; s->bars && k < s->bars->count && !crossed; k++)
         crossed = jox_segment_crossing(s->bars->items[k].from, s->bars->items[k].to, a, b) != 0;
     return crossed;
 }
 
-/* Cuts by those in the bins at `ring` bins from the person's, nearer ones first. */
+/* Cuts a cell by the visible sites of the bins at a distance of `ring` bins. */
 static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
     JoxV2 at = s->points[site];
-    int column = (int)column_of(s, at.x), row = (int)row_of(s, at.y);
+    int column = (int)find_bin_column(s, at.x), row = (int)find_bin_row(s, at.y);
     double reach2 = jox_cell_reach2(out);
     for (int r = row - ring; r <= row + ring; r++) {
         if (r < 0 || r >= (int)s->rows)
@@ -240,7 +244,8 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
             for (uint32_t k = s->first[bin]; k < s->first[bin + 1]; k++) {
                 JoxV2 other = s->points[s->order[k]];
                 double x = (double)other.x - at.x, y = (double)other.y - at.y;
-                if (s->order[k] == site || x * x + y * y >= 4.0 * reach2 || hidden(s, at, other))
+                if (s->order[k] == site || x * x + y * y >= 4.0 * reach2 ||
+                    is_behind_bar(s, at, other))
                     continue;
                 if (jox_cell_cut(out, x, y))
                     reach2 = jox_cell_reach2(out);
@@ -250,9 +255,9 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
 }
 
 void jox_sites_cell(const JoxSites *s, uint32_t site, double cutoff, JoxCell *out) {
-    copy_cell(out, &s->whole);
+    copy_cell(out, &s->lone_cell);
     for (int ring = 0; ring <= 2 || (ring - 1) * s->bin < 2.0 * cutoff; ring++) {
-        /* Those `ring` bins away are at least ring - 1 bins off. */
+        /* Sites in bins `ring` bins away are at least (ring - 1) * bin distant. */
         double away = (ring - 1) * s->bin;
         if (ring > 1 && away * away >= 4.0 * jox_cell_reach2(out))
             break;
@@ -262,10 +267,10 @@ void jox_sites_cell(const JoxSites *s, uint32_t site, double cutoff, JoxCell *ou
 
 void jox_sites_free(JoxSites *s) {
     jox_free(s->points);
-    jox_free(s->who);
+    jox_free(s->person);
     jox_free(s->first);
     jox_free(s->order);
-    jox_free(s->again);
-    jox_free(s->spare);
+    jox_free(s->repeated);
+    jox_free(s->sort_scratch);
     *s = (JoxSites){0};
 }

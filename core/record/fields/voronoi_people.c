@@ -4,8 +4,8 @@
 
 #include "base/mem.h"
 
-/* Everyone, and their images over periodic edges who may shape a cell. */
-static void gather_sites(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd) {
+/* Adds everybody, and the images across periodic edges that may shape a cell. */
+static void gather_crowd_sites(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd) {
     const float reach = 2.0f * (float)JOX_VORONOI_CUTOFF;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     jox_sites_clear(&v->sites);
@@ -28,8 +28,8 @@ static void gather_sites(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd) {
     jox_sites_sort(&v->sites, JOX_VORONOI_CUTOFF);
 }
 
-/* Those that may hide a neighbour of somebody at a point. */
-static void gather_walls(JoxVoronoiPeople *v, JoxV2 at) {
+/* Collects the walls that may hide a neighbour of a person at a point. */
+static void gather_walls_near_point(JoxVoronoiPeople *v, JoxV2 at) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(&v->walls, at, &count);
     v->near.count = 0;
@@ -55,13 +55,13 @@ void jox_voronoi_people(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd, const
     if (!same)
         jox_wall_grid_reset(&v->walls, 2.0f * (float)JOX_VORONOI_CUTOFF);
     v->walls_hash = walls_hash;
-    gather_sites(v, crowd);
+    gather_crowd_sites(v, crowd);
     for (uint32_t i = 0; i < crowd->count; i++) {
         JoxCell cell;
         double area, within;
         if (!(here[i] >= JOX_VORONOI_LEAST))
             continue;
-        gather_walls(v, v->sites.points[i]);
+        gather_walls_near_point(v, v->sites.points[i]);
         v->sites.bars = v->near.count ? &v->near : NULL;
         jox_sites_cell(&v->sites, i, JOX_VORONOI_CUTOFF, &cell);
         jox_cell_seen(&cell, v->sites.points[i], &v->near, NULL, 0, &area, &within);

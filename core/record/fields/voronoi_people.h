@@ -1,8 +1,8 @@
-/* The Voronoi density of single people, 1/m2: one over the area of the cell of each, which is cut
-   off at JOX_VORONOI_CUTOFF and ends at walls (voronoi.h). It is the individual density of PedPy;
-   it tells how much room one person has, where the Gaussian of density.h tells the mean over some
-   3 m2. Only where that is at least JOX_VORONOI_LEAST are cells made: nobody who stands in less has
-   a cell of less than 0.2 m2, but where bodies overlap. */
+/* Voronoi density of single people, 1/m2: one over the area of a person's cell, which is cut off at
+   JOX_VORONOI_CUTOFF and ends at walls (voronoi.h). It is the individual density of PedPy, and
+   measures the room of one person, where the Gaussian of density.h averages over some 3 m2. Cells
+   are computed only where the Gaussian density is at least JOX_VORONOI_LEAST: at lower density
+   nobody has a cell below 0.2 m2, unless bodies overlap. danger.c calls it at samples. */
 #ifndef JOX_RECORD_VORONOI_PEOPLE_H
 #define JOX_RECORD_VORONOI_PEOPLE_H
 
@@ -13,18 +13,18 @@
 #include "record/fields/voronoi.h"
 
 #define JOX_VORONOI_CUTOFF 1.0 /* m */
-#define JOX_VORONOI_LEAST 1.0f /* 1/m2, by the Gaussian */
+#define JOX_VORONOI_LEAST 1.0f /* 1/m2, Gaussian */
 
-/* Zero-initialise, keep for the next sample. */
+/* Initialise to zero and keep for later samples. */
 typedef struct JoxVoronoiPeople {
     JoxSites sites;
-    JoxBars near; /* walls about one person */
+    JoxBars near; /* walls near one person */
     JoxWallGrid walls;
     uint64_t walls_hash;
 } JoxVoronoiPeople;
 
-/* `here`: of each person, by the Gaussian. `out`: NAN of those who are not measured. `walls_hash`:
-   another one where the walls are others. */
+/* Sets `out` to the density of each person, NAN where it is not measured. `here` is the Gaussian
+   density of each person; `walls_hash` must change when the walls do. */
 void jox_voronoi_people(JoxVoronoiPeople *voronoi, const JoxDensityCrowd *crowd,
                         const JoxWalls *walls, uint64_t walls_hash, const float *here, float *out);
 void jox_voronoi_people_free(JoxVoronoiPeople *voronoi);

@@ -1,6 +1,6 @@
-/* Cells before walls. What a person sees of a convex cell is star-shaped about the person: between
-   two neighbouring directions in which something begins, ends or crosses, one straight edge bounds
-   it, of the cell or of a wall. So it is a fan of triangles. */
+/* Cells bounded by walls. The part of a convex cell that a person sees is star-shaped about the
+   person. Between two adjacent directions, to end points and crossings of edges, a single straight
+   edge bounds it, of the cell or of a wall; so it is a fan of triangles. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,14 +9,14 @@
 #include "base/sort.h"
 
 enum { MOST_EDGES = 512, MOST_DIRECTIONS = 4096 };
-static const double SAME = 1e-9; /* rad: directions nearer than this are one */
+static const double SAME = 1e-9; /* rad: directions closer than this count as one */
 
 typedef struct Edge {
     double ax, ay, bx, by; /* m, relative to the person */
 } Edge;
 
 typedef struct View {
-    Edge edges[MOST_EDGES]; /* those of the cell first */
+    Edge edges[MOST_EDGES]; /* edges of the cell, then of walls */
     uint32_t count, of_cell;
     double directions[MOST_DIRECTIONS]; /* rad */
     uint32_t direction_count;
@@ -27,8 +27,8 @@ static void add_direction(View *v, double x, double y) {
         v->directions[v->direction_count++] = atan2(y, x);
 }
 
-/* Where two edges cross, if they do. */
-static void cross(View *v, const Edge *e, const Edge *f) {
+/* Adds the direction of the crossing of two edges, if there is one. */
+static void add_crossing_direction(View *v, const Edge *e, const Edge *f) {
     double ex = e->bx - e->ax, ey = e->by - e->ay, fx = f->bx - f->ax, fy = f->by - f->ay;
     double turn = ex * fy - ey * fx, ox = f->ax - e->ax, oy = f->ay - e->ay;
     if (turn == 0.0)
@@ -38,17 +38,17 @@ static void cross(View *v, const Edge *e, const Edge *f) {
         add_direction(v, e->ax + s * ex, e->ay + s * ey);
 }
 
-/* Squared distance of the person from an edge. */
-static double distance2(const Edge *e) {
+/* Returns the squared distance of the person from an edge, m2. */
+static double measure_edge_distance2(const Edge *e) {
     double x = e->bx - e->ax, y = e->by - e->ay, l2 = x * x + y * y;
     double t = l2 > 0.0 ? fmin(fmax(-(e->ax * x + e->ay * y) / l2, 0.0), 1.0) : 0.0;
     double nx = e->ax + t * x, ny = e->ay + t * y;
     return nx * nx + ny * ny;
 }
 
-/* Distance along a direction to the line of an edge; INFINITY where it is behind or aside.
-   `inside`: to the edge itself. */
-static double reach(const Edge *e, double x, double y, bool inside) {
+/* Returns the distance along the direction (x, y) to the line through an edge, m; INFINITY if the
+   line is behind or parallel. With `inside`, the ray must meet the edge itself. */
+static double measure_ray(const Edge *e, double x, double y, bool inside) {
     double ex = e->bx - e->ax, ey = e->by - e->ay, turn = x * ey - y * ex;
     if (turn == 0.0)
         return INFINITY;
@@ -56,8 +56,9 @@ static double reach(const Edge *e, double x, double y, bool inside) {
     return along < 0.0 || (inside && (share < 0.0 || share > 1.0)) ? INFINITY : along;
 }
 
-/* The cell's edges, and the walls that come near enough; false if no wall does. */
-static bool look(View *v, const JoxCell *cell, JoxV2 at, const JoxBars *bars) {
+/* Collects the edges of the cell and of walls near enough to bound it. Returns false if no wall
+   is. */
+static bool gather_view_edges(View *v, const JoxCell *cell, JoxV2 at, const JoxBars *bars) {
     double far2 = jox_cell_reach2(cell);
     v->count = v->direction_count = 0;
     for (uint32_t c = 0; c < cell->count; c++) {
@@ -69,10 +70,10 @@ static bool look(View *v, const JoxCell *cell, JoxV2 at, const JoxBars *bars) {
     for (uint32_t b = 0; b < bars->count && v->count < MOST_EDGES; b++) {
         Edge e = {(double)bars->items[b].from.x - at.x, (double)bars->items[b].from.y - at.y,
                   (double)bars->items[b].to.x - at.x, (double)bars->items[b].to.y - at.y};
-        if (distance2(&e) >= far2)
+        if (measure_edge_distance2(&e) >= far2)
             continue;
         for (uint32_t k = 0; k < v->count; k++)
-            cross(v, &v->edges[k], &e);
+            add_crossing_direction(v, &v->edges[k], &e);
         add_direction(v, e.ax, e.ay);
         add_direction(v, e.bx, e.by);
         v->edges[v->count++] = e;
@@ -83,7 +84,7 @@ static bool look(View *v, const JoxCell *cell, JoxV2 at, const JoxBars *bars) {
 void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
                    uint32_t count, double *whole, double *within) {
     View v;
-    if (bars->count == 0 || !look(&v, cell, at, bars)) {
+    if (bars->count == 0 || !gather_view_edges(&v, cell, at, bars)) {
         *whole = jox_cell_area(cell);
         *within = jox_cell_area_within(cell, at, ring, count);
         return;
@@ -99,14 +100,14 @@ void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const Jox
         double x = cos(0.5 * (from + to)), y = sin(0.5 * (from + to)), nearest = INFINITY;
         const Edge *edge = NULL;
         for (uint32_t e = 0; e < v.count; e++) {
-            double away = reach(&v.edges[e], x, y, true);
+            double away = measure_ray(&v.edges[e], x, y, true);
             if (away < nearest) {
                 nearest = away;
                 edge = &v.edges[e];
             }
         }
-        double a = edge ? reach(edge, cos(from), sin(from), false) : INFINITY;
-        double b = edge ? reach(edge, cos(to), sin(to), false) : INFINITY;
+        double a = edge ? measure_ray(edge, cos(from), sin(from), false) : INFINITY;
+        double b = edge ? measure_ray(edge, cos(to), sin(to), false) : INFINITY;
         if (!isfinite(a) || !isfinite(b))
             continue;
         JoxCell part = {.x = {0.0, a * cos(from), b * cos(to)},
