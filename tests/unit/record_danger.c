@@ -278,9 +278,10 @@ static void voronoi_density_is_the_room_of_one(void **state) {
                                 .vy = still,
                                 .walls = walled ? &walls : NULL};
         jox_danger_frame(danger, &frame, NULL);
-        assert_float_equal(danger->room[45], 6.25, 1e-3);
-        assert_float_equal(danger->here[45], 6.25, 0.1);
-        assert_true(walled ? fabsf(danger->room[40] - 6.25f) < 1e-3f : danger->room[40] < 4.0f);
+        assert_float_equal(danger->voronoi_density[45], 6.25, 1e-3);
+        assert_float_equal(danger->gaussian_density[45], 6.25, 0.1);
+        assert_true(walled ? fabsf(danger->voronoi_density[40] - 6.25f) < 1e-3f
+                           : danger->voronoi_density[40] < 4.0f);
         assert_float_equal(jox_danger_most(danger, JOX_DANGER_VORONOI).value, 6.25, 1e-3);
         jox_danger_free(danger);
     }

@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 
-static bool is_there(const JoxDangerAreas *areas, const JoxV2 *points, uint32_t count) {
+static bool has_area(const JoxDangerAreas *areas, const JoxV2 *points, uint32_t count) {
     for (uint32_t a = 0; a < areas->count; a++)
         if (areas->items[a].count == count &&
             memcmp(areas->items[a].points, points, count * sizeof *points) == 0)
@@ -15,8 +15,9 @@ static bool is_there(const JoxDangerAreas *areas, const JoxV2 *points, uint32_t 
     return false;
 }
 
-static void add(JoxDangerAreas *areas, const char *name, const JoxV2 *points, uint32_t count) {
-    if (areas->count == JOX_DANGER_AREAS || count < 3 || is_there(areas, points, count))
+static void add_danger_area(JoxDangerAreas *areas, const char *name, const JoxV2 *points,
+                            uint32_t count) {
+    if (areas->count == JOX_DANGER_AREAS || count < 3 || has_area(areas, points, count))
         return;
     JOX_RESERVE(areas->items, areas->capacity, areas->count + 1);
     JoxDangerArea *area = &areas->items[areas->count++];
@@ -32,14 +33,14 @@ void jox_danger_areas_add(JoxDangerAreas *areas, const JoxPlace *places, uint32_
                           const JoxProbeDef *probes, uint32_t probe_count) {
     for (uint32_t p = 0; p < place_count; p++)
         if (places[p].kind == JOX_PLACE_POLYGON && places[p].name)
-            add(areas, places[p].name, places[p].points, places[p].count);
+            add_danger_area(areas, places[p].name, places[p].points, places[p].count);
     for (uint32_t p = 0; p < probe_count; p++)
         if (probes[p].kind == JOX_PROBE_MEASURE)
-            add(areas, probes[p].name, probes[p].points, probes[p].count);
+            add_danger_area(areas, probes[p].name, probes[p].points, probes[p].count);
 }
 
-static void sample(JoxDangerArea *area, const JoxFrame *frame, const float *density,
-                   double duration) {
+static void sample_area(JoxDangerArea *area, const JoxFrame *frame, const float *density,
+                        double duration) {
     JoxDangerAreaRow row = {.time = frame->time, .density = NAN, .level = -1};
     double sum = 0.0;
     uint32_t known = 0;
@@ -49,7 +50,7 @@ static void sample(JoxDangerArea *area, const JoxFrame *frame, const float *dens
             at.y > area->high.y || !jox_polygon_contains(area->points, area->count, at))
             continue;
         row.people++;
-        if (isnan(density[i])) /* outside of what is measured */
+        if (isnan(density[i])) /* outside the measured area */
             continue;
         sum += (double)density[i];
         area->person_s[jox_level_of_queue((double)density[i])] += duration;
@@ -73,7 +74,7 @@ static void sample(JoxDangerArea *area, const JoxFrame *frame, const float *dens
 void jox_danger_areas_sample(JoxDangerAreas *areas, const JoxFrame *frame, const float *density,
                              double duration) {
     for (uint32_t a = 0; a < areas->count; a++)
-        sample(&areas->items[a], frame, density, duration);
+        sample_area(&areas->items[a], frame, density, duration);
 }
 
 void jox_danger_areas_json(const JoxDangerAreas *areas, JoxJson *json) {
@@ -114,7 +115,7 @@ void jox_danger_areas_csv(const JoxDangerAreas *areas, FILE *out) {
         }
 }
 
-static bool are_rows(const JoxDangerArea *area) {
+static bool are_area_rows_valid(const JoxDangerArea *area) {
     for (uint32_t r = 0; r < area->row_count; r++)
         if (area->rows[r].level < -1 || area->rows[r].level >= JOX_LEVELS)
             return false;
@@ -131,7 +132,7 @@ void jox_danger_areas_sections(JoxDangerAreas *areas, JoxSections *s) {
         JOX_SECTION(s, "most", area->most);
         JOX_SECTION(s, "most_time", area->most_time);
         JOX_SECTION(s, "worst", area->worst);
-        if (!s->failed && !are_rows(area))
+        if (!s->failed && !are_area_rows_valid(area))
             jox_sections_fail(s, "rows", "there is no such level");
         if (s->failed) {
             area->row_count = 0;

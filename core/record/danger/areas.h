@@ -1,6 +1,7 @@
-/* Levels of service by area and time: of polygons that have a name, such as rooms and platforms. At
-   each sample of danger, the level of an area is Fruin's for queues at the mean, over the people in
-   it, of the density where they stand; of an area that is empty there is none. */
+/* Levels of service of named areas over time, such as rooms and platforms. At each sample of danger
+   the density of an area is the mean, over the people inside, of the density where they stand; its
+   level is Fruin's level for queues at that density. An empty area has no level. danger.c owns and
+   feeds them. */
 #ifndef JOX_RECORD_DANGER_AREAS_H
 #define JOX_RECORD_DANGER_AREAS_H
 
@@ -15,28 +16,29 @@
 #include "record/frame.h"
 #include "world/probe.h"
 
-enum { JOX_DANGER_AREAS = 32 }; /* at most; further ones are not measured */
+enum { JOX_DANGER_AREAS = 32 }; /* most areas; further ones are ignored */
 
 typedef struct JoxDangerAreaRow {
     double time;   /* s */
-    float density; /* 1/m2: mean over the people there; NAN of none */
+    float density; /* 1/m2: mean over the people inside; NAN if there are none */
     uint32_t people;
-    int32_t level; /* -1: nobody is there */
+    int32_t level; /* index in jox_levels; -1: empty */
 } JoxDangerAreaRow;
 
 typedef struct JoxDangerArea {
     char *name;
-    JoxV2 *points, low, high; /* m: the ring, and the box about it */
+    JoxV2 *points, low, high; /* m: the polygon and its bounding box */
     uint32_t count;
     double surface; /* m2 */
     JoxDangerAreaRow *rows;
     uint32_t row_count, row_capacity;
-    double level_s[JOX_LEVELS];  /* s at each level, over time */
-    double person_s[JOX_LEVELS]; /* person-seconds there, by the density where each stands */
+    double level_s[JOX_LEVELS]; /* s: time at each level */
+    /* person-seconds at each level, by the density where each person stands */
+    double person_s[JOX_LEVELS];
     uint32_t most_people;
-    float most; /* 1/m2: greatest mean; NAN: nobody was ever there */
+    float most; /* 1/m2: greatest mean; NAN: always empty */
     double most_time;
-    int32_t worst; /* level; -1: nobody was ever there */
+    int32_t worst; /* worst level so far; -1: always empty */
 } JoxDangerArea;
 
 typedef struct JoxDangerAreas {
@@ -44,14 +46,14 @@ typedef struct JoxDangerAreas {
     uint32_t count, capacity;
 } JoxDangerAreas;
 
-/* Polygons among the places, and areas of probes `measure`. Of two that have one outline the first
-   is taken. */
+/* Adds the polygons among the places and the areas of probes `measure`. Of two with the same
+   outline the first is kept. */
 void jox_danger_areas_add(JoxDangerAreas *areas, const JoxPlace *places, uint32_t place_count,
                           const JoxProbeDef *probes, uint32_t probe_count);
-/* As jox_danger_lines_sample. */
+/* Takes a sample; the arguments are those of jox_danger_lines_sample. */
 void jox_danger_areas_sample(JoxDangerAreas *areas, const JoxFrame *frame, const float *density,
                              double duration);
-/* Adds "areas": {...}; null without any. */
+/* Writes "areas": {...}, or null if there are none. */
 void jox_danger_areas_json(const JoxDangerAreas *areas, JoxJson *json);
 void jox_danger_areas_csv(const JoxDangerAreas *areas, FILE *out);
 void jox_danger_areas_sections(JoxDangerAreas *areas, JoxSections *sections);

@@ -6,7 +6,7 @@
 #include "base/sort.h"
 #include "record/fields/pressure.h"
 
-enum { TOLD = 8 }; /* regions in summaries */
+enum { TOLD = 8 }; /* regions that summaries list */
 
 const char jox_congestion_source[] =
     "IMO MSC.1/Circ.1533, advanced method, as its open implementations quote it: local density "
@@ -21,7 +21,7 @@ JoxCongestion jox_congestion_create(const JoxDensity *grid) {
 }
 
 void jox_congestion_frame(JoxCongestion *c, uint32_t people, double time) {
-    if (isnan(c->begun)) /* the first frame of a run lies a step after its begin */
+    if (isnan(c->begun)) /* the first frame of a run comes one step after its beginning */
         c->begun = time > 0.0 && time <= JOX_PRESSURE_PACE ? 0.0 : time;
     c->last = time;
     if (people)
@@ -45,17 +45,17 @@ void jox_congestion_sample(JoxCongestion *c, const JoxDensity *grid, double time
 
 /* ---- regions ---- */
 
-/* Cells of which regions are made: marked once they were taken. */
+/* Flood fill that collects cells into regions. `taken` marks the cells already in one. */
 typedef struct Search {
     const JoxCongestion *congestion;
     const JoxDensity *grid;
-    float least; /* s: a cell's time must be above it */
+    float least; /* s: cells of a region were above the density for longer than this */
     uint8_t *taken;
-    size_t *queue; /* cells of the region, of which `seen` were looked about */
+    size_t *queue; /* cells of the region; the neighbours of the first `seen` were visited */
     size_t count, capacity, seen;
 } Search;
 
-static void take_cell(Search *s, size_t cell) {
+static void queue_cell(Search *s, size_t cell) {
     if (s->taken[cell] || !(s->congestion->cells[cell].seconds > s->least))
         return;
     s->taken[cell] = 1;
@@ -63,13 +63,13 @@ static void take_cell(Search *s, size_t cell) {
     s->queue[s->count++] = cell;
 }
 
-static void take_neighbours(Search *s, size_t cell) {
+static void queue_neighbours(Search *s, size_t cell) {
     const int64_t columns = s->grid->columns, rows = s->grid->rows;
     const int64_t column = (int64_t)cell % columns, row = (int64_t)cell / columns;
     for (int64_t r = row - 1; r <= row + 1; r++)
         for (int64_t c = column - 1; c <= column + 1; c++)
             if (r >= 0 && r < rows && c >= 0 && c < columns)
-                take_cell(s, (size_t)(r * columns + c));
+                queue_cell(s, (size_t)(r * columns + c));
 }
 
 static void add_cell(JoxCongestionRegion *region, const Search *s, size_t cell) {
@@ -94,11 +94,11 @@ static JoxCongestionRegion flood_region(Search *s, size_t cell) {
     JoxCongestionRegion region = {
         .first = INFINITY, .last = -INFINITY, .low = middle, .high = middle};
     s->count = s->seen = 0;
-    take_cell(s, cell);
+    queue_cell(s, cell);
     while (s->seen < s->count) {
         const size_t next = s->queue[s->seen++];
         add_cell(&region, s, next);
-        take_neighbours(s, next);
+        queue_neighbours(s, next);
     }
     return region;
 }
@@ -154,7 +154,7 @@ void jox_congestion_found_free(JoxCongestionFound *found) {
 
 /* ---- figures ---- */
 
-static void add_region(JoxJson *json, const JoxCongestionRegion *region) {
+static void write_region(JoxJson *json, const JoxCongestionRegion *region) {
     jox_json_object(json, NULL);
     jox_json_number(json, "seconds", region->seconds);
     jox_json_number(json, "first_s", region->first);
@@ -185,7 +185,7 @@ void jox_congestion_json(const JoxCongestion *congestion, const JoxDensity *grid
     jox_json_number(json, "first_s", found.first);
     jox_json_array(json, "where");
     for (uint32_t r = 0; r < found.count && r < TOLD; r++)
-        add_region(json, &found.regions[r]);
+        write_region(json, &found.regions[r]);
     jox_json_end(json);
     jox_json_end(json);
     jox_congestion_found_free(&found);

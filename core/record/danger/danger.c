@@ -9,7 +9,7 @@
 #include "base/number/elementary.h"
 #include "record/danger/danger_parts.h"
 
-static const double HOLD = 1.0; /* s: time constant of what a person bears */
+static const double HOLD = 1.0; /* s: time constant of the mean of compression and load */
 
 /* ---- measuring ---- */
 
@@ -32,7 +32,8 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
         d->least[m] = INFINITY;
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double *least = &d->least[jox_danger_limits[l].measure];
-        JOX_ASSERT(jox_danger_limits[l].value > 0.0); /* who bears nothing is over no limit */
+        JOX_ASSERT(jox_danger_limits[l].value >
+                   0.0); /* people without load must not count as over a limit */
         *least = fmin(*least, jox_danger_limits[l].value);
         d->counts[l].first = NAN;
     }
@@ -46,7 +47,8 @@ JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
     return d;
 }
 
-/* `value` was there, of a person or UINT32_MAX: the greatest is kept. */
+/* Keeps the greatest value of a measure, with its time, place and person; UINT32_MAX: a value of
+   the field, of no person. */
 static void keep_greatest(JoxDanger *d, JoxDangerMeasure measure, double value, double time,
                           JoxV2 at, uint32_t person) {
     JoxDangerMost *most = &d->most[measure];
@@ -54,12 +56,13 @@ static void keep_greatest(JoxDanger *d, JoxDangerMeasure measure, double value, 
         *most = (JoxDangerMost){value, time, person, at};
 }
 
-/* Person i has `value` for `duration` seconds; marks the limits passed. */
-static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeasure measure,
-                  double value, double duration) {
+/* Counts `duration` seconds of person i at `value` for each limit of the measure that it
+   reaches. */
+static void count_over_limits(JoxDanger *d, const JoxFrame *frame, uint32_t i,
+                              JoxDangerMeasure measure, double value, double duration) {
     JoxV2 at = {frame->x[i], frame->y[i]};
     JoxDangerPerson *person = &d->people[frame->key[i]];
-    if (measure > JOX_DANGER_PRESSURE) /* else by the field */
+    if (measure > JOX_DANGER_PRESSURE) /* density and pressure: taken from the field instead */
         keep_greatest(d, measure, value, frame->time, at, frame->key[i]);
     if (!(value >= d->least[measure]))
         return;
@@ -79,12 +82,13 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
     }
 }
 
-/* What person i bears now, and the dose of it until now. */
-static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duration, float share) {
+/* Updates the means and the dose of person i. `share` is the weight of this frame in the means. */
+static void update_person_load(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duration,
+                               float share) {
     JoxDangerPerson *p = &d->people[frame->key[i]];
     if (frame->compression) {
         p->compression += share * (frame->compression[i] - p->compression);
-        judge(d, frame, i, JOX_DANGER_COMPRESSION, p->compression, duration);
+        count_over_limits(d, frame, i, JOX_DANGER_COMPRESSION, p->compression, duration);
     }
     if (!frame->load)
         return;
@@ -95,48 +99,48 @@ static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duratio
         p->most_time = frame->time;
         p->most_at = (JoxV2){frame->x[i], frame->y[i]};
     }
-    judge(d, frame, i, JOX_DANGER_LOAD, p->load, duration);
-    judge(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
+    count_over_limits(d, frame, i, JOX_DANGER_LOAD, p->load, duration);
+    count_over_limits(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
 }
 
-static bool bears_something(const JoxDangerPerson *p) {
+static bool has_any_load(const JoxDangerPerson *p) {
     return p->compression != 0.0f || p->load != 0.0f || p->dose != 0.0;
 }
 
-static void reserve_people(JoxDanger *d, const JoxFrame *frame) {
+static void reserve_danger_people(JoxDanger *d, const JoxFrame *frame) {
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
-    JOX_RESERVE(d->bearing, d->bearing_capacity, frame->count);
-    const uint32_t had = d->bears_capacity;
-    JOX_RESERVE_ZEROED(d->bears, d->bears_capacity, d->people_capacity);
+    JOX_RESERVE(d->loaded, d->loaded_capacity, frame->count);
+    const uint32_t had = d->has_load_capacity;
+    JOX_RESERVE_ZEROED(d->has_load_left, d->has_load_capacity, d->people_capacity);
     for (uint32_t k = had; k < d->people_capacity; k++)
-        d->bears[k] = bears_something(&d->people[k]);
+        d->has_load_left[k] = has_any_load(&d->people[k]);
 }
 
-/* Every frame: what people and walls bear. Most of a crowd that does not push bear nothing, and are
-   not looked at. */
-static void press(JoxDanger *d, const JoxFrame *frame) {
+/* Updates what people and walls bear; every frame. In a crowd that does not push, most people have
+   no force and no memory of one, and are skipped. */
+static void update_all_loads(JoxDanger *d, const JoxFrame *frame) {
     double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
     float share = (float)(1.0 - jox_exp(-duration / HOLD));
     d->last_frame = frame->time;
     d->has_compression |= frame->compression != NULL;
     d->has_load |= frame->load != NULL;
-    d->bearing_count = 0;
+    d->loaded_count = 0;
     for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++) {
         const uint32_t key = frame->key[i];
         const bool pressed = (frame->compression && frame->compression[i] != 0.0f) ||
                              (frame->load && frame->load[i] != 0.0f);
-        if (!pressed && !d->bears[key])
+        if (!pressed && !d->has_load_left[key])
             continue;
-        bear(d, frame, i, duration, share);
-        d->bears[key] = bears_something(&d->people[key]);
-        d->bearing[d->bearing_count++] = i;
+        update_person_load(d, frame, i, duration, share);
+        d->has_load_left[key] = has_any_load(&d->people[key]);
+        d->loaded[d->loaded_count++] = i;
     }
     jox_danger_walls_frame(&d->walls, frame, duration, share);
 }
 
-/* Adds a sample's density or pressure to the map, and gives the greatest of any cell; NAN where it
-   was not measured. */
-static float chart_field(JoxDanger *d, JoxDangerMeasure measure, const float *field, double time) {
+/* Adds a sample of density or pressure to the map and returns its greatest value; NAN where it was
+   not measured anywhere. */
+static float map_field(JoxDanger *d, JoxDangerMeasure measure, const float *field, double time) {
     const JoxDensity *g = d->local->grid;
     float most = NAN;
     for (size_t c = 0; c < (size_t)g->columns * g->rows; c++) {
@@ -150,13 +154,13 @@ static float chart_field(JoxDanger *d, JoxDangerMeasure measure, const float *fi
         most = field[c];
         keep_greatest(d, measure, most, time, jox_density_middle(g, c), UINT32_MAX);
     }
-    if (!isnan(most) && isnan(d->most[measure].value)) /* measured, and nothing there */
+    if (!isnan(most) && isnan(d->most[measure].value)) /* measured, and 0 everywhere */
         d->most[measure].value = 0.0;
     return most;
 }
 
-/* Adds what people bear to the map. */
-static void chart(JoxDanger *d, const JoxFrame *frame) {
+/* Adds compression and load of everybody in the frame to the map. */
+static void map_borne_loads(JoxDanger *d, const JoxFrame *frame) {
     size_t cell;
     for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
         if (jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell)) {
@@ -168,28 +172,28 @@ static void chart(JoxDanger *d, const JoxFrame *frame) {
     d->samples++;
 }
 
-/* The greatest Voronoi density of a sample; NAN where nobody's was measured. */
-static float most_room(const JoxDanger *d, uint32_t count) {
+/* Returns the greatest Voronoi density of a sample; NAN if it was measured for nobody. */
+static float find_greatest_voronoi(const JoxDanger *d, uint32_t count) {
     float most = NAN;
     for (uint32_t i = 0; i < count; i++)
-        if (!(d->room[i] <= most))
-            most = isnan(d->room[i]) ? most : d->room[i];
+        if (!(d->voronoi_density[i] <= most))
+            most = isnan(d->voronoi_density[i]) ? most : d->voronoi_density[i];
     return most;
 }
 
-/* The sample's line of danger.csv. */
-static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
+/* Adds the row of danger.csv for this sample. */
+static void add_danger_row(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
     JoxDangerRow *row = &d->rows[d->row_count++];
     *row = (JoxDangerRow){.time = frame->time, .people = frame->count};
     for (int m = 0; m < JOX_DANGER_FIRST_BORNE; m++) {
         const JoxDensity *grid;
         const float *field = jox_danger_field(d, (JoxDangerMeasure)m, &grid);
-        row->most[m] = chart_field(d, (JoxDangerMeasure)m, field, frame->time);
+        row->most[m] = map_field(d, (JoxDangerMeasure)m, field, frame->time);
     }
     for (uint32_t i = 0; i < frame->count; i++)
-        if (!isnan(d->here[i]))
-            row->levels[jox_level_of_queue((double)d->here[i])]++;
+        if (!isnan(d->gaussian_density[i]))
+            row->levels[jox_level_of_queue((double)d->gaussian_density[i])]++;
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
@@ -200,12 +204,12 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
                                                    p->compression,
                                                    p->load,
                                                    (float)p->dose,
-                                                   d->room[i]};
+                                                   d->voronoi_density[i]};
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             row->over[l] +=
                 (double)values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
     }
-    row->most[JOX_DANGER_VORONOI] = most_room(d, frame->count);
+    row->most[JOX_DANGER_VORONOI] = find_greatest_voronoi(d, frame->count);
     row->left = exits ? (uint32_t)exits->left : 0;
     for (uint32_t e = 0; exits && e < exits->count && e < JOX_DANGER_EXITS; e++) {
         if (e >= d->exit_count)
@@ -214,14 +218,15 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     }
 }
 
-/* Every frame: what is borne most, in the line of the sample that it follows and in the cells. The
-   greatest of the lines and of the cells are so the greatest of all. */
-static void keep_most(JoxDanger *d, const JoxFrame *frame) {
+/* Raises the maxima of the row of the last sample, and of the cells, to compression, load and dose
+   of this frame; every frame. So the maximum over rows or cells is the maximum over all frames. */
+static void update_maxima(JoxDanger *d, const JoxFrame *frame) {
     JoxDangerRow *row = &d->rows[d->row_count - 1];
     for (int m = JOX_DANGER_FIRST_BORNE; m <= JOX_DANGER_LAST_BORNE && frame->count; m++)
-        row->most[m] = jox_maxf(row->most[m], 0.0f); /* of those who bear nothing */
-    for (uint32_t k = 0; k < d->bearing_count; k++) {
-        const uint32_t i = d->bearing[k];
+        row->most[m] = jox_maxf(row->most[m],
+                                0.0f); /* at least 0: people who bear nothing were measured, too */
+    for (uint32_t k = 0; k < d->loaded_count; k++) {
+        const uint32_t i = d->loaded[k];
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
         const float values[] = {p->compression, p->load, (float)p->dose};
@@ -242,43 +247,44 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
         row->most[JOX_DANGER_LOAD] = row->most[JOX_DANGER_DOSE] = NAN;
 }
 
-/* The room that each person of a sample has. */
-static void measure_room(JoxDanger *d, const JoxFrame *frame) {
+/* Sets the Voronoi density of each person in a sample. */
+static void measure_voronoi(JoxDanger *d, const JoxFrame *frame) {
     const JoxDensityCrowd crowd = {
         .count = frame->count, .x = frame->x, .y = frame->y, .period = frame->period};
     jox_voronoi_people(&d->voronoi, &crowd, frame->walls, jox_density_walls_hash(d->local->grid),
-                       d->here, d->room);
+                       d->gaussian_density, d->voronoi_density);
 }
 
-/* Every sample of the fields: who stands where they are over a limit. */
-static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
+/* Takes a sample of the fields and counts the people over the limits of density and pressure. */
+static void sample_danger(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     if (isnan(d->last_sample))
         d->begun = frame->time;
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
     d->last_sample = frame->time;
-    JOX_RESERVE(d->here, d->here_capacity, frame->count);
-    JOX_RESERVE(d->room, d->room_capacity, frame->count);
+    JOX_RESERVE(d->gaussian_density, d->gaussian_capacity, frame->count);
+    JOX_RESERVE(d->voronoi_density, d->voronoi_capacity, frame->count);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
-        d->here[i] = inside ? d->local->grid->now[cell] : NAN;
+        d->gaussian_density[i] = inside ? d->local->grid->now[cell] : NAN;
     }
-    measure_room(d, frame);
+    measure_voronoi(d, frame);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         if (!jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell))
             continue;
-        judge(d, frame, i, JOX_DANGER_VORONOI, (double)d->room[i], duration);
-        d->level_s[jox_level_of_queue((double)d->here[i])] += duration;
-        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->here[i], duration);
-        judge(d, frame, i, JOX_DANGER_PRESSURE, (double)jox_local_pressure(d->local, cell),
-              duration);
+        count_over_limits(d, frame, i, JOX_DANGER_VORONOI, (double)d->voronoi_density[i], duration);
+        d->level_s[jox_level_of_queue((double)d->gaussian_density[i])] += duration;
+        count_over_limits(d, frame, i, JOX_DANGER_DENSITY, (double)d->gaussian_density[i],
+                          duration);
+        count_over_limits(d, frame, i, JOX_DANGER_PRESSURE,
+                          (double)jox_local_pressure(d->local, cell), duration);
     }
-    chart(d, frame);
-    note(d, frame, exits);
+    map_borne_loads(d, frame);
+    add_danger_row(d, frame, exits);
     jox_congestion_sample(&d->congestion, d->local->grid, frame->time, duration);
-    jox_danger_lines_sample(&d->lines, frame, d->here, duration);
-    jox_danger_areas_sample(&d->areas, frame, d->here, duration);
+    jox_danger_lines_sample(&d->lines, frame, d->gaussian_density, duration);
+    jox_danger_areas_sample(&d->areas, frame, d->gaussian_density, duration);
 }
 
 void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
@@ -296,10 +302,11 @@ void jox_danger_add_plan(JoxDanger *d, const JoxPlace *places, uint32_t place_co
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
-    reserve_people(d, frame);
-    jox_density_walls(d->local->grid,
-                      frame->walls); /* of cells that people stand in between samples */
-    press(d, frame);
+    reserve_danger_people(d, frame);
+    jox_density_walls(
+        d->local->grid,
+        frame->walls); /* cells of people near walls are needed between samples, too */
+    update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);
     jox_danger_lines_cross(&d->lines, frame);
     if (exits)
@@ -307,8 +314,8 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     if (d->owns_local)
         jox_local_frame(d->local, frame, NULL);
     if (d->local->time == frame->time && d->last_sample != frame->time)
-        sample(d, frame, exits);
-    keep_most(d, frame);
+        sample_danger(d, frame, exits);
+    update_maxima(d, frame);
 }
 
 const JoxLocal *jox_danger_local(const JoxDanger *d) {
@@ -322,7 +329,7 @@ const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
                                           : d->local->grid->now;
 }
 
-static void exit_sections(JoxDanger *d, JoxSections *s) {
+static void list_exit_names(JoxDanger *d, JoxSections *s) {
     uint32_t count = (uint32_t)jox_section_count(s, "exits", d->exit_count, 1);
     if (count > JOX_DANGER_EXITS) {
         jox_sections_fail(s, "exits", "there are too many");
@@ -349,7 +356,7 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     JOX_SECTION(s, "samples", d->samples);
     JOX_SECTION_ROOM(s, "people", d->people, d->people_capacity);
     if (s->mode == JOX_SECTIONS_RESTORE)
-        d->bears_capacity = 0;
+        d->has_load_capacity = 0;
     JOX_SECTION(s, "has_compression", d->has_compression);
     JOX_SECTION(s, "has_load", d->has_load);
     jox_congestion_sections(&d->congestion, s);
@@ -364,7 +371,7 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     JOX_SECTION(s, "counts", d->counts);
     JOX_SECTION(s, "most", d->most);
     JOX_SECTION_ARRAY(s, "rows", d->rows, d->row_count, d->row_capacity);
-    exit_sections(d, s);
+    list_exit_names(d, s);
 }
 
 void jox_danger_free(JoxDanger *d) {
@@ -372,8 +379,8 @@ void jox_danger_free(JoxDanger *d) {
         return;
     if (d->owns_local)
         jox_local_free(d->local);
-    void *arrays[] = {d->measured, d->stood, d->people, d->rows,
-                      d->here,     d->room,  d->bears,  d->bearing};
+    void *arrays[] = {d->measured,         d->stood,           d->people,        d->rows,
+                      d->gaussian_density, d->voronoi_density, d->has_load_left, d->loaded};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {

@@ -1,4 +1,5 @@
-/* What the files of danger share. */
+/* Members of JoxDanger and constants that danger.c and limits.c share, and report/ for its
+   tables. */
 #ifndef JOX_RECORD_DANGER_PARTS_H
 #define JOX_RECORD_DANGER_PARTS_H
 
@@ -12,56 +13,57 @@
 #include "record/local.h"
 
 enum {
-    JOX_DANGER_EXITS = JOX_LEAVING_EXITS, /* that have a column of their own over time */
-    /* What people bear: of each person, every frame. */
+    JOX_DANGER_EXITS = JOX_LEAVING_EXITS, /* exits with a column of their own over time */
+    /* measures of each person that change in every frame */
     JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION,
     JOX_DANGER_LAST_BORNE = JOX_DANGER_DOSE
 };
-/* N: loads after which death is estimated within 300 s and 15 s. */
+/* N: loads at which death is estimated after 300 s and after 15 s. */
 #define JOX_DOSE_LOW 1112.0
 #define JOX_DOSE_HIGH 6227.0
-/* 1/s: share of a dose that a load gives in a second. */
+/* Returns the dose that a load, N, adds per second, 1/s. */
 double jox_danger_dose_rate(double load);
 
 typedef struct JoxDangerPerson {
-    float compression, load; /* N/m, N: means of the last second */
+    float compression, load; /* N/m, N: exponential means over 1 s */
     double dose;
-    double seconds[JOX_DANGER_LIMITS]; /* over each limit */
+    double seconds[JOX_DANGER_LIMITS]; /* s over each limit */
     float most;                        /* N: greatest load */
     double most_time;
     JoxV2 most_at;
-    uint16_t over; /* bits of the limits that were ever passed */
+    uint16_t over; /* bit l: limit l was reached at any time */
 } JoxDangerPerson;
 
-/* One line of danger.csv: a sample, and what was borne until the next. */
+/* Row of danger.csv: a sample, with the maxima until the next. */
 typedef struct JoxDangerRow {
     double time; /* s */
     uint32_t people;
-    float most[JOX_DANGER_MEASURES]; /* NAN: not read */
+    float most[JOX_DANGER_MEASURES]; /* greatest of each measure; NAN: not read */
     uint32_t over[JOX_DANGER_LIMITS];
-    uint32_t levels[JOX_LEVELS]; /* people at each level of service */
-    float wall_most;             /* N: of any piece of a wall; NAN: not known */
+    uint32_t levels[JOX_LEVELS]; /* number of people at each level of service */
+    float wall_most;             /* N: greatest load of any wall piece; NAN: unknown */
     uint32_t left, exits[JOX_DANGER_EXITS];
 } JoxDangerRow;
 
 struct JoxDanger {
-    JoxLocal *local; /* density and pressure */
+    JoxLocal *local; /* local density and pressure */
     bool owns_local;
-    /* By cell, for the map: sum over samples (of pressure those that measured it; what is borne:
-       over people) and greatest. */
+    /* Map, by cell: sum and greatest. The sum is over samples, for pressure over those that
+       measured it, and for compression and load over people and samples. */
     double *sum[JOX_DANGER_MAPPED];
     float *greatest[JOX_DANGER_MAPPED];
-    uint32_t *measured; /* samples that measured pressure */
-    uint32_t *stood;    /* people whose compression and load were summed */
+    uint32_t *measured; /* by cell: samples that measured pressure */
+    uint32_t *stood;    /* by cell: people whose compression and load were added */
     uint32_t samples;
 
     JoxDangerPerson *people; /* by key */
     uint32_t people_capacity;
-    uint8_t *bears; /* by key: 0 for who bears nothing and has no dose; follows from `people` */
-    uint32_t bears_capacity;
-    uint32_t *bearing; /* indices of those in the frame who do bear something */
-    uint32_t bearing_count, bearing_capacity;
-    double least[JOX_DANGER_MEASURES]; /* limit of each measure; INFINITY: it has none */
+    /* by key: 0 for people without compression, load and dose; derived from `people` */
+    uint8_t *has_load_left;
+    uint32_t has_load_capacity;
+    uint32_t *loaded; /* indices of the people in the frame for whom it is 1 */
+    uint32_t loaded_count, loaded_capacity;
+    double least[JOX_DANGER_MEASURES]; /* lowest limit of each measure; INFINITY: it has none */
     bool has_compression, has_load;
 
     JoxCongestion congestion;
@@ -70,13 +72,14 @@ struct JoxDanger {
     JoxLeaving leaving;
     JoxDangerWalls walls;
     double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
-    /* By person of a sample: density, by the Gaussian (NAN outside of the area) and by Voronoi
-       cells (NAN where that was not measured). */
-    float *here, *room;
-    uint32_t here_capacity, room_capacity;
+    /* Density of each person at the last sample: Gaussian (NAN outside the area) and Voronoi (NAN
+       where it was not measured). */
+    float *gaussian_density, *voronoi_density;
+    uint32_t gaussian_capacity, voronoi_capacity;
     JoxVoronoiPeople voronoi;
 
-    double begun, last_frame, last_sample; /* s */
+    /* s: times of the first sample, the last frame and the last sample */
+    double begun, last_frame, last_sample;
     JoxDangerCount counts[JOX_DANGER_LIMITS];
     JoxDangerMost most[JOX_DANGER_MEASURES];
     JoxDangerRow *rows;

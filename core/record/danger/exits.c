@@ -1,4 +1,4 @@
-/* When a place was cleared, and by where. */
+/* Clearance time and counts of exits, for summaries. */
 #include <math.h>
 
 #include "record/danger/danger.h"

@@ -5,7 +5,7 @@
 #include "base/format/quote.h"
 #include "base/mem.h"
 
-static void add(JoxLeaving *l, double time, uint32_t people, int32_t exit) {
+static void add_leave(JoxLeaving *l, double time, uint32_t people, int32_t exit) {
     if (people == 0)
         return;
     JOX_RESERVE(l->items, l->capacity, l->count + 1);
@@ -18,22 +18,22 @@ void jox_leaving_note(JoxLeaving *l, const JoxExits *exits, double time) {
     uint32_t elsewhere = (uint32_t)(exits->left - l->left);
     for (uint32_t e = 0; e < exits->count && e < JOX_LEAVING_EXITS; e++) {
         const uint32_t people = exits->items[e].people - l->by_exit[e];
-        add(l, time, people, (int32_t)e);
+        add_leave(l, time, people, (int32_t)e);
         l->by_exit[e] += people;
         elsewhere -= people < elsewhere ? people : elsewhere;
     }
-    add(l, time, elsewhere, JOX_LEFT_ELSEWHERE);
+    add_leave(l, time, elsewhere, JOX_LEFT_ELSEWHERE);
     l->left = exits->left;
 }
 
-static bool is_of(const JoxLeave *leave, int32_t exit) {
+static bool matches_exit(const JoxLeave *leave, int32_t exit) {
     return exit == JOX_LEFT_ANYWHERE || leave->exit == exit;
 }
 
 uint64_t jox_leaving_count(const JoxLeaving *l, int32_t exit) {
     uint64_t count = 0;
     for (uint32_t i = 0; i < l->count; i++)
-        count += is_of(&l->items[i], exit) ? l->items[i].people : 0;
+        count += matches_exit(&l->items[i], exit) ? l->items[i].people : 0;
     return count;
 }
 
@@ -41,7 +41,7 @@ double jox_leaving_quantile(const JoxLeaving *l, int32_t exit, double share) {
     const double wanted = fmax(1.0, ceil(share * (double)jox_leaving_count(l, exit) - 1e-9));
     double so_far = 0.0;
     for (uint32_t i = 0; i < l->count; i++) {
-        so_far += is_of(&l->items[i], exit) ? l->items[i].people : 0;
+        so_far += matches_exit(&l->items[i], exit) ? l->items[i].people : 0;
         if (so_far >= wanted)
             return l->items[i].time;
     }

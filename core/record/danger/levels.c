@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-enum { CROWDED = 4 }; /* E */
+enum { CROWDED = 4 }; /* index of level E */
 
-/* Areas of walkways are 35, 25, 15, 10 and 5 square feet, flows 7, 10, 15, 20 and 25 people a foot
-   and minute; areas of queues 13, 10, 7, 3 and 2 square feet. */
+/* Fruin's areas in square feet per person: 35, 25, 15, 10 and 5 for walkways, 13, 10, 7, 3 and 2
+   for queues; his flows: 7, 10, 15, 20 and 25 people per foot and minute. */
 const JoxLevel jox_levels[JOX_LEVELS] = {
     {"A", 1.21, 3.25, 23.0, "people stand and pass freely"},
     {"B", 0.93, 2.32, 33.0, "people stand freely, and pass with some care"},

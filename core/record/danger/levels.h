@@ -1,23 +1,25 @@
-/* Levels of service: Fruin, Pedestrian planning and design, 1971. Of queues by the area that each
-   person has; of walkways by flow over a line and by area. */
+/* Levels of service A to F: Fruin, Pedestrian planning and design, 1971. For queues by the area per
+   person; for walkways by flow over a line and area. */
 #ifndef JOX_RECORD_DANGER_LEVELS_H
 #define JOX_RECORD_DANGER_LEVELS_H
 
 enum { JOX_LEVELS = 6 };
 typedef struct JoxLevel {
     const char *name;
-    double queue_area; /* m2 each: from this on, in a queue; 0 of the last */
-    double walk_area;  /* m2 each: from this on, on a walkway */
-    double walk_flow;  /* 1/(m min): up to this, on a walkway; INFINITY of the last */
-    const char *what;  /* in queues */
+    double queue_area; /* m2 per person: least area of the level in a queue; 0 for the last */
+    double walk_area;  /* m2 per person: least area of the level on a walkway */
+    /* 1/(m min): greatest flow of the level on a walkway; INFINITY for the last */
+    double walk_flow;
+    const char *what; /* description, for queues */
 } JoxLevel;
 extern const JoxLevel jox_levels[JOX_LEVELS];
 extern const char jox_levels_source[];
 
-/* Of a queue with so many people per m2. */
+/* Returns the level of a queue, an index in jox_levels, by its density, 1/m2. */
 int jox_level_of_queue(double density);
-/* Of a walkway: by flow, 1/(m s); but E or F where the area alone says so, since a flow that is
-   small because nobody can move is no good one. NAN of a density where nobody is. */
+/* Returns the level of a walkway, by its flow, 1/(m s). Levels E and F also follow from the density
+   alone, 1/m2: a low flow because nobody can move is not good. NAN for the density if there is
+   nobody. */
 int jox_level_of_walkway(double flow, double density);
 
 #endif

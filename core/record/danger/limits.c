@@ -1,4 +1,4 @@
-/* What danger is compared with, and the figures that follow. */
+/* Published limits, the dose of load, and the figures of danger in summaries. */
 #include <math.h>
 #include <stdio.h>
 
@@ -61,7 +61,8 @@ const char jox_danger_dose_text[] =
     "nobody recovers.";
 
 double jox_danger_dose_rate(double load) {
-    /* ln(300 s / 15 s) / ln(6227 N / 1112 N); 1 N would take two years. */
+    /* ln(300 s / 15 s) / ln(6227 N / 1112 N). Below 1 N, where a dose of 1 would take two years,
+       the dose is 0. */
     static const double EXPONENT = 1.738939;
     return load < 1.0 ? 0.0 : jox_pow(load / JOX_DOSE_LOW, EXPONENT) / 300.0;
 }
@@ -80,26 +81,27 @@ JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     JoxDangerMost most = d->most[measure];
     bool read = d->samples > 0;
     if (measure == JOX_DANGER_PRESSURE)
-        read = isfinite(most.value); /* somewhere, some time */
+        read = isfinite(most.value); /* measured in some cell at some time */
     else if (measure == JOX_DANGER_COMPRESSION)
         read = d->has_compression;
     else if (measure == JOX_DANGER_LOAD || measure == JOX_DANGER_DOSE)
         read = d->has_load;
     else if (measure == JOX_DANGER_VORONOI)
-        read = false;              /* in sparse crowds it is not measured */
-    if (isnan(most.value) && read) /* nobody was ever pressed, say */
+        read = false;              /* unmeasured in sparse crowds */
+    if (isnan(most.value) && read) /* for example, nobody was pressed */
         most.value = 0.0;
     return most;
 }
 
 bool jox_danger_reads(const JoxDanger *d, JoxDangerMeasure measure) {
-    if (measure == JOX_DANGER_VORONOI) /* where it is not measured, nobody is over a limit */
+    if (measure == JOX_DANGER_VORONOI) /* nobody is over a limit where it is not measured */
         return d->samples > 0;
     return isfinite(jox_danger_most(d, measure).value);
 }
 
-/* "NAMESUFFIX": VALUE */
-static void add(JoxJson *json, const char *name, const char *suffix, double value) {
+/* Writes "NAMESUFFIX": VALUE. */
+static void write_suffixed_number(JoxJson *json, const char *name, const char *suffix,
+                                  double value) {
     char key[64];
     snprintf(key, sizeof key, "%s%s", name, suffix);
     jox_json_number(json, key, value);
@@ -110,12 +112,13 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
         JoxDangerMost most = jox_danger_most(d, (JoxDangerMeasure)m);
         bool read = isfinite(most.time);
-        add(json, jox_danger_names[m], "_max", most.value);
-        add(json, jox_danger_names[m], "_max_s", most.time);
-        add(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
-        add(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+        write_suffixed_number(json, jox_danger_names[m], "_max", most.value);
+        write_suffixed_number(json, jox_danger_names[m], "_max_s", most.time);
+        write_suffixed_number(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
+        write_suffixed_number(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
         if (m >= JOX_DANGER_FIRST_BORNE)
-            add(json, jox_danger_names[m], "_max_person", read ? most.person : NAN);
+            write_suffixed_number(json, jox_danger_names[m], "_max_person",
+                                  read ? most.person : NAN);
     }
     jox_json_object(json, "limits");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
@@ -134,7 +137,7 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         jox_json_end(json);
     }
     jox_json_end(json);
-    jox_json_object(json, "level_person_s"); /* of service, Fruin's for queues */
+    jox_json_object(json, "level_person_s"); /* person-seconds at Fruin's levels for queues */
     for (int k = 0; k < JOX_LEVELS; k++)
         jox_json_number(json, jox_levels[k].name, d->level_s[k]);
     jox_json_end(json);

@@ -7,11 +7,11 @@
 #include "base/sort.h"
 #include "geom/polygon.h"
 
-static const double WINDOW = 10.0; /* s that flow and growth are taken over */
-static const float NEAR = 2.0f;    /* m: before a line */
-static const float FAR = 10.0f;    /* m: of those who wait before it */
-static const double DENSE = 3.5;   /* 1/m2 */
-static const double HAIR = 1e-6;   /* s: times are sums of steps */
+static const double WINDOW = 10.0; /* s: flow and growth are taken over this time */
+static const float NEAR = 2.0f;    /* m: density before a line is measured within this distance */
+static const float FAR = 10.0f;    /* m: people within this distance may be waiting */
+static const double DENSE = 3.5;   /* 1/m2: density of stop-and-go */
+static const double HAIR = 1e-6;   /* s: tolerance, as times are sums of steps */
 
 const char jox_stop_and_go_source[] =
     "outflow below 0.8 per m s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; the "
@@ -39,7 +39,7 @@ void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV
                                                    .stop_and_go.first = NAN};
 }
 
-static void add_crossing(JoxDangerLine *line, double time, uint32_t key, int direction) {
+static void add_line_crossing(JoxDangerLine *line, double time, uint32_t key, int direction) {
     JOX_RESERVE(line->crossings, line->crossing_capacity, line->crossing_count + 1);
     line->crossings[line->crossing_count++] = (struct JoxDangerCrossing){time, key, direction};
     line->forward += direction > 0;
@@ -59,19 +59,21 @@ void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame) {
             const int direction =
                 jox_stretch_crosses(&stretch, lines->items[l].a, lines->items[l].b, &time);
             if (direction)
-                add_crossing(&lines->items[l], time, frame->key[i], direction);
+                add_line_crossing(&lines->items[l], time, frame->key[i], direction);
         }
     }
 }
 
-static int by_key(const void *a, const void *b, const void *context) {
+static int compare_crossing_keys(const void *a, const void *b, const void *context) {
     const struct JoxDangerCrossing *x = a, *y = b;
     (void)context;
     return (x->key > y->key) - (x->key < y->key);
 }
 
-/* People who passed in the window, either way: each by the sum of what they did. */
-static void passed(JoxDangerLine *line, double since, uint32_t *forward, uint32_t *back) {
+/* Counts the people who passed the line since a time, in each direction. A person who crosses
+   several times counts by the sum of the directions. Drops older crossings. */
+static void count_passed_people(JoxDangerLine *line, double since, uint32_t *forward,
+                                uint32_t *back) {
     uint32_t kept = 0;
     for (uint32_t c = 0; c < line->crossing_count; c++)
         if (line->crossings[c].time > since + HAIR)
@@ -83,7 +85,7 @@ static void passed(JoxDangerLine *line, double since, uint32_t *forward, uint32_
     struct JoxDangerCrossing *sorted = jox_alloc(kept, sizeof *sorted);
     for (uint32_t c = 0; c < kept; c++)
         sorted[c] = line->crossings[c];
-    jox_sort(sorted, kept, sizeof *sorted, by_key, NULL, NULL);
+    jox_sort(sorted, kept, sizeof *sorted, compare_crossing_keys, NULL, NULL);
     for (uint32_t c = 0; c < kept;) {
         const uint32_t key = sorted[c].key;
         int net = 0;
@@ -95,8 +97,8 @@ static void passed(JoxDangerLine *line, double since, uint32_t *forward, uint32_
     jox_free(sorted);
 }
 
-/* Whether a wall stands between two points. */
-static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
+/* Returns whether a wall stands between two points. */
+static bool is_behind_wall(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++) {
@@ -108,40 +110,43 @@ static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
     return false;
 }
 
-/* The line is what walls leave of it, from the first of its openings to the last. */
-static void clear(JoxDangerLine *line, const JoxWalls *walls, JoxWallOpenings *openings) {
+/* Restricts the line to the part between walls, from its first opening to its last, and sets its
+   clear width. */
+static void clip_line_to_openings(JoxDangerLine *line, const JoxWalls *walls,
+                                  JoxWallOpenings *openings) {
     jox_walls_openings(walls, line->given, openings);
     line->a = openings->ends[0][0];
     line->b = openings->ends[openings->count - 1][1];
     line->width = (double)openings->width;
 }
 
-/* Whether the middle of any of its openings is in sight. */
-static bool is_seen(const JoxWalls *walls, const JoxWallOpenings *openings, JoxV2 from) {
+/* Returns whether the middle of an opening is visible from a point. */
+static bool sees_opening(const JoxWalls *walls, const JoxWallOpenings *openings, JoxV2 from) {
     for (uint32_t o = 0; o < openings->count; o++) {
         const JoxV2 *ends = openings->ends[o];
-        if (!is_hidden(walls, jox_scale(jox_add(ends[0], ends[1]), 0.5f), from))
+        if (!is_behind_wall(walls, jox_scale(jox_add(ends[0], ends[1]), 0.5f), from))
             return true;
     }
     return false;
 }
 
-static float distance(const JoxDangerLine *line, JoxV2 point) {
+static float measure_line_distance(const JoxDangerLine *line, JoxV2 point) {
     const JoxV2 along = jox_sub(line->b, line->a), from = jox_sub(point, line->a);
     const float t = jox_clampf(jox_dot(from, along) / jox_dot(along, along), 0.0f, 1.0f);
     return jox_length(jox_sub(from, jox_scale(along, t)));
 }
 
-/* Who waits on either side, and the densities there. */
-static void look(const JoxDangerLine *line, const JoxWallOpenings *openings, const JoxFrame *frame,
-                 const float *density, uint32_t waiting[2], double mean[2]) {
+/* Counts the people waiting on each side and the mean densities close to the line. */
+static void measure_queues(const JoxDangerLine *line, const JoxWallOpenings *openings,
+                           const JoxFrame *frame, const float *density, uint32_t waiting[2],
+                           double mean[2]) {
     double sum[2] = {0.0, 0.0};
     uint32_t near[2] = {0, 0};
     waiting[0] = waiting[1] = 0;
     for (uint32_t i = 0; i < frame->count; i++) {
         const JoxV2 at = {frame->x[i], frame->y[i]};
-        const float away = distance(line, at);
-        if (away > FAR || !is_seen(frame->walls, openings, at))
+        const float away = measure_line_distance(line, at);
+        if (away > FAR || !sees_opening(frame->walls, openings, at))
             continue;
         const int side = jox_det(jox_sub(line->b, line->a), jox_sub(at, line->a)) > 0.0f;
         waiting[side]++;
@@ -154,8 +159,8 @@ static void look(const JoxDangerLine *line, const JoxWallOpenings *openings, con
         mean[side] = near[side] ? sum[side] / near[side] : NAN;
 }
 
-/* The row of WINDOW ago; NULL in the first. */
-static const JoxDangerLineRow *row_before(const JoxDangerLine *line, double now) {
+/* Returns the row from WINDOW seconds ago; NULL if there is none yet. */
+static const JoxDangerLineRow *find_row_before_window(const JoxDangerLine *line, double now) {
     const JoxDangerLineRow *found = NULL;
     for (uint32_t r = line->row_count; r-- > 0 && !found;)
         if (line->rows[r].time <= now - WINDOW + HAIR)
@@ -163,7 +168,7 @@ static const JoxDangerLineRow *row_before(const JoxDangerLine *line, double now)
     return found;
 }
 
-static void count_spell(JoxDangerSpell *spell, bool now, double time, double duration) {
+static void extend_spell(JoxDangerSpell *spell, bool now, double time, double duration) {
     if (!now)
         return;
     spell->seconds += duration;
@@ -171,8 +176,8 @@ static void count_spell(JoxDangerSpell *spell, bool now, double time, double dur
         spell->first = time;
 }
 
-/* What follows for the line from its row of now. */
-static void judge(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
+/* Sets level and stop-and-go of a row, and updates the maxima and times of the line. */
+static void update_line_figures(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
     const bool dense = row->density >= DENSE;
     row->level = jox_level_of_walkway(row->flow, row->density);
     row->stop_and_go = dense && row->flow < JOX_STOP_FLOW;
@@ -186,15 +191,15 @@ static void judge(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
         line->growth_most = row->growth;
         line->growth_most_time = row->time;
     }
-    count_spell(&line->stop_and_go, row->stop_and_go, row->time, duration);
+    extend_spell(&line->stop_and_go, row->stop_and_go, row->time, duration);
 }
 
-static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *density,
-                   double duration) {
+static void sample_line(JoxDangerLine *line, const JoxFrame *frame, const float *density,
+                        double duration) {
     uint32_t forward, back;
     double mean[2];
     JoxWallOpenings openings;
-    clear(line, frame->walls, &openings);
+    clip_line_to_openings(line, frame->walls, &openings);
     JoxDangerLineRow row = {.time = frame->time,
                             .width = line->width,
                             .forward = line->forward,
@@ -202,9 +207,10 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
                             .flow = NAN,
                             .growth = NAN,
                             .level = -1};
-    passed(line, frame->time - WINDOW, &forward, &back);
-    look(line, &openings, frame, density, row.waiting, mean);
-    /* Where most come from: of late, else so far, else where more people are. */
+    count_passed_people(line, frame->time - WINDOW, &forward, &back);
+    measure_queues(line, &openings, frame, density, row.waiting, mean);
+    /* The side before the line is the one that most people come from: of late, else since the
+       beginning; without passages, the side with more people. */
     int from = (forward > back) - (forward < back);
     if (from == 0)
         from = (line->forward > line->back) - (line->forward < line->back);
@@ -212,12 +218,12 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
         from = row.waiting[0] >= row.waiting[1] ? 1 : -1;
     row.side = from < 0;
     row.density = mean[row.side];
-    const JoxDangerLineRow *before = row_before(line, frame->time);
+    const JoxDangerLineRow *before = find_row_before_window(line, frame->time);
     if (before) {
         row.flow = (forward + back) / (WINDOW * line->width);
         row.growth =
             ((double)row.waiting[row.side] - before->waiting[row.side]) / (row.time - before->time);
-        judge(line, &row, duration);
+        update_line_figures(line, &row, duration);
     }
     JOX_RESERVE(line->rows, line->row_capacity, line->row_count + 1);
     line->rows[line->row_count++] = row;
@@ -226,13 +232,13 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
 void jox_danger_lines_sample(JoxDangerLines *lines, const JoxFrame *frame, const float *density,
                              double duration) {
     for (uint32_t l = 0; l < lines->count; l++)
-        sample(&lines->items[l], frame, density, duration);
+        sample_line(&lines->items[l], frame, density, duration);
 }
 
 /* ---- figures ---- */
 
-static void add_spell(JoxJson *json, const char *name, const JoxDangerSpell *spell, bool known,
-                      double end) {
+static void write_spell(JoxJson *json, const char *name, const JoxDangerSpell *spell, bool known,
+                        double end) {
     jox_json_object(json, name);
     jox_json_number(json, "seconds", known ? spell->seconds : NAN);
     jox_json_number(json, "first_s", spell->first);
@@ -240,7 +246,7 @@ static void add_spell(JoxJson *json, const char *name, const JoxDangerSpell *spe
     jox_json_end(json);
 }
 
-static void add_line(const JoxDangerLine *line, double begun, double end, JoxJson *json) {
+static void write_line_figures(const JoxDangerLine *line, double begun, double end, JoxJson *json) {
     const bool known = line->worst >= 0;
     jox_json_object(json, line->name);
     jox_json_number(json, "width", line->width);
@@ -259,7 +265,7 @@ static void add_line(const JoxDangerLine *line, double begun, double end, JoxJso
     for (int k = 0; k < JOX_LEVELS; k++)
         jox_json_number(json, jox_levels[k].name, known ? line->level_s[k] : NAN);
     jox_json_end(json);
-    add_spell(json, "stop_and_go", &line->stop_and_go, known, end);
+    write_spell(json, "stop_and_go", &line->stop_and_go, known, end);
     jox_json_end(json);
 }
 
@@ -270,11 +276,11 @@ void jox_danger_lines_json(const JoxDangerLines *lines, double begun, double end
     }
     jox_json_object(json, "lines");
     for (uint32_t l = 0; l < lines->count; l++)
-        add_line(&lines->items[l], begun, end, json);
+        write_line_figures(&lines->items[l], begun, end, json);
     jox_json_end(json);
 }
 
-static bool are_rows(const JoxDangerLine *line) {
+static bool are_line_rows_valid(const JoxDangerLine *line) {
     for (uint32_t r = 0; r < line->row_count; r++)
         if (line->rows[r].side < 0 || line->rows[r].side > 1 || line->rows[r].level < -1 ||
             line->rows[r].level >= JOX_LEVELS)
@@ -282,7 +288,7 @@ static bool are_rows(const JoxDangerLine *line) {
     return line->worst >= -1 && line->worst < JOX_LEVELS;
 }
 
-static void line_sections(JoxDangerLine *line, JoxSections *s) {
+static void list_line_sections(JoxDangerLine *line, JoxSections *s) {
     JOX_SECTION(s, "from", line->a);
     JOX_SECTION(s, "to", line->b);
     JOX_SECTION(s, "width", line->width);
@@ -298,7 +304,7 @@ static void line_sections(JoxDangerLine *line, JoxSections *s) {
                       line->crossing_capacity);
     JOX_SECTION(s, "forward", line->forward);
     JOX_SECTION(s, "back", line->back);
-    if (!s->failed && !are_rows(line))
+    if (!s->failed && !are_line_rows_valid(line))
         jox_sections_fail(s, "rows", "there is no such side or level");
     if (s->failed) {
         line->row_count = 0;
@@ -309,7 +315,7 @@ static void line_sections(JoxDangerLine *line, JoxSections *s) {
 void jox_danger_lines_sections(JoxDangerLines *lines, JoxSections *s) {
     jox_track_sections(&lines->track, s);
     for (uint32_t l = 0; l < lines->count; l++)
-        line_sections(&lines->items[l], s);
+        list_line_sections(&lines->items[l], s);
 }
 
 void jox_danger_lines_free(JoxDangerLines *lines) {

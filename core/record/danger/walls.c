@@ -8,18 +8,20 @@
 const char jox_rail_what[] = "steel railings were bent in fatal crowds";
 const char jox_rail_source[] = "J. J. Fruin, The causes and prevention of crowd disasters, 1993";
 
-static bool is_same(JoxV2 a, JoxV2 b) {
+static bool have_equal_coordinates(JoxV2 a, JoxV2 b) {
     return a.x == b.x && a.y == b.y;
 }
 
-/* The piece of load k: that of the frame before unless walls changed, else sought or new. */
-static JoxDangerPiece *piece_of(JoxDangerWalls *walls, const JoxWallLoad *load, uint32_t k) {
+/* Returns the piece of load k: the one of the last frame unless walls changed, else one with the
+   same end points, or a new one. */
+static JoxDangerPiece *find_piece(JoxDangerWalls *walls, const JoxWallLoad *load, uint32_t k) {
     uint32_t p = walls->order[k];
-    if (p < walls->count && is_same(walls->items[p].from, load->from) &&
-        is_same(walls->items[p].to, load->to))
+    if (p < walls->count && have_equal_coordinates(walls->items[p].from, load->from) &&
+        have_equal_coordinates(walls->items[p].to, load->to))
         return &walls->items[p];
     for (p = 0; p < walls->count; p++)
-        if (is_same(walls->items[p].from, load->from) && is_same(walls->items[p].to, load->to))
+        if (have_equal_coordinates(walls->items[p].from, load->from) &&
+            have_equal_coordinates(walls->items[p].to, load->to))
             break;
     if (p == walls->count) {
         JOX_RESERVE(walls->items, walls->capacity, walls->count + 1);
@@ -30,7 +32,7 @@ static JoxDangerPiece *piece_of(JoxDangerWalls *walls, const JoxWallLoad *load, 
     return &walls->items[p];
 }
 
-static void judge(JoxDangerWalls *walls, uint32_t p, double time, double duration) {
+static void update_piece_figures(JoxDangerWalls *walls, uint32_t p, double time, double duration) {
     JoxDangerPiece *piece = &walls->items[p];
     if (piece->load > piece->most) {
         piece->most = piece->load;
@@ -56,12 +58,12 @@ void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double
         return;
     walls->known = true;
     for (uint32_t p = 0; p < walls->count; p++)
-        walls->items[p].load *= 1.0f - share; /* those that a gate took away bear nothing */
+        walls->items[p].load *= 1.0f - share; /* pieces of an open gate have no load */
     JOX_RESERVE_ZEROED(walls->order, walls->order_capacity, frame->wall_load_count);
     for (uint32_t k = 0; k < frame->wall_load_count; k++)
-        piece_of(walls, &frame->wall_loads[k], k)->load += share * frame->wall_loads[k].load;
+        find_piece(walls, &frame->wall_loads[k], k)->load += share * frame->wall_loads[k].load;
     for (uint32_t p = 0; p < walls->count; p++)
-        judge(walls, p, frame->time, duration);
+        update_piece_figures(walls, p, frame->time, duration);
 }
 
 double jox_danger_walls_now(const JoxDangerWalls *walls) {
@@ -76,7 +78,8 @@ double jox_danger_piece_line_load(const JoxDangerPiece *piece) {
     return length > 0.0 ? (double)piece->most / length : NAN;
 }
 
-static void add_middle(JoxJson *json, const JoxDangerPiece *piece, const char *x, const char *y) {
+static void write_piece_middle(JoxJson *json, const JoxDangerPiece *piece, const char *x,
+                               const char *y) {
     jox_json_number(json, x, piece ? 0.5 * ((double)piece->from.x + (double)piece->to.x) : NAN);
     jox_json_number(json, y, piece ? 0.5 * ((double)piece->from.y + (double)piece->to.y) : NAN);
 }
@@ -92,14 +95,14 @@ void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *jso
     jox_json_whole(json, "pieces", walls->count);
     jox_json_number(json, "load_max", most ? (double)most->most : 0.0);
     jox_json_number(json, "load_max_s", most ? most->most_time : NAN);
-    add_middle(json, most, "load_max_x", "load_max_y");
+    write_piece_middle(json, most, "load_max_x", "load_max_y");
     jox_json_object(json, "rail_4500");
     jox_json_whole(json, "pieces", walls->over);
     jox_json_number(json, "limit", JOX_RAIL_LIMIT);
     jox_json_number(json, "piece_s", walls->piece_s);
     jox_json_number(json, "longest_s", walls->longest);
     jox_json_number(json, "first_s", first ? first->first : NAN);
-    add_middle(json, first, "first_x", "first_y");
+    write_piece_middle(json, first, "first_x", "first_y");
     jox_json_number(json, "since_min", first ? (end - first->first) / 60.0 : NAN);
     jox_json_end(json);
     jox_json_end(json);

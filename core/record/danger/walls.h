@@ -1,5 +1,6 @@
-/* Loads on walls, by pieces of at most a metre: what each bears, held on average for a second like
-   what people bear, the greatest of it, and since when it is more than a rail stood. */
+/* Loads on walls, in pieces of at most a metre: the mean of each over 1 s, as for people, its
+   greatest value, and since when it exceeds what a steel railing withstood. danger.c owns and feeds
+   it. */
 #ifndef JOX_RECORD_DANGER_WALLS_H
 #define JOX_RECORD_DANGER_WALLS_H
 
@@ -14,31 +15,32 @@ extern const char jox_rail_what[], jox_rail_source[];
 
 typedef struct JoxDangerPiece {
     JoxV2 from, to; /* m */
-    float load;     /* N: mean of the last second */
-    float most;     /* N: greatest of that */
+    float load;     /* N: exponential mean over 1 s */
+    float most;     /* N: greatest mean */
     double most_time;
-    double seconds, first; /* s over JOX_RAIL_LIMIT, and when for the first time; NAN: never */
+    double seconds, first; /* s: total time above JOX_RAIL_LIMIT, and the first time; NAN: never */
 } JoxDangerPiece;
 
 typedef struct JoxDangerWalls {
     JoxDangerPiece *items;
     uint32_t count, capacity;
-    uint32_t *order; /* by load of the frame before: its piece */
+    uint32_t *order; /* piece of each wall load in the last frame */
     uint32_t order_capacity;
-    bool known;    /* some frame had loads of walls */
-    uint32_t over; /* pieces that were ever over the limit */
+    bool known;    /* a frame had wall loads */
+    uint32_t over; /* pieces that exceeded the limit at any time */
     double piece_s, longest;
-    uint32_t first, most; /* pieces: the first over the limit, that of the greatest load */
+    /* indices of the first piece over the limit and of the one with the greatest load */
+    uint32_t first, most;
 } JoxDangerWalls;
 
-/* `share`: of this frame in the mean. */
+/* Takes the wall loads of a frame. `share` is its weight in the means. */
 void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double duration,
                             float share);
-/* Greatest load of any piece now, N; NAN if it is not known. */
+/* Returns the greatest mean load of any piece at present, N; NAN if unknown. */
 double jox_danger_walls_now(const JoxDangerWalls *walls);
-/* N per metre of a piece's length, at its greatest load. */
+/* Returns the greatest load of a piece over its length, N/m. */
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
-/* Adds "walls": {...}; null where no loads of walls are known. `end`: of what was measured, s. */
+/* Writes "walls": {...}, or null without wall loads. `end` is the time of the last frame, s. */
 void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *json);
 void jox_danger_walls_sections(JoxDangerWalls *walls, JoxSections *sections);
 void jox_danger_walls_free(JoxDangerWalls *walls);
