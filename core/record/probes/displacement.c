@@ -1,8 +1,7 @@
-/* Displacement: how far each person is from where first seen (the mean place of the first `rest`
-   seconds), at the end (residual) and at most, and when it began; in all directions, or along one.
-   Where a push travels through people who stand, the distances at which they stood from the one who
-   moved first, fitted over the times at which they began to move, give the speed of its front
-   (least squares, time over distance). */
+/* Probe `displacement`: distance of each person from its place of rest, the mean position in the
+   first `rest` seconds: at the end (residual), at most, and when it first exceeded `onset`; in all
+   directions, or along one. Where a push travels through standing people, a least-squares fit of
+   onset time over distance from the first person to move gives the speed of the front. */
 #include <math.h>
 #include <string.h>
 
@@ -11,29 +10,31 @@
 #include "record/probes/probe_parts.h"
 
 typedef struct Person {
-    uint8_t known;        /* as one is read back from a checkpoint: any byte */
-    float x, y;           /* m: where first seen */
-    float dx, dy;         /* m: since, the way over periodic edges taken as it was */
-    float base_x, base_y; /* m: mean of these while at rest */
-    uint32_t rested;      /* frames */
-    float now, most;      /* m: distance from there */
-    double since, onset;  /* s: when first seen; when `onset` metres were passed, or NAN */
+    uint8_t known;        /* 0 or 1; not a bool, since a checkpoint may hold any byte */
+    float x, y;           /* m: first position */
+    float dx, dy;         /* m: displacement since then, along the path where edges are periodic */
+    float base_x, base_y; /* m: mean displacement while at rest */
+    uint32_t rested;      /* frames at rest */
+    float now, most;      /* m: distance from the place of rest, now and at most */
+    /* s: time of the first position; time at which `onset` metres were exceeded, NAN: not yet */
+    double since, onset;
 } Person;
 
 typedef struct Displacement {
     JoxTrack track;
     Person *people; /* by key */
     uint32_t capacity;
-    double pace; /* s: the longest time between two frames */
+    double pace; /* s: longest time between two frames */
 } Displacement;
 
-/* m from the place of rest: along the given direction, else in any. */
-static float distance(const JoxProbeDef *def, const Person *p) {
+/* Returns the distance from the place of rest, m: along the direction of the probe, else in any
+   direction. */
+static float measure_displacement(const JoxProbeDef *def, const Person *p) {
     JoxV2 away = {p->dx - p->base_x, p->dy - p->base_y};
     return def->count ? fabsf(jox_dot(away, jox_unit(def->points[0]))) : jox_length(away);
 }
 
-static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
+static void move_person(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
     p->dx += stretch->by.x;
     p->dy += stretch->by.y;
     if (stretch->ended - p->since < def->rest - 1e-9) {
@@ -43,7 +44,7 @@ static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
         return;
     }
     float before = p->now;
-    p->now = distance(def, p);
+    p->now = measure_displacement(def, p);
     p->most = jox_maxf(p->most, p->now);
     if (isnan(p->onset) && p->now > def->onset) {
         double share = p->now > before ? (def->onset - before) / (p->now - before) : 1.0;
@@ -51,7 +52,8 @@ static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
     }
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_displacement_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                                    const uint8_t *seen) {
     Displacement *d = state;
     jox_track_reserve(&d->track, frame);
     JOX_RESERVE_ZEROED(d->people, d->capacity, frame->keys);
@@ -68,16 +70,16 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
                           .since = frame->time,
                           .onset = NAN};
         else {
-            move(def, p, &stretch);
+            move_person(def, p, &stretch);
             d->pace = fmax(d->pace, stretch.ended - stretch.begun);
         }
     }
 }
 
-/* m/s; NAN with a reason where it cannot be told. Times are no finer than frames: if all begin to
-   move within the time between two, they moved at once, as far as is known. The time must grow with
-   distance by more than twice its standard error. */
-static double front_speed(const JoxProbeDef *def, const Displacement *d, const char **why) {
+/* Returns the speed of the front, m/s; NAN with a reason if there is none. Times are no finer than
+   frames: if everybody begins to move within the time between two frames, the front has no
+   measurable speed. The slope of time over distance must exceed twice its standard error. */
+static double fit_front_speed(const JoxProbeDef *def, const Displacement *d, const char **why) {
     const Person *first = NULL;
     double n = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0, last = 0;
     for (uint32_t k = 0; k < d->capacity; k++)
@@ -116,7 +118,7 @@ static double front_speed(const JoxProbeDef *def, const Displacement *d, const c
     return NAN;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_displacement_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Displacement *d = state;
     double *ends = jox_alloc(d->capacity + 1, sizeof *ends), sum = 0.0, peaks = 0.0, peak = NAN;
     uint32_t count = 0, moved = 0;
@@ -140,20 +142,20 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    count ? peaks / count : NAN);
     jox_figure_add(out, "peak", "greatest displacement at any time", "m", peak);
     const char *why;
-    const double front = front_speed(def, d, &why);
+    const double front = fit_front_speed(def, d, &why);
     jox_figure_add(out, "front_speed", "speed at which the push travels", "m/s", front);
     jox_figure_why(out, why);
     jox_free(ends);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_displacement_sections(void *state, JoxSections *s) {
     Displacement *d = state;
     jox_track_sections(&d->track, s);
     JOX_SECTION_ROOM(s, "people", d->people, d->capacity);
     JOX_SECTION(s, "pace", d->pace);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_displacement_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Displacement *d = state;
     fputs("person,x [m],y [m],dx [m],dy [m],residual [m],peak [m],onset [s]\n", out);
@@ -167,7 +169,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     }
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_displacement(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)def;
     const Displacement *d = state;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
@@ -184,7 +186,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         jox_plot_nothing(out, "nobody was seen");
         return;
     }
-    /* A range of colours is given: gnuplot would warn where nobody moved. */
+    /* Give gnuplot a colour range: it warns where all values are equal. */
     double most = 0.0;
     for (uint32_t k = 0; k < d->capacity; k++)
         most = d->people[k].known ? fmax(most, d->people[k].now) : most;
@@ -204,8 +206,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_displacement = {
-    JOX_PROBE_KIND(Displacement, 1000, 900),
-    .frame = frame,
-    .pace = JOX_PACE_ALL, /* a front passes people in less than a tenth of a second */
+    JOX_PROBE_KIND(Displacement, displacement, 1000, 900),
+    .frame = take_displacement_frame,
+    .pace = JOX_PACE_ALL, /* a front passes a person in less than a tenth of a second */
     .owned = {JOX_OWNED(Displacement, track.items), JOX_OWNED(Displacement, people)},
 };

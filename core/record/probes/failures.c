@@ -1,12 +1,12 @@
-/* Failures: the share of agent-steps whose 2-D program had no solution, in bins of so many
-   seconds. */
+/* Probe `failures`: the share of agent-steps whose two-dimensional linear program had no solution,
+   in bins of `every` seconds. */
 #include <math.h>
 
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
 typedef struct Bin {
-    uint64_t failed, all; /* agent-steps */
+    uint64_t failed, all; /* number of agent-steps */
 } Bin;
 
 typedef struct Failures {
@@ -14,9 +14,10 @@ typedef struct Failures {
     uint32_t count, capacity;
 } Failures;
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_failures_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                                const uint8_t *seen) {
     Failures *f = state;
-    /* The step that ends at a bin's edge belongs to the bin before. */
+    /* A step that ends at the edge of a bin belongs to the bin before. */
     double at = (frame->time - def->from) / def->every - 1e-6;
     uint32_t bin = at > 0.0 ? (uint32_t)at : 0;
     JOX_RESERVE(f->bins, f->capacity, bin + 1);
@@ -28,48 +29,48 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     }
 }
 
-static double share(Bin bin) {
+static double compute_failure_share(Bin bin) {
     return bin.all ? (double)bin.failed / (double)bin.all : NAN;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_failures_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Failures *f = state;
     Bin sum = {0, 0};
     double peak = NAN, peak_time = NAN;
     for (uint32_t b = 0; b < f->count; b++) {
         sum.failed += f->bins[b].failed;
         sum.all += f->bins[b].all;
-        if (f->bins[b].all && !(share(f->bins[b]) <= peak)) {
-            peak = share(f->bins[b]);
+        if (f->bins[b].all && !(compute_failure_share(f->bins[b]) <= peak)) {
+            peak = compute_failure_share(f->bins[b]);
             peak_time = def->from + (b + 0.5) * def->every;
         }
     }
     jox_figure_add(out, "agent_steps", "steps of people that were looked at", "", (double)sum.all);
-    jox_figure_add(out, "share", "share whose 2-D program failed", "", share(sum));
+    jox_figure_add(out, "share", "share whose 2-D program failed", "", compute_failure_share(sum));
     jox_figure_add(out, "peak", "greatest share of an interval", "", peak);
     jox_figure_add(out, "peak_time", "when that was", "s", peak_time);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_failures_sections(void *state, JoxSections *s) {
     Failures *f = state;
     JOX_SECTION_ARRAY(s, "bins", f->bins, f->count, f->capacity);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_failures_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Failures *f = state;
     fputs("time [s],agent_steps,failed,share\n", out);
     for (uint32_t b = 0; b < f->count; b++)
         fprintf(out, "%.4f,%llu,%llu,%.6g\n", def->from + (b + 0.5) * def->every,
                 (unsigned long long)f->bins[b].all, (unsigned long long)f->bins[b].failed,
-                share(f->bins[b]));
+                compute_failure_share(f->bins[b]));
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_failures(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     const Failures *f = state;
     double most = NAN;
     (void)walls;
     for (uint32_t b = 0; b < f->count; b++)
-        most = f->bins[b].all ? fmax(100.0 * share(f->bins[b]), most) : most;
+        most = f->bins[b].all ? fmax(100.0 * compute_failure_share(f->bins[b]), most) : most;
     if (isnan(most)) {
         jox_plot_nothing(out, "nobody was there");
         return;
@@ -84,8 +85,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_failures = {
-    JOX_PROBE_KIND(Failures, 1000, 600),
-    .frame = frame,
+    JOX_PROBE_KIND(Failures, failures, 1000, 600),
+    .frame = take_failures_frame,
     .pace = JOX_PACE_ALL,
     .owned = {JOX_OWNED(Failures, bins)},
 };

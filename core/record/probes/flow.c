@@ -1,7 +1,8 @@
-/* Flow through a line: N(t), and the mean flow of the middle 60 % of the passages, which leaves out
-   how a crowd arrives at and runs out of a door; specific flow is that by the clear width, which
-   walls leave of the line about its middle. Who steps back over the line takes the latest
-   passage back: it never was one. */
+/* Probe `flow`: flow through a line. N(t) counts the passages; the mean flow is that of the middle
+   60 % of them, which leaves out how a crowd arrives at a door and how it ends. Specific flow is
+   the flow per metre of clear width, the part of the line that walls leave open about its middle. A
+   person who steps back over the line revokes the last passage. Probe `measure` uses a flow, too
+   (jox_flow_*). */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,43 +11,44 @@
 #include "base/sort.h"
 #include "record/probes/probe_parts.h"
 
-static const double TAIL = 0.2;  /* share of the passages left out at either end */
-static const double LEAST = 1.0; /* s: over less a flow is that of two who pass side by side */
+static const double TAIL = 0.2;  /* share of the passages left out at each end */
+static const double LEAST = 1.0; /* s: shortest duration for a flow; below it, two people passing
+                                    side by side would give a great one */
 static const char FEW[] = "not known: fewer than two passages, or all within a second";
 
 typedef struct Crossing {
     double time; /* s */
     uint32_t key;
     int direction;
-    uint8_t stands;    /* forward, and not taken back */
-    uint32_t previous; /* the same person's standing passage before this one, plus 1 */
+    uint8_t valid;     /* 0 or 1: a forward passage that was not revoked */
+    uint32_t previous; /* 1 + index of the person's last valid passage before this one; 0: none */
 } Crossing;
 
 typedef struct Flow {
     JoxTrack track;
-    uint32_t *latest; /* by key: the latest standing passage, plus 1 */
+    uint32_t *latest; /* by key: 1 + index of the last valid passage; 0: none */
     uint32_t latest_capacity;
     Crossing *crossings;
-    uint32_t count, capacity, forward, back, standing;
-    double width; /* m: what walls leave of the line about its middle; 0 before the first frame */
+    uint32_t count, capacity, forward, back, valid_count;
+    double width; /* m: clear width about the middle of the line; 0 before the first frame */
 } Flow;
 
-static void add(Flow *f, uint32_t key, int direction, double time) {
+static void add_flow_crossing(Flow *f, uint32_t key, int direction, double time) {
     JOX_RESERVE(f->crossings, f->capacity, f->count + 1);
     Crossing *c = &f->crossings[f->count++];
     *c = (Crossing){time, key, direction, direction > 0, 0};
     uint32_t *latest = &f->latest[key];
     if (direction > 0) {
         f->forward++;
-        f->standing++;
+        f->valid_count++;
         c->previous = *latest;
         *latest = f->count;
         return;
     }
     f->back++;
     if (*latest) {
-        f->crossings[*latest - 1].stands = false;
-        f->standing--;
+        f->crossings[*latest - 1].valid = false;
+        f->valid_count--;
         *latest = f->crossings[*latest - 1].previous;
     }
 }
@@ -68,11 +70,12 @@ void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, con
             continue;
         int direction = jox_stretch_crosses(&stretch, line[0], line[1], &time);
         if (direction)
-            add(f, frame->key[i], direction, time);
+            add_flow_crossing(f, frame->key[i], direction, time);
     }
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_flow_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                            const uint8_t *seen) {
     jox_flow_frame(def->points, state, frame, seen);
 }
 
@@ -90,8 +93,8 @@ void jox_flow_free(void *state) {
     jox_free(f);
 }
 
-/* Passages are numbered from 1; 0 is none. */
-static bool are_numbers(const Flow *f) {
+/* Returns whether all indices of passages are in range, as after a restore. */
+static bool are_passages_in_range(const Flow *f) {
     for (uint32_t k = 0; k < f->latest_capacity; k++)
         if (f->latest[k] > f->count)
             return false;
@@ -108,20 +111,20 @@ void jox_flow_sections(void *state, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "crossings", f->crossings, f->count, f->capacity);
     JOX_SECTION(s, "forward", f->forward);
     JOX_SECTION(s, "back", f->back);
-    JOX_SECTION(s, "standing", f->standing);
+    JOX_SECTION(s, "standing", f->valid_count);
     JOX_SECTION(s, "width", f->width);
-    if (!s->failed && !are_numbers(f))
+    if (!s->failed && !are_passages_in_range(f))
         jox_sections_fail(s, "crossings", "a passage is not there");
     if (s->failed)
         f->count = f->latest_capacity = 0;
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_flow_sections(void *state, JoxSections *s) {
     jox_flow_sections(state, s);
 }
 
 uint32_t jox_flow_passages(const void *state) {
-    return ((const Flow *)state)->standing;
+    return ((const Flow *)state)->valid_count;
 }
 
 uint32_t jox_flow_against(const void *state) {
@@ -129,36 +132,38 @@ uint32_t jox_flow_against(const void *state) {
     return f->forward ? 0 : f->back;
 }
 
-/* Times of the passages that stand, ascending; to be freed. */
-static double *passages(const Flow *f, size_t *count) {
+/* Returns the times of the valid passages, s, in ascending order; the caller frees them. */
+static double *collect_passage_times(const Flow *f, size_t *count) {
     double *times = jox_alloc(f->count + 1, sizeof *times);
     *count = 0;
     for (uint32_t c = 0; c < f->count; c++)
-        if (f->crossings[c].stands)
+        if (f->crossings[c].valid)
             times[(*count)++] = f->crossings[c].time;
-    jox_quantile(times, *count, 0.0); /* sorts */
+    jox_quantile(times, *count, 0.0); /* sorts them */
     return times;
 }
 
-/* First and last of the middle 60 %; false of fewer than two. */
-static bool middle(size_t count, size_t *first, size_t *last) {
+/* Sets the first and last passage of the middle 60 %; returns false for fewer than two. */
+static bool find_middle_passages(size_t count, size_t *first, size_t *last) {
     *first = (size_t)floor(TAIL * (double)count);
     *last = (size_t)ceil((1.0 - TAIL) * (double)count);
     *last = *last ? *last - 1 : 0;
     return count >= 2 && *last > *first;
 }
 
-static double rate(const double *times, size_t first, size_t last) {
+static double compute_flow(const double *times, size_t first, size_t last) {
     double spent = times[last] - times[first];
     return spent >= LEAST ? (double)(last - first) / spent : NAN;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_flow_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     (void)def;
     const Flow *f = state;
     size_t count, first, last;
-    double *times = passages(f, &count), *lapses = jox_alloc(count + 1, sizeof *lapses);
-    double flow = middle(count, &first, &last) ? rate(times, first, last) : NAN;
+    double *times = collect_passage_times(f, &count),
+           *lapses = jox_alloc(count + 1, sizeof *lapses);
+    double flow =
+        find_middle_passages(count, &first, &last) ? compute_flow(times, first, last) : NAN;
     for (size_t i = 1; i < count; i++)
         lapses[i - 1] = times[i] - times[i - 1];
     size_t gaps = count ? count - 1 : 0;
@@ -168,7 +173,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);
     jox_figure_why(out, FEW);
     jox_figure_add(out, "flow_all", "flow from the first to the last passage", "1/s",
-                   count >= 2 ? rate(times, 0, count - 1) : NAN);
+                   count >= 2 ? compute_flow(times, 0, count - 1) : NAN);
     jox_figure_why(out, FEW);
     jox_figure_add(out, "specific_flow", "flow over the middle 60 % per metre of the opening",
                    "1/(m s)", f->width > 0.0 ? flow / f->width : NAN);
@@ -187,8 +192,8 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
 
 bool jox_flow_middle(const void *state, double *from, double *to) {
     size_t count, first, last;
-    double *times = passages(state, &count);
-    const bool any = middle(count, &first, &last);
+    double *times = collect_passage_times(state, &count);
+    const bool any = find_middle_passages(count, &first, &last);
     if (any) {
         *from = times[first];
         *to = times[last];
@@ -197,7 +202,7 @@ bool jox_flow_middle(const void *state, double *from, double *to) {
     return any;
 }
 
-static int by_time(const void *a, const void *b, const void *context) {
+static int compare_crossing_times(const void *a, const void *b, const void *context) {
     (void)context;
     const Crossing *x = a, *y = b;
     if (x->time != y->time)
@@ -205,30 +210,30 @@ static int by_time(const void *a, const void *b, const void *context) {
     return (x->key > y->key) - (x->key < y->key);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_flow_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Flow *f = state;
     Crossing *sorted = jox_alloc(f->count + 1, sizeof *sorted);
     for (uint32_t c = 0; c < f->count; c++)
         sorted[c] = f->crossings[c];
-    jox_sort(sorted, f->count, sizeof *sorted, by_time, NULL, NULL);
+    jox_sort(sorted, f->count, sizeof *sorted, compare_crossing_times, NULL, NULL);
     fputs("time [s],person,direction,passages,lapse [s]\n", out);
     double before = NAN;
     uint32_t passed = 0;
     for (uint32_t c = 0; c < f->count; c++) {
         const Crossing *s = &sorted[c];
-        passed += s->stands != 0;
+        passed += s->valid != 0;
         fprintf(out, "%.4f,%u,%d,%u,", s->time, s->key, s->direction, passed);
-        if (s->stands && isfinite(before))
+        if (s->valid && isfinite(before))
             fprintf(out, "%.4f\n", s->time - before);
         else
             fputs("nan\n", out);
-        before = s->stands ? s->time : before;
+        before = s->valid ? s->time : before;
     }
     jox_free(sorted);
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_flow(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)def;
     (void)walls;
     const Flow *f = state;
@@ -237,8 +242,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         jox_plot_nothing(out, "nobody crossed the line");
         return;
     }
-    double *times = passages(f, &count);
-    double flow = middle(count, &first, &last) ? rate(times, first, last) : NAN;
+    double *times = collect_passage_times(f, &count);
+    double flow =
+        find_middle_passages(count, &first, &last) ? compute_flow(times, first, last) : NAN;
     jox_text_printf(out,
                     "unset title\nset multiplot layout 2,1 title heading font ',14' noenhanced\n"
                     "set key top left\nset xlabel 'time (s)'\nset xrange [%g:%g]\n"
@@ -260,7 +266,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_flow = {
-    JOX_PROBE_KIND(Flow, 1000, 800),
-    .frame = frame,
+    JOX_PROBE_KIND(Flow, flow, 1000, 800),
+    .frame = take_flow_frame,
     .owned = {JOX_OWNED(Flow, track.items), JOX_OWNED(Flow, latest), JOX_OWNED(Flow, crossings)},
 };

@@ -1,15 +1,16 @@
-/* Lanes: the area is cut into rows along the walking direction. A person in a row with n people, of
-   whom s go the same way and o the other, has (s - o)^2 / n^2, the person counted among s; the
-   order parameter is the mean over all (Rex and Loewen 2007, doi 10.1103/PhysRevE.75.051402; Nowak
-   and Schadschneider 2012, doi 10.1103/PhysRevE.85.066128). It is 1 where every row goes one way.
-   People placed at random have about the number of rows over the number of people: `random`. The
-   ways are two groups where the probe names two; else the sign of the velocity along the rows. */
+/* Probe `lanes`: order parameter of lanes. The area is cut into rows along the walking direction.
+   In a row of n people, s of them walking one way and o the other, each person has (s - o)^2 / n^2;
+   the order parameter is the mean over all people (Rex and Loewen 2007, doi
+   10.1103/PhysRevE.75.051402; Nowak and Schadschneider 2012, doi 10.1103/PhysRevE.85.066128). It is
+   1 where each row walks one way. People placed at random have about the number of rows over the
+   number of people: `random`. If the probe names two groups, these are the two ways; else the sign
+   of the velocity along the rows is. */
 #include <math.h>
 
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
-static const float STANDS = 0.02f; /* m/s: slower people go no way */
+static const float STANDS = 0.02f; /* m/s: slower people count as standing */
 enum { MOST_ROWS = 10000 };
 
 typedef struct LaneRow {
@@ -18,13 +19,13 @@ typedef struct LaneRow {
 } LaneRow;
 
 typedef struct Lanes {
-    uint32_t *ahead, *back; /* people by row */
+    uint32_t *ahead, *back; /* number of people in each row, by way */
     uint32_t rows;
     LaneRow *items;
     uint32_t count, capacity;
 } Lanes;
 
-static void begin(const JoxProbeDef *def, void *state) {
+static void begin_lanes(const JoxProbeDef *def, void *state) {
     Lanes *l = state;
     double across = def->along_y ? def->high.x - def->low.x : def->high.y - def->low.y;
     l->rows = (uint32_t)fmin(ceil(across / def->rows - 1e-6), MOST_ROWS);
@@ -33,15 +34,16 @@ static void begin(const JoxProbeDef *def, void *state) {
     l->back = jox_alloc(l->rows, sizeof *l->back);
 }
 
-/* +1 or -1; 0: goes no way. */
-static int way_of(const JoxProbeDef *def, const JoxFrame *frame, uint32_t i) {
+/* Returns the way of person i, +1 or -1; 0: standing. */
+static int find_walking_way(const JoxProbeDef *def, const JoxFrame *frame, uint32_t i) {
     if (def->group_count == 2 && frame->group)
         return frame->group[i] == def->groups[0] ? 1 : -1;
     float v = def->along_y ? frame->vy[i] : frame->vx[i];
     return v > STANDS ? 1 : v < -STANDS ? -1 : 0;
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_lanes_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                             const uint8_t *seen) {
     Lanes *l = state;
     LaneRow now = {.time = frame->time};
     uint32_t used = 0;
@@ -50,7 +52,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         l->ahead[r] = l->back[r] = 0;
     for (uint32_t i = 0; i < frame->count; i++) {
         float x = frame->x[i], y = frame->y[i];
-        int way = seen[i] ? way_of(def, frame, i) : 0;
+        int way = seen[i] ? find_walking_way(def, frame, i) : 0;
         if (way == 0 || x < def->low.x || x >= def->high.x || y < def->low.y || y >= def->high.y)
             continue;
         double across = def->along_y ? x - def->low.x : y - def->low.y;
@@ -63,7 +65,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     for (uint32_t r = 0; r < l->rows; r++) {
         double all = l->ahead[r] + l->back[r], more = (double)l->ahead[r] - l->back[r];
         used += all > 0.0;
-        order += all > 0.0 ? more * more / all : 0.0; /* the same of each of the row's people */
+        order += all > 0.0 ? more * more / all : 0.0; /* n people with (s - o)^2 / n^2 each */
     }
     if (now.people == 0)
         return;
@@ -76,7 +78,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     l->items[l->count++] = now;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_lanes_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     (void)def;
     const Lanes *l = state;
     double order = 0, random = 0, density = 0, speed = 0, n = l->count ? l->count : NAN;
@@ -95,12 +97,12 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "speed", "speed, mean", "m/s", speed / n);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_lanes_sections(void *state, JoxSections *s) {
     Lanes *l = state;
     JOX_SECTION_ARRAY(s, "items", l->items, l->count, l->capacity);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_lanes_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Lanes *l = state;
     fputs("time [s],order,random,people,density [1/m2],speed [m/s]\n", out);
@@ -109,7 +111,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
                 l->items[i].random, l->items[i].people, l->items[i].density, l->items[i].speed);
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_lanes(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)def;
     const Lanes *l = state;
     (void)walls;
@@ -125,9 +127,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_lanes = {
-    JOX_PROBE_KIND(Lanes, 1000, 600),
-    .frame = frame,
+    JOX_PROBE_KIND(Lanes, lanes, 1000, 600),
+    .frame = take_lanes_frame,
     .pace = JOX_PACE_EVERY,
-    .begin = begin,
+    .begin = begin_lanes,
     .owned = {JOX_OWNED(Lanes, ahead), JOX_OWNED(Lanes, back), JOX_OWNED(Lanes, items)},
 };

@@ -1,6 +1,7 @@
-/* Log: what happened to people, one by one: somebody enters a state, kicks or throws a body, is hit
-   by a fast one. Each with where the person and the body were when the step of it began, as the
-   person's machine saw them: who enters a state, with the moving body nearest to it. */
+/* Probe `log`: events of single people: a person enters a state, kicks or throws a body, or is hit
+   by a fast one. A row gives person and body as they were at the beginning of the step, which is
+   what the person's machine saw; for a new state, the body is the moving one nearest to the
+   person. */
 #include <math.h>
 #include <string.h>
 
@@ -10,28 +11,28 @@
 typedef enum { ENTERS, KICKS, HIT } What;
 static const char *const WHAT[] = {"enters", "kicks", "hit"};
 
-typedef struct Before { /* of a person, in the frame before */
+typedef struct Before { /* a person in the last frame */
     float x, y, speed;
-    uint32_t state; /* in the log's names */
-    uint8_t known;  /* as one is read back from a checkpoint: any byte */
+    uint32_t state; /* index in `names` */
+    uint8_t known;  /* 0 or 1; not a bool, since a checkpoint may hold any byte */
 } Before;
 
 typedef struct Action {
     double time; /* s: end of the step */
     uint32_t person;
     What what;
-    uint32_t group, state; /* in the log's names; the state after the step */
+    uint32_t group, state; /* indices in `names`; the state is the one after the step */
     Before before;
-    int32_t body; /* id, or -1 */
+    int32_t body; /* id of the body; -1: none */
     JoxV3 at;
-    float speed, gap; /* of the body, m/s; between the two, m */
+    float speed, gap; /* speed of the body, m/s; gap between person and body, m */
     uint8_t lies;
 } Action;
 
 typedef struct Log {
-    char **names; /* of states and groups: a reload may change and free those of the frame */
+    char **names; /* names of states and groups, copied: a reload may free those of the frame */
     uint32_t name_count, name_capacity;
-    uint32_t *states; /* by row of the frame's states: in `names` */
+    uint32_t *states; /* index in `names` of each state of the frame */
     uint32_t state_capacity;
     Before *before; /* by key */
     uint32_t before_capacity;
@@ -40,7 +41,7 @@ typedef struct Log {
     uint32_t counts[3];
 } Log;
 
-static uint32_t name_of(Log *log, const char *text) {
+static uint32_t intern_name(Log *log, const char *text) {
     uint32_t n = 0;
     while (n < log->name_count && strcmp(log->names[n], text) != 0)
         n++;
@@ -51,13 +52,13 @@ static uint32_t name_of(Log *log, const char *text) {
     return n;
 }
 
-static float gap_to(const Before *person, const JoxObject *body, float radius) {
+static float measure_gap(const Before *person, const JoxObject *body, float radius) {
     const float reach = body->footprint_count ? body->disc : body->round;
     return jox_length(jox_v2(body->position.x - person->x, body->position.y - person->y)) - reach -
            radius;
 }
 
-static int32_t nearest(const JoxFrame *frame, const Before *person) {
+static int32_t find_nearest_body(const JoxFrame *frame, const Before *person) {
     int32_t best = -1;
     float least = INFINITY;
     for (uint32_t o = 0; frame->objects && o < frame->objects->count; o++) {
@@ -72,19 +73,20 @@ static int32_t nearest(const JoxFrame *frame, const Before *person) {
     return best;
 }
 
-static void add(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t row) {
+static void add_action(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t row) {
     const Before *before = &log->before[frame->key[i]];
     JOX_RESERVE(log->actions, log->capacity, log->count + 1);
     Action *action = &log->actions[log->count++];
-    *action = (Action){
-        .time = frame->time,
-        .person = frame->key[i],
-        .what = what,
-        .group = name_of(log, frame->group && frame->groups ? frame->groups[frame->group[i]] : ""),
-        .state = frame->state ? log->states[frame->state[i]] : 0,
-        .before = *before,
-        .body = -1,
-        .gap = NAN};
+    *action =
+        (Action){.time = frame->time,
+                 .person = frame->key[i],
+                 .what = what,
+                 .group = intern_name(
+                     log, frame->group && frame->groups ? frame->groups[frame->group[i]] : ""),
+                 .state = frame->state ? log->states[frame->state[i]] : 0,
+                 .before = *before,
+                 .body = -1,
+                 .gap = NAN};
     log->counts[what]++;
     if (row < 0 || !frame->objects || (uint32_t)row >= frame->objects->count)
         return;
@@ -93,35 +95,36 @@ static void add(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t 
     action->at = body->position;
     action->speed = sqrtf(jox_length2(jox_v2(body->velocity.x, body->velocity.y)) +
                           body->velocity.z * body->velocity.z);
-    action->gap = gap_to(before, body, jox_frame_radius(frame, i, 0.0f));
+    action->gap = measure_gap(before, body, jox_frame_radius(frame, i, 0.0f));
     action->lies = body->grounded;
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_log_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                           const uint8_t *seen) {
     Log *log = state;
     (void)def;
     JOX_RESERVE_ZEROED(log->before, log->before_capacity, frame->keys);
-    name_of(log, ""); /* the first, of who is in no state or group */
+    intern_name(log, ""); /* name 0 is for people without a state or group */
     JOX_RESERVE(log->states, log->state_capacity, frame->state_count + 1);
     for (uint32_t s = 0; frame->state && s < frame->state_count; s++)
-        log->states[s] = name_of(log, frame->states[s]);
+        log->states[s] = intern_name(log, frame->states[s]);
     for (uint32_t i = 0; i < frame->count; i++) {
         Before *before = &log->before[frame->key[i]];
         const uint32_t now = frame->state ? log->states[frame->state[i]] : 0;
         if (seen[i] && before->known) {
             if (now != before->state)
-                add(log, frame, i, ENTERS, nearest(frame, before));
+                add_action(log, frame, i, ENTERS, find_nearest_body(frame, before));
             if (frame->kicked && frame->kicked[i])
-                add(log, frame, i, KICKS, (int32_t)frame->kicked[i] - 1);
+                add_action(log, frame, i, KICKS, (int32_t)frame->kicked[i] - 1);
             if (frame->struck && frame->struck[i])
-                add(log, frame, i, HIT, (int32_t)frame->struck[i] - 1);
+                add_action(log, frame, i, HIT, (int32_t)frame->struck[i] - 1);
         }
         *before = (Before){frame->x[i], frame->y[i], jox_length(jox_v2(frame->vx[i], frame->vy[i])),
                            now, true};
     }
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_log_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Log *log = state;
     (void)def;
     jox_figure_add(out, "entered", "times that somebody entered a state", "", log->counts[ENTERS]);
@@ -129,7 +132,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "hits", "times that a body hit somebody", "", log->counts[HIT]);
 }
 
-static bool are_named(const Log *log) {
+static bool are_actions_valid(const Log *log) {
     for (uint32_t k = 0; k < log->before_capacity; k++)
         if (log->before[k].known && log->before[k].state >= log->name_count)
             return false;
@@ -142,10 +145,10 @@ static bool are_named(const Log *log) {
     return true;
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_log_sections(void *state, JoxSections *s) {
     Log *log = state;
     uint32_t names = (uint32_t)jox_section_count(s, "names", log->name_count, 1);
-    while (log->name_count < names) { /* restoring: filled in below */
+    while (log->name_count < names) { /* when restoring: the names follow below */
         JOX_RESERVE(log->names, log->name_capacity, log->name_count + 1);
         log->names[log->name_count++] = NULL;
     }
@@ -157,13 +160,13 @@ static void sections(void *state, JoxSections *s) {
     JOX_SECTION_ROOM(s, "before", log->before, log->before_capacity);
     JOX_SECTION_ARRAY(s, "actions", log->actions, log->count, log->capacity);
     JOX_SECTION(s, "counts", log->counts);
-    if (!s->failed && !are_named(log))
+    if (!s->failed && !are_actions_valid(log))
         jox_sections_fail(s, "actions", "a state or group of one is not there");
     if (s->failed)
         log->count = log->before_capacity = 0;
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Log *log = state;
     (void)def;
     fputs("time [s],what,person,group,from,state,x [m],y [m],speed [m/s],body,body_x [m],"
@@ -183,7 +186,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     }
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_log(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     const Log *log = state;
     (void)def, (void)walls;
     if (log->count == 0) {
@@ -201,17 +204,17 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     jox_text_printf(out, "\n");
 }
 
-static void release(void *state) {
+static void free_log_names(void *state) {
     Log *log = state;
     for (uint32_t n = 0; n < log->name_count; n++)
         jox_free(log->names[n]);
 }
 
 const JoxProbeCalls jox_probe_log = {
-    JOX_PROBE_KIND(Log, 1000, 600),
-    .frame = frame,
+    JOX_PROBE_KIND(Log, log, 1000, 600),
+    .frame = take_log_frame,
     .pace = JOX_PACE_ALL,
     .owned = {JOX_OWNED(Log, names), JOX_OWNED(Log, states), JOX_OWNED(Log, before),
               JOX_OWNED(Log, actions)},
-    .release = release,
+    .release = free_log_names,
 };

@@ -1,10 +1,12 @@
-/* Fields on a grid.
-     density             people per m2, mean over the samples: by fields/density.h, R = 1 m and
-   within walls, unless the scene gives another kernel, or lets it pass through walls speed sum of w
-   |v| over sum of w by the same weights, over all samples, m/s pressure            crowd pressure
-   by fields/pressure.h, 1/s2: mean over the times at which it was measured, each half second
-   whatever the time between samples; else none compression         sum of w c over sum of w, over
-   all samples, N/m compression_most    greatest of anyone who stood in the cell, N/m */
+/* Probe `map`: fields on a grid.
+
+   - density: people per m2, mean over the samples, by fields/density.h: R = 1 m and within walls,
+     unless the scene sets another kernel or lets it pass through walls
+   - speed, m/s: sum of w |v| over sum of w, with the same weights w, over all samples
+   - pressure: crowd pressure by fields/pressure.h, 1/s2, mean over the times at which it was
+     measured. It is sampled every half second, independent of `every`
+   - compression, N/m: sum of w c over sum of w, over all samples
+   - compression_most, N/m: greatest compression of a person in the cell */
 #include <math.h>
 #include <string.h>
 
@@ -14,38 +16,40 @@
 #include "record/probes/probe_parts.h"
 
 enum { DENSITY, SPEED, COMPRESSION, FIELDS };
-static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
+static const float LEAST = 0.02f; /* 1/m2: at lower density a cell has no velocity */
 enum { MOST_CELLS_DRAWN = 250000 };
 
 typedef struct Map {
     JoxDensity *grid;
-    JoxLocal *local; /* for crowd pressure */
+    JoxLocal *local; /* local densities, for crowd pressure */
     float *now[FIELDS];
-    float *speeds; /* m/s: of the last sample's people */
+    float *speeds; /* m/s: speeds of the people in the last sample */
     uint32_t speed_capacity;
     double *density, *speed, *compression; /* sums over samples */
     float *compression_most;
-    double *pressure; /* sum over the samples of `local` that measured it, by its cells */
+    /* sums and counts over samples of `local` that measured pressure, by cells of its grid */
+    double *pressure;
     uint32_t *measured;
-    double density_most, pressure_most, density_time, pressure_time; /* of any cell at any time */
+    /* greatest of any cell and time, 1/m2 and 1/s2, and their times, s */
+    double density_most, pressure_most, density_time, pressure_time;
     JoxV2 density_at, pressure_at;
     double speed_sum, compression_greatest;
     uint64_t people;
-    int64_t stretch; /* of `every` seconds, in which the last sample was */
+    int64_t interval; /* number of the interval of `every` seconds that the last sample lies in */
     uint32_t samples;
     bool has_compression;
 } Map;
 
-static size_t cells_of(const JoxDensity *g) {
+static size_t count_map_cells(const JoxDensity *g) {
     return (size_t)g->columns * g->rows;
 }
 
-static void begin(const JoxProbeDef *def, void *state) {
+static void begin_map(const JoxProbeDef *def, void *state) {
     Map *m = state;
     m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
     m->local = jox_local_create(def->low, def->high);
     jox_local_want_pressure(m->local);
-    size_t cells = cells_of(m->grid), local_cells = cells_of(m->local->grid);
+    size_t cells = count_map_cells(m->grid), local_cells = count_map_cells(m->local->grid);
     for (int f = 0; f < FIELDS; f++)
         m->now[f] = jox_alloc(cells, sizeof(float));
     m->density = jox_alloc(cells, sizeof(double));
@@ -55,17 +59,18 @@ static void begin(const JoxProbeDef *def, void *state) {
     m->pressure = jox_alloc(local_cells, sizeof(double));
     m->measured = jox_alloc(local_cells, sizeof *m->measured);
     m->density_most = m->pressure_most = NAN;
-    m->stretch = INT64_MIN;
+    m->interval = INT64_MIN;
 }
 
-/* Times are multiples of a step, whose sum may fall short of them by a hair. */
-static int64_t stretch_of(const JoxProbeDef *def, double t) {
+/* Returns the number of the interval that t lies in. Times are sums of steps and may fall short of
+   a multiple by rounding. */
+static int64_t find_map_interval(const JoxProbeDef *def, double t) {
     return (int64_t)floor(t / def->every + 1e-6);
 }
 
-static bool is_due(const JoxProbeDef *def, const void *state, double t) {
+static bool is_map_due(const JoxProbeDef *def, const void *state, double t) {
     const Map *m = state;
-    return stretch_of(def, t) != m->stretch || jox_local_is_due(m->local, t);
+    return find_map_interval(def, t) != m->interval || jox_local_is_due(m->local, t);
 }
 
 static void note_compression(Map *m, const JoxFrame *frame, uint32_t i) {
@@ -77,8 +82,8 @@ static void note_compression(Map *m, const JoxFrame *frame, uint32_t i) {
 }
 
 /* Adds the fields of this sample to the sums. */
-static void sum_up(Map *m, double t) {
-    for (size_t c = 0; c < cells_of(m->grid); c++) {
+static void add_map_sample(Map *m, double t) {
+    for (size_t c = 0; c < count_map_cells(m->grid); c++) {
         double density = m->now[DENSITY][c];
         m->density[c] += density;
         if (!(density <= m->density_most)) {
@@ -94,8 +99,8 @@ static void sum_up(Map *m, double t) {
     m->samples++;
 }
 
-static void sum_up_pressure(Map *m, double t) {
-    for (size_t c = 0; c < cells_of(m->local->grid); c++) {
+static void add_pressure_sample(Map *m, double t) {
+    for (size_t c = 0; c < count_map_cells(m->local->grid); c++) {
         float pressure = jox_local_pressure(m->local, c);
         if (isnan(pressure))
             continue;
@@ -109,14 +114,14 @@ static void sum_up_pressure(Map *m, double t) {
     }
 }
 
-/* Mean crowd pressure at a point, 1/s2; NAN: never measured. */
+/* Returns the mean crowd pressure at a point, 1/s2; NAN: never measured. */
 static double mean_pressure(const Map *m, JoxV2 at) {
     size_t c;
     bool known = jox_density_cell_of(m->local->grid, at.x, at.y, &c) && m->measured[c];
     return known ? m->pressure[c] / m->measured[c] : NAN;
 }
 
-static void sample(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
+static void sample_map(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
     JOX_RESERVE(m->speeds, m->speed_capacity, frame->count + 1);
     for (uint32_t i = 0; i < frame->count; i++) {
@@ -136,30 +141,31 @@ static void sample(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const 
                                    .seen = seen,
                                    .weights = {NULL, m->speeds, frame->compression}};
     if (!frame->compression)
-        memset(m->now[COMPRESSION], 0, cells_of(m->grid) * sizeof(float));
+        memset(m->now[COMPRESSION], 0, count_map_cells(m->grid) * sizeof(float));
     jox_density_sample(m->grid, &crowd, frame->compression ? FIELDS : COMPRESSION, m->now);
     m->has_compression |= frame->compression != NULL;
-    sum_up(m, frame->time);
+    add_map_sample(m, frame->time);
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_map_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                           const uint8_t *seen) {
     Map *m = state;
     if (jox_local_frame(m->local, frame, seen))
-        sum_up_pressure(m, frame->time);
-    if (stretch_of(def, frame->time) == m->stretch)
+        add_pressure_sample(m, frame->time);
+    if (find_map_interval(def, frame->time) == m->interval)
         return;
-    m->stretch = stretch_of(def, frame->time);
-    sample(def, m, frame, seen);
+    m->interval = find_map_interval(def, frame->time);
+    sample_map(def, m, frame, seen);
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     (void)def;
     const Map *m = state;
     double density = 0.0, pressure = NAN, n = m->samples ? m->samples : NAN;
     bool pressed = !isnan(m->pressure_most);
-    for (size_t c = 0; c < cells_of(m->grid); c++)
+    for (size_t c = 0; c < count_map_cells(m->grid); c++)
         density = fmax(density, m->density[c]);
-    for (size_t c = 0; c < cells_of(m->local->grid); c++)
+    for (size_t c = 0; c < count_map_cells(m->local->grid); c++)
         pressure = fmax(pressure, m->measured[c] ? m->pressure[c] / m->measured[c] : NAN);
     jox_figure_add(out, "samples", "samples", "", m->samples);
     jox_figure_add(out, "density_max", "greatest density by the Gaussian of `kernel`", "1/m2",
@@ -187,9 +193,9 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    m->has_compression ? m->compression_greatest : NAN);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_map_sections(void *state, JoxSections *s) {
     Map *m = state;
-    const size_t cells = cells_of(m->grid), local_cells = cells_of(m->local->grid);
+    const size_t cells = count_map_cells(m->grid), local_cells = count_map_cells(m->local->grid);
     jox_section(s, "density", m->density, sizeof *m->density, cells);
     jox_section(s, "speed", m->speed, sizeof *m->speed, cells);
     jox_section(s, "compression", m->compression, sizeof *m->compression, cells);
@@ -205,13 +211,13 @@ static void sections(void *state, JoxSections *s) {
     JOX_SECTION(s, "speed_sum", m->speed_sum);
     JOX_SECTION(s, "compression_greatest", m->compression_greatest);
     JOX_SECTION(s, "people", m->people);
-    JOX_SECTION(s, "stretch", m->stretch);
+    JOX_SECTION(s, "stretch", m->interval);
     JOX_SECTION(s, "samples", m->samples);
     JOX_SECTION(s, "has_compression", m->has_compression);
     jox_local_sections(m->local, s);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_map_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Map *m = state;
     const JoxDensity *g = m->grid;
@@ -242,9 +248,9 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     }
 }
 
-/* One field, in the colours of values that plots have; their range is given: gnuplot would warn
-   where all is 0. */
-static void panel(bool walls, int column, const char *what, double most, JoxText *out) {
+/* Plots one field as a colour map. The colour range is given, since gnuplot warns where all values
+   are 0. */
+static void plot_field(bool walls, int column, const char *what, double most, JoxText *out) {
     jox_text_printf(out,
                     "set title '%s'\nset cbrange [0:%g]\n"
                     "plot csv skip 1 using 1:2:%d with image%s\n",
@@ -252,11 +258,11 @@ static void panel(bool walls, int column, const char *what, double most, JoxText
                     walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     const Map *m = state;
     const JoxDensity *g = m->grid;
     double density = 0.0, speed = 0.0, pressure = 0.0, n = m->samples;
-    for (size_t c = 0; c < cells_of(g); c++) {
+    for (size_t c = 0; c < count_map_cells(g); c++) {
         density = fmax(density, m->density[c] / n);
         pressure = fmax(pressure, mean_pressure(m, jox_density_middle(g, c)));
         if (m->density[c] >= LEAST * n)
@@ -276,8 +282,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     char what[96];
     snprintf(what, sizeof what, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
              def->kernel * sqrt(2.0), def->through_walls ? ", through walls" : "");
-    panel(walls, 3, what, density, out);
-    panel(walls, 4, "speed (m/s)", speed, out);
+    plot_field(walls, 3, what, density, out);
+    plot_field(walls, 4, "speed (m/s)", speed, out);
     if (isnan(m->pressure_most))
         jox_text_printf(
             out,
@@ -286,12 +292,12 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
             "set colorbox\n",
             (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
     else
-        panel(walls, 5, "crowd pressure (1/s\xc2\xb2), where it was measured", pressure, out);
+        plot_field(walls, 5, "crowd pressure (1/s\xc2\xb2), where it was measured", pressure, out);
     if (m->has_compression)
-        panel(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
+        plot_field(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
 }
 
-static void release(void *state) {
+static void free_map(void *state) {
     Map *m = state;
     jox_density_free(m->grid);
     for (int f = 0; f < FIELDS; f++)
@@ -307,6 +313,9 @@ static void release(void *state) {
 }
 
 const JoxProbeCalls jox_probe_map = {
-    JOX_PROBE_KIND(Map, 1300, 0), .frame = frame, .is_due = is_due, .begin = begin,
-    .release = release,
+    JOX_PROBE_KIND(Map, map, 1300, 0),
+    .frame = take_map_frame,
+    .is_due = is_map_due,
+    .begin = begin_map,
+    .release = free_map,
 };

@@ -1,12 +1,18 @@
-/* People in a polygon, per interval. Of each frame: their number; the classical density, number
-   over area; the Voronoi density, the mean over the area of one over the cell's area (Steffen and
-   Seyfried 2010, equation 5), cells ending at walls, behind which nobody is a neighbour; the mean
-   speed of those inside; and the specific flow, Voronoi density times mean speed. An interval has
-   the mean of its frames, speed and flow of those with anyone inside. Figures are means over the
-   intervals in which anyone was inside; of a probe with a line `during`, over those of them whose
-   middle lies within the time in which the middle 60 % of the passages over it were made. The
-   deviation of speeds, and the share of those who stand, slower than 0.05 m/s, are over everybody
-   in every frame of these intervals: slow steps and sway, not only how people differ. */
+/* Probe `measure`: people in a polygon, per interval of `every` seconds. In each frame it takes
+
+   - the number of people inside
+   - the classical density, number over area
+   - the Voronoi density, the mean over the area of one over the cell's area (Steffen and Seyfried
+     2010, equation 5); cells end at walls, and people behind a wall are no neighbours
+   - the mean speed of the people inside
+   - the specific flow, Voronoi density times mean speed
+
+   An interval has the mean over its frames, for speed and flow over the frames with people inside.
+   Figures are means over the intervals with people inside; of these, a probe with a line `during`
+   takes only intervals whose middle lies between the first and the last of the middle 60 % of the
+   passages over that line. The deviation of speeds and the share of standing people, slower than
+   0.05 m/s, are over all people and frames of these intervals: they contain slow steps and sway,
+   not only differences between people. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -15,26 +21,26 @@
 #include "record/fields/voronoi.h"
 #include "record/probes/probe_parts.h"
 
-static const double STANDS = 0.05; /* m/s: who is slower */
+static const double STANDS = 0.05; /* m/s: slower people count as standing */
 
 typedef struct Interval {
     int64_t number;
     double people, classical, voronoi, speed, flow; /* sums over frames */
     double speeds, squares, standing;               /* sums over frames and people */
-    uint32_t frames, walked;                        /* walked: with anyone inside */
+    uint32_t frames, walked;                        /* walked: frames with people inside */
 } Interval;
 
 typedef struct Measure {
     JoxV2 low, high;
     double area; /* m2 */
     JoxSites sites;
-    JoxBars bars; /* of walls that may cut a cell */
+    JoxBars bars; /* edges of walls that may cut a cell */
     Interval *rows;
     uint32_t count, capacity;
-    void *line; /* the flow over the line `during`, or NULL */
+    void *line; /* flow over the line `during`; NULL without one */
 } Measure;
 
-static void begin(const JoxProbeDef *def, void *state) {
+static void begin_measure(const JoxProbeDef *def, void *state) {
     Measure *m = state;
     jox_bounds(def->points, def->count, &m->low, &m->high);
     m->area = fabs(jox_polygon_area(def->points, def->count));
@@ -42,13 +48,14 @@ static void begin(const JoxProbeDef *def, void *state) {
         m->line = jox_flow_create();
 }
 
-static bool is_near(const Measure *m, JoxV2 p, float reach) {
+static bool is_near_polygon(const Measure *m, JoxV2 p, float reach) {
     return p.x >= m->low.x - reach && p.x <= m->high.x + reach && p.y >= m->low.y - reach &&
            p.y <= m->high.y + reach;
 }
 
-/* Everyone, and their images over periodic edges, who may shape a cell that reaches the polygon. */
-static void gather(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
+/* Collects all people, and their images across periodic edges, that may shape a cell reaching into
+   the polygon. */
+static void gather_people(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
     int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
     jox_sites_clear(&m->sites);
     for (uint32_t i = 0; i < frame->count; i++)
@@ -56,14 +63,15 @@ static void gather(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
             for (int r = -up; r <= up; r++) {
                 JoxV2 p = {frame->x[i] + (float)c * frame->period.x,
                            frame->y[i] + (float)r * frame->period.y};
-                if (is_near(m, p, 3.0f * (float)def->cutoff))
+                if (is_near_polygon(m, p, 3.0f * (float)def->cutoff))
                     jox_sites_add(&m->sites, p, i);
             }
     jox_sites_sort(&m->sites, def->cutoff);
 }
 
-/* Walls near the polygon. A person sees at most `cutoff` far, and stands at most so far from it. */
-static void gather_walls(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
+/* Collects wall edges near the polygon. A cell extends at most `cutoff` from its person, who is at
+   most `cutoff` from the polygon. */
+static void gather_walls_near_polygon(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
     float reach = 2.0f * (float)def->cutoff;
     m->bars.count = 0;
     for (uint32_t w = 0; frame->walls && w < frame->walls->count; w++) {
@@ -77,12 +85,12 @@ static void gather_walls(const JoxProbeDef *def, Measure *m, const JoxFrame *fra
     }
 }
 
-static double voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t *seen) {
+static double measure_voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t *seen) {
     double sum = 0.0;
     for (uint32_t s = 0; s < m->sites.count; s++) {
         JoxV2 at = m->sites.points[s];
         JoxCell cell;
-        if (!seen[m->sites.who[s]] || !is_near(m, at, (float)def->cutoff))
+        if (!seen[m->sites.person[s]] || !is_near_polygon(m, at, (float)def->cutoff))
             continue;
         jox_sites_cell(&m->sites, s, def->cutoff, &cell);
         double whole, within;
@@ -93,8 +101,8 @@ static double voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t 
     return sum / m->area;
 }
 
-static Interval *interval_at(const JoxProbeDef *def, Measure *m, double t) {
-    /* The step that ends at an interval's edge belongs to the interval before. */
+static Interval *find_measure_interval(const JoxProbeDef *def, Measure *m, double t) {
+    /* A step that ends at the edge of an interval belongs to the interval before. */
     int64_t number = (int64_t)ceil((t - def->from) / def->every - 1e-6) - 1;
     number = number > 0 ? number : 0;
     if (m->count == 0 || m->rows[m->count - 1].number != number) {
@@ -104,16 +112,18 @@ static Interval *interval_at(const JoxProbeDef *def, Measure *m, double t) {
     return &m->rows[m->count - 1];
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_measure_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                               const uint8_t *seen) {
     Measure *m = state;
     if (m->line)
         jox_flow_frame(def->during, m->line, frame, seen);
-    Interval *row = interval_at(def, m, frame->time);
+    Interval *row = find_measure_interval(def, m, frame->time);
     uint32_t people = 0;
     double speed = 0.0;
     for (uint32_t i = 0; i < frame->count; i++) {
         JoxV2 p = {frame->x[i], frame->y[i]};
-        if (!seen[i] || !is_near(m, p, 0.0f) || !jox_polygon_contains(def->points, def->count, p))
+        if (!seen[i] || !is_near_polygon(m, p, 0.0f) ||
+            !jox_polygon_contains(def->points, def->count, p))
             continue;
         const double square =
             (double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i];
@@ -122,10 +132,10 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         row->squares += square;
         row->standing += square < STANDS * STANDS;
     }
-    gather(def, m, frame);
-    gather_walls(def, m, frame);
+    gather_people(def, m, frame);
+    gather_walls_near_polygon(def, m, frame);
     m->sites.bars = &m->bars;
-    double density = voronoi_density(def, m, seen);
+    double density = measure_voronoi_density(def, m, seen);
     row->frames++;
     row->speeds += speed;
     row->people += people;
@@ -138,17 +148,17 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     }
 }
 
-/* Mean over an interval of a sum; NAN where nobody was there to walk. */
-static double mean(double sum, uint32_t frames) {
+/* Returns a sum over frames divided by their number; NAN if there are none. */
+static double divide_or_nan(double sum, uint32_t frames) {
     return frames ? sum / frames : NAN;
 }
 
-/* s */
-static double middle_of(const JoxProbeDef *def, const Interval *row) {
+/* Returns the middle of an interval, s. */
+static double find_interval_middle(const JoxProbeDef *def, const Interval *row) {
     return def->from + ((double)row->number + 0.5) * def->every;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_measure_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Measure *m = state;
     double begin = -INFINITY, end = INFINITY;
     if (m->line && !jox_flow_middle(m->line, &begin, &end))
@@ -159,7 +169,8 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     uint32_t n = 0;
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
-        if (!row->walked || middle_of(def, row) < begin || middle_of(def, row) > end)
+        if (!row->walked || find_interval_middle(def, row) < begin ||
+            find_interval_middle(def, row) > end)
             continue;
         people += row->people / row->frames;
         classical += row->classical / row->frames;
@@ -173,10 +184,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     }
     const double middle = all > 0 ? speeds / all : NAN;
     jox_figure_add(out, "intervals", "intervals measured", "", n);
-    jox_figure_add(out, "people", "people there, mean", "", mean(people, n));
+    jox_figure_add(out, "people", "people there, mean", "", divide_or_nan(people, n));
     jox_figure_add(out, "density_classical", "density by counting, mean", "1/m2",
-                   mean(classical, n));
-    jox_figure_add(out, "density", "density by Voronoi cells, mean", "1/m2", mean(voronoi, n));
+                   divide_or_nan(classical, n));
+    jox_figure_add(out, "density", "density by Voronoi cells, mean", "1/m2",
+                   divide_or_nan(voronoi, n));
     jox_figure_add(out, "density_median", "density by Voronoi cells, median", "1/m2",
                    jox_quantile(densities, n, 0.5));
     jox_figure_add(out, "density_p90",
@@ -184,8 +196,8 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    jox_quantile(densities, n, 0.9));
     jox_figure_add(out, "density_max", "density by Voronoi cells, greatest", "1/m2",
                    jox_quantile(densities, n, 1.0));
-    jox_figure_add(out, "speed", "speed, mean", "m/s", mean(speed, n));
-    jox_figure_add(out, "specific_flow", "specific flow, mean", "1/(m s)", mean(flow, n));
+    jox_figure_add(out, "speed", "speed, mean", "m/s", divide_or_nan(speed, n));
+    jox_figure_add(out, "specific_flow", "specific flow, mean", "1/(m s)", divide_or_nan(flow, n));
     jox_figure_add(out, "speed_deviation", "standard deviation of the speeds", "m/s",
                    all > 0 ? sqrt(fmax(squares / all - middle * middle, 0.0)) : NAN);
     jox_figure_add(out, "standing", "share of the people who stand", "",
@@ -193,31 +205,32 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(densities);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_measure_sections(void *state, JoxSections *s) {
     Measure *m = state;
     JOX_SECTION_ARRAY(s, "intervals", m->rows, m->count, m->capacity);
     if (m->line)
         jox_flow_sections(m->line, s);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_measure_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Measure *m = state;
     fputs("time [s],people,density_classical [1/m2],density [1/m2],speed [m/s],"
           "specific_flow [1/(m s)]\n",
           out);
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
-        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", middle_of(def, row), mean(row->people, row->frames),
-                mean(row->classical, row->frames), mean(row->voronoi, row->frames));
+        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", find_interval_middle(def, row),
+                divide_or_nan(row->people, row->frames), divide_or_nan(row->classical, row->frames),
+                divide_or_nan(row->voronoi, row->frames));
         if (row->walked)
-            fprintf(out, "%.5g,%.5g\n", mean(row->speed, row->walked),
-                    mean(row->flow, row->walked));
+            fprintf(out, "%.5g,%.5g\n", divide_or_nan(row->speed, row->walked),
+                    divide_or_nan(row->flow, row->walked));
         else
             fputs("nan,nan\n", out);
     }
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_measure(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)def;
     const Measure *m = state;
     bool any = false;
@@ -242,7 +255,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     "plot csv skip 1 using 4:6 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n");
 }
 
-static void release(void *state) {
+static void free_measure(void *state) {
     Measure *m = state;
     jox_sites_free(&m->sites);
     jox_free(m->bars.items);
@@ -251,8 +264,8 @@ static void release(void *state) {
 }
 
 const JoxProbeCalls jox_probe_measure = {
-    JOX_PROBE_KIND(Measure, 1200, 900),
-    .frame = frame,
-    .begin = begin,
-    .release = release,
+    JOX_PROBE_KIND(Measure, measure, 1200, 900),
+    .frame = take_measure_frame,
+    .begin = begin_measure,
+    .release = free_measure,
 };

@@ -1,46 +1,48 @@
-/* Oscillation: whether a crowd turns round as a whole, as dense ones do (Gu et al. 2025, doi
-   10.1038/s41586-024-08514-6). The area is cut into windows; the velocity of a window is the mean
-   over the people in it and over an interval. Of its direction n, a unit vector taken as a complex
-   number, the power spectrum is averaged over windows and over stretches that overlap by half,
-   each with its mean taken off and faded by Hann's window (Welch 1967, doi
+/* Probe `oscillation`: whether a crowd turns round as a whole, as dense crowds do (Gu et al. 2025,
+   doi 10.1038/s41586-024-08514-6). The area is cut into windows; the velocity of a window is the
+   mean over its people and over an interval. Its direction n, a unit vector taken as a complex
+   number, gives a power spectrum: the average over windows and over segments of the series that
+   overlap by half, each with its mean removed and weighted by Hann's window (Welch 1967, doi
    10.1109/TAU.1967.1161901). Positive frequencies turn anti-clockwise, negative ones clockwise.
-   Directions that change by chance from interval to interval have the power 1 everywhere; a crowd
-   that turns has a peak, one that does not has most power at the least frequencies. */
+   Random directions in each interval have the power 1 everywhere; a crowd that turns has a peak,
+   and one that does not has most power at the lowest frequencies. */
 #include <math.h>
 
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
 enum { MOST_WINDOWS = 10000, MOST_CELLS = 1 << 24, LEAST_SAMPLES = 16, LEAST_BIN = 2 };
-static const double LEAST_SHARE = 0.8; /* of the intervals in which a window must have people */
+/* Least share of the intervals in which a window must have people. */
+static const double LEAST_SHARE = 0.8;
 
 typedef struct Cell {
-    float vx, vy; /* m/s: sums while an interval lasts, then means */
+    float vx, vy; /* m/s: sums during an interval */
     float people; /* person-frames */
 } Cell;
 
 typedef struct Oscillation {
-    Cell *cells; /* of all intervals so far, windows of an interval side by side */
+    Cell *cells; /* windows of the first interval, then of the next */
     uint32_t count, capacity;
     uint32_t columns, rows, intervals;
-    uint32_t *frames; /* in each interval */
+    uint32_t *frames; /* frames in each interval */
     uint32_t frame_count, frame_capacity;
 } Oscillation;
 
-/* Powers by frequency, of bins 0..bins-1; bin k has 2 pi k / span rad/s. */
+/* Power by frequency, in bins 0 to bins - 1; bin k is at k * step. */
 typedef struct Spectrum {
     double *anticlockwise, *clockwise, *speed;
-    double *cosine, *sine, *fade; /* of the stretch's samples */
-    uint32_t bins, samples;       /* samples: of a stretch */
-    double step;                  /* rad/s between bins */
-    double stretches;             /* of all windows */
+    /* tables over the samples of a segment; `fade` is Hann's window */
+    double *cosine, *sine, *fade;
+    uint32_t bins, samples; /* samples in a segment */
+    double step;            /* rad/s between bins */
+    double segments;        /* segments summed, over all windows */
 } Spectrum;
 
-static uint32_t windows_of(const Oscillation *o) {
+static uint32_t count_windows(const Oscillation *o) {
     return o->columns * o->rows;
 }
 
-static void begin(const JoxProbeDef *def, void *state) {
+static void begin_oscillation(const JoxProbeDef *def, void *state) {
     Oscillation *o = state;
     const double columns = floor((def->high.x - def->low.x) / def->window + 1e-6);
     const double rows = floor((def->high.y - def->low.y) / def->window + 1e-6);
@@ -48,11 +50,12 @@ static void begin(const JoxProbeDef *def, void *state) {
     o->rows = (uint32_t)fmin(fmax(rows, 1.0), MOST_WINDOWS / o->columns);
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_oscillation_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                                   const uint8_t *seen) {
     Oscillation *o = state;
-    /* The frame at an interval's end belongs to it. */
+    /* A frame at the end of an interval belongs to it. */
     const double at = (frame->time - def->from) / def->every - 1e-6;
-    const uint32_t windows = windows_of(o);
+    const uint32_t windows = count_windows(o);
     const uint32_t interval = at > 0.0 ? (uint32_t)fmin(at, MOST_CELLS) : 0;
     if (interval + 1 > MOST_CELLS / windows)
         return;
@@ -76,7 +79,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     }
 }
 
-static void spectrum_begin(Spectrum *s, const JoxProbeDef *def, uint32_t intervals) {
+static void begin_spectrum(Spectrum *s, const JoxProbeDef *def, uint32_t intervals) {
     const double wanted = fmin(round(def->span / def->every), intervals);
     s->samples = wanted < LEAST_SAMPLES ? 0 : (uint32_t)wanted;
     s->bins = s->samples / 2;
@@ -99,20 +102,20 @@ static void spectrum_begin(Spectrum *s, const JoxProbeDef *def, uint32_t interva
         s->fade[t] /= sqrt(power);
 }
 
-static void spectrum_free(Spectrum *s) {
+static void free_spectrum(Spectrum *s) {
     double *const all[] = {s->anticlockwise, s->clockwise, s->speed, s->cosine, s->sine, s->fade};
     for (int p = 0; p < 6; p++)
         jox_free(all[p]);
 }
 
-/* A stretch of one window: directions and speeds, faded, without their means. False where people
-   were too rarely there. */
-static bool stretch(const Oscillation *o, const Spectrum *s, uint32_t window, uint32_t first,
-                    double *nx, double *ny, double *speed) {
+/* Computes directions and speeds of one segment of a window, without their means and weighted by
+   `fade`. Returns false if the window was empty too often. */
+static bool fill_segment(const Oscillation *o, const Spectrum *s, uint32_t window, uint32_t first,
+                         double *nx, double *ny, double *speed) {
     double mean[3] = {0.0, 0.0, 0.0}, spread = 0.0;
     uint32_t there = 0;
     for (uint32_t t = 0; t < s->samples; t++) {
-        const Cell *c = &o->cells[(first + t) * windows_of(o) + window];
+        const Cell *c = &o->cells[(first + t) * count_windows(o) + window];
         const double v = hypot(c->vx, c->vy);
         nx[t] = v > 0.0 ? c->vx / v : 0.0;
         ny[t] = v > 0.0 ? c->vy / v : 0.0;
@@ -134,8 +137,9 @@ static bool stretch(const Oscillation *o, const Spectrum *s, uint32_t window, ui
     return true;
 }
 
-/* Powers of the complex series x + iy at bins k and -k. */
-static void powers(const Spectrum *s, const double *x, const double *y, uint32_t k, double out[2]) {
+/* Computes the powers of the complex series x + iy at bins k and -k. */
+static void compute_powers(const Spectrum *s, const double *x, const double *y, uint32_t k,
+                           double out[2]) {
     double xc = 0.0, xs = 0.0, yc = 0.0, ys = 0.0;
     for (uint32_t t = 0; t < s->samples; t++) {
         const uint32_t at = (uint32_t)((uint64_t)t * k % s->samples);
@@ -148,53 +152,56 @@ static void powers(const Spectrum *s, const double *x, const double *y, uint32_t
     out[1] = (xc - ys) * (xc - ys) + (yc + xs) * (yc + xs);
 }
 
-/* Calls `of` with each stretch of each window. */
-typedef void (*StretchCall)(Spectrum *s, const double *nx, const double *ny, const double *speed,
+/* Calls `visit` with each segment of each window. */
+typedef void (*SegmentCall)(Spectrum *s, const double *nx, const double *ny, const double *speed,
                             void *context);
-static void each_stretch(const Oscillation *o, Spectrum *s, StretchCall of, void *context) {
+static void visit_segments(const Oscillation *o, Spectrum *s, SegmentCall of, void *context) {
     double *series = jox_alloc(3 * (size_t)s->samples + 1, sizeof *series);
     double *nx = series, *ny = series + s->samples, *speed = ny + s->samples;
     for (uint32_t first = 0; s->samples && first + s->samples <= o->intervals;
          first += s->samples / 2)
-        for (uint32_t w = 0; w < windows_of(o); w++)
-            if (stretch(o, s, w, first, nx, ny, speed))
+        for (uint32_t w = 0; w < count_windows(o); w++)
+            if (fill_segment(o, s, w, first, nx, ny, speed))
                 of(s, nx, ny, speed, context);
     jox_free(series);
 }
 
-static void add_powers(Spectrum *s, const double *nx, const double *ny, const double *speed,
-                       void *context) {
+static void add_segment_powers(Spectrum *s, const double *nx, const double *ny, const double *speed,
+                               void *context) {
     (void)context;
-    s->stretches += 1.0;
+    s->segments += 1.0;
     for (uint32_t k = 0; k < s->bins; k++) {
         double turning[2], alone[2];
-        powers(s, nx, ny, k, turning);
-        powers(s, speed, speed, k, alone); /* of (1 + i) speed: twice its power */
+        compute_powers(s, nx, ny, k, turning);
+        compute_powers(s, speed, speed, k,
+                       alone); /* power of (1 + i) speed, which is twice the power of speed */
         s->anticlockwise[k] += turning[0];
         s->clockwise[k] += turning[1];
         s->speed[k] += 0.5 * alone[0];
     }
 }
 
-static Spectrum spectrum_of(const JoxProbeDef *def, const Oscillation *o) {
+static Spectrum compute_spectrum(const JoxProbeDef *def, const Oscillation *o) {
     Spectrum s = {0};
-    spectrum_begin(&s, def, o->intervals);
-    each_stretch(o, &s, add_powers, NULL);
-    for (uint32_t k = 0; k < s.bins && s.stretches > 0.0; k++) {
-        s.anticlockwise[k] /= s.stretches;
-        s.clockwise[k] /= s.stretches;
-        s.speed[k] /= s.stretches;
+    begin_spectrum(&s, def, o->intervals);
+    visit_segments(o, &s, add_segment_powers, NULL);
+    for (uint32_t k = 0; k < s.bins && s.segments > 0.0; k++) {
+        s.anticlockwise[k] /= s.segments;
+        s.clockwise[k] /= s.segments;
+        s.speed[k] /= s.segments;
     }
     return s;
 }
 
-/* The bin of the greatest power, and by what factor it rises above the least before it; 0 of no
-   spectrum. The first bins are lowered by the mean that was taken off. */
-static uint32_t peak_of(const Spectrum *s, const double *power, const double *more, double *rises) {
+/* Returns the bin of the greatest power, and in `rises` its ratio to the least power at lower bins;
+   0 if there is no spectrum. The first LEAST_BIN bins are left out: removing the mean lowers
+   them. */
+static uint32_t find_spectrum_peak(const Spectrum *s, const double *power, const double *more,
+                                   double *rises) {
     uint32_t peak = 0;
     double least = INFINITY, greatest = 0.0;
     *rises = NAN;
-    for (uint32_t k = LEAST_BIN; k < s->bins && s->stretches > 0.0; k++) {
+    for (uint32_t k = LEAST_BIN; k < s->bins && s->segments > 0.0; k++) {
         const double p = power[k] + (more ? more[k] : 0.0);
         if (p > greatest) {
             greatest = p;
@@ -208,20 +215,21 @@ static uint32_t peak_of(const Spectrum *s, const double *power, const double *mo
     return peak;
 }
 
-/* At the peak: which way each stretch turns, and how much more one way than the other. */
+/* Counts over segments, at the peak: anticlockwise ones, and how far one sense of rotation
+   prevails. */
 typedef struct Turns {
     uint32_t peak;
     double anticlockwise, one_way, all;
 } Turns;
 
-static void add_turn(Spectrum *s, const double *nx, const double *ny, const double *speed,
-                     void *context) {
+static void add_segment_turn(Spectrum *s, const double *nx, const double *ny, const double *speed,
+                             void *context) {
     (void)speed;
     Turns *turns = context;
     double sum[2] = {0.0, 0.0};
     for (uint32_t k = turns->peak - 1; k <= turns->peak + 1; k++) {
         double of[2];
-        powers(s, nx, ny, k, of);
+        compute_powers(s, nx, ny, k, of);
         sum[0] += of[0];
         sum[1] += of[1];
     }
@@ -231,14 +239,14 @@ static void add_turn(Spectrum *s, const double *nx, const double *ny, const doub
     turns->one_way += both > 0.0 ? fabs(sum[0] - sum[1]) / both : 0.0;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_oscillation_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Oscillation *o = state;
-    Spectrum s = spectrum_of(def, o);
+    Spectrum s = compute_spectrum(def, o);
     double people = 0.0, frames = 0.0, square = 0.0, filled = 0.0;
     for (uint32_t t = 0; t < o->intervals; t++) {
         frames += o->frames[t];
-        for (uint32_t w = 0; w < windows_of(o); w++) {
-            const Cell *c = &o->cells[t * windows_of(o) + w];
+        for (uint32_t w = 0; w < count_windows(o); w++) {
+            const Cell *c = &o->cells[t * count_windows(o) + w];
             people += c->people;
             if (c->people > 0.0f) {
                 const double v = hypot(c->vx, c->vy) / c->people;
@@ -248,14 +256,14 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         }
     }
     double rises, speed_rises;
-    const uint32_t peak = peak_of(&s, s.anticlockwise, s.clockwise, &rises);
-    const uint32_t speed_peak = peak_of(&s, s.speed, NULL, &speed_rises);
+    const uint32_t peak = find_spectrum_peak(&s, s.anticlockwise, s.clockwise, &rises);
+    const uint32_t speed_peak = find_spectrum_peak(&s, s.speed, NULL, &speed_rises);
     Turns turns = {.peak = peak};
     if (peak)
-        each_stretch(o, &s, add_turn, &turns);
-    const double area = windows_of(o) * def->window * def->window, none = peak ? 1.0 : NAN;
+        visit_segments(o, &s, add_segment_turn, &turns);
+    const double area = count_windows(o) * def->window * def->window, none = peak ? 1.0 : NAN;
     jox_figure_add(out, "intervals", "intervals measured", "", o->intervals);
-    jox_figure_add(out, "windows", "windows", "", windows_of(o));
+    jox_figure_add(out, "windows", "windows", "", count_windows(o));
     jox_figure_add(out, "density", "density by counting, mean", "1/m2",
                    frames > 0.0 ? people / frames / area : NAN);
     jox_figure_add(out, "speed", "speed, root mean square", "m/s",
@@ -270,31 +278,31 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    none * turns.anticlockwise / turns.all);
     jox_figure_add(out, "one_way", "share that turns one way for long", "",
                    none * turns.one_way / turns.all);
-    spectrum_free(&s);
+    free_spectrum(&s);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_oscillation_sections(void *state, JoxSections *s) {
     Oscillation *o = state;
     JOX_SECTION_ARRAY(s, "cells", o->cells, o->count, o->capacity);
     JOX_SECTION_ARRAY(s, "frames", o->frames, o->frame_count, o->frame_capacity);
-    if (s->failed || (uint64_t)o->frame_count * windows_of(o) != o->count) {
+    if (s->failed || (uint64_t)o->frame_count * count_windows(o) != o->count) {
         jox_sections_fail(s, "cells", "they are not those of its windows");
         o->count = o->frame_count = 0;
     }
     o->intervals = o->frame_count;
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
-    Spectrum s = spectrum_of(def, state);
+static void write_oscillation_csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    Spectrum s = compute_spectrum(def, state);
     fputs("frequency [rad/s],direction,anticlockwise,clockwise,speed\n", out);
-    for (uint32_t k = 1; k < s.bins && s.stretches > 0.0; k++)
+    for (uint32_t k = 1; k < s.bins && s.segments > 0.0; k++)
         fprintf(out, "%.5f,%.5g,%.5g,%.5g,%.5g\n", k * s.step,
                 0.5 * (s.anticlockwise[k] + s.clockwise[k]), s.anticlockwise[k], s.clockwise[k],
                 s.speed[k]);
-    spectrum_free(&s);
+    free_spectrum(&s);
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_oscillation(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     const Oscillation *o = state;
     (void)walls;
     if (fmin(round(def->span / def->every), o->intervals) < LEAST_SAMPLES) {
@@ -312,9 +320,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_oscillation = {
-    JOX_PROBE_KIND(Oscillation, 1000, 600),
-    .frame = frame,
+    JOX_PROBE_KIND(Oscillation, oscillation, 1000, 600),
+    .frame = take_oscillation_frame,
     .pace = JOX_PACE_TENTH,
-    .begin = begin,
+    .begin = begin_oscillation,
     .owned = {JOX_OWNED(Oscillation, cells), JOX_OWNED(Oscillation, frames)},
 };

@@ -15,7 +15,8 @@ struct JoxProbe {
     const JoxProbeCalls *calls;
     void *state;
     double pace;
-    int64_t last; /* the stretch of `pace` seconds in which the last frame was */
+    int64_t
+        last_interval; /* number of the interval of `pace` seconds that the last frame lies in */
     uint8_t *seen;
     uint32_t seen_capacity;
 };
@@ -26,7 +27,7 @@ static const JoxProbeCalls *const KINDS[JOX_PROBE_KINDS] = {
 #undef X
 };
 
-static JoxV2 *copy_points(const JoxV2 *points, uint32_t count) {
+static JoxV2 *copy_probe_points(const JoxV2 *points, uint32_t count) {
     JoxV2 *copy = points ? jox_alloc(count ? count : 1, sizeof *copy) : NULL;
     if (points)
         memcpy(copy, points, count * sizeof *copy);
@@ -43,14 +44,14 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     p->def.groups = groups;
     for (int s = 0; s < 2; s++)
         p->def.states[s] = def->states[s] ? jox_strdup(def->states[s]) : NULL;
-    p->def.points = copy_points(def->points, def->count);
-    p->def.during = copy_points(def->during, def->during_count);
+    p->def.points = copy_probe_points(def->points, def->count);
+    p->def.during = copy_probe_points(def->during, def->during_count);
     p->calls = KINDS[def->kind];
     p->state = jox_alloc(1, p->calls->size);
     p->pace = p->calls->pace == JOX_PACE_TENTH ? TENTH
               : p->calls->pace == JOX_PACE_ALL ? 0.0
                                                : p->def.every;
-    p->last = INT64_MIN;
+    p->last_interval = INT64_MIN;
     if (p->calls->begin)
         p->calls->begin(&p->def, p->state);
     return p;
@@ -69,8 +70,9 @@ const JoxProbeDef *jox_probe_def(const JoxProbe *p) {
     return &p->def;
 }
 
-/* Frames of a scene come at multiples of its step, whose sum may fall short of them by a hair. */
-static int64_t stretch_of(const JoxProbe *p, double t) {
+/* Returns the number of the interval that t lies in. Times are sums of steps and may fall short of
+   a multiple by rounding. */
+static int64_t find_pace_interval(const JoxProbe *p, double t) {
     return p->pace > 0.0 ? (int64_t)floor(t / p->pace + 1e-6) : 0;
 }
 
@@ -79,13 +81,13 @@ bool jox_probe_is_due(const JoxProbe *p, double t) {
         return false;
     if (p->calls->is_due)
         return p->calls->is_due(&p->def, p->state, t);
-    return p->pace <= 0.0 || stretch_of(p, t) != p->last;
+    return p->pace <= 0.0 || find_pace_interval(p, t) != p->last_interval;
 }
 
 void jox_probe_frame(JoxProbe *p, const JoxFrame *frame) {
     if (!jox_probe_is_due(p, frame->time))
         return;
-    p->last = stretch_of(p, frame->time);
+    p->last_interval = find_pace_interval(p, frame->time);
     JOX_RESERVE(p->seen, p->seen_capacity, frame->count + 1);
     for (uint32_t i = 0; i < frame->count; i++) {
         bool seen = p->def.group_count == 0;
@@ -103,7 +105,7 @@ void jox_probe_sections(JoxProbe *p, JoxSections *s) {
         jox_sections_fail(s, "kind", "the probe is of another kind");
         return;
     }
-    JOX_SECTION(s, "last", p->last);
+    JOX_SECTION(s, "last", p->last_interval);
     p->calls->sections(p->state, s);
 }
 
@@ -161,7 +163,7 @@ void jox_probe_free(JoxProbe *p) {
         p->calls->release(p->state);
     for (size_t k = 0; k < sizeof p->calls->owned / sizeof *p->calls->owned; k++)
         if (p->calls->owned[k]) {
-            void *owned; /* whatever it points to */
+            void *owned; /* the pointer in the state, of any type */
             memcpy(&owned, (char *)p->state + p->calls->owned[k] - 1, sizeof owned);
             jox_free(owned);
         }
@@ -188,7 +190,7 @@ void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width
         float ratio = jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f);
         *height = (int)((float)*width * ratio);
     }
-    if (p->last != INT64_MIN || !(p->def.from > 0.0)) {
+    if (p->last_interval != INT64_MIN || !(p->def.from > 0.0)) {
         p->calls->plot(&p->def, p->state, walls, commands);
         return;
     }
@@ -196,5 +198,3 @@ void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width
     snprintf(why, sizeof why, "it measures from %.6g s on: the run ended before", p->def.from);
     jox_plot_nothing(commands, why);
 }
-
-/* ---- shared by the kinds ---- */

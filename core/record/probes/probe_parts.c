@@ -1,4 +1,4 @@
-/* What the kinds of probes share. */
+/* Figures and empty plots, for the kinds of probes. */
 #include "record/probes/probe_parts.h"
 
 void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,

@@ -1,4 +1,5 @@
-/* What the kinds of probes share. */
+/* Interface between probe.c and the kinds of probes, and helpers of the kinds. A kind has one
+   JoxProbeCalls, jox_probe_NAME, listed in JOX_PROBES of world/probe.h. */
 #ifndef JOX_RECORD_PROBES_PROBE_PARTS_H
 #define JOX_RECORD_PROBES_PROBE_PARTS_H
 
@@ -8,58 +9,65 @@
 #include "record/probes/probe.h"
 #include "record/track.h"
 
-/* Which frames a kind wants: ten a second, all, or one in each `every` of its def. */
+/* Frames that a kind takes: ten per second, all, or one in each `every` seconds of its
+   definition. */
 typedef enum { JOX_PACE_TENTH, JOX_PACE_ALL, JOX_PACE_EVERY } JoxPace;
 
-/* One kind. `state` is its own and starts as zeros. */
+/* Functions of one kind. probe.c allocates `state`, set to zero, and frees it. */
 typedef struct JoxProbeCalls {
-    size_t size; /* of the state */
+    size_t size; /* bytes of the state */
     JoxPace pace;
-    /* Whether it wants a frame of time t, instead of a pace; or NULL. */
+    /* Returns whether it takes a frame at time t, s. Replaces the pace unless NULL. */
     bool (*is_due)(const JoxProbeDef *def, const void *state, double t);
-    void (*begin)(const JoxProbeDef *def, void *state); /* or NULL */
-    /* `seen[i]` is 1 for the people who are measured. */
+    void (*begin)(const JoxProbeDef *def,
+                  void *state); /* prepares the state; NULL: zeros will do */
+    /* Takes a frame. `seen[i]` is 1 for the people it measures. */
     void (*frame)(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen);
     void (*figures)(const JoxProbeDef *def, const void *state, JoxFigures *out);
-    /* What its future and its figures depend on; a restored one fails where it could not be. */
+    /* Lists all of the state that later frames and figures depend on. A restored state with
+       impossible values must fail. */
     void (*sections)(void *state, JoxSections *sections);
-    /* A first line with names and units in brackets, then rows. */
+    /* Writes a header with names and units in brackets, then rows. */
     void (*csv)(const JoxProbeDef *def, const void *state, FILE *out);
-    /* gnuplot commands that draw the file `csv`; the terminal is set, commas separate. */
+    /* Appends gnuplot commands that draw the table. In gnuplot `csv` is the name of its file;
+       terminal and separator are already set. */
     void (*plot)(const JoxProbeDef *def, const void *state, bool walls, JoxText *out);
-    int width, height;            /* of the picture, pixels; height 0: by the area of the map */
-    size_t owned[8];              /* what of the state jox_free takes: JOX_OWNED of each */
-    void (*release)(void *state); /* the rest of it; or NULL */
+    int width, height; /* size of the plot in pixels; height 0: by the aspect ratio of the area */
+    size_t owned[8];   /* arrays in the state for probe.c to free: JOX_OWNED of each */
+    void (*release)(void *state); /* frees anything else in the state; NULL: nothing */
 } JoxProbeCalls;
-/* Of calls: what all kinds have, by the names that their files give it. */
-#define JOX_PROBE_KIND(State, wide, high)                                                          \
-    .size = sizeof(State), .figures = figures, .sections = sections, .csv = csv, .plot = plot,     \
-    .width = wide, .height = high
-#define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0: none */
+/* Members of JoxProbeCalls that all kinds have. The functions are named by the kind, as in
+   add_flow_figures, list_flow_sections, write_flow_csv and plot_flow. */
+#define JOX_PROBE_KIND(State, kind, wide, high)                                                    \
+    .size = sizeof(State), .figures = add_##kind##_figures, .sections = list_##kind##_sections,    \
+    .csv = write_##kind##_csv, .plot = plot_##kind, .width = wide, .height = high
+#define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0 stands for none */
 
 #define X(kind, name, form, options, example, meaning) extern const JoxProbeCalls jox_probe_##name;
 JOX_PROBES(X)
 #undef X
 
-/* probe_flow.c: passages that stand so far, of a flow's state. */
+/* flow.c, for a flow's state: number of valid passages. */
 uint32_t jox_flow_passages(const void *state);
-/* How often it was crossed against its direction; 0 where anybody crossed it along that. */
+/* Returns the number of crossings against the direction of the line; 0 if anybody crossed in its
+   direction. */
 uint32_t jox_flow_against(const void *state);
-/* When the middle 60 % of them were made, s; false of fewer than two. */
+/* Sets the times, s, of the first and last passage of the middle 60 %. Returns false for fewer than
+   two passages. */
 bool jox_flow_middle(const void *state, double *from, double *to);
-/* A flow within another probe: its state, and a frame of it. */
+/* A flow inside another probe: creates its state, takes a frame, lists the state and frees it. */
 void *jox_flow_create(void);
 void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, const uint8_t *seen);
 void jox_flow_sections(void *state, JoxSections *sections);
 void jox_flow_free(void *state);
-/* `title`: what it is, in words. */
+/* Adds a figure; `title` is its name in words. */
 void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,
                     double value);
 
-/* Why the figure that was added last has no value, where it has none. */
+/* Sets the reason why the figure added last has no value; ignored if it has one. */
 void jox_figure_why(JoxFigures *figures, const char *why);
 
-/* A plot that only says why there is nothing to draw. */
+/* Writes a plot with the reason why there is nothing to draw. */
 void jox_plot_nothing(JoxText *out, const char *why);
 
 #endif

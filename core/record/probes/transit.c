@@ -1,7 +1,8 @@
-/* Transit: the time from a person's last crossing of the first line, in either direction, to the
-   crossing of the second that follows. Visit: the same from entering one state to entering another.
-   Who comes round again counts again. Inversions: share of the pairs that were under way together
-   of whom the later one to begin ended first; 0 keeps the order, 0.5 has none. */
+/* Probe `transit`: time from a person's last crossing of the first line, in either direction, to
+   the next crossing of the second. Probe `visit`: time from entering one state to entering another.
+   A person who comes again counts again. Inversions are the share of the pairs under way at the
+   same time in which the one that began later ended first; 0 keeps the order, 0.5 is random
+   order. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +10,8 @@
 #include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
 
-static const double COMMON_BEGINNING = 0.5; /* s: all who began within it began together */
+/* s: if all began within this time, the plot treats them as one start. */
+static const double COMMON_BEGINNING = 0.5;
 
 typedef struct Passage {
     uint32_t key;
@@ -18,33 +20,36 @@ typedef struct Passage {
 
 typedef struct Transit {
     JoxTrack track;
-    double *since; /* by key: when the first line was crossed; NAN: not on the way */
+    /* by key: time of the last crossing of the first line, or of entering the first state; NAN:
+       not under way */
+    double *since;
     uint32_t since_capacity;
-    uint8_t *was; /* visit, by key: 1 in the first state, 2 in the second */
-    uint32_t was_capacity;
+    uint8_t *last_state; /* visit, by key: 1 in the first state, 2 in the second, else 0 */
+    uint32_t last_state_capacity;
     Passage *passages;
     uint32_t count, capacity;
 } Transit;
 
-static void reserve(Transit *t, const JoxFrame *frame) {
+static void reserve_times(Transit *t, const JoxFrame *frame) {
     uint32_t had = t->since_capacity;
     JOX_RESERVE(t->since, t->since_capacity, frame->keys);
     for (uint32_t k = had; k < t->since_capacity; k++)
         t->since[k] = NAN;
 }
 
-static void arrive(Transit *t, uint32_t key, double time) {
+static void add_transit(Transit *t, uint32_t key, double time) {
     JOX_RESERVE(t->passages, t->capacity, t->count + 1);
     t->passages[t->count++] = (Passage){key, t->since[key], time};
     t->since[key] = NAN;
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_transit_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                               const uint8_t *seen) {
     Transit *t = state;
     JoxStretch stretch;
     double time;
     jox_track_reserve(&t->track, frame);
-    reserve(t, frame);
+    reserve_times(t, frame);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i] || !jox_track_step(&t->track, frame, i, &stretch))
             continue;
@@ -53,37 +58,38 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
             *since = time;
         if (isfinite(*since) &&
             jox_stretch_crosses(&stretch, def->points[2], def->points[3], &time) && time >= *since)
-            arrive(t, frame->key[i], time);
+            add_transit(t, frame->key[i], time);
     }
 }
 
-static uint8_t which(const JoxProbeDef *def, const char *name) {
+static uint8_t classify_state(const JoxProbeDef *def, const char *name) {
     return strcmp(name, def->states[0]) == 0 ? 1 : strcmp(name, def->states[1]) == 0 ? 2 : 0;
 }
 
-static void visit_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
-                        const uint8_t *seen) {
+static void take_visit_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                             const uint8_t *seen) {
     Transit *t = state;
-    uint8_t is[256] = {0};
+    uint8_t states_of_interest[256] = {0};
     if (!frame->state)
         return;
     for (uint32_t s = 0; s < frame->state_count && s < 256; s++)
-        is[s] = which(def, frame->states[s]);
-    reserve(t, frame);
-    JOX_RESERVE_ZEROED(t->was, t->was_capacity, frame->keys);
+        states_of_interest[s] = classify_state(def, frame->states[s]);
+    reserve_times(t, frame);
+    JOX_RESERVE_ZEROED(t->last_state, t->last_state_capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
         uint32_t key = frame->key[i];
-        uint8_t now = frame->state[i] < 256 ? is[frame->state[i]] : 0;
-        if (seen[i] && now == 1 && t->was[key] != 1)
+        uint8_t now = frame->state[i] < 256 ? states_of_interest[frame->state[i]] : 0;
+        if (seen[i] && now == 1 && t->last_state[key] != 1)
             t->since[key] = frame->time;
-        if (seen[i] && now == 2 && t->was[key] != 2 && isfinite(t->since[key]))
-            arrive(t, key, frame->time);
-        t->was[key] = now;
+        if (seen[i] && now == 2 && t->last_state[key] != 2 && isfinite(t->since[key]))
+            add_transit(t, key, frame->time);
+        t->last_state[key] = now;
     }
 }
 
-/* Of all pairs that were under way at the same time, the share that changed order. */
-static double inversions(const Transit *t) {
+/* Returns the share of the pairs under way at the same time that changed their order; NAN without
+   pairs. */
+static double measure_inversions(const Transit *t) {
     uint64_t pairs = 0, changed = 0;
     for (uint32_t a = 0; a < t->count; a++)
         for (uint32_t b = 0; b < a; b++) {
@@ -96,7 +102,7 @@ static double inversions(const Transit *t) {
     return pairs ? (double)changed / (double)pairs : NAN;
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_transit_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Transit *t = state;
     double *times = jox_alloc(t->count + 1, sizeof *times), sum = 0.0;
     uint32_t under_way = 0;
@@ -114,19 +120,20 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "greatest", "time taken, greatest", "s",
                    jox_quantile(times, t->count, 1.0));
     if (def->kind == JOX_PROBE_VISIT)
-        jox_figure_add(out, "inversions", "pairs that changed their order", "", inversions(t));
+        jox_figure_add(out, "inversions", "pairs that changed their order", "",
+                       measure_inversions(t));
     jox_free(times);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_transit_sections(void *state, JoxSections *s) {
     Transit *t = state;
     jox_track_sections(&t->track, s);
     JOX_SECTION_ROOM(s, "since", t->since, t->since_capacity);
-    JOX_SECTION_ROOM(s, "was", t->was, t->was_capacity);
+    JOX_SECTION_ROOM(s, "was", t->last_state, t->last_state_capacity);
     JOX_SECTION_ARRAY(s, "passages", t->passages, t->count, t->capacity);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_transit_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Transit *t = state;
     fputs("person,from [s],until [s],transit [s]\n", out);
@@ -135,7 +142,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
                 t->passages[p].until, t->passages[p].until - t->passages[p].from);
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_transit(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)walls;
     const Transit *t = state;
     if (t->count == 0) {
@@ -165,11 +172,12 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 
 #define KIND(frames)                                                                               \
     {                                                                                              \
-        JOX_PROBE_KIND(Transit, 1000, 600), .frame = frames, .owned = {                            \
+        JOX_PROBE_KIND(Transit, transit, 1000, 600), .frame = frames, .owned = {                   \
             JOX_OWNED(Transit, track.items),                                                       \
             JOX_OWNED(Transit, since),                                                             \
-            JOX_OWNED(Transit, was),                                                               \
+            JOX_OWNED(Transit, last_state),                                                        \
             JOX_OWNED(Transit, passages)                                                           \
         }                                                                                          \
     }
-const JoxProbeCalls jox_probe_transit = KIND(frame), jox_probe_visit = KIND(visit_frame);
+const JoxProbeCalls jox_probe_transit = KIND(take_transit_frame),
+                    jox_probe_visit = KIND(take_visit_frame);

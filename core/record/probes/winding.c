@@ -1,6 +1,6 @@
-/* Winding: turns of each person about a point, anti-clockwise positive, and the least that the
-   running sum ever was: below -1, somebody went a whole lap clockwise, whatever came after. Steps
-   over half a turn are taken the short way, so that the point must not be passed in one frame. */
+/* Probe `winding`: turns of each person about a point, anti-clockwise positive, and the least
+   running sum: at -1 or below, the person went a whole lap clockwise at some time. A turn between
+   two frames is taken the short way, so nobody may pass the point within one frame. */
 #include <math.h>
 #include <string.h>
 
@@ -11,8 +11,8 @@
 static const double TURN = 6.283185307179586;
 
 typedef struct Turning {
-    uint8_t known; /* as one is read back from a checkpoint: any byte */
-    double angle, turns, least, greatest, since, until; /* rad, turns, turns, turns, s, s */
+    uint8_t known; /* 0 or 1; not a bool, since a checkpoint may hold any byte */
+    double angle, turns, least, greatest, since, until; /* rad; turns; turns; turns; s; s */
 } Turning;
 
 typedef struct Winding {
@@ -20,7 +20,8 @@ typedef struct Winding {
     uint32_t capacity;
 } Winding;
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+static void take_winding_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                               const uint8_t *seen) {
     Winding *w = state;
     JOX_RESERVE_ZEROED(w->people, w->capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
@@ -42,7 +43,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     }
 }
 
-static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+static void add_winding_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     (void)def;
     const Winding *w = state;
     double *turns = jox_alloc(w->capacity + 1, sizeof *turns), sum = 0.0, lowest = NAN;
@@ -65,12 +66,12 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(turns);
 }
 
-static void sections(void *state, JoxSections *s) {
+static void list_winding_sections(void *state, JoxSections *s) {
     Winding *w = state;
     JOX_SECTION_ROOM(s, "people", w->people, w->capacity);
 }
 
-static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+static void write_winding_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Winding *w = state;
     fputs("person,since [s],turns,least_running,greatest_running,until [s]\n", out);
@@ -80,7 +81,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
                     w->people[k].least, w->people[k].greatest, w->people[k].until);
 }
 
-static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+static void plot_winding(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     (void)def;
     const Winding *w = state;
     double least = INFINITY, greatest = -INFINITY;
@@ -95,7 +96,10 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         return;
     }
     double most = fmax(greatest, -least);
-    double wide = most > 20.0 ? 1.0 : most > 4.0 ? 0.25 : most > 1.0 ? 0.1 : 0.05; /* turns */
+    double wide = most > 20.0  ? 1.0
+                  : most > 4.0 ? 0.25
+                  : most > 1.0 ? 0.1
+                               : 0.05; /* turns: width of a bin */
     jox_text_printf(out,
                     "w = %g\nset xlabel 'turns, anti-clockwise'\nset ylabel 'people'\n"
                     "set key top right opaque\nset yrange [0:*]\nset boxwidth w\n"
@@ -109,7 +113,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 }
 
 const JoxProbeCalls jox_probe_winding = {
-    JOX_PROBE_KIND(Winding, 1000, 600),
-    .frame = frame,
+    JOX_PROBE_KIND(Winding, winding, 1000, 600),
+    .frame = take_winding_frame,
     .owned = {JOX_OWNED(Winding, people)},
 };
