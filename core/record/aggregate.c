@@ -10,8 +10,7 @@
 #include "base/mem.h"
 #include "base/number/statistics.h"
 
-/* What a number of a summary is, by its path; the first row that fits holds. `*` stands for any
-   characters. */
+/* Kinds by path; the first matching row counts. `*` matches any characters. */
 static const struct {
     const char *path;
     JoxSummaryKind kind;
@@ -64,11 +63,11 @@ JoxSummaryKind jox_summary_kind(const char *path) {
 typedef struct Value {
     JoxJsonKind kind;
     double number;
-    char *text; /* of a text, else NULL */
-    bool known; /* the run has it */
+    char *text; /* NULL unless the value is a text */
+    bool known; /* the run has this path */
 } Value;
 
-/* What all runs have at a path: values[k] of the k-th text. */
+/* Values of all runs at one path: values[k] belongs to the k-th text. */
 typedef struct Entry {
     char *path;
     Value *values;
@@ -77,10 +76,10 @@ typedef struct Entry {
 
 typedef struct Reader {
     Entry *entries;
-    size_t count, capacity, texts, text; /* `text`: the one being read */
+    size_t count, capacity, texts, text; /* `text`: index of the text being read */
 } Reader;
 
-static bool add_item(void *context, const JoxJsonItem *item) {
+static bool store_summary_item(void *context, const JoxJsonItem *item) {
     Reader *r = context;
     size_t e = 0;
     if (item->kind == JOX_JSON_OBJECT || item->kind == JOX_JSON_ARRAY)
@@ -93,15 +92,16 @@ static bool add_item(void *context, const JoxJsonItem *item) {
                                          jox_summary_kind(item->path) != JOX_SUMMARY_GIVEN};
     }
     Value *value = &r->entries[e].values[r->text];
-    if (!value->known) /* else a key that is repeated */
+    if (!value->known) /* a repeated key: the first value counts */
         *value = (Value){item->kind, item->number, jox_strdup(item->text), true};
     return true;
 }
 
 /* ---- writing ---- */
 
-/* Where all runs have a number. */
-static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *numbers) {
+/* Writes mean and quantiles, if all runs have a number here. */
+static void write_figure_statistics(JoxJson *json, const Entry *entry, size_t count,
+                                    double *numbers) {
     double sum = 0.0;
     for (size_t k = 0; k < count; k++) {
         if (entry->values[k].kind != JOX_JSON_NUMBER)
@@ -115,12 +115,12 @@ static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *
     jox_json_end(json);
 }
 
-static bool same(const Value *a, const Value *b) {
+static bool have_equal_values(const Value *a, const Value *b) {
     return a->kind == b->kind && a->number == b->number && !a->text == !b->text &&
            (!a->text || strcmp(a->text, b->text) == 0);
 }
 
-static void put_value(JoxJson *json, const char *key, const Value *value) {
+static void write_given_value(JoxJson *json, const char *key, const Value *value) {
     if (value->kind == JOX_JSON_TEXT)
         jox_json_string(json, key, value->text);
     else if (value->kind == JOX_JSON_NUMBER)
@@ -131,22 +131,22 @@ static void put_value(JoxJson *json, const char *key, const Value *value) {
         jox_json_null(json, key);
 }
 
-/* Once where all runs agree, else a list by run. */
-static void put_given(JoxJson *json, const Entry *entry, size_t count) {
+/* Writes one value where all runs agree, else a list by run. */
+static void write_given_entry(JoxJson *json, const Entry *entry, size_t count) {
     bool equal = true;
     for (size_t k = 1; k < count; k++)
-        equal = equal && same(&entry->values[k], &entry->values[0]);
+        equal = equal && have_equal_values(&entry->values[k], &entry->values[0]);
     if (equal) {
-        put_value(json, entry->path, &entry->values[0]);
+        write_given_value(json, entry->path, &entry->values[0]);
         return;
     }
     jox_json_array(json, entry->path);
     for (size_t k = 0; k < count; k++)
-        put_value(json, NULL, &entry->values[k]);
+        write_given_value(json, NULL, &entry->values[k]);
     jox_json_end(json);
 }
 
-static void write_all(const Reader *r, size_t count, JoxText *out) {
+static void write_joined_summary(const Reader *r, size_t count, JoxText *out) {
     double *numbers = jox_alloc(count + 1, sizeof *numbers);
     JoxJson json = jox_json_begin(out, 2);
     jox_json_object(&json, NULL);
@@ -154,12 +154,12 @@ static void write_all(const Reader *r, size_t count, JoxText *out) {
     jox_json_object(&json, "given");
     for (size_t e = 0; e < r->count; e++)
         if (!r->entries[e].is_figure)
-            put_given(&json, &r->entries[e], count);
+            write_given_entry(&json, &r->entries[e], count);
     jox_json_end(&json);
     jox_json_object(&json, "figures");
     for (size_t e = 0; e < r->count; e++)
         if (r->entries[e].is_figure)
-            put_figure(&json, &r->entries[e], count, numbers);
+            write_figure_statistics(&json, &r->entries[e], count, numbers);
     jox_json_end(&json);
     jox_json_end(&json);
     jox_text_add(out, "\n");
@@ -170,9 +170,9 @@ bool jox_aggregate(const char *const *texts, size_t count, JoxText *out) {
     Reader r = {.texts = count};
     bool good = true;
     for (; r.text < count && good; r.text++)
-        good = jox_json_read(texts[r.text], jox_json_own_files, add_item, &r);
+        good = jox_json_read(texts[r.text], jox_json_own_files, store_summary_item, &r);
     if (good)
-        write_all(&r, count, out);
+        write_joined_summary(&r, count, out);
     for (size_t e = 0; e < r.count; e++) {
         for (size_t k = 0; k < count; k++)
             jox_free(r.entries[e].values[k].text);

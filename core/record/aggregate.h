@@ -1,4 +1,4 @@
-/* Summaries of several runs, joined. */
+/* Joins the summaries of several runs into one, with means and quantiles. run/results/ calls it. */
 #ifndef JOX_RECORD_AGGREGATE_H
 #define JOX_RECORD_AGGREGATE_H
 
@@ -7,9 +7,9 @@
 
 #include "base/text.h"
 
-/* What a number of a summary is, by its dotted path. Figures are statistics of a run, of which a
-   mean makes sense; so are costs, which depend on the machine as well. All else is listed: what the
-   run was given, texts, and coordinates, whose mean would be a place where nothing was. */
+/* Kind of a value in a summary, by its dotted path. FIGURE is a result of a run, which may be
+   averaged; COST may be averaged, too, but depends on the machine. GIVEN is everything else, which
+   is listed run by run: input, texts, and coordinates, whose mean would be a meaningless point. */
 typedef enum JoxSummaryKind {
     JOX_SUMMARY_GIVEN,
     JOX_SUMMARY_FIGURE,
@@ -17,10 +17,10 @@ typedef enum JoxSummaryKind {
 } JoxSummaryKind;
 JoxSummaryKind jox_summary_kind(const char *path);
 
-/* Each text is a summary: a JSON object. Writes one object by dotted paths: "figures", which are
-   statistics of a run, have {mean, p5, p95} (linear between ranks) where every run has a number;
-   all else is in "given", once where the runs agree, else as a list with null where a run has
-   none. False, and nothing written, if a text is no JSON object. */
+/* Joins `count` summaries, each a JSON object, into one object with dotted paths. "figures" has
+   {mean, p5, p95} (linear between ranks) of the figures and costs that are numbers in all runs.
+   "given" has everything else: once where all runs agree, else as a list with null for runs without
+   it. Returns false and writes nothing if a text is no JSON object. */
 bool jox_aggregate(const char *const *texts, size_t count, JoxText *out);
 
 #endif

@@ -1,5 +1,6 @@
-/* One moment of a crowd, as probes see it: the same for a running world and for a recording. The
-   arrays belong to who made the frame and hold until the next one. */
+/* One moment of a crowd, in a running world or in a recording. Probes, danger, local densities and
+   pictures read it. The arrays belong to the caller that made the frame and stay valid until it
+   makes the next one; "person i" is the one at index i of them. */
 #ifndef JOX_RECORD_FRAME_H
 #define JOX_RECORD_FRAME_H
 
@@ -13,39 +14,41 @@
 typedef struct JoxFrame {
     double time; /* s */
     uint32_t count;
-    JoxV2 period;  /* m: of periodic edges along x and y; 0 without. Who passes one comes round. */
-    uint32_t keys; /* every key so far is below this */
-    const uint32_t *key;  /* of each person: the same in every frame, never another's */
-    uint32_t slots;       /* every slot is below this */
-    const uint32_t *slot; /* of each person: the same while they are there, then another's; NULL: as
-                             the key */
+    JoxV2 period;  /* m: lengths of periodic edges along x and y; 0: not periodic */
+    uint32_t keys; /* upper bound of all keys up to this frame */
+    /* number of each person, the same in every frame, never given to another person */
+    const uint32_t *key;
+    uint32_t slots; /* upper bound of all slots up to this frame */
+    /* row of each person in tables such as JoxTrack; given to another person after the first has
+       left. NULL: use the key */
+    const uint32_t *slot;
     const float *x, *y;   /* m */
-    const float *vx, *vy; /* m/s: displacement over a step, or over a stretch about the moment */
-    /* NULL where they are not known, as in a recording made by others. */
+    const float *vx, *vy; /* m/s: displacement over a step, or over a few frames around this one */
+    /* Each is NULL where it is unknown, as in a recording of another program. */
     const float *radius;       /* m */
-    bool one_radius;           /* it is one number, that of all */
+    bool one_radius;           /* `radius` has one element, which is everybody's radius */
     const float *force;        /* magnitude of the net force, N */
     const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
     const float *load;         /* greatest push borne from any one direction, N */
-    const uint8_t *failed;     /* 1 where the 2-D program had no solution */
-    const uint16_t *group;     /* index of the scene's group */
-    const char *const *groups; /* their names */
+    const uint8_t *failed;     /* 1 where the two-dimensional linear program had no solution */
+    const uint16_t *group;     /* index in `groups` */
+    const char *const *groups; /* names */
     uint32_t group_count;
-    const JoxColour *group_colours; /* that they were given; NULL: none was */
-    const uint32_t *state;          /* row of the person's state in `states` */
-    const char *const *states;      /* their names, of all machines */
+    const JoxColour *group_colours; /* colours from the scene; NULL: no group has one */
+    const uint32_t *state;          /* index in `states` */
+    const char *const *states;      /* names of the states of all machines */
     uint32_t state_count;
-    const JoxColour *state_colours; /* that they were given; NULL: none was */
-    /* Bodies, each as its index + 1, or 0: what the person kicked or threw in this step, and what
-       fast one hit them. */
+    const JoxColour *state_colours; /* colours from the scene; NULL: no state has one */
+    /* Bodies by index + 1; 0: none. The body that the person kicked or threw in this step, and the
+       fast body that hit the person. */
     const uint32_t *kicked, *struck;
-    const JoxObjects *objects;     /* bodies as people saw them when this step began */
-    const JoxWalls *walls;         /* as they stand now */
-    const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
+    const JoxObjects *objects;     /* bodies at the beginning of this step, as agents saw them */
+    const JoxWalls *walls;         /* walls that stand at this moment */
+    const JoxWallLoad *wall_loads; /* load of each wall piece; NULL: unknown */
     uint32_t wall_load_count;
 } JoxFrame;
 
-/* m: of person i, or `unknown`. */
+/* Returns the radius of person i, m, or `unknown` where the frame has no radii. */
 static inline float jox_frame_radius(const JoxFrame *frame, uint32_t i, float unknown) {
     return frame->radius ? frame->radius[frame->one_radius ? 0 : i] : unknown;
 }

@@ -4,8 +4,8 @@
 
 #include "base/mem.h"
 
-static const float COARSE = 0.4f; /* m: of cells */
-static const float FEW = 1e5f;    /* cells: areas of more have coarser ones */
+static const float COARSE = 0.4f; /* m: largest cell */
+static const float FEW = 1e5f;    /* areas of more cells than this get larger cells */
 
 JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high) {
     float cell = sqrtf((high.x - low.x) * (high.y - low.y) / FEW);
@@ -17,7 +17,7 @@ JoxLocal *jox_local_create(JoxV2 low, JoxV2 high) {
     JoxLocal *l = jox_alloc(1, sizeof *l);
     l->grid = jox_local_grid(low, high);
     l->time = NAN;
-    l->stretch = INT64_MIN;
+    l->half_second = INT64_MIN;
     return l;
 }
 
@@ -30,8 +30,9 @@ void jox_local_want_pressure(JoxLocal *l) {
     l->pressure = jox_pressure_create(l->grid->columns, l->grid->rows, l->grid->cell);
 }
 
-/* Velocity of person i since the last sample: that of one step shakes with its contacts. */
-static JoxV2 velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
+/* Returns the velocity of person i over the time since the last sample. The velocity of a single
+   step shakes with its contact forces. */
+static JoxV2 measure_velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
     JoxStretch way;
     if (!jox_track_step(&l->track, frame, i, &way) ||
         !(way.ended > way.begun && way.ended - way.begun <= 2.0 * JOX_PRESSURE_PACE))
@@ -39,8 +40,8 @@ static JoxV2 velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
     return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
 }
 
-/* Of all who are seen. */
-static void take_velocities(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
+/* Sets vx and vy for the selected people. */
+static void measure_velocities_of_crowd(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     jox_track_reserve(&l->track, frame);
     if (frame->count > l->people) {
         l->people = frame->count;
@@ -50,29 +51,30 @@ static void take_velocities(JoxLocal *l, const JoxFrame *frame, const uint8_t *s
     for (uint32_t i = 0; i < frame->count; i++) {
         if (seen && !seen[i])
             continue;
-        const JoxV2 v = velocity(l, frame, i);
+        const JoxV2 v = measure_velocity(l, frame, i);
         l->vx[i] = v.x;
         l->vy[i] = v.y;
     }
 }
 
-/* Times are multiples of a step, whose sum may fall short of them by a hair. */
-static int64_t stretch_of(double t) {
+/* Returns the number of the half second that t lies in. Times are sums of steps and may fall short
+   of a multiple by rounding. */
+static int64_t find_half_second(double t) {
     return (int64_t)floor(t / JOX_PRESSURE_PACE + 1e-6);
 }
 
 bool jox_local_is_due(const JoxLocal *l, double t) {
-    return stretch_of(t) != l->stretch;
+    return find_half_second(t) != l->half_second;
 }
 
 bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     if (!jox_local_is_due(l, frame->time))
         return false;
-    l->stretch = stretch_of(frame->time);
+    l->half_second = find_half_second(frame->time);
     l->time = frame->time;
     l->samples++;
     if (l->pressure)
-        take_velocities(l, frame, seen);
+        measure_velocities_of_crowd(l, frame, seen);
     const JoxDensityCrowd crowd = {.count = frame->count,
                                    .x = frame->x,
                                    .y = frame->y,
@@ -83,7 +85,7 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_sample(l->grid, &crowd, l->pressure ? 3 : 1,
                        (float *[]){l->grid->now, l->flow_x, l->flow_y});
     jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
-    if (l->tracked) /* else nobody's way since the last sample is known */
+    if (l->tracked) /* in the first sample, velocities since the last are unknown */
         jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
     l->tracked = l->pressure != NULL;
     return true;
@@ -97,7 +99,7 @@ void jox_local_sections(JoxLocal *l, JoxSections *s) {
     jox_density_sections(l->grid, s);
     JOX_SECTION(s, "time", l->time);
     JOX_SECTION(s, "samples", l->samples);
-    JOX_SECTION(s, "stretch", l->stretch);
+    JOX_SECTION(s, "stretch", l->half_second);
     if (jox_section_count(s, "pressure", l->pressure != NULL, 1) == 0)
         return;
     jox_local_want_pressure(l);

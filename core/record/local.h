@@ -1,5 +1,6 @@
-/* Local density, flow and crowd pressure over the frames of a run or of a recording, on one grid:
-   what maps, tables and summaries take them from (fields/density.h, fields/pressure.h). */
+/* Local density, flow and crowd pressure on one grid, sampled every half second from the frames of
+   a run or of a recording (fields/density.h, fields/pressure.h). Maps, danger, tables and summaries
+   read it; jox_local_free frees all of it. */
 #ifndef JOX_RECORD_LOCAL_H
 #define JOX_RECORD_LOCAL_H
 
@@ -12,31 +13,32 @@
 #include "record/track.h"
 
 typedef struct JoxLocal {
-    JoxDensity *grid; /* its `now` is the last sample's, 1/m2; its `most` of any place and time */
-    float *flow_x, *flow_y; /* density times velocity, 1/(m s); NULL unless asked for */
-    JoxPressure *pressure;  /* NULL unless asked for */
-    float *vx, *vy;         /* m/s: of the last sample's people, where pressure is asked for */
-    uint32_t people;        /* that there is room for in them */
-    double time;            /* s: of the last sample; NAN before the first */
-    double mean_from;       /* s: means over time begin then */
+    /* 1/m2: `now` is the last sample, `most` the greatest of any place and time */
+    JoxDensity *grid;
+    float *flow_x, *flow_y; /* 1/(m s): density times velocity; NULL without crowd pressure */
+    JoxPressure *pressure;  /* NULL until jox_local_want_pressure */
+    float *vx, *vy;  /* m/s: velocities of the people in the last sample; used with pressure only */
+    uint32_t people; /* room in vx and vy */
+    double time;     /* s: time of the last sample; NAN before the first */
+    double mean_from; /* s: samples from this time on count in means over time */
     uint32_t samples;
-    JoxTrack track; /* from sample to sample */
-    bool tracked;   /* at the last */
-    int64_t stretch;
+    JoxTrack track; /* positions in the last sample */
+    bool tracked;   /* the last sample had a track, so that velocities are known at the next */
+    int64_t half_second;
 } JoxLocal;
 
-/* A grid for such densities: cells of 0.2 m, up to 0.4 m where the area is large. */
+/* Creates a grid for local densities: cells of 0.2 m, up to 0.4 m where the area is large. */
 JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high);
 JoxLocal *jox_local_create(JoxV2 low, JoxV2 high);
-/* From here on flow and crowd pressure, too. */
+/* Measures flow and crowd pressure from the next sample on, too. */
 void jox_local_want_pressure(JoxLocal *local);
-/* Whether a frame of time t, s, would be a sample. */
+/* Returns whether a frame at time t, s, would be sampled. */
 bool jox_local_is_due(const JoxLocal *local, double t);
-/* Frames in ascending time, of everyone or (not NULL) of those for whom `seen` is 1. True if this
-   one is a sample: one in each half second is. */
+/* Takes a frame, in ascending order of time, and samples it if it is the first in its half second.
+   `seen` selects the people who count, by 1; NULL selects all. Returns whether it was sampled. */
 bool jox_local_frame(JoxLocal *local, const JoxFrame *frame, const uint8_t *seen);
 void jox_local_sections(JoxLocal *local, JoxSections *sections);
-/* Of a cell, 1/s2; NAN: not measured. */
+/* Returns the crowd pressure of a cell, 1/s2; NAN where it is not measured. */
 float jox_local_pressure(const JoxLocal *local, size_t cell);
 void jox_local_free(JoxLocal *local);
 

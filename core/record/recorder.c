@@ -14,8 +14,8 @@
 #include "record/recorder_file.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4, COLUMNS = 12, BATCH = 50 }; /* rows that one statement writes */
-static const double COMMITTED = 1.0;           /* s, within which frames are committed */
+enum { FRAMES = 4, COLUMNS = 12, BATCH = 50 }; /* BATCH: rows that one statement writes */
+static const double COMMITTED = 1.0;           /* s: frames are committed at least this often */
 
 typedef struct Frame {
     uint32_t number;
@@ -26,22 +26,23 @@ typedef struct Frame {
 } Frame;
 
 struct JoxRecorder {
-    FILE *claimed; /* the same file, so that no other run writes it */
+    FILE *claimed; /* the same file, kept open and locked so that no other run writes to it */
     JoxDatabase *db;
-    sqlite3_stmt *row, *batch, *body, *frame;
+    sqlite3_stmt *row, *batch, *body, *frame; /* inserts */
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t filled, emptied;
-    Frame frames[FRAMES]; /* a ring: `first` is the oldest, `count` are filled */
+    Frame frames[FRAMES]; /* ring buffer: `first` is the oldest frame, `count` are filled */
     uint32_t first, count;
     bool ending, failed;
-    bool lent; /* the file, to the thread that steps */
-    char why[256];
-    double low_x, high_x, low_y, high_y, committed;
+    bool borrowed;                       /* the stepping thread uses the database at present */
+    char why[256];                       /* why it failed */
+    double low_x, high_x, low_y, high_y; /* m: bounds of all positions */
+    double committed;                    /* s: time of the last commit */
     uint64_t geometry;
 };
 
-static bool run(JoxRecorder *r, const char *sql) {
+static bool execute_sql(JoxRecorder *r, const char *sql) {
     char *why = NULL;
     if (sqlite3_exec(r->db->sqlite, sql, NULL, NULL, &why) == SQLITE_OK)
         return true;
@@ -50,7 +51,7 @@ static bool run(JoxRecorder *r, const char *sql) {
     return false;
 }
 
-static bool prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
+static bool prepare_sql(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
     *statement = jox_database_prepare(r->db, sql);
     if (*statement)
         return true;
@@ -58,8 +59,8 @@ static bool prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
     return false;
 }
 
-/* Steps a statement that returns nothing and readies it for the next row. */
-static bool put(JoxRecorder *r, sqlite3_stmt *statement) {
+/* Steps a statement that returns no rows and resets it for the next use. */
+static bool execute_statement(JoxRecorder *r, sqlite3_stmt *statement) {
     bool good = sqlite3_step(statement) == SQLITE_DONE;
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
@@ -69,11 +70,11 @@ static bool put(JoxRecorder *r, sqlite3_stmt *statement) {
 
 static bool set_metadata(JoxRecorder *r, const char *key, const char *value) {
     sqlite3_stmt *statement;
-    if (!prepare(r, &statement, "INSERT OR REPLACE INTO metadata(key, value) VALUES(?, ?)"))
+    if (!prepare_sql(r, &statement, "INSERT OR REPLACE INTO metadata(key, value) VALUES(?, ?)"))
         return false;
     sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
     sqlite3_bind_text(statement, 2, value, -1, SQLITE_STATIC);
-    bool good = put(r, statement);
+    bool good = execute_statement(r, statement);
     jox_database_finalize(r->db, statement);
     return good;
 }
@@ -89,16 +90,16 @@ static bool write_bounds(JoxRecorder *r) {
            set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
 }
 
-/* Parts of a metre in which places are recorded. */
+/* Positions are recorded in 1 / PLACE_PARTS of a metre. */
 static const double PLACE_PARTS = 1e4;
 
-/* A place, m, as it is read again; what is no number stays none. */
-static double as_recorded(float place) {
+/* Returns a position, m, rounded as a reader will get it; NAN stays NAN. */
+static double round_as_recorded(float place) {
     return isfinite(place) ? (double)llround((double)place * PLACE_PARTS) / PLACE_PARTS
                            : (double)NAN;
 }
 
-/* In whole parts; what is no number is NULL, which the table does not take. */
+/* Binds value * parts as an integer. NAN becomes NULL, which the table refuses. */
 static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
     if (isfinite(value))
         sqlite3_bind_int64(to, at, llround((double)value * parts));
@@ -126,35 +127,36 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
         for (uint32_t k = 0; k < count; k++, i++) {
             const JoxRecordRow *row = &f->rows[i];
             bind_row(to, 1 + (int)k * COLUMNS, f->number, row);
-            const double x = as_recorded(row->x), y = as_recorded(row->y);
+            const double x = round_as_recorded(row->x), y = round_as_recorded(row->y);
             r->low_x = fmin(r->low_x, x), r->high_x = fmax(r->high_x, x);
             r->low_y = fmin(r->low_y, y), r->high_y = fmax(r->high_y, y);
         }
-        if (!put(r, to))
+        if (!execute_statement(r, to))
             return false;
     }
     return true;
 }
 
-/* Nobody could read what goes on being written to a file that has lost its name. */
-static bool has_name(JoxRecorder *r) {
+/* Returns false with the reason in `why` if the file was removed or replaced: nobody could read
+   what is written to it from then on. */
+static bool check_file_name(JoxRecorder *r) {
     const bool good = jox_recording_has_name(r->claimed, r->db);
     if (!good)
         snprintf(r->why, sizeof r->why, "the file was removed or replaced while it was written");
     return good;
 }
 
-static bool commit(JoxRecorder *r) {
+static bool commit_frames(JoxRecorder *r) {
     r->committed = jox_clock_wall();
-    return write_bounds(r) && run(r, "COMMIT") && has_name(r);
+    return write_bounds(r) && execute_sql(r, "COMMIT") && check_file_name(r);
 }
 
 static bool write_frame(JoxRecorder *r, const Frame *f) {
-    if (sqlite3_get_autocommit(r->db->sqlite) && !run(r, "BEGIN"))
+    if (sqlite3_get_autocommit(r->db->sqlite) && !execute_sql(r, "BEGIN"))
         return false;
     sqlite3_bind_int64(r->frame, 1, f->number);
     sqlite3_bind_int64(r->frame, 2, (sqlite3_int64)r->geometry);
-    if (!put(r, r->frame) || !write_rows(r, f))
+    if (!execute_statement(r, r->frame) || !write_rows(r, f))
         return false;
     for (uint32_t i = 0; i < f->body_count; i++) {
         const JoxRecordBody *b = &f->bodies[i];
@@ -163,14 +165,14 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
         sqlite3_bind_int64(r->body, 2, b->id);
         for (int k = 0; k < 7; k++)
             sqlite3_bind_double(r->body, 3 + k, numbers[k]);
-        if (!put(r, r->body))
+        if (!execute_statement(r, r->body))
             return false;
     }
-    return jox_clock_wall() - r->committed < COMMITTED || commit(r);
+    return jox_clock_wall() - r->committed < COMMITTED || commit_frames(r);
 }
 
-/* Waits until there is something to write. What has been written is not left uncommitted for longer
-   than frames that follow each other are: a run may pause, or be killed while it does. */
+/* Waits until there is a frame to write or the recorder ends. Commits written frames within
+   COMMITTED seconds even if no frame follows: a run may pause, or be killed in a pause. */
 static void wait_for_frames(JoxRecorder *r) {
     while (r->count == 0 && !r->ending) {
         if (r->failed || sqlite3_get_autocommit(r->db->sqlite)) {
@@ -180,13 +182,13 @@ static void wait_for_frames(JoxRecorder *r) {
         const double then = jox_clock_date() + COMMITTED;
         const struct timespec until = {(time_t)then, (long)((then - floor(then)) * 1e9)};
         if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0 &&
-            !r->lent &&
-            !sqlite3_get_autocommit(r->db->sqlite)) /* nobody else has committed meanwhile */
-            r->failed |= !commit(r);
+            !r->borrowed &&
+            !sqlite3_get_autocommit(r->db->sqlite)) /* the stepping thread may have committed */
+            r->failed |= !commit_frames(r);
     }
 }
 
-static void *writer(void *argument) {
+static void *write_until_end(void *argument) {
     JoxRecorder *r = argument;
     pthread_mutex_lock(&r->lock);
     for (;;) {
@@ -207,61 +209,62 @@ static void *writer(void *argument) {
     return NULL;
 }
 
-static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
+static bool start_recording(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
-    bool good = run(r, jox_recording_schema) && set_metadata(r, "version", "2") &&
+    bool good = execute_sql(r, jox_recording_schema) && set_metadata(r, "version", "2") &&
                 set_number(r, "fps", fps) && write_bounds(r) &&
-                prepare(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
+                prepare_sql(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
     if (good) {
         sqlite3_bind_int64(geometry, 1, (sqlite3_int64)r->geometry);
         sqlite3_bind_text(geometry, 2, wkt, -1, SQLITE_STATIC);
-        good = put(r, geometry);
+        good = execute_statement(r, geometry);
     }
     jox_database_finalize(r->db, geometry);
-    return good && run(r, "COMMIT");
+    return good && execute_sql(r, "COMMIT");
 }
 
-/* Takes out what was written behind a frame. */
-static bool go_on(JoxRecorder *r, uint32_t last) {
+/* Deletes everything recorded after frame `last`, and reads the bounds of the rest. */
+static bool resume_recording(JoxRecorder *r, uint32_t last) {
     static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "jostle_wall",
                                          "frame_data"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
     char sql[400];
-    bool good = run(r, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN");
+    bool good = execute_sql(r, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN");
     for (size_t t = 0; good && t < sizeof TABLES / sizeof *TABLES; t++) {
         snprintf(sql, sizeof sql, "DELETE FROM %s WHERE frame > %u", TABLES[t], last);
-        good = run(r, sql);
+        good = execute_sql(r, sql);
     }
     for (int k = 0; good && k < 4; k++) {
         sqlite3_stmt *bound = NULL;
         snprintf(sql, sizeof sql, "SELECT %s FROM (" JOX_RECORDED_ROWS ")", BOUNDS[k]);
-        good = prepare(r, &bound, sql);
+        good = prepare_sql(r, &bound, sql);
         if (good && sqlite3_step(bound) == SQLITE_ROW &&
             sqlite3_column_type(bound, 0) != SQLITE_NULL)
             *to[k] = sqlite3_column_double(bound, 0);
         jox_database_finalize(r->db, bound);
     }
-    return good && run(r, "COMMIT");
+    return good && execute_sql(r, "COMMIT");
 }
 
-static bool prepare_rows(JoxRecorder *r) {
+static bool prepare_inserts(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
     static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
     char *end = stpcpy(batch, INSERT);
     for (int k = 0; k < BATCH; k++)
         end = stpcpy(end, ROW);
-    end[-1] = '\0'; /* the last comma */
+    end[-1] = '\0'; /* drop the last comma */
     snprintf(one, sizeof one, "%s%.*s", INSERT, (int)sizeof ROW - 2, ROW);
-    return prepare(r, &r->batch, batch) && prepare(r, &r->row, one) &&
-           prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
-           prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+    return prepare_sql(r, &r->batch, batch) && prepare_sql(r, &r->row, one) &&
+           prepare_sql(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+           prepare_sql(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }
 
-static void release(JoxRecorder *r) {
-    jox_database_close(r->db); /* and its statements */
-    if (r->claimed)            /* after the database, which it would take the locks from */
+static void free_recorder(JoxRecorder *r) {
+    jox_database_close(r->db);
+    /* The file last: closing it earlier would release the locks of the database. */
+    if (r->claimed)
         jox_file_close(r->claimed);
     for (int i = 0; i < FRAMES; i++) {
         jox_free(r->frames[i].rows);
@@ -273,8 +276,8 @@ static void release(JoxRecorder *r) {
     jox_free(r);
 }
 
-/* Ends the writing thread; what it has not written is lost. */
-static void stop(JoxRecorder *r) {
+/* Ends the writer thread. It writes the frames submitted before, uncommitted. */
+static void stop_writer(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
     r->ending = true;
     pthread_cond_signal(&r->filled);
@@ -282,14 +285,15 @@ static void stop(JoxRecorder *r) {
     pthread_join(r->thread, NULL);
 }
 
-static void abandon(void *recorder) {
-    stop(recorder);
-    release(recorder);
+static void abandon_recorder(void *recorder) {
+    stop_writer(recorder);
+    free_recorder(recorder);
 }
 
-/* Without a plan it goes on with the file, behind the last frame. */
-static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *wkt, uint32_t last,
-                          JoxText *error) {
+/* Creates a recorder on a claimed file. With `wkt` it starts a new recording; with NULL it
+   continues the one in the file after frame `last`. */
+static JoxRecorder *create_recorder(const char *path, FILE *file, double fps, const char *wkt,
+                                    uint32_t last, JoxText *error) {
     JoxRecorder *r = jox_alloc(1, sizeof *r);
     pthread_mutex_init(&r->lock, NULL);
     pthread_cond_init(&r->filled, NULL);
@@ -299,30 +303,31 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     r->geometry = 1;
     r->committed = jox_clock_wall();
     r->claimed = file;
-    /* One thread at a time uses it: the writer, and the others once that has nothing to write. */
+    /* One thread at a time uses it: the writer, or another while the writer is idle. */
     JoxText why = {0};
     r->db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
     bool good = r->db && jox_database_allow(r->db, jox_recording_tables, &why);
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", why.data);
     jox_text_free(&why);
-    good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
-    if (good && !jox_thread_start(&r->thread, writer, r)) {
+    good = good && (wkt ? start_recording(r, fps, wkt) : resume_recording(r, last)) &&
+           prepare_inserts(r);
+    if (good && !jox_thread_start(&r->thread, write_until_end, r)) {
         good = false;
         snprintf(r->why, sizeof r->why, "no thread can be started");
     }
     if (good)
-        return jox_hold(r, abandon);
+        return jox_hold(r, abandon_recorder);
     jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
-    if (wkt) /* as it is no recording, the next run would not replace it */
+    if (wkt) /* the file has no schema yet, so the next run would refuse to replace it */
         jox_recording_remove(path);
-    release(r);
+    free_recorder(r);
     return NULL;
 }
 
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
     FILE *file = jox_claim_recording(path, error);
-    return file ? begin(path, file, fps, wkt, 0, error) : NULL;
+    return file ? create_recorder(path, file, fps, wkt, 0, error) : NULL;
 }
 
 JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error) {
@@ -330,37 +335,37 @@ JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error)
     const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && jox_is_recording(path);
     FILE *file = ours ? jox_file_open(path, "a") : NULL;
     if (file)
-        return begin(path, file, 0.0, NULL, last, error);
+        return create_recorder(path, file, 0.0, NULL, last, error);
     jox_text_printf(error, "cannot go on recording to '%s': %s", path,
                     ours ? jox_file_why(errno) : "there is no recording of Jostle's");
     return NULL;
 }
 
-/* The writing thread uses the file while there are frames; afterwards it sleeps until the next, and
-   wakes only to commit, which it leaves while the file is lent to the thread that steps. */
-static void borrow_file(JoxRecorder *r) {
+/* Waits until the writer has written all frames, then reserves the database for the calling thread.
+   The writer sleeps until the next frame; it wakes to commit, but not while `borrowed` is set. */
+static void borrow_database(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
     while (r->count > 0)
         pthread_cond_wait(&r->emptied, &r->lock);
-    r->lent = true;
+    r->borrowed = true;
     pthread_mutex_unlock(&r->lock);
 }
 
-static void return_file(JoxRecorder *r) {
+static void return_database(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
-    r->lent = false;
+    r->borrowed = false;
     pthread_mutex_unlock(&r->lock);
 }
 
-/* A number with one name or two (?4), and the colour that was given (?3). */
-static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const char *first,
-                      const char *second, JoxColour colour) {
+/* Writes a number with one or two names (?2, ?4) and its colour (?3; NULL where it has none). */
+static void write_names(JoxRecorder *r, const char *sql, uint32_t number, const char *first,
+                        const char *second, JoxColour colour) {
     sqlite3_stmt *statement;
     char text[8];
     jox_colour_write(colour, text);
-    borrow_file(r);
-    if (!prepare(r, &statement, sql)) {
-        return_file(r);
+    borrow_database(r);
+    if (!prepare_sql(r, &statement, sql)) {
+        return_database(r);
         return;
     }
     sqlite3_bind_int64(statement, 1, number);
@@ -369,20 +374,20 @@ static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const ch
         sqlite3_bind_text(statement, 3, text, -1, SQLITE_STATIC);
     if (second)
         sqlite3_bind_text(statement, 4, second, -1, SQLITE_STATIC);
-    put(r, statement);
+    execute_statement(r, statement);
     jox_database_finalize(r->db, statement);
-    return_file(r);
+    return_database(r);
 }
 
 void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state,
                         JoxColour colour) {
-    put_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?1, ?2, ?4, ?3)", number, machine,
-              state, colour);
+    write_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?1, ?2, ?4, ?3)", number, machine,
+                state, colour);
 }
 
 void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name, JoxColour colour) {
-    put_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?1, ?2, ?3)", number, name, NULL,
-              colour);
+    write_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?1, ?2, ?3)", number, name, NULL,
+                colour);
 }
 
 void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const JoxWalls *walls,
@@ -390,8 +395,8 @@ void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const Jo
     sqlite3_stmt *statement;
     JoxText text = {0};
     jox_text_add(&text, "");
-    borrow_file(r);
-    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?)")) {
+    borrow_database(r);
+    if (prepare_sql(r, &statement, "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?)")) {
         const struct JoxWallRing *ring = walls ? &walls->rings[at] : &(struct JoxWallRing){0};
         bool closed = false, twin;
         const uint32_t count = walls ? jox_walls_given(walls, at, &closed, &twin) : 0;
@@ -408,10 +413,10 @@ void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const Jo
         sqlite3_bind_double(statement, 7, isfinite(ring->height) ? (double)ring->height : 0.0);
         if (points)
             sqlite3_bind_text(statement, 8, text.data, -1, SQLITE_STATIC);
-        put(r, statement);
+        execute_statement(r, statement);
         jox_database_finalize(r->db, statement);
     }
-    return_file(r);
+    return_database(r);
     jox_text_free(&text);
 }
 
@@ -425,19 +430,19 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
         jox_text_printf(&corners, "%s%.6g %.6g %.6g", c ? ", " : "", (double)look->corners[c].x,
                         (double)look->corners[c].y, (double)look->corners[c].z);
     sqlite3_stmt *statement;
-    borrow_file(r);
-    if (prepare(r, &statement,
-                "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
+    borrow_database(r);
+    if (prepare_sql(r, &statement,
+                    "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
         const uint32_t whole[] = {frame, body, part, (uint32_t)look->kind};
         for (int k = 0; k < 4; k++)
             sqlite3_bind_int64(statement, 1 + k, whole[k]);
         for (int k = 0; k < 10; k++)
             sqlite3_bind_double(statement, 5 + k, (double)numbers[k]);
         sqlite3_bind_text(statement, 15, corners.data, -1, SQLITE_STATIC);
-        put(r, statement);
+        execute_statement(r, statement);
         jox_database_finalize(r->db, statement);
     }
-    return_file(r);
+    return_database(r);
     jox_text_free(&corners);
 }
 
@@ -469,9 +474,9 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
 }
 
 bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
-    borrow_file(r);
-    const bool good = !r->failed && (sqlite3_get_autocommit(r->db->sqlite) || commit(r));
-    return_file(r);
+    borrow_database(r);
+    const bool good = !r->failed && (sqlite3_get_autocommit(r->db->sqlite) || commit_frames(r));
+    return_database(r);
     if (!good)
         jox_text_printf(error, "recording failed: %s", r->why);
     return good;
@@ -479,17 +484,17 @@ bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
 
 bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
     jox_let_go(r);
-    stop(r);
+    stop_writer(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db->sqlite))
-        good = run(r, "COMMIT");
-    good = good && has_name(r);
+        good = execute_sql(r, "COMMIT");
+    good = good && check_file_name(r);
     if (good && !jox_recording_fold(r->db, message)) {
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
         good = false;
     }
     if (!good)
         jox_text_printf(message, "recording failed: %s", r->why);
-    release(r);
+    free_recorder(r);
     return good;
 }

@@ -1,6 +1,9 @@
-/* Trajectories as an SQLite file in the JuPedSim format, version 2, which PedPy reads; with tables
-   of our own for states, forces and bodies. Written by a thread of its own in transactions (one a
-   second at the latest), so that the file is whole after a crash up to the last of them. */
+/* Writes the trajectories of a run to an SQLite file in the JuPedSim format, version 2, which PedPy
+   reads, with tables of our own for states, forces, bodies and walls (README.md). run/recording.c
+   calls it. A thread of its own writes the frames and commits at least once a second, so that after
+   a crash the file is valid up to the last commit.
+   The caller opens a recorder, names states and groups, gives walls and body parts whenever they
+   change, and each frame by jox_recorder_take and jox_recorder_put; jox_recorder_close frees it. */
 #ifndef JOX_RECORD_RECORDER_H
 #define JOX_RECORD_RECORDER_H
 
@@ -17,11 +20,11 @@ typedef struct JoxRecorder JoxRecorder;
 typedef struct JoxRecordRow {
     uint32_t id;
     float x, y;         /* m */
-    float ori_x, ori_y; /* unit vector the agent looks along */
+    float ori_x, ori_y; /* unit vector along which the person looks */
     uint32_t state;     /* number in jostle_state */
     float force;        /* N */
-    float compression;  /* N/m: mean since the frame before */
-    float load;         /* N: likewise */
+    float compression;  /* N/m: mean since the previous frame */
+    float load;         /* N: mean since the previous frame */
     uint16_t group;     /* number in jostle_group */
     float radius;       /* m */
 } JoxRecordRow;
@@ -30,42 +33,46 @@ typedef struct JoxRecordBody {
     float x, y, z, qx, qy, qz, qw;
 } JoxRecordBody;
 
-/* Replaces an earlier recording; refuses any other file. `wkt`: the walkable area. NULL with a
-   sentence in `error`. */
+/* Creates a recording; an earlier recording at that path is replaced, any other file is refused.
+   `wkt` is the walkable area. Returns NULL with a sentence in `error` on failure. */
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error);
-/* Goes on with a recording of ours behind a frame; later ones are taken out. NULL with a sentence
-   in `error`. */
+/* Continues one of our recordings after frame `last`; later frames are deleted. Returns NULL with a
+   sentence in `error` on failure. */
 JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error);
-/* Has all frames given so far committed. False with a sentence in `error`. */
+/* Commits all frames given so far. Returns false with a sentence in `error` on failure. */
 bool jox_recorder_settle(JoxRecorder *recorder, JoxText *error);
-/* Names a state number; once per number, before frames that use it. `colour`: 0, or given to it. */
+/* Names a state number: once for each number, before the first frame that uses it. `colour` is 0
+   where the scene gives none. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
                         const char *state, JoxColour colour);
-/* Names a group of agents; before the first frame. */
+/* Names a group number, before the first frame. */
 void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name, JoxColour colour);
-/* A wall with its name and height, which the walkable area cannot tell, as it is from a frame on:
-   ring `ring` of `walls`, or none (NULL) where it is gone. Without `points` these are as before
-   (wall_history.h). */
+/* Records wall `number` as it is from a frame on: its name and height, which the walkable area
+   lacks, and ring `ring` of `walls`; `walls` is NULL where the wall was removed. Without `points`
+   its points stay those of the last call (wall_history.h). */
 void jox_recorder_wall(JoxRecorder *recorder, uint32_t frame, uint32_t number,
                        const JoxWalls *walls, uint32_t ring, bool points);
-/* A part of a body as it is from a frame on: all its parts are given again whenever one changes. */
+/* Records one part of a body as it is from a frame on. Whenever one part changes, give all parts of
+   the body. */
 void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
                        const JoxBodyLook *look);
-/* Room for a frame of so many rows, to be filled and given back by jox_recorder_put. Waits while
-   the writer is more than a few frames behind: nothing is dropped. */
+/* Returns rows for a frame, and rows for its bodies in `body_rows`, for the caller to fill and
+   submit by jox_recorder_put. Waits while the writer is four frames behind: no frame is dropped. */
 JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,
                                 JoxRecordBody **body_rows);
-/* False, with a sentence in `error`, once writing has failed. */
+/* Submits the rows of the last jox_recorder_take. Returns false with a sentence in `error` once
+   writing has failed. */
 bool jox_recorder_put(JoxRecorder *recorder, uint32_t frame, JoxText *error);
-/* Writes what is left and closes. False with a sentence in `message` if anything was lost; true
-   with one where another program has the file open, so that there is a file beside it. */
+/* Writes the frames left, closes the file and frees the recorder. Returns false with a sentence in
+   `message` if anything was lost. Returns true with a sentence if another program has the file
+   open, so that part of the recording stays in a file beside it. */
 bool jox_recorder_close(JoxRecorder *recorder, JoxText *message);
 
-/* The walkable area as well-known text: one POLYGON, the box about everything (or `low`, `high`),
-   with a hole for each solid. */
+/* Appends the walkable area as well-known text: one POLYGON, the box from `low` to `high`, with a
+   hole for each solid wall. */
 void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out);
-/* Of walls with outlines: a POLYGON or MULTIPOLYGON of these, with a hole for each solid that lies
-   within one. */
+/* Appends the walkable area of walls that have outlines: a POLYGON or MULTIPOLYGON of these, with a
+   hole for each solid wall inside one. */
 void jox_wkt_outlines(const JoxWalls *walls, JoxText *out);
 
 #endif

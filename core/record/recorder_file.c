@@ -1,4 +1,4 @@
-/* Which file a recording is written to. */
+/* Claims, replaces and closes the file of a recording, and holds its schema. */
 #include "record/recorder_file.h"
 
 #include <errno.h>
@@ -7,22 +7,23 @@
 
 #include "base/file.h"
 
-enum { FOLD_PATIENCE = 500 }; /* ms, for others to close the file at the end */
+enum {
+    FOLD_PATIENCE = 500
+}; /* ms: how long to wait at the end for other programs to close the file */
 
 bool jox_is_recording(const char *path) {
     JoxText why = {0};
     JoxDatabase *db = jox_database_open(path, JOX_DATABASE_READ, &why);
     const bool found = db && jox_database_allow(db, jox_recording_tables, &why) &&
                        jox_database_prepare(db, "SELECT number FROM jostle_state LIMIT 1");
-    jox_database_close(db); /* and its statement */
+    jox_database_close(db); /* finalizes the statement, too */
     jox_text_free(&why);
     return found;
 }
 
-/* Whether another program reads a recording that a run left with a file beside it. When that
-   program closes it, SQLite takes the file beside it away by its name: it would take that of the
-   next run.
- */
+/* Returns whether another program reads a recording that an ended run left with a write-ahead log
+   beside it. When that program closes the file, SQLite deletes the log by its name, which would
+   then be the log of the next run. */
 static bool is_read_elsewhere(const char *path) {
     JoxText why = {0};
     JoxDatabase *db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
@@ -63,7 +64,7 @@ FILE *jox_claim_recording(const char *path, JoxText *error) {
         return NULL;
     }
     if (file && there) {
-        jox_recording_remove(path); /* with what a run that was killed left beside it */
+        jox_recording_remove(path); /* and journals that a killed run left */
         FILE *fresh = jox_file_open(path, "a");
         jox_file_close(file);
         file = fresh;
@@ -78,11 +79,12 @@ bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db) {
     return path && jox_file_has_name(claimed, path);
 }
 
-/* OFF: a run that is killed now leaves no journal, which those who only read could not roll back.
- */
+/* Journal mode OFF: if the run is killed now, no journal is left, which a reader without write
+   access could not roll back. */
 bool jox_recording_fold(JoxDatabase *database, JoxText *message) {
     sqlite3 *db = database->sqlite;
-    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0, NULL); /* it would keep a journal */
+    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0,
+                      NULL); /* defensive mode would keep a journal */
     sqlite3_busy_timeout(db, FOLD_PATIENCE);
     if (sqlite3_exec(db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
         return true;
@@ -101,11 +103,11 @@ const char *const jox_recording_tables[] = {
     "trajectory_data", "metadata",     "geometry",    "frame_data",  "jostle_row",  "jostle_agent",
     "jostle_group",    "jostle_state", "jostle_body", "jostle_part", "jostle_wall", NULL};
 
-/* Whole numbers take one to four bytes in the file, any other eight: so rows have places in tenths
-   of millimetres, as have radii, directions in thousandths and loads in tenths, and the format's
-   table is a view of them, which its readers cannot tell from a table. Columns of ours stand beside
-   those of the format. The key is the format's index: rows are found by it, and lie in its order.
- */
+/* SQLite stores small integers in one to four bytes and other numbers in eight. So jostle_row has
+   positions and radii in 0.1 mm, directions in thousandths, and forces, compressions and loads in
+   tenths; the table of the format is a view of it, which its readers cannot tell from a table. Our
+   columns stand beside those of the format. The primary key replaces the index of the format: rows
+   are found by it and lie in its order. */
 const char jox_recording_schema[] =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
     "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"

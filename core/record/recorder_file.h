@@ -1,4 +1,5 @@
-/* The file that a recording is written to: a new one, or one of ours that is replaced. */
+/* The file on disk that a recording is written to: claiming its path, the schema, and closing it.
+   recorder.c calls it; readers use the list of tables and the queries. */
 #ifndef JOX_RECORD_RECORDER_FILE_H
 #define JOX_RECORD_RECORDER_FILE_H
 
@@ -8,25 +9,27 @@
 #include "base/database.h"
 #include "base/text.h"
 
-/* Whether an existing file is a recording of ours, which may be replaced: another program's is not.
- */
+/* Returns whether a file is one of our recordings, which may be replaced; other files may not. */
 bool jox_is_recording(const char *path);
-/* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
-   for it. */
+/* Creates the file of a new recording and returns it open and empty, with a lock against other
+   runs; an earlier recording at that path is removed. Returns NULL with a sentence in `error` on
+   failure. */
 FILE *jox_claim_recording(const char *path, JoxText *error);
-/* Removes a recording and what lies beside it. */
+/* Removes a recording and the journal files of SQLite beside it. */
 void jox_recording_remove(const char *path);
-/* Whether the file that is written still has its name. */
+/* Returns whether the file being written still has its path: it may have been removed or
+   replaced. */
 bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db);
-/* Makes a recording one file, with nothing beside it, once all is committed. While another program
-   has the file open this cannot be: as much as that program allows goes into the file, the rest
-   stays whole beside it, and `message` says so. False where SQLite says why. */
+/* Moves the write-ahead log into the recording, so that one file is left; call it after the last
+   commit. While another program has the file open, part of the log stays in a file beside it and
+   `message` says so. Returns false on an error of SQLite, which sqlite3_errmsg explains. */
 bool jox_recording_fold(JoxDatabase *db, JoxText *message);
 
-/* Names of the tables that a recording may have, those of older versions too, up to a NULL. */
+/* Names of all tables of recordings, including older versions; ends with NULL. */
 extern const char *const jox_recording_tables[];
 
-/* The rows of a recording of ours, as the format has them: jostle_row holds whole numbers. */
+/* Query for the rows of one of our recordings in the units of the JuPedSim format: jostle_row
+   stores scaled integers. Older recordings have no radii. */
 #define JOX_RECORDED_BEFORE_RADII JOX_RECORDED_WITH("")
 #define JOX_RECORDED_ROWS JOX_RECORDED_WITH("radius / 1e4 AS radius, ")
 #define JOX_RECORDED_WITH(more)                                                                    \
@@ -34,7 +37,8 @@ extern const char *const jox_recording_tables[];
     "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \
     "load, " more "state, member FROM jostle_row"
 
-/* What makes an empty file a recording, up to the first rows; it leaves a transaction open. */
+/* Statements that create the tables in an empty file. The transaction that they begin is left open
+   for the first rows. */
 extern const char jox_recording_schema[];
 
 #endif

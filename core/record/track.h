@@ -1,4 +1,6 @@
-/* Where people went from one frame to the next. */
+/* Displacement of each person from one frame to the next, and crossings of lines. Probes, danger
+   and local densities each keep a JoxTrack and call jox_track_reserve, then jox_track_step for each
+   person, in every frame that they read. */
 #ifndef JOX_RECORD_TRACK_H
 #define JOX_RECORD_TRACK_H
 
@@ -8,36 +10,38 @@
 #include "geom/polygon.h"
 #include "record/frame.h"
 
-/* Where each person was in the frame before. */
+/* Position of each person in the previous frame. The owner frees `items`. */
 typedef struct JoxTrack {
     struct JoxTracked {
         float x, y;
         double time;
-        uint32_t person; /* key, plus 1; 0: nobody was there */
-        uint32_t unused; /* 0: cells of sections have no padding */
-    } * items;           /* by slot: as many as there were people at a time */
+        uint32_t person; /* key + 1; 0: the slot is empty */
+        uint32_t unused; /* always 0: cells of sections have no padding */
+    } * items;           /* by slot, or by key in frames without slots */
     uint32_t capacity;
 } JoxTrack;
 
-/* A stretch of somebody's way: from `from` by `by`, the shorter way round where edges are periodic,
-   to `to`, which is elsewhere than from + by if an edge was passed. */
+/* Path of a person between two frames: the straight line from `from` along `by`, the shorter way
+   where edges are periodic, to `to`. `to` differs from from + by if the person crossed a periodic
+   edge. */
 typedef struct JoxStretch {
     JoxV2 from, by, to;
-    double begun, ended; /* s */
+    double begun, ended; /* s: times of the two frames */
 } JoxStretch;
 
-/* Call it before the first of a frame. */
+/* Makes room for everybody in the frame. Call it before the first jox_track_step of a frame. */
 void jox_track_reserve(JoxTrack *track, const JoxFrame *frame);
 void jox_track_sections(JoxTrack *track, JoxSections *sections);
 
-/* The shorter way round. */
+/* Returns a coordinate difference d, m, over the shorter way across a periodic edge. */
 static inline float jox_track_way(float d, float period) {
     if (period > 0.0f && fabsf(d) > 0.5f * period)
         d -= d > 0.0f ? period : -period;
     return d;
 }
 
-/* Notes person i's place in the frame; false where it is the first. */
+/* Stores the position of person i and sets `stretch` to the path since the previous frame. Returns
+   false, with `stretch` unset, where the person has no previous position. */
 static inline bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i,
                                   JoxStretch *stretch) {
     const uint32_t key = frame->key[i];
@@ -55,9 +59,10 @@ static inline bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32
     return known;
 }
 
-/* Of stretches by a-b: see jox_stretch_crosses. */
+/* Does the exact test of jox_stretch_crosses, without the test of bounding boxes before it. */
 int jox_stretch_crosses_near(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);
-/* +1 or -1, and the time, if the stretch crosses a-b; else 0. Most are elsewhere. */
+/* Returns the direction, +1 or -1, in which a stretch crosses the segment a-b, and sets `time`, s;
+   0 where it does not. The bounding boxes exclude most stretches first. */
 static inline int jox_stretch_crosses(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
     const JoxV2 end = jox_add(s->from, s->by), begin = jox_sub(s->to, s->by);
     const bool by = jox_boxes_meet(a, b, s->from, end) || jox_boxes_meet(a, b, begin, s->to);

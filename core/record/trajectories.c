@@ -10,10 +10,10 @@
 #include "base/mem.h"
 #include "base/sort.h"
 
-static const double REACH = 0.2;            /* s: velocities are displacements over +- this */
-static const double LONGEST = 1e9;          /* s */
-static const int64_t LARGEST_KEY = 1 << 22; /* ids above are ranked */
-static const size_t LARGEST = 2000000000;   /* bytes of a text file */
+static const double REACH = 0.2;   /* s: velocities are displacements from -REACH to +REACH */
+static const double LONGEST = 1e9; /* s: latest time of a frame */
+static const int64_t LARGEST_KEY = 1 << 22; /* with an id at or above this, keys are ranks */
+static const size_t LARGEST = 2000000000;   /* bytes: largest text file */
 
 /* ---- order ---- */
 
@@ -22,7 +22,7 @@ typedef struct Place {
     size_t row;
 } Place;
 
-static int by_frame(const void *a, const void *b, const void *context) {
+static int compare_row_frames(const void *a, const void *b, const void *context) {
     (void)context;
     const Place *p = a, *q = b;
     if (p->frame != q->frame)
@@ -30,7 +30,7 @@ static int by_frame(const void *a, const void *b, const void *context) {
     return (p->id > q->id) - (p->id < q->id);
 }
 
-static int by_id(const void *a, const void *b, const void *context) {
+static int compare_row_ids(const void *a, const void *b, const void *context) {
     (void)context;
     const Place *p = a, *q = b;
     if (p->id != q->id)
@@ -38,7 +38,7 @@ static int by_id(const void *a, const void *b, const void *context) {
     return (p->frame > q->frame) - (p->frame < q->frame);
 }
 
-/* Column `name` in the order of the places. */
+/* Reorders column `name` by the rows in `places`. */
 #define PERMUTE(name)                                                                              \
     if (t->name) {                                                                                 \
         void *fresh = jox_alloc(t->count, sizeof *t->name);                                        \
@@ -48,7 +48,7 @@ static int by_id(const void *a, const void *b, const void *context) {
         t->name = fresh;                                                                           \
     }
 
-static void permute(JoxTrajectories *t, const Place *places) {
+static void permute_columns(JoxTrajectories *t, const Place *places) {
     PERMUTE(number)
     PERMUTE(id)
     PERMUTE(line)
@@ -65,8 +65,9 @@ static void permute(JoxTrajectories *t, const Place *places) {
     PERMUTE(face_y)
 }
 
-/* Whether every frame has a time that the probes can count in; else false with an error. */
-static bool check_times(const JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics) {
+/* Returns whether every frame has a time that probes can count in; false adds an error. */
+static bool check_frame_times(const JoxTrajectories *t, const char *path,
+                              JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < t->count; i++) {
         if (fabs((double)t->number[i]) / t->fps <= LONGEST)
             continue;
@@ -79,12 +80,14 @@ static bool check_times(const JoxTrajectories *t, const char *path, JoxDiagnosti
     return true;
 }
 
-/* Rows by frame, and where each begins; false where somebody is in a frame twice. */
-static bool sort(JoxTrajectories *t, Place *places, const char *path, JoxDiagnostics *diagnostics) {
+/* Sorts rows by frame and finds where each frame begins. Returns false with an error if a person is
+   in a frame twice. */
+static bool sort_frames(JoxTrajectories *t, Place *places, const char *path,
+                        JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < t->count; i++)
         places[i] = (Place){t->number[i], t->id[i], i};
-    jox_sort(places, t->count, sizeof *places, by_frame, NULL, NULL);
-    permute(t, places);
+    jox_sort(places, t->count, sizeof *places, compare_row_frames, NULL, NULL);
+    permute_columns(t, places);
     t->first = jox_alloc(t->count + 1, sizeof *t->first);
     for (size_t i = 0; i < t->count; i++) {
         if (i == 0 || t->number[i] != t->number[i - 1]) {
@@ -104,11 +107,12 @@ static bool sort(JoxTrajectories *t, Place *places, const char *path, JoxDiagnos
 
 /* ---- keys and velocities ---- */
 
-/* Places by person, then frame: `row` is where in the sorted columns. */
+/* Gives each person a key. Sorts `places` by person, then frame; `row` then refers to the sorted
+   columns. */
 static void number_people(JoxTrajectories *t, Place *places) {
     for (size_t i = 0; i < t->count; i++)
         places[i] = (Place){t->number[i], t->id[i], i};
-    jox_sort(places, t->count, sizeof *places, by_id, NULL, NULL);
+    jox_sort(places, t->count, sizeof *places, compare_row_ids, NULL, NULL);
     bool plain = places[0].id >= 0 && places[t->count - 1].id < LARGEST_KEY;
     t->key = jox_alloc(t->count, sizeof *t->key);
     for (size_t i = 0; i < t->count; i++) {
@@ -118,13 +122,13 @@ static void number_people(JoxTrajectories *t, Place *places) {
     t->keys = plain ? (uint32_t)places[t->count - 1].id + 1 : t->people;
 }
 
-/* The shorter way round where edges are periodic. */
-static double shortest(double d, double period) {
+/* Returns a difference over the shorter way across a periodic edge, m. */
+static double wrap_difference(double d, double period) {
     return period > 0.0 ? remainder(d, period) : d;
 }
 
-/* Displacement from the first to the last row of the person within REACH, or between the rows just
-   before and after where there are none. */
+/* Sets velocities to the displacement between the person's first and last rows within REACH, or
+   between the adjacent rows if there are none within it. */
 static void measure_velocities(JoxTrajectories *t, const Place *places) {
     int64_t reach = (int64_t)floor(REACH * t->fps + 0.5);
     reach = reach > 0 ? reach : 1;
@@ -137,19 +141,21 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
                places[high + 1].frame - places[i].frame <= reach)
             high++;
         size_t from = low, to = high;
-        if (from == i && to == i) { /* nobody within reach */
+        if (from == i && to == i) { /* no other row within REACH */
             from -= i > 0 && places[i - 1].id == places[i].id;
             to += i + 1 < t->count && places[i + 1].id == places[i].id;
         }
         double spent = (double)(places[to].frame - places[from].frame) / t->fps;
         size_t row = places[i].row, a = places[from].row, b = places[to].row;
-        t->vx[row] = spent > 0.0 ? (float)(shortest(t->x[b] - t->x[a], t->period.x) / spent) : 0.0f;
-        t->vy[row] = spent > 0.0 ? (float)(shortest(t->y[b] - t->y[a], t->period.y) / spent) : 0.0f;
+        t->vx[row] =
+            spent > 0.0 ? (float)(wrap_difference(t->x[b] - t->x[a], t->period.x) / spent) : 0.0f;
+        t->vy[row] =
+            spent > 0.0 ? (float)(wrap_difference(t->y[b] - t->y[a], t->period.y) / spent) : 0.0f;
     }
 }
 
-static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryOptions *options,
-                      JoxDiagnostics *diagnostics) {
+static bool read_text_file(JoxTrajectories *t, const char *path,
+                           const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = jox_read_file(path, LARGEST, &length);
     if (!text) {
@@ -158,7 +164,8 @@ static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryO
                        jox_file_why(errno));
         return false;
     }
-    /* Comments of other programs may be in any encoding, but for those of two bytes a letter. */
+    /* Comments of other programs may be in any 8-bit encoding; zero bytes show UTF-16, which is
+       refused. */
     bool good = !memchr(text, 0, length) || jox_diag_check_text(diagnostics, path, text, length);
     good = good && jox_trajectories_text(t, path, text, length, options, diagnostics);
     jox_diag_attach_source(diagnostics, path, text, length);
@@ -167,10 +174,10 @@ static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryO
 }
 
 bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics) {
-    if (!check_times(t, path, diagnostics))
+    if (!check_frame_times(t, path, diagnostics))
         return false;
     Place *places = jox_alloc(t->count, sizeof *places);
-    const bool good = sort(t, places, path, diagnostics);
+    const bool good = sort_frames(t, places, path, diagnostics);
     if (good) {
         number_people(t, places);
         if (t->last < t->number[t->count - 1] || (double)t->last / t->fps > LONGEST)
@@ -195,7 +202,8 @@ JoxTrajectories *jox_trajectories_read_text(const char *path, const JoxTrajector
                                             JoxDiagnostics *diagnostics) {
     JoxTrajectories *t = jox_alloc(1, sizeof *t);
     t->period = options->period;
-    if (read_text(t, path, options, diagnostics) && jox_trajectories_finish(t, path, diagnostics))
+    if (read_text_file(t, path, options, diagnostics) &&
+        jox_trajectories_finish(t, path, diagnostics))
         return t;
     jox_trajectories_free(t);
     return NULL;

@@ -1,6 +1,7 @@
-/* Recordings as frames: SQLite files in the JuPedSim format, versions 1 and 2 (ours among them);
-   text with the columns id, frame, x, y and perhaps z, as PeTrack and the archive of Juelich write
-   it; and CSV with a line of names, as ID,Frame,x,y,v_x,v_y. */
+/* Whole recordings in memory, as frames. Reads SQLite files in the JuPedSim format, versions 1 and
+   2, our own included; text with the columns id, frame, x, y and optionally z, as PeTrack and the
+   Juelich archive write it; and CSV with a header, such as ID,Frame,x,y,v_x,v_y. Commands that
+   analyse a recording call it; trajectory_reader.h reads frame by frame instead. */
 #ifndef JOX_RECORD_TRAJECTORIES_H
 #define JOX_RECORD_TRAJECTORIES_H
 
@@ -13,72 +14,74 @@
 #include "record/wall_history.h"
 
 typedef struct JoxTrajectoryOptions {
-    double fps;             /* frames a second; 0: the file says it */
-    double unit;            /* m: length of the file's unit; 0: the file says it */
-    JoxV2 period;           /* m: of periodic edges; 0 without */
-    const char *fps_option; /* what gives `fps`, for hints; NULL: "--fps 25" */
+    double fps;             /* frames per second; 0: read it from the file */
+    double unit;            /* m: length of the unit in the file; 0: read it from the file */
+    JoxV2 period;           /* m: lengths of the periodic edges; 0: not periodic */
+    const char *fps_option; /* option that sets `fps`, for hints of errors; NULL: "--fps 25" */
 } JoxTrajectoryOptions;
 
-/* Rows by frame, then by person. */
+/* Columns of rows, in ascending order of frame, then person. */
 typedef struct JoxTrajectories {
     double fps;
-    int64_t *number; /* of each row: its frame */
-    uint32_t *key;   /* the file's ids, or their ranks where these are not numbers below 2^22 */
+    int64_t *number; /* frame number of each row */
+    uint32_t *key;   /* ids of the file, or their ranks unless all ids are from 0 to 2^22 - 1 */
     float *x, *y, *vx, *vy;
-    float *force, *compression, *load; /* NULL unless recorded */
-    float *radius;                     /* m; likewise */
+    float *force, *compression, *load; /* N, N/m, N; NULL unless recorded */
+    float *radius;                     /* m; NULL unless recorded */
     uint16_t *group;                   /* NULL unless recorded */
     char **groups;                     /* names */
-    JoxColour *group_colours;          /* 0 where none was given */
+    JoxColour *group_colours;          /* 0 where a group has none */
     uint32_t group_count;
-    uint32_t *state;          /* rows of `states`; NULL unless recorded */
-    char **states;            /* names; the first, "", is of who has no machine */
-    JoxColour *state_colours; /* 0 where none was given */
+    uint32_t *state;          /* index in `states`; NULL unless recorded */
+    char **states;            /* names; the first, "", is the state of people without a machine */
+    JoxColour *state_colours; /* 0 where a state has none */
     uint32_t state_count;
     float *face_x, *face_y; /* unit vectors along which people look; NULL unless recorded */
-    int64_t *id;            /* as in the file; freed, with `line`, once it is read */
-    uint32_t *line;         /* of a text file */
+    int64_t *id;            /* id in the file; freed, with `line`, when reading is finished */
+    uint32_t *line;         /* line in a text file; 0 in others */
     size_t count, capacity;
-    size_t *first; /* row at which each frame begins; one more at the end */
+    size_t *first; /* first row of each frame, and the row count at the end */
     uint32_t frame_count, keys, people;
-    int64_t last;      /* number of the last frame, in which nobody may be */
+    int64_t last;      /* number of the last frame, which may be empty */
     JoxV2 period;      /* m */
-    bool has_velocity; /* the file gave it */
-    JoxV2 low, high;   /* m: everyone, always */
-    /* Those that Jostle recorded, as they were at first; else outlines of the walkable area, as
+    bool has_velocity; /* the file has velocities */
+    JoxV2 low, high;   /* m: bounding box of all rows */
+    /* Walls of the first frame in our recordings; else the outlines of the walkable area, as
        lines. */
     JoxWalls walls;
-    JoxWallHistory *history; /* the same over time; NULL: the file has none */
+    JoxWallHistory *history; /* the walls over time; NULL: the file has none */
 } JoxTrajectories;
 
-/* NULL with errors in `diagnostics`. Velocities that the file does not give are displacements over
-   0.2 s before and after, or to the nearest frames where these are farther apart. */
+/* Reads a recording. Returns NULL with errors in `diagnostics`. Where the file has no velocities,
+   they are displacements from 0.2 s before to 0.2 s after, or between the nearest frames where
+   these are farther apart. */
 JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
                                        JoxDiagnostics *diagnostics);
-/* Frame `f` of those in which anyone is, with the walls that stand then; false behind the last. The
-   walls hold until the next call. */
+/* Sets `out` to the f-th of the frames with people. Its walls are those that stand then, valid
+   until the next call. Returns false after the last frame. */
 bool jox_trajectories_frame(const JoxTrajectories *trajectories, uint32_t f, JoxFrame *out);
-/* Walls in frame `f`, open gates among them, until the next call. */
+/* Returns the walls in the f-th frame, open gates included, valid until the next call. */
 const JoxWalls *jox_trajectories_walls(const JoxTrajectories *trajectories, uint32_t f);
 void jox_trajectories_free(JoxTrajectories *trajectories);
 
-/* trajectories.c: the same of a text; and of rows as they came: sorts them by frame, numbers
-   people, measures velocities. */
+/* The rest is for the files trajectories*.c and trajectory_*.c. jox_trajectories_read_text
+   (trajectories.c) reads a text file as jox_trajectories_read does. jox_trajectories_finish sorts
+   added rows by frame, gives people keys and measures velocities; returns false with errors. */
 JoxTrajectories *jox_trajectories_read_text(const char *path, const JoxTrajectoryOptions *options,
                                             JoxDiagnostics *diagnostics);
 bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics);
-/* trajectories_text.c: rows as they come; false with errors. */
+/* Adds the rows of a text (trajectories_text.c). Returns false with errors. */
 bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
-/* trajectory_plan.c: walls and groups alone, of an open file. */
+/* Reads only walls and groups from an open file (trajectory_plan.c). */
 struct JoxDatabase;
 void jox_trajectories_plan(JoxTrajectories *t, struct JoxDatabase *db);
-/* The colour in a column of a row, 0 for none. */
+/* Returns the colour in a column of a row; 0 for none. */
 struct sqlite3_stmt;
 JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);
-/* Whether a file begins as SQLite files do. */
+/* Returns whether a file begins with the signature of SQLite. */
 bool jox_is_sqlite(const char *path);
-/* Room for one more row; its number, by which the columns are filled. */
+/* Adds a row and returns its index; the caller fills its columns. */
 size_t jox_trajectories_add(JoxTrajectories *t);
 
 #endif

@@ -1,4 +1,5 @@
-/* A whole recording in memory: text, or all frames of a file that is read frame by frame. */
+/* Reads a whole recording into memory: a text file, or all frames of an SQLite file by the
+   trajectory reader. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,15 +8,15 @@
 #include "record/trajectories.h"
 #include "record/trajectory_reader_parts.h"
 
-static bool fail(JoxDiagnostics *diagnostics, const char *path, const char *what) {
+static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path, const char *what) {
     JoxPosition at = {path, 0, 0, 0};
     jox_diag_error(diagnostics, at, "bad-recording", NULL, "%s", what);
     return false;
 }
 
-/* Names of states: the first, "", is that of people without a machine; the machine's name stands
-   before a state's where there are several machines. */
-static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
+/* Builds the names of states. The first, "", is for people without a machine; with several machines
+   the machine's name stands before the state's. */
+static void build_state_names(JoxTrajectories *t, const JoxTrajectoryReader *r) {
     bool several = false;
     if (r->state_count == 0)
         return;
@@ -34,10 +35,10 @@ static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
     }
 }
 
-/* Room for one more row in the columns that only our own recordings have. */
-enum { OWN = 8 }; /* columns */
-static void widen_own(JoxTrajectories *t, bool loads, bool radii, size_t capacities[OWN],
-                      size_t need) {
+/* Makes room for `need` rows in the columns that only our recordings have. */
+enum { OWN = 8 }; /* number of such columns */
+static void reserve_own_columns(JoxTrajectories *t, bool loads, bool radii, size_t capacities[OWN],
+                                size_t need) {
     JOX_RESERVE(t->force, capacities[0], need);
     JOX_RESERVE(t->compression, capacities[1], need);
     if (loads)
@@ -51,8 +52,8 @@ static void widen_own(JoxTrajectories *t, bool loads, bool radii, size_t capacit
         JOX_RESERVE(t->state, capacities[5], need);
 }
 
-static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
-                       const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[OWN]) {
+static void add_person_row(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
+                           const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[OWN]) {
     const size_t row = jox_trajectories_add(t);
     t->number[row] = r->number[frame];
     t->id[row] = f->id[i];
@@ -62,7 +63,7 @@ static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_
     t->vx[row] = t->vy[row] = 0.0f;
     if (!r->ours)
         return;
-    widen_own(t, f->load != NULL, f->radius != NULL, capacities, row + 1);
+    reserve_own_columns(t, f->load != NULL, f->radius != NULL, capacities, row + 1);
     t->force[row] = f->force[i];
     t->compression[row] = f->compression[i];
     if (f->load)
@@ -76,8 +77,8 @@ static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_
         t->state[row] = f->state[i] == JOX_NO_RECORDED_STATE ? 0 : f->state[i] + 1;
 }
 
-static bool read_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *path,
-                        JoxDiagnostics *diagnostics) {
+static bool read_all_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *path,
+                            JoxDiagnostics *diagnostics) {
     size_t capacities[OWN] = {0};
     JoxText why = {0};
     bool good = true;
@@ -85,12 +86,13 @@ static bool read_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *
         JoxTrajectoryReaderFrame f;
         good = jox_trajectory_reader_read_people(r, frame, &f, &why);
         for (uint32_t i = 0; good && i < f.count; i++)
-            add_person(t, r, frame, &f, i, capacities);
+            add_person_row(t, r, frame, &f, i, capacities);
     }
     if (!good)
-        fail(diagnostics, path, why.data);
+        add_recording_error(diagnostics, path, why.data);
     jox_text_free(&why);
-    return good && (t->count > 0 || fail(diagnostics, path, "nobody is in this recording"));
+    return good &&
+           (t->count > 0 || add_recording_error(diagnostics, path, "nobody is in this recording"));
 }
 
 JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
@@ -100,13 +102,13 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     JoxTrajectoryReader *r = jox_trajectory_reader_open(path, options, diagnostics);
     if (!r)
         return NULL;
-    JOX_ASSERT(!r->all && r->frames > 0 && r->fps > 0.0);
+    JOX_ASSERT(!r->in_memory && r->frames > 0 && r->fps > 0.0);
     JoxTrajectories *t = jox_alloc(1, sizeof *t);
     t->period = options->period;
     t->fps = r->fps;
     t->last = r->last;
-    name_states(t, r);
-    bool good = read_frames(t, r, path, diagnostics);
+    build_state_names(t, r);
+    bool good = read_all_frames(t, r, path, diagnostics);
     if (good) {
         jox_trajectories_plan(t, r->db);
         good = jox_trajectories_finish(t, path, diagnostics);

@@ -1,4 +1,5 @@
-/* Trajectories written as text: columns by place, or by the names of a first line. */
+/* Reads trajectories from text: columns in a fixed order, or named by a header line. trajectories.c
+   calls it. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,10 +18,10 @@ typedef struct Text {
     JoxDiagnostics *diagnostics;
     const char *path;
     int line;
-    int column_of[COLUMNS]; /* -1: none */
-    double unit, fps;       /* 0: not known */
-    char separator;         /* ' ': blanks and tabs */
-    bool named;             /* a line of names was read */
+    int column_of[COLUMNS]; /* field of each column; -1: none */
+    double unit, fps;       /* m, frames per second; 0: unknown */
+    char separator;         /* ' ' stands for blanks and tabs */
+    bool named;             /* a header line was read */
     double first_time, last_time, first_frame, last_frame;
 } Text;
 
@@ -29,16 +30,16 @@ typedef struct Field {
     size_t length;
 } Field;
 
-static void complain(Text *r, int column, const char *hint, const char *format, const char *word,
-                     size_t length) {
+static void add_field_error(Text *r, int column, const char *hint, const char *format,
+                            const char *word, size_t length) {
     char shown[41];
     snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), word);
     JoxPosition at = {r->path, r->line, column, column + (int)length};
     jox_diag_error(r->diagnostics, at, "bad-recording", hint, format, shown);
 }
 
-/* The first of several spellings in the text, or NULL. */
-static const char *find_word(const char *text, const char *word) {
+/* Returns the position after the first occurrence of a word, in any case; NULL if there is none. */
+static const char *find_after_word(const char *text, const char *word) {
     size_t n = strlen(word);
     for (; *text; text++)
         if (!strncasecmp(text, word, n))
@@ -46,8 +47,9 @@ static const char *find_word(const char *text, const char *word) {
     return NULL;
 }
 
-/* What follows a column's name: "x/cm", "x_m", "x [m]", "X[in m]"; 0 where there is no unit. */
-static double unit_of(const char *rest) {
+/* Returns the unit, m, after a column's name, as in "x/cm", "x_m", "x [m]", "X[in m]"; 0 if there
+   is none. */
+static double parse_unit(const char *rest) {
     rest += strspn(rest, " \t_/[(");
     if (!strncasecmp(rest, "in ", 3))
         rest += 3;
@@ -57,13 +59,14 @@ static double unit_of(const char *rest) {
     return n == 1 && *rest == 'm' ? 1.0 : n == 2 && !strncmp(rest, "cm", 2) ? 0.01 : 0.0;
 }
 
-/* "# framerate: 25 fps", "# id frame x/m y/m z/m", "# ... x [in cm]". */
+/* Takes frame rate and unit from a comment: "# framerate: 25 fps", "# id frame x/m y/m z/m", "# ...
+   x [in cm]". */
 static void read_comment(Text *r, const char *line, size_t length) {
     char text[512];
     snprintf(text, sizeof text, "%.*s", (int)(length < 511 ? length : 511), line);
-    const char *rate = find_word(text, "framerate");
-    rate = rate ? rate : find_word(text, "frame rate");
-    rate = rate ? rate : find_word(text, "fps");
+    const char *rate = find_after_word(text, "framerate");
+    rate = rate ? rate : find_after_word(text, "frame rate");
+    rate = rate ? rate : find_after_word(text, "fps");
     if (rate && r->fps == 0.0) {
         double fps = strtod(rate + strspn(rate, " \t:=*"), NULL);
         r->fps = fps > 0.0 && fps <= 1e5 ? fps : 0.0;
@@ -71,11 +74,12 @@ static void read_comment(Text *r, const char *line, size_t length) {
     for (const char *at = text; *at && r->unit == 0.0; at++) {
         bool starts = at == text || !isalnum((unsigned char)at[-1]);
         if (starts && (*at == 'x' || *at == 'X') && strchr(" \t/[(", at[1]) && at[1])
-            r->unit = unit_of(at + 1);
+            r->unit = parse_unit(at + 1);
     }
 }
 
-static uint32_t split(const Text *r, const char *line, size_t length, Field fields[MOST_FIELDS]) {
+static uint32_t split_fields(const Text *r, const char *line, size_t length,
+                             Field fields[MOST_FIELDS]) {
     uint32_t count = 0;
     size_t at = 0;
     while (at < length && count < MOST_FIELDS) {
@@ -112,8 +116,9 @@ static void choose_separator(Text *r, const char *line, size_t length) {
         r->separator = ' ';
 }
 
-/* Which column a name is, with the unit that it carries; -1: none that is used. */
-static int column_of(const char *name, double *unit) {
+/* Returns the column that a name stands for, and sets the unit in the name, m; -1 for unused
+   names. */
+static int find_column(const char *name, double *unit) {
     static const struct {
         const char *text;
         int column;
@@ -125,15 +130,15 @@ static int column_of(const char *name, double *unit) {
         if (!strcasecmp(name, KNOWN[k].text))
             return KNOWN[k].column;
     if ((*name == 'x' || *name == 'X' || *name == 'y' || *name == 'Y') && name[1] &&
-        strchr(" _/[(", name[1]) && (*unit = unit_of(name + 1)) > 0.0)
+        strchr(" _/[(", name[1]) && (*unit = parse_unit(name + 1)) > 0.0)
         return tolower((unsigned char)*name) == 'x' ? X : Y;
     return !strncasecmp(name, "time", 4) && name[4] && strchr(" _/[(", name[4]) ? TIME : -1;
 }
 
-static bool read_names(Text *r, const char *line, size_t length) {
+static bool read_header(Text *r, const char *line, size_t length) {
     Field fields[MOST_FIELDS];
     choose_separator(r, line, length);
-    uint32_t count = split(r, line, length, fields);
+    uint32_t count = split_fields(r, line, length, fields);
     bool good = true;
     for (int c = 0; c < COLUMNS; c++)
         r->column_of[c] = -1;
@@ -141,7 +146,7 @@ static bool read_names(Text *r, const char *line, size_t length) {
         char name[LONGEST_NAME];
         double unit;
         snprintf(name, sizeof name, "%.*s", (int)fields[f].length, fields[f].at);
-        int column = column_of(name, &unit);
+        int column = find_column(name, &unit);
         if (column < 0 || r->column_of[column] >= 0)
             continue;
         r->column_of[column] = (int)f;
@@ -150,21 +155,21 @@ static bool read_names(Text *r, const char *line, size_t length) {
     }
     for (int c = ID; c <= Y; c++)
         if (r->column_of[c] < 0) {
-            complain(r, 1, "A first line names the columns: ID,Frame,x,y",
-                     "no column is named '%s'", NAMES[c], strlen(NAMES[c]));
+            add_field_error(r, 1, "A first line names the columns: ID,Frame,x,y",
+                            "no column is named '%s'", NAMES[c], strlen(NAMES[c]));
             good = false;
         }
     r->named = true;
     return good;
 }
 
-/* A finite number, whole where the column is one; false with an error. */
-static bool read_field(Text *r, const char *line, const Field *fields, uint32_t count, int column,
-                       double *out) {
+/* Reads a finite number, an integer in the columns id and frame. Returns false with an error. */
+static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t count, int column,
+                        double *out) {
     uint32_t f = (uint32_t)r->column_of[column];
     if (f >= count) {
-        complain(r, 1, "id, frame, x and y are needed in every line", "this line has no %s",
-                 NAMES[column], strlen(NAMES[column]));
+        add_field_error(r, 1, "id, frame, x and y are needed in every line", "this line has no %s",
+                        NAMES[column], strlen(NAMES[column]));
         return false;
     }
     char text[64], *end;
@@ -177,19 +182,19 @@ static bool read_field(Text *r, const char *line, const Field *fields, uint32_t 
     whole |= number && *out == floor(*out) && fabs(*out) < 1e15;
     if (number && whole && (column < X || fabs(*out) < 1e8))
         return true;
-    complain(r, place, whole ? "Numbers are written with a point" : "Ids and frames are counted",
-             whole ? "this must be a finite number, not '%s'"
-                   : "this must be a whole number, not '%s'",
-             fields[f].at, fields[f].length);
+    add_field_error(
+        r, place, whole ? "Numbers are written with a point" : "Ids and frames are counted",
+        whole ? "this must be a finite number, not '%s'" : "this must be a whole number, not '%s'",
+        fields[f].at, fields[f].length);
     return false;
 }
 
-static bool read_row(Text *r, const char *line, size_t length) {
+static bool parse_row(Text *r, const char *line, size_t length) {
     Field fields[MOST_FIELDS];
     double v[COLUMNS] = {0};
-    uint32_t count = split(r, line, length, fields);
+    uint32_t count = split_fields(r, line, length, fields);
     for (int c = 0; c < COLUMNS; c++)
-        if (r->column_of[c] >= 0 && !read_field(r, line, fields, count, c, &v[c]))
+        if (r->column_of[c] >= 0 && !parse_field(r, line, fields, count, c, &v[c]))
             return false;
     JoxTrajectories *t = r->t;
     if (r->column_of[TIME] >= 0) {
@@ -210,8 +215,9 @@ static bool read_row(Text *r, const char *line, size_t length) {
     return true;
 }
 
-/* What the file did not say and nobody else did. */
-static bool settle(Text *r, const JoxTrajectoryOptions *options) {
+/* Sets frame rate and unit, and scales the rows. Options take precedence over the file; errors tell
+   what neither gives. */
+static bool apply_units(Text *r, const JoxTrajectoryOptions *options) {
     JoxTrajectories *t = r->t;
     JoxPosition at = {r->path, 0, 0, 0};
     if (r->fps == 0.0 && r->last_frame > r->first_frame && r->last_time > r->first_time)
@@ -265,14 +271,14 @@ bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *tex
         }
         if (!begun && (isalpha((unsigned char)line[blank]) || line[blank] == '"')) {
             begun = true;
-            if (!read_names(&r, line, n))
+            if (!read_header(&r, line, n))
                 return false;
             continue;
         }
         if (!begun)
             choose_separator(&r, line, n);
         begun = true;
-        read_row(&r, line, n);
+        parse_row(&r, line, n);
     }
-    return diagnostics->errors == errors && settle(&r, options);
+    return diagnostics->errors == errors && apply_units(&r, options);
 }

@@ -1,4 +1,4 @@
-/* Frames and people of a recording in memory. */
+/* Adds rows to a recording in memory, returns its frames, and frees it. */
 #include "record/trajectories.h"
 
 #include <math.h>

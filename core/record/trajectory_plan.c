@@ -1,5 +1,5 @@
-/* Walls, or the walkable area, and groups of a recording in the JuPedSim format. Versions 1 and 2
-   differ in how they keep the area; its text is in `geometry.wkt` in both. */
+/* Reads walls, or the outlines of the walkable area, and groups from a recording in the JuPedSim
+   format. Versions 1 and 2 store the area differently; both have its text in `geometry.wkt`. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,8 @@
 
 enum { MOST_RING = 5000 };
 
-/* Every ring of points in a WKT text, whatever it is a part of, becomes a closed line. */
+/* Adds every ring of points in a well-known text as a closed line, whatever geometry it belongs
+   to. */
 static void read_outlines(JoxTrajectories *t, const char *wkt) {
     JoxV2 ring[MOST_RING];
     while ((wkt = strchr(wkt, '('))) {
@@ -52,7 +53,7 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
     sqlite3_stmt *statement =
         jox_database_prepare(db, "SELECT name, colour FROM jostle_group ORDER BY number");
     size_t capacity = 0, colour_capacity = 0;
-    if (!statement) /* an older one */
+    if (!statement) /* an older recording, without colours */
         statement = jox_database_prepare(db, "SELECT name, NULL FROM jostle_group ORDER BY number");
     while (statement && t->group_count < UINT16_MAX && sqlite3_step(statement) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(statement, 0);

@@ -1,4 +1,5 @@
-/* The frames of a recording that has been opened. */
+/* Reads frames, walls and shapes of bodies from a recording that trajectory_reader_open.c has
+   opened. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,10 +7,11 @@
 #include "base/mem.h"
 #include "record/trajectory_reader_parts.h"
 
-static const float RADIUS = 0.2f, MOST_RADIUS = 100.0f; /* m */
+static const float RADIUS = 0.2f;        /* m: where none is recorded */
+static const float MOST_RADIUS = 100.0f; /* m: a plausible radius is below it */
 
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
-    const JoxTrajectories *t = r->all ? r->all : &r->outlines;
+    const JoxTrajectories *t = r->in_memory ? r->in_memory : &r->outlines;
     return (JoxTrajectoryReaderInfo){.fps = r->fps,
                                      .frames = r->frames,
                                      .bounded = r->bounded,
@@ -21,18 +23,21 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .group_colours = t->group_colours,
                                      .states = r->states,
                                      .state_count = r->state_count,
-                                     .whole = r->all != NULL,
-                                     .has_force = r->all ? r->all->force != NULL : r->ours,
+                                     .whole = r->in_memory != NULL,
+                                     .has_force =
+                                         r->in_memory ? r->in_memory->force != NULL : r->ours,
                                      .has_bodies = r->bodies != NULL,
                                      .has_walls = t->history != NULL};
 }
 
 double jox_trajectory_reader_time(const JoxTrajectoryReader *r, uint32_t frame) {
-    return (double)(r->all ? r->all->number[r->all->first[frame]] : r->number[frame]) / r->fps;
+    return (double)(r->in_memory ? r->in_memory->number[r->in_memory->first[frame]]
+                                 : r->number[frame]) /
+           r->fps;
 }
 
 uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *r, double time) {
-    uint32_t low = 0, high = r->frames; /* the frames below `low` are not later */
+    uint32_t low = 0, high = r->frames; /* frames below `low` are at or before `time` */
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         if (jox_trajectory_reader_time(r, middle) <= time + 1e-9)
@@ -45,12 +50,12 @@ uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *r, double time) {
 
 /* ---- frames ---- */
 
-static bool damaged(JoxText *why, const char *format, const char *what) {
+static bool set_damage(JoxText *why, const char *format, const char *what) {
     jox_text_printf(why, format, what);
     return false;
 }
 
-static void widen(JoxTrajectoryReader *r, size_t need) {
+static void reserve_frame_columns(JoxTrajectoryReader *r, size_t need) {
     if (need <= r->capacity)
         return;
     r->capacity = need + need / 2 + 64;
@@ -63,7 +68,7 @@ static void widen(JoxTrajectoryReader *r, size_t need) {
     r->group = jox_realloc(r->group, r->capacity, sizeof *r->group);
 }
 
-static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
+static uint32_t find_state_row(const JoxTrajectoryReader *r, int64_t number) {
     uint32_t low = 0, high = r->state_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
@@ -75,8 +80,9 @@ static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
     return low < r->state_count && r->states[low].number == number ? low : JOX_NO_RECORDED_STATE;
 }
 
-/* Whether the row says who is where: SQLite takes texts and nothing for 0. */
-static bool is_placed(sqlite3_stmt *row) {
+/* Returns whether a row has an integer id and a numeric position. SQLite would convert texts and
+   NULL to 0. */
+static bool has_numeric_position(sqlite3_stmt *row) {
     bool placed = sqlite3_column_type(row, 0) == SQLITE_INTEGER;
     for (int c = 1; c <= 2; c++) {
         const int type = sqlite3_column_type(row, c);
@@ -85,14 +91,14 @@ static bool is_placed(sqlite3_stmt *row) {
     return placed;
 }
 
-/* m; that of a person of whom none was recorded, or none that can be. */
+/* Returns the radius in a column, m; RADIUS where it is missing or implausible. */
 static float read_radius(sqlite3_stmt *row, int column) {
     const float radius = (float)sqlite3_column_double(row, column);
     return radius > 0.0f && radius < MOST_RADIUS ? radius : RADIUS;
 }
 
-static void take_row(JoxTrajectoryReader *r, uint32_t n) {
-    widen(r, (size_t)n + 1);
+static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
+    reserve_frame_columns(r, (size_t)n + 1);
     r->id[n] = sqlite3_column_int64(r->rows, 0);
     r->x[n] = (float)sqlite3_column_double(r->rows, 1);
     r->y[n] = (float)sqlite3_column_double(r->rows, 2);
@@ -103,7 +109,8 @@ static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     if (!r->ours)
         return;
     const bool known = sqlite3_column_type(r->rows, 5) != SQLITE_NULL;
-    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_NO_RECORDED_STATE;
+    r->state[n] =
+        known ? find_state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_NO_RECORDED_STATE;
     r->force[n] = (float)sqlite3_column_double(r->rows, 6);
     r->compression[n] = (float)sqlite3_column_double(r->rows, 7);
     r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);
@@ -123,15 +130,15 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     sqlite3_bind_int64(r->rows, 2, r->from[frame]);
     sqlite3_bind_int64(r->rows, 3, r->from[frame + 1]);
     while ((status = sqlite3_step(r->rows)) == SQLITE_ROW) {
-        if (!is_placed(r->rows)) {
+        if (!has_numeric_position(r->rows)) {
             jox_text_printf(why, "in frame %lld somebody's id or position is no number",
                             (long long)r->number[frame]);
             return false;
         }
-        take_row(r, n);
+        store_person_row(r, n);
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
-            return damaged(why, "%s is more than 1000 km from the origin", "somebody");
-        if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller: of a damaged index */
+            return set_damage(why, "%s is more than 1000 km from the origin", "somebody");
+        if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller ids come from a damaged index */
             jox_text_printf(why, "person %lld is in frame %lld twice", (long long)r->id[n],
                             (long long)r->number[frame]);
             return false;
@@ -139,7 +146,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
         n++;
     }
     if (status != SQLITE_DONE)
-        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
+        return set_damage(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
     out->count = n;
     out->id = r->id;
     out->x = r->x;
@@ -155,8 +162,9 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     return true;
 }
 
-/* First row of the bodies of a frame: they were written frame by frame, without an index. */
-static int64_t first_body(JoxTrajectoryReader *r, int64_t number) {
+/* Returns the first row of the bodies of a frame by bisection: they were written in order of
+   frames, without an index. */
+static int64_t find_first_body(JoxTrajectoryReader *r, int64_t number) {
     int64_t low = 1, high = r->last_body + 1;
     while (low < high) {
         int64_t middle = low + (high - low) / 2;
@@ -176,7 +184,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
         return true;
     uint32_t n = 0;
     int status;
-    const int64_t number = r->number[frame], first = first_body(r, number);
+    const int64_t number = r->number[frame], first = find_first_body(r, number);
     sqlite3_reset(r->bodies);
     sqlite3_bind_int64(r->bodies, 1, first);
     while ((status = sqlite3_step(r->bodies)) == SQLITE_ROW &&
@@ -196,60 +204,61 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
                                 values[6]};
         for (int k = 0; k < 7; k++)
             if (!isfinite(values[k]))
-                return damaged(why, "%s is nowhere", "a body");
+                return set_damage(why, "%s is nowhere", "a body");
         n++;
     }
     if (status != SQLITE_ROW && status != SQLITE_DONE)
-        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
+        return set_damage(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db->sqlite));
     out->body_count = n;
     out->bodies = r->body;
     return true;
 }
 
-static bool read_whole(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out) {
-    JoxFrame all;
+static bool read_frame_in_memory(JoxTrajectoryReader *r, uint32_t frame,
+                                 JoxTrajectoryReaderFrame *out) {
+    JoxFrame stored;
     *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
-    jox_trajectories_frame(r->all, frame, &all);
-    widen(r, all.count);
-    for (uint32_t i = 0; i < all.count; i++)
-        r->id[i] = all.key[i];
-    out->count = all.count;
+    jox_trajectories_frame(r->in_memory, frame, &stored);
+    reserve_frame_columns(r, stored.count);
+    for (uint32_t i = 0; i < stored.count; i++)
+        r->id[i] = stored.key[i];
+    out->count = stored.count;
     out->id = r->id;
-    out->x = all.x;
-    out->y = all.y;
-    out->face_x = all.vx; /* people look where they go */
-    out->face_y = all.vy;
-    out->force = all.force;
-    out->compression = all.compression;
-    out->load = all.load;
-    out->group = all.group;
+    out->x = stored.x;
+    out->y = stored.y;
+    out->face_x = stored.vx; /* people look in the direction of their velocity */
+    out->face_y = stored.vy;
+    out->force = stored.force;
+    out->compression = stored.compression;
+    out->load = stored.load;
+    out->group = stored.group;
     return true;
 }
 
 bool jox_trajectory_reader_read(JoxTrajectoryReader *r, uint32_t frame,
                                 JoxTrajectoryReaderFrame *out, JoxText *why) {
-    if (r->all)
-        return read_whole(r, frame, out);
+    if (r->in_memory)
+        return read_frame_in_memory(r, frame, out);
     return jox_trajectory_reader_read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
 }
 
 /* ---- walls ---- */
 
 const JoxWalls *jox_trajectory_reader_walls(const JoxTrajectoryReader *r, uint32_t frame) {
-    if (r->all)
-        return jox_trajectories_walls(r->all, frame);
+    if (r->in_memory)
+        return jox_trajectories_walls(r->in_memory, frame);
     return r->outlines.history ? jox_wall_history_at(r->outlines.history, r->number[frame])
                                : &r->outlines.walls;
 }
 
 const JoxWalls *jox_trajectory_reader_standing(const JoxTrajectoryReader *r, uint32_t frame) {
-    return !r->all && r->outlines.history
+    return !r->in_memory && r->outlines.history
                ? jox_wall_history_standing(r->outlines.history, r->number[frame])
                : jox_trajectory_reader_walls(r, frame);
 }
 
 uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *r, uint32_t frame) {
-    return !r->all && r->outlines.history
+    return !r->in_memory && r->outlines.history
                ? jox_wall_history_changes(r->outlines.history, r->number[frame])
                : 0;
 }
@@ -263,7 +272,7 @@ uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *r, uint32_t fr
     return count;
 }
 
-/* "x y z, x y z, ..." */
+/* Parses "x y z, x y z, ..." into the corners of a hull. */
 static void read_corners(JoxTrajectoryReader *r, const char *text, JoxBodyLook *out) {
     uint32_t count = 0;
     for (int more = 1; text && more && count < 256;) {
@@ -312,8 +321,8 @@ bool jox_trajectory_reader_part(JoxTrajectoryReader *r, uint32_t frame, uint32_t
 void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     if (!r)
         return;
-    jox_database_close(r->db); /* and its statements */
-    jox_trajectories_free(r->all);
+    jox_database_close(r->db); /* finalizes its statements, too */
+    jox_trajectories_free(r->in_memory);
     for (uint32_t g = 0; g < r->outlines.group_count; g++)
         jox_free(r->outlines.groups[g]);
     jox_free(r->outlines.groups);

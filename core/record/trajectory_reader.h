@@ -1,6 +1,7 @@
-/* A recording frame by frame, in any order. SQLite files are read on demand, by their index or,
-   where they have none, by the rows at which frames begin: they need not fit into memory. Where the
-   rows are in no order, SQLite sorts a copy of them. Text is read whole (trajectories.h). */
+/* Reads single frames of a recording, in any order: for replays, pictures and comparisons. An
+   SQLite file is read on demand, by its index or, without one, by the row at which each frame
+   begins, so it need not fit into memory; if its rows are unsorted, SQLite sorts a copy. Text is
+   read whole (trajectories.h). */
 #ifndef JOX_RECORD_TRAJECTORY_READER_H
 #define JOX_RECORD_TRAJECTORY_READER_H
 
@@ -9,61 +10,64 @@
 
 typedef struct JoxTrajectoryReader JoxTrajectoryReader;
 
-/* Columns that a recording lacks are NULL. */
+/* One frame; a column is NULL where the recording lacks it. */
 typedef struct JoxTrajectoryReaderFrame {
     double time; /* s */
     uint32_t count;
-    const int64_t *id;  /* ascending; the same person's in every frame */
+    const int64_t *id;  /* in ascending order; a person has the same id in every frame */
     const float *x, *y; /* m */
     const float *face_x, *face_y;
-    const uint32_t *state; /* row of jox_trajectory_reader_state, or JOX_NO_RECORDED_STATE */
+    /* index in `states` of JoxTrajectoryReaderInfo, or JOX_NO_RECORDED_STATE */
+    const uint32_t *state;
     const float *force, *compression, *load; /* N, N/m, N */
     const float *radius;                     /* m */
     const uint16_t *group;
     uint32_t body_count;
-    const JoxRecordBody *bodies; /* ascending ids */
+    const JoxRecordBody *bodies; /* in ascending order of ids */
 } JoxTrajectoryReaderFrame;
 #define JOX_NO_RECORDED_STATE UINT32_MAX
 
-/* What a recording says of itself. */
+/* Properties of the whole recording. The arrays belong to the reader. */
 typedef struct JoxTrajectoryReaderInfo {
     double fps;
     uint32_t frames;
     bool bounded;
-    JoxV2 low, high;       /* m, if it is bounded */
-    const JoxWalls *walls; /* as they are at first */
+    JoxV2 low, high;       /* m; valid if `bounded` */
+    const JoxWalls *walls; /* walls in the first frame */
     const char *const *groups;
     uint32_t group_count;
     const JoxColour *group_colours;
     const struct JoxTrajectoryReaderState {
         char *machine, *name;
-        int64_t number; /* in the file */
+        int64_t number; /* number in the file */
         JoxColour colour;
     } * states;
     uint32_t state_count;
-    bool whole;                            /* it was read into memory */
-    bool has_force, has_bodies, has_walls; /* has_walls: over time */
+    bool whole;                            /* the recording was read into memory */
+    bool has_force, has_bodies, has_walls; /* has_walls: it has walls over time */
 } JoxTrajectoryReaderInfo;
 
-/* NULL with errors in `diagnostics`. */
+/* Opens a recording. Returns NULL with errors in `diagnostics`. */
 JoxTrajectoryReader *jox_trajectory_reader_open(const char *path,
                                                 const JoxTrajectoryOptions *options,
                                                 JoxDiagnostics *diagnostics);
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *reader);
-/* s; of a frame below `frames`. */
+/* Returns the time of a frame, s; `frame` must be below `frames`. */
 double jox_trajectory_reader_time(const JoxTrajectoryReader *reader, uint32_t frame);
-/* The last frame at or before a time; the first where there is none. */
+/* Returns the last frame at or before a time, s; the first frame if there is none. */
 uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *reader, double time);
-/* Holds until the next call. False with a sentence in `why` where the file is damaged. */
+/* Reads a frame; `out` is valid until the next call. Returns false with a sentence in `why` if the
+   file is damaged. */
 bool jox_trajectory_reader_read(JoxTrajectoryReader *reader, uint32_t frame,
                                 JoxTrajectoryReaderFrame *out, JoxText *why);
-/* Walls in a frame: all, those that stand; how often any had been made or replaced. They hold until
-   the next call. */
+/* Return, for a frame: all walls, the walls without open gates, and how many times walls had been
+   made or replaced by then. Walls are valid until the next call. */
 const JoxWalls *jox_trajectory_reader_walls(const JoxTrajectoryReader *reader, uint32_t frame);
 const JoxWalls *jox_trajectory_reader_standing(const JoxTrajectoryReader *reader, uint32_t frame);
 uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *reader, uint32_t frame);
-/* Shapes that the recording has of its bodies: how often any had changed by a frame; part `part` of
-   a body as it was then, valid until the next call; false behind the last. */
+/* Shapes of bodies: jox_trajectory_reader_changes returns how many times any shape had changed by a
+   frame; jox_trajectory_reader_part sets `out` to a part of a body in that frame, valid until the
+   next call, and returns false after the last part. */
 uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *reader, uint32_t frame);
 bool jox_trajectory_reader_part(JoxTrajectoryReader *reader, uint32_t frame, uint32_t body,
                                 uint32_t part, JoxBodyLook *out);

@@ -1,4 +1,5 @@
-/* Opening a recording: which frames it has, where they are, and what it says of itself. */
+/* Opens a recording for the trajectory reader: finds its frames and their rows, and reads its
+   properties. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,17 +9,17 @@
 #include "record/recorder_file.h"
 #include "record/trajectory_reader_parts.h"
 
-enum { MOST_FRAMES = 10000000, NEWEST = 2 /* version of the format */ };
+enum { MOST_FRAMES = 10000000, NEWEST = 2 /* newest version of the format that is read */ };
 
-static bool wrong(JoxDiagnostics *diagnostics, const char *path, const char *hint,
-                  const char *what) {
+static bool add_open_error(JoxDiagnostics *diagnostics, const char *path, const char *hint,
+                           const char *what) {
     JoxPosition at = {path, 0, 0, 0};
     jox_diag_error(diagnostics, at, "bad-recording", hint, "%s", what);
     return false;
 }
 
-/* The first column of the first row; false where there is none. */
-static bool ask(JoxDatabase *db, const char *sql, double *value) {
+/* Returns the first column of the first row of a query in `value`; false if there is none. */
+static bool query_number(JoxDatabase *db, const char *sql, double *value) {
     sqlite3_stmt *statement = jox_database_prepare(db, sql);
     bool found = statement && sqlite3_step(statement) == SQLITE_ROW &&
                  sqlite3_column_type(statement, 0) != SQLITE_NULL;
@@ -27,9 +28,9 @@ static bool ask(JoxDatabase *db, const char *sql, double *value) {
     return found;
 }
 
-/* ---- which frames there are ---- */
+/* ---- list of frames ---- */
 
-static void add_frame(JoxTrajectoryReader *r, int64_t number, int64_t from) {
+static void add_listed_frame(JoxTrajectoryReader *r, int64_t number, int64_t from) {
     JOX_RESERVE(r->number, r->number_capacity, r->frames + 1);
     JOX_RESERVE(r->from, r->from_capacity, r->frames + 2);
     r->number[r->frames] = number;
@@ -37,9 +38,9 @@ static void add_frame(JoxTrajectoryReader *r, int64_t number, int64_t from) {
     r->from[++r->frames] = from;
 }
 
-/* Numbers of frames by the index, one look-up each, and those without anybody, which a table lists.
- */
-static bool list_by_index(JoxTrajectoryReader *r) {
+/* Lists frame numbers by the index, one look-up each, together with empty frames, which table
+   frame_data lists. */
+static bool list_frames_by_index(JoxTrajectoryReader *r) {
 #define WITH_PEOPLE                                                                                \
     "WITH RECURSIVE f(n) AS (SELECT MIN(frame) FROM trajectory_data UNION ALL SELECT (SELECT "     \
     "MIN(frame) FROM trajectory_data WHERE frame > n) FROM f WHERE n IS NOT NULL) "                \
@@ -53,14 +54,15 @@ static bool list_by_index(JoxTrajectoryReader *r) {
     while (r->frames < MOST_FRAMES && (status = list ? sqlite3_step(list) : status) == SQLITE_ROW) {
         const int64_t number = sqlite3_column_int64(list, 0);
         if (r->frames == 0 || number > r->number[r->frames - 1])
-            add_frame(r, number, 0);
+            add_listed_frame(r, number, 0);
     }
     jox_database_finalize(r->db, list);
     return r->frames > 0 && status == SQLITE_DONE;
 }
 
-/* Where each frame begins, in one pass; false where the rows are not in the order of frames. */
-static bool list_by_row(JoxTrajectoryReader *r) {
+/* Lists the first row of each frame in one pass. Returns false if the rows are not in order of
+   frames. */
+static bool list_frames_by_row(JoxTrajectoryReader *r) {
     sqlite3_stmt *rows =
         jox_database_prepare(r->db, "SELECT rowid, frame FROM trajectory_data ORDER BY rowid");
     bool ordered = rows != NULL;
@@ -72,7 +74,7 @@ static bool list_by_row(JoxTrajectoryReader *r) {
         ordered = sqlite3_column_type(rows, 0) != SQLITE_NULL &&
                   (r->frames == 0 || frame >= r->number[r->frames - 1]) && r->frames < MOST_FRAMES;
         if (ordered && (r->frames == 0 || frame > r->number[r->frames - 1]))
-            add_frame(r, frame, row);
+            add_listed_frame(r, frame, row);
     }
     ordered = ordered && status == SQLITE_DONE;
     jox_database_finalize(r->db, rows);
@@ -83,29 +85,29 @@ static bool list_by_row(JoxTrajectoryReader *r) {
     return ordered && r->frames > 0;
 }
 
-/* Where the rows are in no order: a copy of them in order, which takes the place of the table. */
-static bool sort_rows(JoxTrajectoryReader *r) {
-    static const char *const WAYS[] = {", rowid AS source",
-                                       ""}; /* some tables have no row numbers */
+/* Makes a copy of the table with sorted rows, which hides the table, and lists its frames. */
+static bool copy_rows_sorted(JoxTrajectoryReader *r) {
+    /* Some tables have no row numbers. */
+    static const char *const COLUMNS[] = {", rowid AS source", ""};
     for (int w = 0; w < 2 && !r->sorted; w++) {
         JoxText sql = {0};
         jox_text_printf(&sql,
                         "CREATE TEMP TABLE trajectory_data AS SELECT *%s FROM "
                         "main.trajectory_data ORDER BY frame, id",
-                        WAYS[w]);
+                        COLUMNS[w]);
         r->sorted = sqlite3_exec(r->db->sqlite, sql.data, NULL, NULL, NULL) == SQLITE_OK;
         jox_text_free(&sql);
     }
-    return r->sorted && list_by_row(r);
+    return r->sorted && list_frames_by_row(r);
 }
 
 /* ---- opening ---- */
 
-static void read_states(JoxTrajectoryReader *r) {
+static void read_state_names(JoxTrajectoryReader *r) {
     sqlite3_stmt *list = jox_database_prepare(
         r->db, "SELECT number, machine, state, colour FROM jostle_state ORDER BY number");
     size_t capacity = 0;
-    if (!list) /* an older one */
+    if (!list) /* an older recording, without colours */
         list = jox_database_prepare(r->db, "SELECT number, machine, state, NULL FROM jostle_state "
                                            "ORDER BY number");
     while (list && r->state_count < UINT16_MAX && sqlite3_step(list) == SQLITE_ROW) {
@@ -119,10 +121,10 @@ static void read_states(JoxTrajectoryReader *r) {
     jox_database_finalize(r->db, list);
 }
 
-/* The columns that there are: of ours; of those before radii were recorded; of older ones, which
-   have a table more, and of those before loads were recorded; of JuPedSim; of whoever writes no
-   more than places. */
-static bool prepare_rows(JoxTrajectoryReader *r) {
+/* Prepares the query for the rows of a frame, by the columns that the file has. In order: our
+   recordings; those before radii; before that, those with table jostle_agent; those before loads;
+   files of JuPedSim; files with nothing but positions. */
+static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
 #define PLACED "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y"
@@ -150,7 +152,7 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
         jox_text_free(&sql);
     }
     double last;
-    if (ask(r->db, "SELECT MAX(rowid) FROM jostle_body", &last)) {
+    if (query_number(r->db, "SELECT MAX(rowid) FROM jostle_body", &last)) {
         r->last_body = (int64_t)last;
         r->body_at = jox_database_prepare(r->db, "SELECT frame FROM jostle_body WHERE rowid = ?");
         r->bodies = jox_database_prepare(
@@ -179,7 +181,7 @@ static void read_bounds(JoxTrajectoryReader *r) {
     double bounds[4];
     r->bounded = true;
     for (int k = 0; k < 4; k++)
-        r->bounded &= ask(r->db, QUESTIONS[k], &bounds[k]) && fabs(bounds[k]) < 1e6;
+        r->bounded &= query_number(r->db, QUESTIONS[k], &bounds[k]) && fabs(bounds[k]) < 1e6;
     r->bounded = r->bounded && bounds[0] <= bounds[2] && bounds[1] <= bounds[3];
     if (r->bounded) {
         r->low = (JoxV2){(float)bounds[0], (float)bounds[1]};
@@ -187,20 +189,21 @@ static void read_bounds(JoxTrajectoryReader *r) {
     }
 }
 
-/* Whether the file says nothing of a version, or one that is read here; false with an error. */
-static bool is_of_known_version(const JoxTrajectoryReader *r, const char *path,
-                                JoxDiagnostics *diagnostics) {
+/* Returns whether the version of the file is missing or supported; false adds an error. */
+static bool has_known_version(const JoxTrajectoryReader *r, const char *path,
+                              JoxDiagnostics *diagnostics) {
     double version;
     char what[100];
-    if (!ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'version'", &version) ||
+    if (!query_number(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'version'",
+                      &version) ||
         version < NEWEST + 1)
         return true;
     snprintf(what, sizeof what, "this recording is of version %.9g of the JuPedSim format",
              version);
-    return wrong(diagnostics, path, "Versions 1 and 2 are read", what);
+    return add_open_error(diagnostics, path, "Versions 1 and 2 are read", what);
 }
 
-/* Whether an index of a table begins with the number of the frame. */
+/* Returns whether a table has an index whose first column is the frame. */
 static bool has_frame_index(JoxDatabase *db, const char *table) {
     bool indexed = false;
     char *sql = sqlite3_mprintf("PRAGMA main.index_list(%Q)", table);
@@ -220,14 +223,16 @@ static bool has_frame_index(JoxDatabase *db, const char *table) {
     return indexed;
 }
 
-/* A view under the name of the format's table may be anything, and is not run; the one of our own
-   recordings is made anew, over their table. False with an error. */
-static bool find_rows(JoxTrajectoryReader *r, const char *path, const char **table,
-                      JoxDiagnostics *diagnostics) {
+/* Finds the table of the rows. In our recordings trajectory_data is a view, which is created anew
+   over our table; any other view of that name could be any query and is refused. Returns false with
+   an error. */
+static bool find_row_table(JoxTrajectoryReader *r, const char *path, const char **table,
+                           JoxDiagnostics *diagnostics) {
     double found;
     *table = "trajectory_data";
-    if (ask(r->db, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
-            &found)) {
+    if (query_number(r->db,
+                     "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
+                     &found)) {
         *table = "jostle_row";
         sqlite3_stmt *radii = jox_database_prepare(r->db, "SELECT radius FROM jostle_row LIMIT 0");
         sqlite3_exec(r->db->sqlite,
@@ -235,86 +240,89 @@ static bool find_rows(JoxTrajectoryReader *r, const char *path, const char **tab
                            : "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII,
                      NULL, NULL, NULL);
         jox_database_finalize(r->db, radii);
-    } else if (ask(r->db,
+    } else if (query_number(
+                   r->db,
                    "SELECT 1 FROM sqlite_schema WHERE type = 'view' AND name = 'trajectory_data'",
                    &found)) {
-        return wrong(diagnostics, path, "Copy its rows into a plain table of that name",
-                     "its trajectory_data is a view, and views of a file are not run");
+        return add_open_error(diagnostics, path, "Copy its rows into a plain table of that name",
+                              "its trajectory_data is a view, and views of a file are not run");
     }
     return true;
 }
 
-/* False with an error. */
-static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajectoryOptions *options,
-                     JoxDiagnostics *diagnostics) {
+/* Reads everything about the file but its frames. Returns false with an error. */
+static bool read_properties(JoxTrajectoryReader *r, const char *path,
+                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     const char *table;
     double found;
-    if (!is_of_known_version(r, path, diagnostics) || !find_rows(r, path, &table, diagnostics))
+    if (!has_known_version(r, path, diagnostics) || !find_row_table(r, path, &table, diagnostics))
         return false;
     sqlite3_stmt *probe =
         jox_database_prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
                                     "LIMIT 1");
     const int status = probe ? sqlite3_step(probe) : SQLITE_ERROR;
     if (!probe || (status != SQLITE_ROW && status != SQLITE_DONE))
-        wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
+        add_open_error(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     else if (status == SQLITE_DONE)
-        wrong(diagnostics, path, NULL, "nobody is in this recording");
+        add_open_error(diagnostics, path, NULL, "nobody is in this recording");
     jox_database_finalize(r->db, probe);
     if (status != SQLITE_ROW)
         return false;
     const bool indexed = has_frame_index(r->db, table);
     r->way = indexed ? JOX_READ_BY_INDEX : JOX_READ_BY_ROW;
-    if (!(indexed ? list_by_index(r) : list_by_row(r) || sort_rows(r)))
-        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
+    if (!(indexed ? list_frames_by_index(r) : list_frames_by_row(r) || copy_rows_sorted(r)))
+        return add_open_error(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     r->fps = options->fps;
     if (r->fps <= 0.0 &&
-        !ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'", &r->fps))
+        !query_number(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'", &r->fps))
         r->fps = 0.0;
     if (!(r->fps > 0.0 && r->fps <= 1e5))
-        return wrong(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
-                     "this recording does not say how many frames a second it has");
-    if (!prepare_rows(r))
-        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
+        return add_open_error(diagnostics, path,
+                              options->fps_option ? options->fps_option : "--fps 25",
+                              "this recording does not say how many frames a second it has");
+    if (!prepare_frame_queries(r))
+        return add_open_error(diagnostics, path, HINT, sqlite3_errmsg(r->db->sqlite));
     for (uint32_t f = 0; f < r->frames; f++)
         if (!(fabs((double)r->number[f]) / r->fps <= 1e9))
-            return wrong(diagnostics, path, "Are id and frame exchanged?",
-                         "a frame is more than 30 years from the first");
-    if (ask(r->db, "SELECT MAX(frame) FROM frame_data", &found))
+            return add_open_error(diagnostics, path, "Are id and frame exchanged?",
+                                  "a frame is more than 30 years from the first");
+    if (query_number(r->db, "SELECT MAX(frame) FROM frame_data", &found))
         r->last = (int64_t)found;
     read_bounds(r);
-    read_states(r);
+    read_state_names(r);
     jox_trajectories_plan(&r->outlines, r->db);
     return true;
 }
 
-static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
-                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+static bool open_sqlite_recording(JoxTrajectoryReader *r, const char *path,
+                                  const JoxTrajectoryOptions *options,
+                                  JoxDiagnostics *diagnostics) {
     JoxText why = {0};
     r->db = jox_database_open(path, JOX_DATABASE_READ, &why);
     if (r->db)
         jox_database_bound(r->db, true);
     bool good = r->db && jox_database_allow(r->db, jox_recording_tables, &why);
     if (!good)
-        wrong(diagnostics, path, NULL, why.data);
-    good = good && describe(r, path, options, diagnostics);
+        add_open_error(diagnostics, path, NULL, why.data);
+    good = good && read_properties(r, path, options, diagnostics);
     if (r->db)
         jox_database_bound(r->db, false);
     jox_text_free(&why);
     return good;
 }
 
-static bool open_whole(JoxTrajectoryReader *r, const char *path,
-                       const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+static bool open_text_recording(JoxTrajectoryReader *r, const char *path,
+                                const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     r->way = JOX_READ_WHOLE;
-    r->all = jox_trajectories_read_text(path, options, diagnostics);
-    if (!r->all)
+    r->in_memory = jox_trajectories_read_text(path, options, diagnostics);
+    if (!r->in_memory)
         return false;
-    r->fps = r->all->fps;
-    r->frames = r->all->frame_count;
+    r->fps = r->in_memory->fps;
+    r->frames = r->in_memory->frame_count;
     r->bounded = true;
-    r->low = r->all->low;
-    r->high = r->all->high;
+    r->low = r->in_memory->low;
+    r->high = r->in_memory->high;
     return true;
 }
 
@@ -331,8 +339,8 @@ JoxTrajectoryReader *jox_trajectory_reader_open(const char *path,
                                                 const JoxTrajectoryOptions *options,
                                                 JoxDiagnostics *diagnostics) {
     JoxTrajectoryReader *r = jox_alloc(1, sizeof *r);
-    if (jox_is_sqlite(path) ? open_sqlite(r, path, options, diagnostics)
-                            : open_whole(r, path, options, diagnostics))
+    if (jox_is_sqlite(path) ? open_sqlite_recording(r, path, options, diagnostics)
+                            : open_text_recording(r, path, options, diagnostics))
         return r;
     jox_trajectory_reader_close(r);
     return NULL;

@@ -1,11 +1,12 @@
-/* What the files reader*.c share. */
+/* The trajectory reader's members, shared by trajectory_reader*.c and trajectories_read.c. */
 #ifndef JOX_RECORD_TRAJECTORY_READER_PARTS_H
 #define JOX_RECORD_TRAJECTORY_READER_PARTS_H
 
 #include "base/database.h"
 #include "record/trajectory_reader.h"
 
-/* How the rows of a frame are found. */
+/* Method that finds the rows of a frame: by the index of the table, by the range of row numbers, or
+   in memory. */
 typedef enum { JOX_READ_BY_INDEX, JOX_READ_BY_ROW, JOX_READ_WHOLE } JoxTrajectoryReaderWay;
 
 struct JoxTrajectoryReader {
@@ -13,30 +14,31 @@ struct JoxTrajectoryReader {
     double fps;
     JoxDatabase *db;
     sqlite3_stmt *rows, *body_at, *bodies;
-    bool ours;   /* with states, forces and groups */
-    bool loads;  /* with loads, which older ones of ours lack */
-    bool radii;  /* likewise */
-    bool facing; /* with the way people look */
-    int64_t *number,
-        *from; /* of each frame; JOX_READ_BY_ROW: its first row, and one more at the end */
+    bool ours;   /* our own recording, with states, forces and groups */
+    bool loads;  /* has loads; older recordings of ours have none */
+    bool radii;  /* has radii; older recordings of ours have none */
+    bool facing; /* has the directions in which people look */
+    /* by frame: its number and, for JOX_READ_BY_ROW, its first row, with the end of the last
+       frame */
+    int64_t *number, *from;
     uint32_t frames;
     size_t number_capacity, from_capacity;
-    int64_t last;      /* number of the last frame that is listed, in which nobody may be */
-    bool sorted;       /* the rows are those of a copy in order */
-    int64_t last_body; /* row */
+    int64_t last;      /* number of the last listed frame, which may be empty */
+    bool sorted;       /* the rows are those of a sorted copy */
+    int64_t last_body; /* last row number of the bodies */
     sqlite3_stmt *part;
-    int64_t *changes; /* numbers of the frames in which shapes changed */
+    int64_t *changes; /* frame numbers at which shapes of bodies changed */
     uint32_t change_count;
     size_t change_capacity;
     JoxV3 *corners;
     size_t corner_capacity;
-    JoxTrajectories *all;
-    JoxTrajectories outlines; /* walls and groups as they are read from SQLite */
+    JoxTrajectories *in_memory;
+    JoxTrajectories outlines; /* only walls and groups, of an SQLite file */
     struct JoxTrajectoryReaderState *states;
     uint32_t state_count;
     bool bounded;
     JoxV2 low, high;
-    /* The frame that was read last. */
+    /* Columns of the frame that was read last. */
     int64_t *id;
     float *x, *y, *face_x, *face_y, *force, *compression, *load, *radius;
     uint32_t *state;
@@ -45,7 +47,8 @@ struct JoxTrajectoryReader {
     size_t capacity, body_capacity;
 };
 
-/* As jox_trajectory_reader_read, of a file that is not read whole, without bodies. */
+/* Reads the people of a frame as jox_trajectory_reader_read does, without bodies. The recording
+   must be an SQLite file. */
 bool jox_trajectory_reader_read_people(JoxTrajectoryReader *reader, uint32_t frame,
                                        JoxTrajectoryReaderFrame *out, JoxText *why);
 

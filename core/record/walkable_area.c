@@ -1,10 +1,10 @@
-/* The walkable area of a recording, as well-known text. */
+/* Writes the walkable area of a recording as well-known text (jox_wkt, jox_wkt_outlines). */
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "record/recorder.h"
 
-/* ", (x y, ...)" */
-static void add_ring(const JoxWalls *walls, uint32_t ring, bool first, JoxText *out) {
+/* Appends ", (x y, ...)", the closed ring of a wall; no comma before the first. */
+static void append_ring(const JoxWalls *walls, uint32_t ring, bool first, JoxText *out) {
     const struct JoxWallRing *r = &walls->rings[ring];
     jox_text_add(out, first ? "(" : ", (");
     for (uint32_t i = 0; i <= r->count; i++) {
@@ -14,8 +14,10 @@ static void add_ring(const JoxWalls *walls, uint32_t ring, bool first, JoxText *
     jox_text_add(out, ")");
 }
 
-/* Whether all of a solid lies within an outline: a hole may not reach beyond it. */
-static bool is_hole(const JoxWalls *walls, uint32_t solid, const JoxV2 *outline, uint32_t count) {
+/* Returns whether a solid wall lies within an outline entirely: a hole must not extend beyond
+   it. */
+static bool is_hole_of_outline(const JoxWalls *walls, uint32_t solid, const JoxV2 *outline,
+                               uint32_t count) {
     const struct JoxWallRing *s = &walls->rings[solid];
     bool within = s->solid;
     for (uint32_t i = s->first; within && i < s->first + s->count; i++)
@@ -23,13 +25,13 @@ static bool is_hole(const JoxWalls *walls, uint32_t solid, const JoxV2 *outline,
     return within;
 }
 
-static void add_outline(const JoxWalls *walls, uint32_t ring, JoxText *out) {
+static void append_outline(const JoxWalls *walls, uint32_t ring, JoxText *out) {
     JoxV2 *outline = jox_walls_ring_points(walls, ring);
     jox_text_add(out, "(");
-    add_ring(walls, ring, true, out);
+    append_ring(walls, ring, true, out);
     for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (is_hole(walls, r, outline, walls->rings[ring].count))
-            add_ring(walls, r, false, out);
+        if (is_hole_of_outline(walls, r, outline, walls->rings[ring].count))
+            append_ring(walls, r, false, out);
     jox_text_add(out, ")");
     jox_free(outline);
 }
@@ -42,7 +44,7 @@ void jox_wkt_outlines(const JoxWalls *walls, JoxText *out) {
     for (uint32_t r = 0; r < walls->ring_count; r++)
         if (walls->rings[r].outline) {
             jox_text_add(out, put++ ? ", " : "");
-            add_outline(walls, r, out);
+            append_outline(walls, r, out);
         }
     jox_text_add(out, outlines > 1 ? ")" : "");
 }
@@ -52,6 +54,6 @@ void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out) {
                     low.y, high.x, high.y, low.x, high.y, low.x, low.y);
     for (uint32_t r = 0; r < walls->ring_count; r++)
         if (walls->rings[r].solid)
-            add_ring(walls, r, false, out);
+            append_ring(walls, r, false, out);
     jox_text_add(out, ")");
 }

@@ -12,29 +12,30 @@ enum { MOST_POINTS = 100000, MOST_WALLS = 1000000 };
 typedef struct RecordedWall {
     int64_t frame;
     uint32_t number;
-    bool solid, closed, open, same; /* same: its points are those of the row before it */
-    float height;                   /* m */
+    bool solid, closed, open,
+        same_points; /* same: the points are those of the wall's previous row */
+    float height;    /* m */
     char *name;
-    size_t first; /* of its points */
+    size_t first; /* index of its first point */
     uint32_t count;
 } RecordedWall;
 
 struct JoxWallHistory {
-    RecordedWall *rows; /* ascending by frame, then by number */
+    RecordedWall *rows; /* in ascending order of frame, then number */
     uint32_t count, capacity;
     JoxV2 *points;
     size_t point_count, point_capacity;
-    uint32_t *latest; /* by number: 1 + its row; scratch */
-    uint32_t walls;   /* numbers are below it */
+    uint32_t *latest; /* 1 + row, by wall number; 0: none. Scratch */
+    uint32_t walls;   /* wall numbers are below this */
     JoxWalls all, standing;
-    bool made;
-    int64_t from, until; /* frames that `all` and `standing` hold for; the last is not one */
+    bool built;
+    int64_t from, until; /* `all` and `standing` are valid for frames from <= f < until */
 };
 
 /* ---- reading ---- */
 
-/* "x y, x y, ..."; 0 points where it is something else. */
-static uint32_t read_points(const char *text, JoxV2 *points) {
+/* Parses "x y, x y, ..." and returns how many points there are; 0 if the text has another form. */
+static uint32_t parse_wall_points(const char *text, JoxV2 *points) {
     uint32_t count = 0;
     for (bool more = text != NULL; more; text++) {
         float x, y;
@@ -49,40 +50,41 @@ static uint32_t read_points(const char *text, JoxV2 *points) {
     return count;
 }
 
-static void keep_points(JoxWallHistory *h, RecordedWall *row, const JoxV2 *points) {
+static void store_points(JoxWallHistory *h, RecordedWall *row, const JoxV2 *points) {
     row->first = h->point_count;
     JOX_RESERVE(h->points, h->point_capacity, h->point_count + row->count + 1);
     memcpy(h->points + h->point_count, points, row->count * sizeof *points);
     h->point_count += row->count;
 }
 
-/* The row of a wall before this one; NULL for its first. */
-static const RecordedWall *row_before(const JoxWallHistory *h, uint32_t number) {
+/* Returns the previous row of a wall; NULL at its first. */
+static const RecordedWall *find_previous_row(const JoxWallHistory *h, uint32_t number) {
     return number < h->walls && h->latest[number] ? &h->rows[h->latest[number] - 1] : NULL;
 }
 
-static void add_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points, size_t *latest_capacity) {
+static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
+                         size_t *latest_capacity) {
     const int64_t number = sqlite3_column_int64(list, 1);
     if (number < 0 || number >= MOST_WALLS || h->count == UINT32_MAX - 1)
         return;
     const float given = (float)sqlite3_column_double(list, 6);
     const char *name = (const char *)sqlite3_column_text(list, 2);
     const char *text = (const char *)sqlite3_column_text(list, 7);
-    const RecordedWall *before = row_before(h, (uint32_t)number);
+    const RecordedWall *before = find_previous_row(h, (uint32_t)number);
     RecordedWall row = {.frame = sqlite3_column_int64(list, 0),
                         .number = (uint32_t)number,
                         .solid = sqlite3_column_int(list, 3),
                         .closed = sqlite3_column_int(list, 4),
                         .open = sqlite3_column_int(list, 5),
-                        .same = !text && before,
+                        .same_points = !text && before,
                         .height = given > 0.0f && given < 1e6f ? given : INFINITY,
                         .name = name ? jox_strdup(name) : NULL};
-    if (row.same) {
+    if (row.same_points) {
         row.first = before->first;
         row.count = before->count;
     } else {
-        row.count = read_points(text, points);
-        keep_points(h, &row, points);
+        row.count = parse_wall_points(text, points);
+        store_points(h, &row, points);
     }
     if (row.count < (row.solid || row.closed ? 3 : 2))
         row.count = 0;
@@ -98,7 +100,7 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
     sqlite3_stmt *list =
         jox_database_prepare(db, "SELECT frame, number, name, solid, closed, open, height, points "
                                  "FROM jostle_wall ORDER BY frame, number");
-    if (!list) /* an older one */
+    if (!list) /* an older recording, without frames */
         list = jox_database_prepare(db, "SELECT 0, rowid - 1, name, solid, closed, open, height, "
                                         "points FROM jostle_wall ORDER BY rowid");
     if (!list)
@@ -107,7 +109,7 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
     JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
     size_t latest_capacity = 0;
     while (sqlite3_step(list) == SQLITE_ROW)
-        add_row(h, list, points, &latest_capacity);
+        add_wall_row(h, list, points, &latest_capacity);
     jox_free(points);
     jox_database_finalize(db, list);
     return h;
@@ -115,7 +117,7 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
 
 /* ---- walls of a frame ---- */
 
-static void add_wall(JoxWalls *walls, const RecordedWall *row, const JoxV2 *points) {
+static void build_recorded_wall(JoxWalls *walls, const RecordedWall *row, const JoxV2 *points) {
     const uint32_t first = walls->ring_count;
     if (row->count == 0)
         return;
@@ -127,14 +129,15 @@ static void add_wall(JoxWalls *walls, const RecordedWall *row, const JoxV2 *poin
         jox_walls_name(walls, first, row->name, row->open);
 }
 
-/* Finds the row of each wall for a frame, and between which frames these hold. */
-static void find_rows(JoxWallHistory *h, int64_t frame, int64_t *from, int64_t *until) {
+/* Sets `latest` to the row of each wall that holds in a frame, and the range of frames, from <= f <
+   until, with the same rows. */
+static void find_wall_rows(JoxWallHistory *h, int64_t frame, int64_t *from, int64_t *until) {
     *from = INT64_MIN;
     *until = INT64_MAX;
     if (h->walls == 0)
         return;
     memset(h->latest, 0, h->walls * sizeof *h->latest);
-    /* Those of the first frame hold before it, too. */
+    /* Rows of the first frame hold for earlier frames, too. */
     for (uint32_t r = 0; r < h->count; r++) {
         const bool later = h->rows[r].frame > h->rows[0].frame;
         if (later && h->rows[r].frame > frame) {
@@ -146,42 +149,43 @@ static void find_rows(JoxWallHistory *h, int64_t frame, int64_t *from, int64_t *
     }
 }
 
-static void lay_walls(JoxWallHistory *h, int64_t frame, JoxWalls *out, int64_t *from,
-                      int64_t *until) {
-    find_rows(h, frame, from, until);
+static void build_frame_walls(JoxWallHistory *h, int64_t frame, JoxWalls *out, int64_t *from,
+                              int64_t *until) {
+    find_wall_rows(h, frame, from, until);
     jox_walls_free(out);
     for (uint32_t n = 0; n < h->walls; n++)
         if (h->latest[n])
-            add_wall(out, &h->rows[h->latest[n] - 1], h->points + h->rows[h->latest[n] - 1].first);
+            build_recorded_wall(out, &h->rows[h->latest[n] - 1],
+                                h->points + h->rows[h->latest[n] - 1].first);
 }
 
-static void make_walls(JoxWallHistory *h, int64_t frame) {
-    if (h->made && frame >= h->from && frame < h->until)
+static void update_frame_walls(JoxWallHistory *h, int64_t frame) {
+    if (h->built && frame >= h->from && frame < h->until)
         return;
-    lay_walls(h, frame, &h->all, &h->from, &h->until);
+    build_frame_walls(h, frame, &h->all, &h->from, &h->until);
     jox_walls_standing(&h->standing, &h->all, true);
-    h->made = true;
+    h->built = true;
 }
 
 void jox_wall_history_first(JoxWallHistory *h, JoxWalls *out) {
     int64_t from, until;
-    lay_walls(h, INT64_MIN, out, &from, &until);
+    build_frame_walls(h, INT64_MIN, out, &from, &until);
 }
 
 const JoxWalls *jox_wall_history_at(JoxWallHistory *h, int64_t frame) {
-    make_walls(h, frame);
+    update_frame_walls(h, frame);
     return &h->all;
 }
 
 const JoxWalls *jox_wall_history_standing(JoxWallHistory *h, int64_t frame) {
-    make_walls(h, frame);
+    update_frame_walls(h, frame);
     return &h->standing;
 }
 
 uint32_t jox_wall_history_changes(const JoxWallHistory *h, int64_t frame) {
     uint32_t changes = 0;
     for (uint32_t r = 0; r < h->count && h->rows[r].frame <= frame; r++)
-        changes += h->rows[r].frame > h->rows[0].frame && !h->rows[r].same;
+        changes += h->rows[r].frame > h->rows[0].frame && !h->rows[r].same_points;
     return changes;
 }
 

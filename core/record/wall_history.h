@@ -1,7 +1,8 @@
-/* The walls of a recording of ours over time. Its table jostle_wall has a row for each wall, by its
-   number, as it is from a frame on: for all of them in the first frame, later for those that were
-   opened, closed, made or replaced. A row without points keeps those of the row before it; a row
-   whose points are "" takes its wall away. Older recordings have walls of one time alone. */
+/* Walls over time, read from one of our recordings. Table jostle_wall has a row for each wall
+   number in the first frame, and later a row for each wall that is opened, closed, made or
+   replaced; it holds from its frame on. A row whose points are NULL keeps the points of the row
+   before; a row with empty points removes the wall. Older recordings have walls without frames.
+   Trajectories and the trajectory reader own one. */
 #ifndef JOX_RECORD_WALL_HISTORY_H
 #define JOX_RECORD_WALL_HISTORY_H
 
@@ -13,16 +14,16 @@
 struct JoxDatabase;
 typedef struct JoxWallHistory JoxWallHistory;
 
-/* NULL where the recording has none, as those of other programs. */
+/* Reads the table. Returns NULL where the recording has none, as in files of other programs. */
 JoxWallHistory *jox_wall_history_read(struct JoxDatabase *db);
-/* Walls as they are in the first frame, for the caller to free. */
+/* Sets `out` to the walls of the first frame; the caller frees them. */
 void jox_wall_history_first(JoxWallHistory *history, JoxWalls *out);
-/* Walls as they are in a frame of this number, gates that are open among them; hold until the next
-   call. Rings have the same numbers in all frames until walls are made or replaced. */
+/* Returns the walls in a frame, open gates included, valid until the next call. Ring numbers are
+   the same in all frames until walls are made or replaced. */
 const JoxWalls *jox_wall_history_at(JoxWallHistory *history, int64_t frame);
-/* Those of them that stand, likewise. */
+/* Returns the walls in a frame without open gates, valid until the next call. */
 const JoxWalls *jox_wall_history_standing(JoxWallHistory *history, int64_t frame);
-/* How often walls had been made or replaced by a frame. */
+/* Returns how many times walls had been made or replaced by a frame. */
 uint32_t jox_wall_history_changes(const JoxWallHistory *history, int64_t frame);
 void jox_wall_history_free(JoxWallHistory *history);
 
