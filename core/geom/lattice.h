@@ -4,7 +4,7 @@
 #define JOX_GEOM_LATTICE_H
 
 #include "geom/place.h"
-#include "geom/walls.h"
+#include "geom/standable.h"
 
 typedef struct JoxLattice {
     JoxV2 *at; /* m, row by row, in a row from right to left as one looks to the front */
@@ -12,17 +12,12 @@ typedef struct JoxLattice {
     uint32_t *row_first; /* by row, and behind the last */
     uint32_t row_count;
     size_t capacity, row_capacity;
-    /* Scratch of jox_lattice_lay. */
-    JoxV2 *edges; /* of walls about the polygon, two points each */
-    uint32_t *part, *open;
-    size_t edge_capacity, part_capacity, open_capacity;
 } JoxLattice;
 
-/* Lays spots `spacing` m apart in a polygon whose front lies in direction `ahead`, a unit vector.
-   All spots are `clear` m away from walls and can be reached from each other: where walls divide
-   the polygon, those of the largest part. Walls that are open do not count. */
-void jox_lattice_lay(JoxLattice *spots, const JoxPlace *place, const JoxWalls *walls, JoxV2 ahead,
-                     float spacing, float clear);
+/* Lays spots `spacing` m apart in a polygon whose front lies in direction `ahead`, a unit vector:
+   all of one part of the ground about it, `clear` m away from walls and fixed bodies. */
+void jox_lattice_lay(JoxLattice *spots, const JoxPlace *place, const JoxStandable *ground,
+                     uint32_t part, JoxV2 ahead, float spacing, float clear);
 void jox_lattice_free(JoxLattice *spots);
 
 #endif

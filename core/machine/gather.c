@@ -1,50 +1,19 @@
-/* The steering word `gather`: agents that wait in an area fill it from its front, as far apart as
-   is comfortable while there is room, and closer as more come in. Each has its turn from when it
-   came in: earlier before later, nearer to the front before farther. Row by row, the spots are
-   given to those whose turn it is, in the order in which they stand across. So nobody owns a spot,
-   all move up as others come or leave, and hardly any ways cross. */
+/* The steering word `gather`: agents that wait in an area fill it from its front, spread as far as
+   there is room, and close up as more come in. Each has a turn from its arrival: earlier before
+   later, nearer to the front before farther. Spots are given row by row in order of turn, and
+   within a row in the order in which the agents stand across, so that few ways cross. Agents that
+   are hindered on their way exchange turns with neighbours (gather_move.c). */
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/hash.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
-#include "base/number/random.h"
 #include "base/sort.h"
-#include "geom/lattice.h"
-#include "machine/internal.h"
+#include "machine/gather.h"
 
-/* One agent that gathers. */
-typedef struct JoxGathering {
-    uint32_t agent, id;
-    int32_t place;
-    float front; /* deg */
-    uint32_t turn;
-    bool outside; /* of the place */
-    float across; /* m: to the left of the way to the front */
-} JoxGathering;
-
-/* The spots of a place, kept from step to step: they follow from the model, the walls and the
-   spacing alone. */
-typedef struct JoxGatherPlace {
-    int32_t place;
-    float front;   /* deg */
-    uint64_t from; /* hash of the place's points and of the version of the walls */
-    JoxV2 ahead;
-    uint32_t level; /* of spacing */
-    float area;     /* m2, that can be stood on */
-    JoxLattice spots;
-} JoxGatherPlace;
-
-static const float COMFORTABLE = 0.9f; /* m between people who have room: 1.4 per m2 */
-static const float CLOSER = 0.96f;     /* of the spacing, by level */
-enum { LEVELS = 14 };                  /* down to 0.53 m: 4.1 per m2 */
-static const float CLEAR = 0.25f;      /* m between a spot and walls */
-static const float NEAR = 0.4f;        /* of the spacing: who is so near to a spot has come to it */
-static const float APART = 0.8f;       /* of the spacing: who is nearer than that is too near */
-static const float SHIFT = 0.02f;      /* m: how far who stands wants to shift at present */
-static const double TURN_TIME = 5.0;   /* s within which who stands farther in front has a turn */
-static const double SWAY_TIME = 12.0;  /* s in which that turns into another direction */
+static const double TURN_TIME =
+    5.0;                            /* s: of arrivals within it, the nearer to the front is first */
+static const float BREADTHS = 1.2f; /* least spacing, in mean breadths of agents */
 static const double DEGREE = 3.141592653589793 / 180.0;
 
 const JoxSteerTerm *jox_gather_term(const JoxState *state) {
@@ -71,8 +40,7 @@ static uint32_t find_turn(const JoxMachineRun *run, const JoxPlace *place, JoxV2
 }
 
 /* False where there is no area: the agent then stands where it is. */
-static bool find_area(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term,
-                      JoxGathering *out) {
+static bool find_area(JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term, JoxGathering *out) {
     const JoxAgents *a = run->agents;
     const int32_t index = jox_target_place(run, i, term->target);
     const JoxV2 at = {a->x[i], a->y[i]};
@@ -81,10 +49,12 @@ static bool find_area(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *
     const JoxV2 ahead = direction_of((float)term->args[0]);
     if (!a->turn[i])
         run->agents->turn[i] = find_turn(run, &run->places[index], at, ahead);
+    const JoxStandable *cells = &jox_gather_ground(run, index)->cells;
     *out = (JoxGathering){.agent = i,
                           .id = a->id[i],
                           .place = index,
                           .front = (float)term->args[0],
+                          .part = jox_standable_part(cells, jox_standable_cell(cells, at)),
                           .turn = a->turn[i],
                           .outside = !jox_place_contains(run->places, (uint32_t)index, at),
                           .across = jox_dot(at, jox_left(ahead))};
@@ -98,6 +68,8 @@ static int by_turn(const void *left, const void *right, const void *context) {
         return a->place < b->place ? -1 : 1;
     if (a->front != b->front)
         return a->front < b->front ? -1 : 1;
+    if (a->part != b->part)
+        return a->part < b->part ? -1 : 1;
     if (a->turn != b->turn)
         return a->turn < b->turn ? -1 : 1;
     return (a->id > b->id) - (a->id < b->id);
@@ -109,61 +81,6 @@ static int by_across(const void *left, const void *right, const void *context) {
     if (a->across != b->across)
         return a->across < b->across ? -1 : 1;
     return (a->id > b->id) - (a->id < b->id);
-}
-
-/* ---- spots ---- */
-
-static float spacing_of(uint32_t level) {
-    float spacing = COMFORTABLE;
-    for (uint32_t k = 0; k < level; k++)
-        spacing *= CLOSER;
-    return spacing;
-}
-
-static void lay(const JoxMachineRun *run, JoxGatherPlace *g, uint32_t level) {
-    g->level = level;
-    jox_lattice_lay(&g->spots, &run->places[g->place], run->walls, g->ahead, spacing_of(level),
-                    CLEAR);
-}
-
-static uint64_t hash_of_area(const JoxMachineRun *run, int32_t index) {
-    const JoxPlace *place = &run->places[index];
-    JoxHash hash = jox_hash_begin();
-    jox_hash_add(&hash, place->points, place->count * sizeof *place->points);
-    jox_hash_add(&hash, &run->walls_version, sizeof run->walls_version);
-    return jox_hash_end(&hash);
-}
-
-static JoxGatherPlace *find_place(JoxMachineRun *run, int32_t index, float front) {
-    JoxMachineScratch *s = run->scratch;
-    const uint64_t from = hash_of_area(run, index);
-    uint32_t k = 0;
-    while (k < s->gather_count &&
-           (s->gather_places[k].place != index || s->gather_places[k].front != front))
-        k++;
-    if (k == s->gather_count) {
-        JOX_RESERVE(s->gather_places, s->gather_place_capacity, k + 1);
-        s->gather_places[s->gather_count++] =
-            (JoxGatherPlace){.place = index, .front = front, .ahead = direction_of(front)};
-    } else if (s->gather_places[k].from == from) {
-        return &s->gather_places[k];
-    }
-    JoxGatherPlace *g = &s->gather_places[k];
-    g->from = from;
-    lay(run, g, 0);
-    g->area = (float)g->spots.count * COMFORTABLE * COMFORTABLE;
-    return g;
-}
-
-/* The widest spacing at which there are `need` spots, or the closest that there is. Depends on what
-   is needed alone, not on what was laid before. */
-static void lay_for(const JoxMachineRun *run, JoxGatherPlace *g, uint32_t need) {
-    uint32_t level = 0;
-    for (; level + 1 < LEVELS; level++)
-        if (g->area >= (float)need * spacing_of(level) * spacing_of(level))
-            break;
-    if (level != g->level)
-        lay(run, g, level);
 }
 
 /* ---- who stands where ---- */
@@ -188,55 +105,12 @@ static float nearest_spot(const JoxV2 *spots, uint32_t count, JoxV2 left, float 
     return (float)low;
 }
 
-/* A direction that turns slowly, of length 1 at most. */
-static JoxV2 sway(const JoxMachineRun *run, uint32_t id) {
-    const double own = jox_random_unit(run->seed, id, 0, JOX_DRAW_SWAY, 2);
-    const double time = run->tick * run->dt / SWAY_TIME + own, knot = floor(time);
-    const double t = time - knot, smooth = t * t * (3.0 - 2.0 * t);
-    double at[2];
-    for (uint32_t k = 0; k < 2; k++) {
-        const double from = jox_random_unit(run->seed, id, (uint64_t)knot, JOX_DRAW_SWAY, k);
-        const double to = jox_random_unit(run->seed, id, (uint64_t)knot + 1, JOX_DRAW_SWAY, k);
-        at[k] = 2.0 * (from + (to - from) * smooth) - 1.0;
-    }
-    return jox_v2((float)at[0], (float)at[1]);
-}
-
-/* How far an agent wants to move away from those who stand too near, m. */
-static JoxV2 find_room(const JoxMachineRun *run, uint32_t i, float spacing) {
-    const JoxNeighbours *n = run->neighbours;
-    JoxV2 sum = {0.0f, 0.0f};
-    for (uint32_t k = 0; k < n->count[i]; k++) {
-        const JoxV2 to = jox_offset(run->agents, i, n->index[jox_neighbour_at(n, i, k)]);
-        const float distance = jox_length(to), missing = APART * spacing - distance;
-        if (missing <= 0.0f) /* they come by distance */
-            break;
-        if (distance > 0.0f)
-            sum = jox_sub(sum, jox_scale(to, 0.5f * missing / distance));
-    }
-    return sum;
-}
-
-/* Where an agent goes that has a spot: nobody walks to the very spot, or all would shuffle for
-   ever; who is near it keeps apart from others and shifts about. */
-static JoxV2 point_near(const JoxMachineRun *run, const JoxGathering *entry, JoxV2 spot,
-                        float spacing) {
-    const JoxAgents *a = run->agents;
-    const uint32_t i = entry->agent;
-    const JoxV2 at = {a->x[i], a->y[i]}, way = jox_sub(spot, at), room = find_room(run, i, spacing);
-    const float distance = jox_length(way), near = entry->outside ? 0.0f : NEAR * spacing;
-    JoxV2 to = jox_scale(sway(run, a->id[i]), SHIFT);
-    if (distance > near)
-        to = jox_scale(way, (distance - near) / distance);
-    return jox_add(at, jox_add(to, room));
-}
-
 static void give_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
-                     const JoxGathering *entries, uint32_t count) {
+                     JoxGathering *entries, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
     const JoxV2 *spots = g->spots.at + g->spots.row_first[row], left = jox_left(g->ahead);
     const uint32_t room = g->spots.row_first[row + 1] - g->spots.row_first[row];
-    const float most = (float)(room - count), spacing = spacing_of(g->level);
+    const float most = (float)(room - count);
     Block *blocks = s->gather_blocks;
     uint32_t n = 0;
     JOX_ASSERT(count <= room);
@@ -252,16 +126,31 @@ static void give_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
     for (uint32_t b = 0, k = 0; b < n; b++) {
         const float mean = floorf(blocks[b].sum / (float)blocks[b].count + 0.5f);
         const uint32_t shift = (uint32_t)jox_clampf(mean, 0.0f, most);
-        for (uint32_t m = 0; m < blocks[b].count; m++, k++)
-            s->row[entries[k].agent] = point_near(run, &entries[k], spots[k + shift], spacing);
+        for (uint32_t m = 0; m < blocks[b].count; m++, k++) {
+            entries[k].has_spot = true;
+            entries[k].row = row;
+            entries[k].spot = spots[k + shift];
+        }
     }
 }
 
-/* Those of one place, by turn. Those for whom there is no spot stay. */
+/* Returns the least spacing of some agents, m, from the mean square of their breadths. */
+static float find_least_spacing(const JoxMachineRun *run, const JoxGathering *entries,
+                                uint32_t count) {
+    double sum2 = 0.0;
+    for (uint32_t k = 0; k < count; k++) {
+        const double radius = jox_param(run->agents, JOX_PARAM_radius, entries[k].agent);
+        sum2 += radius * radius;
+    }
+    return BREADTHS * 2.0f * (float)sqrt(sum2 / count);
+}
+
+/* Gives spots to agents of one part of a place, who are sorted by turn. */
 static void give_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
-    JoxGatherPlace *g = find_place(run, entries->place, entries->front);
-    lay_for(run, g, count + count / 32 + 1);
+    JoxStandable *cells = &jox_gather_ground(run, entries->place)->cells;
+    const JoxGatherPlace *g =
+        jox_gather_place(run, entries, count, find_least_spacing(run, entries, count));
     uint32_t given = 0;
     for (uint32_t row = 0; row < g->spots.row_count && given < count; row++) {
         const uint32_t room = g->spots.row_first[row + 1] - g->spots.row_first[row];
@@ -271,10 +160,14 @@ static void give_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count
         give_row(run, g, row, entries + given, here);
         given += here;
     }
-    for (; given < count; given++) { /* there is no spot for them: they stand where they are */
-        const uint32_t i = entries[given].agent;
-        s->row[i] = point_near(run, &entries[given], s->row[i], spacing_of(g->level));
+    for (uint32_t k = 0; k < count; k++) {
+        s->gather_number[entries[k].agent] = k;
+        if (entries[k].has_spot)
+            jox_gather_find_way(run, cells, &entries[k]);
+        s->row[entries[k].agent] = g->spots.count ? jox_gather_point(run, &entries[k], g->spacing)
+                                                  : jox_gather_approach(run, &entries[k]);
     }
+    jox_gather_exchange(run, cells, entries, count, g->spacing);
 }
 
 static uint32_t find_gathered(JoxMachineRun *run) {
@@ -292,6 +185,7 @@ static uint32_t find_gathered(JoxMachineRun *run) {
             s->gathered = jox_realloc(s->gathered, s->capacity + JOX_SORT_SPARE(s->capacity),
                                       sizeof *s->gathered);
             s->gather_blocks = jox_realloc(s->gather_blocks, s->capacity, sizeof(Block));
+            s->gather_number = jox_realloc(s->gather_number, s->capacity, sizeof *s->gather_number);
         }
         for (uint32_t n = 0; n < batch->count; n++) {
             const uint32_t i = s->grouped[batch->begin + n];
@@ -305,6 +199,8 @@ static uint32_t find_gathered(JoxMachineRun *run) {
 
 void jox_gatherings_form(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
+    for (uint32_t k = 0; k < s->ground_count; k++)
+        s->gather_grounds[k].checked = false;
     const uint32_t count = find_gathered(run);
     if (!count)
         return;
@@ -313,21 +209,13 @@ void jox_gatherings_form(JoxMachineRun *run) {
     for (uint32_t first = 0, last; first < count; first = last) {
         const JoxGathering *g = &s->gathered[first];
         for (last = first + 1; last < count; last++)
-            if (s->gathered[last].place != g->place || s->gathered[last].front != g->front)
+            if (s->gathered[last].place != g->place || s->gathered[last].front != g->front ||
+                s->gathered[last].part != g->part)
                 break;
-        give_spots(run, s->gathered + first, last - first);
+        if (g->part)
+            give_spots(run, s->gathered + first, last - first);
+        else
+            for (uint32_t k = first; k < last; k++)
+                s->row[s->gathered[k].agent] = jox_gather_approach(run, &s->gathered[k]);
     }
-}
-
-void jox_gatherings_forget(JoxMachineScratch *s) {
-    for (uint32_t k = 0; k < s->gather_count; k++)
-        s->gather_places[k].from++;
-}
-
-void jox_gatherings_free(JoxMachineScratch *s) {
-    for (uint32_t k = 0; k < s->gather_count; k++)
-        jox_lattice_free(&s->gather_places[k].spots);
-    jox_free(s->gather_places);
-    jox_free(s->gathered);
-    jox_free(s->gather_blocks);
 }

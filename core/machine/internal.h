@@ -49,9 +49,13 @@ typedef struct JoxMachineScratch {
     struct JoxGathering *gathered;
     void *gather_blocks;
     uint32_t gather_capacity;
-    struct JoxGatherPlace *gather_places; /* by place and front */
+    uint32_t *gather_number;              /* by agent that gathers: its number in its part */
+    struct JoxGatherPlace *gather_places; /* by place, front and part */
     uint32_t gather_count;
     size_t gather_place_capacity;
+    struct JoxGatherGround *gather_grounds; /* by place */
+    uint32_t ground_count;
+    size_t ground_capacity;
     JoxSignal *heard; /* called in the last step, by name and x */
     uint32_t heard_count;
     uint32_t *everywhere; /* names called out to everybody in the last step */
@@ -130,6 +134,7 @@ void jox_rows_form(JoxMachineRun *run);
 const JoxSteerTerm *jox_gather_term(const JoxState *state);
 /* gather.c: finds for all who gather in a place where to stand, into the scratch's `row`. */
 void jox_gatherings_form(JoxMachineRun *run);
+/* gather_ground.c */
 void jox_gatherings_free(JoxMachineScratch *scratch);
 /* The spots of places are found anew. */
 void jox_gatherings_forget(JoxMachineScratch *scratch);

@@ -423,7 +423,7 @@ function wander(a1) end
 ---@return jostle.Steering
 function formation(a1, a2) end
 
---- `gather(place [, degrees])`: to the agent's spot among those who wait in a polygon: they fill it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or closer, to 0.53 m, where they are many; those for whom there is no room stand where they are
+--- `gather(place [, degrees])`: to the agent's spot among those who wait in a polygon, round walls and fixed bodies: they fill it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or closer, to 0.51 m and 1.2 breadths, where they are many; those for whom there is no room stand about it
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? number
 ---@return jostle.Steering

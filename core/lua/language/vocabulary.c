@@ -136,9 +136,10 @@ const JoxWord jox_words[] = {
      "to the agent's place in a row, so far apart: along a line, or behind somebody across the way "
      "they look; in the order in which they stand", "formation(\"mid\", 0.8)"},
     {"gather", "p?d", STEER, JOX_STEER_GATHER, 0, "gather(place [, degrees])", "",
-     "to the agent's spot among those who wait in a polygon: they fill it from its front, which lies "
-     "in that direction, anti-clockwise from +x, 0.9 m apart, or closer, to 0.53 m, where they are "
-     "many; those for whom there is no room stand where they are", "gather(\"yard\", 90)"},
+     "to the agent's spot among those who wait in a polygon, round walls and fixed bodies: they fill "
+     "it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or "
+     "closer, to 0.51 m and 1.2 breadths, where they are many; those for whom there is no room stand "
+     "about it", "gather(\"yard\", 90)"},
     {"spread", NULL, STEER, JOX_STEER_SPREAD, 0, "spread", "",
      "away from the neighbours", "0.3 * spread + seek \"post\""},
     {"evade", NULL, STEER, JOX_STEER_EVADE, 0, "evade", "",

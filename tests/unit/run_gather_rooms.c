@@ -1,0 +1,167 @@
+/* People who wait in areas that walls and bodies divide: they get to their spots by ways that lead
+   there, stand apart and come to rest, also where there is no room for all of them. */
+#include <math.h>
+
+#include "unit/run_acted.h"
+
+typedef struct Rest {
+    uint32_t inside;  /* people in the place 'front' */
+    uint32_t densest; /* people within 0.56 m of one of them, who counts: so many per m2 */
+    uint32_t moved;   /* people who moved by more than 0.25 m in the last 5 s */
+} Rest;
+
+enum { MOST_PEOPLE = 200 };
+
+static void go_on(JoScene *scene, double seconds) {
+    step(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
+}
+
+static uint32_t count_about(const JoxAgents *a, uint32_t i) {
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < a->count; j++)
+        count += hypotf(a->x[j] - a->x[i], a->y[j] - a->y[i]) < 0.564f;
+    return count;
+}
+
+/* Runs for so many seconds, watches 5 s more, and ends the scene. */
+static Rest settle(JoScene *scene, double seconds) {
+    const JoxAgents *a = &scene->world->state.agents;
+    JoxV2 before[MOST_PEOPLE];
+    Rest rest = {0};
+    go_on(scene, seconds);
+    assert_in_range(a->count, 1, MOST_PEOPLE);
+    const uint32_t first = a->next_id - a->count; /* nobody left */
+    for (uint32_t i = 0; i < a->count; i++)
+        before[a->id[i] - first] = jox_v2(a->x[i], a->y[i]);
+    go_on(scene, 5);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxV2 at = {a->x[i], a->y[i]};
+        const uint32_t about = count_about(a, i);
+        rest.inside += jox_place_contains(scene->world->model.places, 0, at);
+        rest.densest = about > rest.densest ? about : rest.densest;
+        rest.moved += jox_length(jox_sub(at, before[a->id[i] - first])) > 0.25f;
+    }
+    jo_scene_free(scene);
+    return rest;
+}
+
+/* Loads a scene whose place `front` has index 0. */
+static JoScene *load_room(const char *front, const char *walls, const char *people,
+                          const char *more) {
+    char text[2000];
+    snprintf(text, sizeof text,
+             "jostle: 1\nplaces:\n  front: {polygon: %s}\n  out: {point: [-50, -50]}\n%s\n"
+             "walls:\n%s\nevents: [{at: 900, signal: end}]\n%s",
+             front, people, walls, more);
+    return load_own(text, "");
+}
+
+#define JOURNEY "journey: [{to: front, until: end}, {exit: out}]}"
+
+/* Straight ways to many of the spots lead through walls: 6 people stood on a square metre. */
+static void people_go_round_walls_to_their_spots(void **state) {
+    (void)state;
+    const Rest rest = settle(
+        load_room("[[4, 0], [8, 0], [8, 4], [12, 4], [12, 8], [8, 8], [8, 12], [4, 12], [4, 8],"
+                  " [0, 8], [0, 4], [4, 4]]",
+                  "  - {line: [[5, 0], [4, 0], [4, 4], [0, 4], [0, 8], [4, 8], [4, 12], [8, 12],"
+                  " [8, 8], [12, 8], [12, 4], [8, 4], [8, 0], [6.4, 0]]}",
+                  "  yard: {polygon: [[0, -8], [12, -8], [12, -1], [0, -1]]}",
+                  "groups: {a: {count: 130, in: yard, " JOURNEY "}"),
+        75);
+    assert_true(rest.inside >= 128);
+    assert_in_range(rest.densest, 1, 4);
+    assert_in_range(rest.moved, 0, 3);
+}
+
+static void people_go_round_pillars_to_their_spots(void **state) {
+    (void)state;
+    const Rest rest = settle(
+        load_room("[[0, 0], [12, 0], [12, 12], [8, 12], [8, 4], [4, 4], [4, 12], [0, 12]]",
+                  "  - {line: [[0, 0.5], [0, 12], [4, 12], [4, 4], [8, 4], [8, 12], [12, 12],"
+                  " [12, 0], [0.6, 0]]}\n"
+                  "  - {solid: [[1.5, 9], [2.1, 9], [2.1, 9.6], [1.5, 9.6]]}\n"
+                  "  - {solid: [[9.5, 7], [10.1, 7], [10.1, 7.6], [9.5, 7.6]]}",
+                  "  arm: {polygon: [[0.5, 6], [3.5, 6], [3.5, 8.5], [0.5, 8.5]]}\n"
+                  "  stage: {point: [10, 11.5]}",
+                  "groups: {a: {count: 60, in: arm, journey: [{to: front, front: stage,"
+                  " until: end}, {exit: out}]}}"),
+        60);
+    assert_int_equal(rest.inside, 60);
+    assert_in_range(rest.densest, 1, 4);
+    assert_in_range(rest.moved, 0, 2);
+}
+
+/* All spots lay on one side of the wall; on the other 8 people stood on a square metre. */
+static void both_sides_of_a_wall_are_filled(void **state) {
+    (void)state;
+    const Rest rest =
+        settle(load_room("[[1, 6], [15, 6], [15, 12], [1, 12]]",
+                         "  - {line: [[0, 0.5], [0, 14], [16, 14], [16, 0], [0.6, 0]]}\n"
+                         "  - {line: [[9, 4], [9, 14]]}",
+                         "  left: {polygon: [[1, 1], [7, 1], [7, 3], [1, 3]]}\n"
+                         "  right: {polygon: [[10, 1], [15, 1], [15, 3], [10, 3]]}",
+                         "groups:\n  a: {count: 60, in: left, " JOURNEY "\n"
+                         "  b: {count: 60, in: right, " JOURNEY),
+               45);
+    assert_true(rest.inside >= 118);
+    assert_in_range(rest.densest, 1, 4);
+    assert_in_range(rest.moved, 0, 3);
+}
+
+/* Four times as many people as the place has room for: they drifted about it for ever. */
+static void people_without_room_stand_still_about_the_place(void **state) {
+    (void)state;
+    JoScene *scene = load_room("[[5, 9], [7, 9], [7, 11], [5, 11]]",
+                               "  - {line: [[0, 0.5], [0, 12], [12, 12], [12, 0], [0.6, 0]]}",
+                               "  hall: {polygon: [[1, 1], [11, 1], [11, 7], [1, 7]]}",
+                               "groups: {a: {count: 80, in: hall, " JOURNEY "}");
+    go_on(scene, 40);
+    JoxV2 before[MOST_PEOPLE];
+    const JoxAgents *a = &scene->world->state.agents;
+    for (uint32_t i = 0; i < a->count; i++)
+        before[a->id[i]] = jox_v2(a->x[i], a->y[i]);
+    go_on(scene, 30);
+    uint32_t drifted = 0, inside = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxV2 at = {a->x[i], a->y[i]};
+        drifted += jox_length(jox_sub(at, before[a->id[i]])) > 0.2f;
+        inside += jox_place_contains(scene->world->model.places, 0, at);
+    }
+    assert_int_equal(a->count, 80);
+    assert_in_range(inside, 16, 26);
+    assert_in_range(drifted, 0, 12);
+    jo_scene_free(scene);
+}
+
+static void spots_keep_off_fixed_bodies(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene =
+        load_room("[[3, 9], [17, 9], [17, 15], [3, 15]]",
+                  "  - {line: [[0, 0.5], [0, 18], [20, 18], [20, 0], [0.6, 0]]}",
+                  "  hall: {polygon: [[0.5, 0.5], [19.5, 0.5], [19.5, 6], [0.5, 6]]}",
+                  "groups: {a: {count: 100, in: hall, " JOURNEY "}\n"
+                  "bodies: [{shape: {box: {size: [5, 2, 1.2]}}, mass: 0, at: [10, 12, 0.6]}]");
+    const JoxAgents *a = &scene->world->state.agents;
+    go_on(scene, 45);
+    uint32_t pressed = 0;
+    for (uint32_t i = 0; i < a->count; i++) /* within a radius and 2 cm of the box */
+        pressed += fabsf(a->x[i] - 10) < 2.71f && fabsf(a->y[i] - 12) < 1.21f;
+    assert_in_range(pressed, 0, 2);
+    const Rest rest = settle(scene, 1);
+    assert_true(rest.inside >= 98);
+    assert_in_range(rest.moved, 0, 2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(people_go_round_walls_to_their_spots),
+        cmocka_unit_test(people_go_round_pillars_to_their_spots),
+        cmocka_unit_test(both_sides_of_a_wall_are_filled),
+        cmocka_unit_test(people_without_room_stand_still_about_the_place),
+        cmocka_unit_test(spots_keep_off_fixed_bodies),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
