@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
+#include "base/assert.h"
 #include "cli/cli.h"
 
 static const char BEHAVIOUR[] =
@@ -85,17 +85,58 @@ static const char PATCH[] =
     "  },\n"
     "}\n";
 
-static int fail_to_write(const char *path, int why) {
-    fprintf(stderr, "jostle new: cannot write '%s': %s\n", path,
-            why == EEXIST ? "it is there already, as a file, a folder or a link" : strerror(why));
-    return JO_FAILED;
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* Writes text with every NAME (and BEHAVIOUR, FILE) put in; says so. */
-static int write_file(const char *path, const char *text, const char *name, const char *behaviour) {
-    FILE *file = fopen(path, "wx"); /* also no link, wherever it leads */
-    if (!file)
-        return fail_to_write(path, errno);
+/* Files and folders that one call has made: all of them stay, or none. */
+typedef struct Made {
+    char paths[9][320];
+    int count;
+    bool failed;
+} Made;
+
+static void add_made(Made *made, const char *path) {
+    JOX_ASSERT(made->count < (int)(sizeof made->paths / sizeof *made->paths));
+    snprintf(made->paths[made->count++], sizeof *made->paths, "%s", path);
+}
+
+static void fail_to_make(Made *made, const char *what, const char *path, int why) {
+    fprintf(stderr, "jostle new: cannot %s '%s': %s\n", what, path,
+            why == EEXIST ? "it is there already, as a file, a folder or a link" : strerror(why));
+    made->failed = true;
+}
+
+/* Removes what was made where something failed, else says what was written; the exit status. */
+static int finish_made(Made *made) {
+    for (int m = made->count - 1; made->failed && m >= 0; m--)
+        remove(made->paths[m]);
+    for (int m = 0; !made->failed && m < made->count; m++)
+        if (!is_folder(made->paths[m]))
+            printf("wrote %s\n", made->paths[m]);
+    return made->failed ? JO_FAILED : JO_OK;
+}
+
+static void make_folder(Made *made, const char *path) {
+    if (made->failed)
+        return;
+    if (mkdir(path, 0777) == 0)
+        add_made(made, path);
+    else
+        fail_to_make(made, "make", path, errno);
+}
+
+/* Writes text with every NAME (and BEHAVIOUR, FILE) put in. */
+static void write_file(Made *made, const char *path, const char *text, const char *name,
+                       const char *behaviour) {
+    FILE *file = made->failed ? NULL : fopen(path, "wx"); /* also no link, wherever it leads */
+    if (!file) {
+        if (!made->failed)
+            fail_to_make(made, "write", path, errno);
+        return;
+    }
+    add_made(made, path);
     const struct {
         const char *word, *by;
     } WORDS[] = {{"NAME", name}, {"BEHAVIOUR", behaviour}, {"FILE", path}};
@@ -111,37 +152,32 @@ static int write_file(const char *path, const char *text, const char *name, cons
         text += used;
     }
     const bool good = !ferror(file);
-    if (fclose(file) != 0 || !good) {
-        const int why = errno;
-        unlink(path);
-        return fail_to_write(path, why);
-    }
-    printf("wrote %s\n", path);
-    return JO_OK;
-}
-
-static bool is_folder(const char *path) {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    if (fclose(file) != 0 || !good)
+        fail_to_make(made, "write", path, errno);
 }
 
 static int new_behaviour(const char *folder, const char *name) {
-    char path[512];
+    Made made = {0};
+    char path[320];
     snprintf(path, sizeof path, "%s%.200s.lua", folder, name);
-    int status = write_file(path, BEHAVIOUR, name, "");
+    write_file(&made, path, BEHAVIOUR, name, "");
+    const int status = finish_made(&made);
     if (!status)
         printf("Check it:     jostle check %s\nA scene of it: jostle new scene %s\n", path, name);
     return status;
 }
 
 static int new_scene(const char *folder, const char *behaviours, const char *name) {
-    char path[512], lua[512];
+    Made made = {0};
+    char path[320], lua[320];
     struct stat info;
     snprintf(path, sizeof path, "%s%.200s.yaml", folder, name);
     snprintf(lua, sizeof lua, "%s%.200s.lua", behaviours, name);
-    int status = stat(lua, &info) == 0 ? JO_OK : write_file(lua, BEHAVIOUR, name, "");
+    if (stat(lua, &info) != 0)
+        write_file(&made, lua, BEHAVIOUR, name, "");
     snprintf(lua, sizeof lua, "%.200s.lua", name); /* found beside, or in ../behaviours */
-    status = status ? status : write_file(path, SCENE, name, lua);
+    write_file(&made, path, SCENE, name, lua);
+    const int status = finish_made(&made);
     if (!status)
         printf("Run it: jostle run %s\n", path);
     return status;
@@ -149,18 +185,14 @@ static int new_scene(const char *folder, const char *behaviours, const char *nam
 
 static int new_mod(const char *parent, const char *name) {
     static const char *const FOLDERS[] = {"", "/behaviours", "/scenes", "/patches"};
-    char folder[512], path[700];
-    if (mkdir(parent, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "jostle new: cannot make '%s': %s\n", parent, strerror(errno));
-        return JO_FAILED;
-    }
-    snprintf(folder, sizeof folder, "%s/%.200s", parent, name);
+    Made made = {0};
+    char folder[100], path[320];
+    if (!is_folder(parent))
+        make_folder(&made, parent);
+    snprintf(folder, sizeof folder, "%s/%s", parent, name);
     for (int f = 0; f < 4; f++) {
         snprintf(path, sizeof path, "%s%s", folder, FOLDERS[f]);
-        if (mkdir(path, 0777) != 0) {
-            fprintf(stderr, "jostle new: cannot make '%s': %s\n", path, strerror(errno));
-            return JO_FAILED;
-        }
+        make_folder(&made, path);
     }
     const struct {
         const char *form, *text;
@@ -168,13 +200,13 @@ static int new_mod(const char *parent, const char *name) {
                  {"%s/behaviours/%s.lua", BEHAVIOUR},
                  {"%s/scenes/%s.yaml", SCENE},
                  {"%s/patches/%s.lua", PATCH}};
-    char behaviour[300];
-    snprintf(behaviour, sizeof behaviour, "%.200s.lua", name);
-    int status = JO_OK;
-    for (int f = 0; f < 4 && !status; f++) {
+    char behaviour[100];
+    snprintf(behaviour, sizeof behaviour, "%s.lua", name);
+    for (int f = 0; f < 4; f++) {
         snprintf(path, sizeof path, FILES[f].form, folder, name);
-        status = write_file(path, FILES[f].text, name, behaviour);
+        write_file(&made, path, FILES[f].text, name, behaviour);
     }
+    const int status = finish_made(&made);
     if (!status)
         printf("Run it: jostle run %s/scenes/%s.yaml --mod %s\n", folder, name, folder);
     return status;
@@ -215,7 +247,8 @@ const CliCommand cli_new = {
         "  mod         writes mods/NAME/ (in scenes/mods/) with a behaviour, a scene and "
         "mod.yaml\n"
         "\n"
-        "What exists is never overwritten. NAME has lower-case letters, digits, - and _.",
+        "What exists is never overwritten; where one file cannot be written, none is. NAME has "
+        "lower-case letters, digits, - and _.",
     .notes = "exit status: 0 done, 1 cannot write, 2 wrong usage",
     .takes = "kind and name",
     .least = 2,

@@ -327,6 +327,7 @@ says "nothing is overwritten" 1 "is there already" bash -c "cd $work/new && $pro
 ln -s ../leads-nowhere.lua "$work/new/odd.lua"; ln -s ../leads-nowhere.yaml "$work/new/strange.yaml"
 says "nor is a link that leads nowhere followed" 1 "or a link" bash -c "cd $work/new && $program new behaviour odd"
 says "  of a scene, either" 1 "or a link" bash -c "cd $work/new && $program new scene strange"
+[ ! -e "$work/new/strange.lua" ]; verdict "a scene that cannot be written leaves no behaviour" $?
 [ ! -e "$work/leads-nowhere.lua" ] && [ ! -e "$work/leads-nowhere.yaml" ]; verdict "  and nothing is written there" $?
 says "a bad name" 2 "lower-case letters" "$JOSTLE" new scene ../up
 says "what is new?" 2 "there is no kind 'world'; there are behaviour, scene, mod" "$JOSTLE" new world x
