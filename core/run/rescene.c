@@ -114,10 +114,29 @@ static bool same_starts(const JoxGroup *a, const JoxGroup *b) {
     return same;
 }
 
+static bool same_behaviours(const JoxGroup *a, const JoxGroup *b) {
+    bool same = a->mix_count == b->mix_count;
+    for (uint32_t m = 0; same && m < a->mix_count; m++)
+        same = same_text(a->mix[m].behaviour, b->mix[m].behaviour) &&
+               same_text(a->mix[m].text, b->mix[m].text);
+    return same;
+}
+
+/* Notes what a group's next start differs in. Where no group was edited, its people start elsewhere
+   because walls or places were. */
+static void note_starts(Rescene *r, bool counts, bool starts, bool behaviours) {
+    if (behaviours)
+        note(&r->later, "behaviours of groups");
+    if ((counts || starts) && !jox_scene_differs(r->old, r->new, "groups"))
+        note(&r->later, "where people start, by the edited walls and places");
+    else if (counts || starts)
+        note(&r->later, "counts and positions of groups");
+}
+
 /* False where the groups are others. */
 static bool take_groups(Rescene *r) {
-    bool names = r->old->group_count == r->new->group_count, set_any = false, counts = false;
-    bool colours = false;
+    bool names = r->old->group_count == r->new->group_count, set_any = false;
+    bool counts = false, starts = false, behaviours = false, colours = false;
     for (uint32_t g = 0; names && g < r->old->group_count; g++)
         names = !strcmp(r->old->groups[g].name, r->new->groups[g].name);
     if (!names) {
@@ -127,14 +146,11 @@ static bool take_groups(Rescene *r) {
     for (uint32_t g = 0; g < r->new->group_count; g++) {
         const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
         colours |= was->colour != is->colour;
-        counts |= was->count != is->count || was->mix_count != is->mix_count ||
-                  !same_points(was->positions, was->positions ? was->count : 0, is->positions,
+        counts |= was->count != is->count;
+        starts |= !same_points(was->positions, was->positions ? was->count : 0, is->positions,
                                is->positions ? is->count : 0) ||
                   !same_starts(was, is);
-        for (uint32_t m = 0; m < is->mix_count && m < was->mix_count; m++)
-            counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0 ||
-                      !is->mix[m].text != !was->mix[m].text ||
-                      (is->mix[m].text && strcmp(was->mix[m].text, is->mix[m].text) != 0);
+        behaviours |= !same_behaviours(was, is);
         for (uint32_t s = 0; s < is->set_count; s++) {
             const JoxGroupValue *set = &is->set[s], *before = NULL;
             for (uint32_t o = 0; o < was->set_count; o++)
@@ -152,8 +168,7 @@ static bool take_groups(Rescene *r) {
         note(&r->done, "values that groups set");
     if (colours)
         note(&r->done, "colours of groups");
-    if (counts)
-        note(&r->later, "counts, positions and behaviours of groups");
+    note_starts(r, counts, starts, behaviours);
     return true;
 }
 
