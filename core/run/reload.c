@@ -111,9 +111,9 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     }
     for (uint32_t f = 0; f < scene->spec_file_count; f++)
         use_first(r, JOX_PART_SCENE, scene->spec_files[f]);
-    for (uint32_t m = 0; m < scene->mods->count; m++) {
+    for (uint32_t m = 0; m < scene->mods->count * JOX_RELOAD_MOD_PARTS; m++) {
         char path[JOX_LONGEST_PATH];
-        jox_reload_mod_file(scene, m, path);
+        jox_reload_mod_path(scene, m / JOX_RELOAD_MOD_PARTS, m % JOX_RELOAD_MOD_PARTS, path);
         use_first(r, JOX_PART_MODS, path);
     }
     scene->reload = r;

@@ -41,9 +41,11 @@ static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
     }
     for (uint32_t f = 0; batch->spec_files.count > f; f++)
         jox_reload_use(r, JOX_PART_SCENE, batch->spec_files.paths[f]);
-    for (uint32_t m = 0; batch->parts[JOX_PART_MODS] && m < r->scene->mods->count; m++) {
+    const uint32_t mod_parts =
+        batch->parts[JOX_PART_MODS] ? r->scene->mods->count * JOX_RELOAD_MOD_PARTS : 0;
+    for (uint32_t m = 0; m < mod_parts; m++) {
         char path[JOX_LONGEST_PATH];
-        jox_reload_mod_file(r->scene, m, path);
+        jox_reload_mod_path(r->scene, m / JOX_RELOAD_MOD_PARTS, m % JOX_RELOAD_MOD_PARTS, path);
         jox_reload_use(r, JOX_PART_MODS, path);
     }
 }
@@ -145,22 +147,25 @@ static void load_plan(JoxReload *r, JoxBatch *batch) {
         jox_files_add(&batch->spec_files, batch->spec->files[f].path);
 }
 
-void jox_reload_mod_file(const JoScene *scene, uint32_t mod, char path[JOX_LONGEST_PATH]) {
-    snprintf(path, JOX_LONGEST_PATH, "%s/mod.yaml", scene->mods->items[mod].folder);
+void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part,
+                         char path[JOX_LONGEST_PATH]) {
+    snprintf(path, JOX_LONGEST_PATH, "%s/%s", scene->mods->items[mod].folder,
+             part == JOX_RELOAD_SHEET ? "mod.yaml" : "patches/");
 }
 
-/* Names each mod.yaml that was edited: which mods there are, in what order and with what settings
-   is settled when a scene begins. */
+/* Names each mod.yaml that was edited, and each folder whose patches are others: which mods and
+   patches there are, in what order and with what settings is settled when a scene begins. */
 static void say_mods(const JoxReload *r, JoxBatch *batch) {
-    for (uint32_t m = 0; m < r->scene->mods->count; m++) {
-        char path[JOX_LONGEST_PATH];
-        jox_reload_mod_file(r->scene, m, path);
-        if (jox_changes_has(&r->changes, JOX_PART_MODS, path))
-            jox_text_printf(&batch->said,
-                            "%s changed; what it says of the mod, as of its settings, takes effect "
-                            "at the next start\n",
-                            path);
-    }
+    static const char *const LATER[] = {
+        [JOX_RELOAD_SHEET] = "changed; what it says of the mod, as of its settings, takes effect",
+        [JOX_RELOAD_PATCHES] = "has other files; which patches a mod has takes effect"};
+    for (uint32_t m = 0; m < r->scene->mods->count; m++)
+        for (int part = 0; part < JOX_RELOAD_MOD_PARTS; part++) {
+            char path[JOX_LONGEST_PATH];
+            jox_reload_mod_path(r->scene, m, part, path);
+            if (jox_changes_has(&r->changes, JOX_PART_MODS, path))
+                jox_text_printf(&batch->said, "%s %s at the next start\n", path, LATER[part]);
+        }
 }
 
 /* Works out what it takes to put the new version in the place of the old. */

@@ -68,8 +68,10 @@ void jox_batch_free(JoxBatch *batch);
 void jox_reload_free_retired(JoxReload *reload);
 /* A part is made of a file. False with errno if the file cannot be watched. */
 bool jox_reload_use(JoxReload *reload, uint32_t part, const char *path);
-/* Writes the path of the mod.yaml of one of the scene's mods. */
-void jox_reload_mod_file(const JoScene *scene, uint32_t mod, char path[JOX_LONGEST_PATH]);
+/* Parts of a mod that are watched though no machine or scene is made of them. */
+enum { JOX_RELOAD_SHEET, JOX_RELOAD_PATCHES, JOX_RELOAD_MOD_PARTS };
+/* Writes the path of a mod's mod.yaml, or of its folder of patches. */
+void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part, char path[JOX_LONGEST_PATH]);
 /* reload_swap.c: on the stepping thread, between two steps: all of a batch goes live, or nothing of
    it and people are told why. It is handed back through `retired`. True if it is live. */
 bool jox_batch_take(JoScene *scene, JoxBatch *batch);

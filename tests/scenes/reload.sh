@@ -193,6 +193,10 @@ expect "what is mended goes live as before" "walker.lua: version 1 (reload 2) is
 echo 'settings: {weight: {value: 2}}' >>"$work/slow/mod.yaml"
 expect "and is told once more" "slow/mod.yaml changed; what it says" 2
 [ "$(count 'slow/mod.yaml changed')" = 2 ]; verdict "each time once" $?
+patch 40 >"$work/slow/patches/second.lua"
+expect "a patch that is added is told" "slow/patches/ has other files; which patches a mod has takes effect at the next start"
+mv "$work/slow/patches/second.lua" "$work/slow/patches/second.off"
+expect "and one that is taken out" "slow/patches/ has other files" 2
 end "a run with a mod ends well"
 
 # ---- the scene's own file ----
@@ -210,8 +214,10 @@ echo 'seeed: 5' >>"$dir/scene.yaml"
 expect "a scene that is broken" "The scene goes on as it was"
 sed -i '/seeed/d; s/behaviour: /set: {speed: 0.4}, behaviour: /' "$dir/scene.yaml"
 expect "a value that a group sets" "values that groups set changed"
-printf 'walls:\n  - {solid: [[30, 30], [32, 30], [32, 32], [30, 32]]}\n' >>"$dir/scene.yaml"
+printf 'walls:\n  - {solid: [[10, 10], [12, 10], [12, 12], [10, 12]]}\n' >>"$dir/scene.yaml"
 expect "a wall that is built" "walls changed, live"
+expect "people start elsewhere for it" "where people start, by the edited walls and places: takes effect at the next start" 2
+[ "$(count 'of groups')" = 0 ]; verdict "no word of groups that were not edited" $?
 cp "$dir/scene.yaml" "$work/kept.yaml"
 sed -i 's/^\(  [a-z]*\)\(: {.*behaviour: .*\)/\1\2\n\1more\2/' "$dir/scene.yaml"
 expect "groups of other names wait" "groups (other names or order): takes effect at the next start"

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/text.h"
@@ -17,7 +18,7 @@ enum { LARGEST_FILE = 16 << 20 };
 static const double QUIET = 0.030; /* s */
 
 typedef struct WatchedFile {
-    char *path, *name; /* name: the last part of path */
+    char *path, *name; /* name: the last part of path; empty where path is a folder, with a / */
     int folder;        /* inotify's number of its folder, or of the nearest one that is there */
     bool away;         /* its folder is not there */
     char digest[65];   /* of the content last reported; "" when it could not be read */
@@ -31,9 +32,31 @@ struct JoxWatch {
     size_t count, capacity;
 };
 
-static void digest_file(const char *path, char digest[65]) {
+/* Whether a file of that name is one that Jostle reads, and not an editor's own. */
+static bool is_source(const char *name) {
+    const char *ending = strrchr(name, '.');
+    return *name != '.' && ending && (!strcmp(ending, ".lua") || !strcmp(ending, ".yaml"));
+}
+
+/* Digests the names of a folder's sources; a folder that is not there has none. */
+static void digest_names(const char *folder, char digest[65]) {
+    JoxText all = {0};
+    char **names = jox_folder_names(folder, false);
+    for (size_t n = 0; names && names[n]; n++)
+        if (is_source(names[n]))
+            jox_text_printf(&all, "%s/", names[n]);
+    jox_sha256_hex(all.data ? all.data : "", all.length, digest);
+    jox_text_free(&all);
+    jox_free(names);
+}
+
+static void digest_watched(const WatchedFile *file, char digest[65]) {
     size_t length;
-    char *text = jox_read_file(path, LARGEST_FILE, &length);
+    if (!*file->name) {
+        digest_names(file->path, digest);
+        return;
+    }
+    char *text = jox_read_file(file->path, LARGEST_FILE, &length);
     digest[0] = 0;
     if (text)
         jox_sha256_hex(text, length, digest);
@@ -69,9 +92,10 @@ static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
         size_t n = strlen(folder);
         while (n > 1 && folder[n - 1] == '/')
             folder[--n] = 0;
-        file->folder = inotify_add_watch(watch->inotify, n ? folder : ".",
-                                         IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE |
-                                             IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
+        file->folder =
+            inotify_add_watch(watch->inotify, n ? folder : ".",
+                              IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE | IN_DELETE |
+                                  IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
         if (file->folder >= 0 && file->away && is_folder(missing)) {
             file->away = false; /* made in between */
             strcpy(folder, missing);
@@ -104,7 +128,7 @@ bool jox_watch_add(JoxWatch *watch, const char *path) {
         return false;
     }
     watch->count++;
-    digest_file(path, file->digest);
+    digest_watched(file, file->digest);
     return true;
 }
 
@@ -126,7 +150,7 @@ static bool follow_folder(JoxWatch *watch, WatchedFile *file, const struct inoti
     if (!appears && !goes)
         return false;
     watch_folder(watch, file);
-    return file->moved = !file->away;
+    return file->moved = !file->away || !*file->name; /* a folder that goes has lost its names */
 }
 
 /* A folder that is elsewhere now, unless it has come back. */
@@ -151,7 +175,8 @@ static void read_events(JoxWatch *watch) {
                 if (!(event->mask & IN_Q_OVERFLOW) && event->wd != file->folder)
                     continue;
                 if (follow_folder(watch, file, event) || (event->mask & IN_Q_OVERFLOW) ||
-                    (!file->away && event->len && !strcmp(event->name, file->name)))
+                    (!file->away && event->len &&
+                     (*file->name ? !strcmp(event->name, file->name) : is_source(event->name))))
                     file->moved = any = true;
             }
             if (event->mask & IN_MOVE_SELF)
@@ -197,7 +222,7 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
             continue;
         file->moved = false;
         char digest[65];
-        digest_file(file->path, digest);
+        digest_watched(file, digest);
         if (digest[0] && strcmp(digest, file->digest) != 0) {
             strcpy(file->digest, digest);
             changed(context, file->path, written_at(file->path));

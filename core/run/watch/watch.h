@@ -10,8 +10,9 @@ typedef struct JoxWatch JoxWatch;
 
 /* NULL with errno set if the system refuses. */
 JoxWatch *jox_watch_create(void);
-/* Watches a file by its path, there or not; its present content is the one already known. False
-   with errno if its folder cannot be watched. */
+/* Watches a file by its path, there or not; its present content is the one already known. The
+   content of a folder, whose path ends with a /, is the names of its .lua and .yaml files. False
+   with errno if the folder cannot be watched. */
 bool jox_watch_add(JoxWatch *watch, const char *path);
 /* What was read of a file, by whomever: it is watched, and the content already known is that. */
 void jox_watch_read(JoxWatch *watch, const char *path, const char *text, size_t length);
