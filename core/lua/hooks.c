@@ -19,10 +19,6 @@ void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *compla
     lua->group.say_context = context;
 }
 
-uint64_t jox_lua_failures(const JoxLua *lua) {
-    return lua->failures;
-}
-
 void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) {
     JoxLua *lua = context;
     JoxScript *script = machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
@@ -80,7 +76,7 @@ static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *wh
     uint32_t second = (uint32_t)(machines->tick * machines->dt);
     if (second != hook->second)
         new_second(lua, script, hook, second);
-    lua->failures++;
+    lua->machines->state->hook_failures++;
     hook->failures++;
     if (++hook->second_failures == JOX_MOST_FAILURES) {
         hook->suspended = true;
@@ -222,6 +218,7 @@ static void tell_lost(JoxLua *lua, const JoxWrite *write) {
     const uint32_t second = (uint32_t)(machines->tick * machines->dt) + 1;
     char text[700], more[60] = "";
     lua->lost_writes++;
+    machines->state->changes_lost++;
     if (lua->lost_second == second)
         return;
     if (lua->lost_writes > 1)

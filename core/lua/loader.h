@@ -116,7 +116,5 @@ static inline bool jox_lua_is_failing(const JoLuaCost *cost) {
 /* Path of the behaviour whose functions take so much longer than their instructions explain that
    the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
 const char *jox_lua_stalled(const JoxLua *lua);
-/* Calls of hooks that failed so far. */
-uint64_t jox_lua_failures(const JoxLua *lua);
 
 #endif

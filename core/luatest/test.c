@@ -105,14 +105,14 @@ static void free_scene(void *context, void *scene) {
 /* A function of a behaviour that fails makes the test fail: the agents only stayed as they were. */
 static bool step(void *context, void *scene, JoxText *why) {
     Tests *tests = ((TestContext *)context)->tests;
-    const JoxLua *lua = ((JoScene *)scene)->lua;
-    uint64_t failures = jox_lua_failures(lua);
+    const JoxMachineState *machines = ((JoScene *)scene)->world->machines.state;
+    const uint64_t failures = machines->hook_failures;
     JoError error = {0};
     if (!jo_scene_step(scene, &error)) {
         jox_text_add(why, error.text);
         return false;
     }
-    if (jox_lua_failures(lua) == failures)
+    if (machines->hook_failures == failures)
         return true;
     jox_text_printf(why, "a function of a behaviour failed:\n%s",
                     tests->said.data ? tests->said.data : "");

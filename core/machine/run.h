@@ -158,6 +158,8 @@ typedef struct JoxMachineState {
     uint32_t edit_count;
     size_t edit_capacity;
     JoxMachineCounts counts[JOX_MOST_MACHINES]; /* figures: no step reads them */
+    uint64_t hook_failures; /* figure: calls of hooks that failed since the start */
+    uint64_t changes_lost;  /* figure: changes of others' memory that another change overwrote */
 } JoxMachineState;
 
 /* The machines at work: what they are, what they read and write, and what the step did. */

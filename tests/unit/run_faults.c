@@ -2,6 +2,7 @@
    than usual, groups that begin empty. */
 #include <math.h>
 
+#include "jostle_tools.h"
 #include "unit/live_page.h"
 
 /* ---- numbers that are not finite ---- */
@@ -166,7 +167,7 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
     agent.x = agent.y = 12.0;
     jo_world_add_agent(scene->world, &agent, NULL);
     step(scene, 5);
-    assert_int_equal(jox_lua_failures(scene->lua), 0);
+    assert_int_equal(scene->world->machines.state->hook_failures, 0);
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = scene->world->model.machines.items[0];
     uint32_t slot = strcmp(machine->memory[0].name, "seen") ? 1 : 0, looked = 0;
@@ -177,6 +178,37 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
         looked++;
     }
     assert_int_equal(looked, 4);
+    jo_scene_free(scene);
+}
+
+/* ---- changes of others' memory ---- */
+
+/* Each of three people adds one to the hits of the other two in each step, from what these were
+   before the step: of two such changes one is lost. */
+static void lost_changes_of_memory_are_counted(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        PEOPLE(3), "local mine = memory { hits = 0 }\n" HEAD
+                   "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
+                   "  { to = \"A\", when = function(me)\n"
+                   "    for _, n in ipairs(me.neighbours) do n.hits = n.hits + 1 end\n"
+                   "    return false\n"
+                   "  end } } } }\n");
+    step(scene, 4);
+    assert_non_null(strstr(said.data, "a change is lost"));
+    assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4);
+    char *summary = jo_scene_summary(scene), *closing = jo_scene_closing(scene);
+    assert_non_null(strstr(summary, "\"changes_lost\": 12"));
+    assert_non_null(strstr(closing, "12 lost changes of others' memory"));
+    JoxText kept = {0};
+    assert_true(jox_world_snapshot(scene->world, &kept, NULL));
+    step(scene, 2);
+    assert_int_equal(scene->world->machines.state->changes_lost, 3 * 6);
+    assert_true(jox_world_restore(scene->world, kept.data, kept.length, NULL));
+    assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4); /* as at a resume */
+    jox_text_free(&kept);
+    jo_free(summary);
+    jo_free(closing);
     jo_scene_free(scene);
 }
 
@@ -219,6 +251,7 @@ int main(void) {
         cmocka_unit_test(a_number_that_is_not_finite_ends_the_run),
         cmocka_unit_test(a_failed_world_names_agents_without_a_machine),
         cmocka_unit_test(lua_may_look_at_agents_without_a_machine),
+        cmocka_unit_test(lost_changes_of_memory_are_counted),
         cmocka_unit_test(each_of_three_hundred_sources_counts_for_itself),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

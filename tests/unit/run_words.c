@@ -68,7 +68,7 @@ static bool lives(const char *mod) {
     bool good = !mod || scene->mods->count == 1;
     for (int i = 0; i < 60 && good; i++)
         good = jo_scene_step(scene, &error);
-    good = good && jox_lua_failures(scene->lua) == 0;
+    good = good && scene->world->machines.state->hook_failures == 0;
     jo_scene_free(scene);
     return good;
 }

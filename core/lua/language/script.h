@@ -215,7 +215,6 @@ struct JoxLua {
     uint32_t script_count;
     size_t script_capacity;
     JoxMachineRun *machines;
-    uint64_t failures;
     double arriving; /* s of calls as people come in, outside of steps; estimated */
     /* Agents as they were before the step, for hooks that look at others. */
     uint16_t *before_state, *before_machine;

@@ -73,9 +73,11 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->moved_out,
          "person moved out of the way of a wall|people moved out of the way of a wall"},
         {s->not_moved_out, "person left in the way of a wall|people left in the way of a wall"},
-        {jox_lua_failures(scene->lua),
+        {scene->world->machines.state->hook_failures,
          "failed call of a function of a behaviour|failed calls of functions of "
-         "behaviours"}};
+         "behaviours"},
+        {scene->world->machines.state->changes_lost,
+         "lost change of another's memory|lost changes of others' memory"}};
     bool any = false;
     for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
         if (events[e].count == 0)

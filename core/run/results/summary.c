@@ -78,7 +78,8 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"opened", s->opened},
                   {"closed", s->closed},
                   {"announced", s->announced},
-                  {"script_failures", jox_lua_failures(scene->lua)}};
+                  {"script_failures", scene->world->machines.state->hook_failures},
+                  {"changes_lost", scene->world->machines.state->changes_lost}};
     jox_json_object(json, "events");
     for (size_t e = 0; e < sizeof events / sizeof *events; e++)
         jox_json_whole(json, events[e].name, events[e].count);

@@ -94,6 +94,8 @@ static const struct {
     {"events.not_moved_out", "people who stayed in the way of walls that came", "", false},
     {"events.people_lost", "people lost", "", false},
     {"events.bodies_lost", "bodies lost", "", false},
+    {"events.script_failures", "failed calls of functions of behaviours", "", false},
+    {"events.changes_lost", "lost changes of others' memory", "", false},
     {"lp_failure_peak", "greatest share of agents in a step whose 2-D program failed", "", false},
     {"danger.density_max", "greatest density that was sampled " JOX_DENSITY_BY, "1/m2", false},
     {"danger.voronoi_max", "greatest Voronoi density of a person", "1/m2", false},
