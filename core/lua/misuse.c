@@ -1,8 +1,9 @@
 /* Misuse that Lua would pass over in silence: `and`, `or`, `not`, `==`, `~=` and tests decide at
    once, by whether there is a value, and a condition always is one. Reported are places where a
    value of the language, and nothing else, gets there, in functions too; a name's kind is that of
-   the variable it means. Where optional arguments of functions are told apart, as in `x = x or
-   goal`, nothing is lost. */
+   the variable it means. Nothing is reported where the code's own look says that the value may be
+   absent: an argument, a field of a table of options, the result of a function that may return
+   nothing. */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,11 +12,16 @@
 #include "lua/kinds.h"
 #include "lua/read.h"
 
+/* The trees of one source under search. */
 typedef struct Search {
     JoxScript *script;
+    const JoxKinds *all;
     const JoxSyntax *s;
     const JoxKind *kinds; /* of its trees */
     uint32_t source;
+    int32_t *fields; /* of each tree: the field of a table whose value it is, or JOX_NO_TREE */
+    bool *hooks;     /* of each function: it runs with the crowd */
+    uint32_t *looks; /* that may_lack has made, of all sources */
 } Search;
 
 static void add_misuse(const Search *f, uint32_t at, bool certain) {
@@ -52,22 +58,124 @@ static bool uses_left(const Search *f, const JoxTree *t) {
     return false;
 }
 
-/* Whether a tree is the value of an assignment to a variable with the name of its left operand. */
+static bool has_text(const JoxToken *a, const JoxToken *b) {
+    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
+}
+
+/* The name or field to which the value of a tree is assigned, or NULL: `x = ...`, `{ x = ... }`. */
+static const JoxToken *find_target(const Search *f, int32_t tree) {
+    const int32_t field = f->fields[tree];
+    if (field != JOX_NO_TREE)
+        return f->s->trees[field].named ? jox_syntax_token(f->s, field) : NULL;
+    for (size_t b = 0; b < f->s->binding_count; b++)
+        if (f->s->bindings[b].value == tree)
+            return jox_syntax_token(f->s, f->s->bindings[b].target);
+    return NULL;
+}
+
+/* Whether `a or b` gives the name or field `a` a default: what it is assigned to has its name. */
 static bool is_default(const Search *f, int32_t tree) {
     const JoxTree *left = bare(f, f->s->trees[tree].a);
-    const JoxToken *name = &f->s->source->tokens[left->at];
-    for (size_t b = 0; b < f->s->binding_count; b++) {
-        const JoxTreeBinding *bound = &f->s->bindings[b];
-        const JoxToken *to = jox_syntax_token(f->s, bound->target);
-        if (bound->value == tree && left->kind == JOX_TREE_NAME && to->length == name->length &&
-            memcmp(to->text, name->text, name->length) == 0)
-            return true;
-    }
-    return false;
+    const JoxToken *target = find_target(f, tree);
+    const bool name = left->kind == JOX_TREE_NAME || (left->kind == JOX_TREE_INDEX && left->named);
+    return target && name && has_text(target, &f->s->source->tokens[left->at]);
 }
 
 static bool is_joining(const Search *f, const JoxTree *t, const char *sign) {
     return t->kind == JOX_TREE_BINARY && jox_token_is(&f->s->source->tokens[t->at], sign);
+}
+
+/* ---- what may be absent ---- */
+
+enum { DEEPEST = 8, MOST_LOOKS = 5000000 };
+
+static bool may_lack(const Search *f, int32_t tree, bool tested, int depth);
+
+/* Whether a function may return nothing: it ends without a `return`, or one returns what may be
+   absent. */
+static bool may_return_nothing(const Search *f, JoxKind callee, int depth) {
+    const Search other = {.script = f->script,
+                          .all = f->all,
+                          .s = jox_outline_syntax(f->script->vm.sources[callee.source]),
+                          .kinds = f->all->trees[callee.source],
+                          .source = callee.source,
+                          .looks = f->looks};
+    const int32_t function = other.s->trees[callee.tree].variable;
+    bool lacks = !other.s->functions[function].returns;
+    *f->looks += (uint32_t)other.s->return_count;
+    for (size_t r = 0; r < other.s->return_count && !lacks; r++) {
+        const JoxTreeReturn *given = &other.s->returns[r];
+        lacks = given->function == function &&
+                (given->value == JOX_NO_TREE || (other.kinds[given->value].bits & JOX_KIND_FALSE) ||
+                 may_lack(&other, given->value, false, depth));
+    }
+    return lacks;
+}
+
+/* Whether a variable may hold nothing by what is assigned to it. In a test it also may where it is
+   assigned more than once. */
+static bool may_hold_nothing(const Search *f, int32_t variable, bool tested, int depth) {
+    int count = 0;
+    bool lacks = f->s->variables[variable].parameter != JOX_NO_TREE;
+    *f->looks += (uint32_t)f->s->binding_count;
+    for (size_t b = 0; b < f->s->binding_count && !lacks; b++) {
+        const JoxTreeBinding *bound = &f->s->bindings[b];
+        const JoxTree *target = &f->s->trees[bound->target];
+        if (target->kind != JOX_TREE_NAME || target->variable != variable)
+            continue;
+        count++;
+        lacks = bound->kind != JOX_BIND_VALUE || (tested && count > 1) ||
+                may_lack(f, bound->value, tested, depth);
+    }
+    return lacks;
+}
+
+/* Whether a value may be absent by the look of its expression, so that asking for it makes sense: a
+   field of a table that is written out, a parameter, the result of a function, `a or b`. Values of
+   `own`, `now` and memory never are. */
+static bool may_lack(const Search *f, int32_t tree, bool tested, int depth) {
+    const JoxTree *t = bare(f, tree);
+    if (depth <= 0 || *f->looks > MOST_LOOKS)
+        return true;
+    switch (t->kind) {
+    case JOX_TREE_NAME:
+        return t->variable != JOX_NO_TREE && may_hold_nothing(f, t->variable, tested, depth - 1);
+    case JOX_TREE_INDEX: {
+        const JoxKind table = f->kinds[t->a];
+        return table.site == JOX_SITE_TREE && (tested || table.source == f->source);
+    }
+    case JOX_TREE_CALL: {
+        const JoxKind callee = f->kinds[t->a];
+        return callee.site == JOX_SITE_TREE && may_return_nothing(f, callee, depth - 1);
+    }
+    case JOX_TREE_BINARY:
+        return is_joining(f, t, "and") ||
+               (is_joining(f, t, "or") && (tested || may_lack(f, t->b, tested, depth - 1)));
+    default:
+        return false;
+    }
+}
+
+/* Whether a tree stands in a function that runs with the crowd, where nothing is built any more. */
+static bool is_in_hook(const Search *f, const JoxTree *t) {
+    int32_t function = t->function;
+    while (function != JOX_NO_TREE && !f->hooks[function])
+        function = f->s->functions[function].parent;
+    return function != JOX_NO_TREE;
+}
+
+static bool may_be_absent(const Search *f, int32_t tree, bool tested) {
+    return !is_in_hook(f, &f->s->trees[tree]) && may_lack(f, tree, tested, DEEPEST);
+}
+
+/* ---- operators and tests ---- */
+
+/* Whether `a or b` where `a` may be absent is a default. In a table it is one under its own name:
+   `{ when = opts.when or after(3) }`; `{ when = opts.busy or after(3) }` means `|`. */
+static bool is_alternative(const Search *f, int32_t tree) {
+    const JoxTree *t = &f->s->trees[tree];
+    return is_default(f, tree) || bare(f, t->a)->kind == JOX_TREE_CALL ||
+           f->fields[tree] == JOX_NO_TREE || f->kinds[t->a].bits == JOX_KIND_VALUE;
 }
 
 /* `a and b`, `a or b` */
@@ -80,8 +188,12 @@ static void judge_joining(const Search *f, int32_t tree, bool is_or) {
         return;
     }
     const bool parameter = is_parameter(f, t->a);
-    const bool optional =
+    bool optional =
         parameter && (t->tested || (is_or && (a.bits == JOX_KIND_VALUE || is_default(f, tree))));
+    if (!parameter && may_be_absent(f, t->a, t->tested))
+        optional = t->tested || left->kind == JOX_TREE_CALL || (is_or && is_alternative(f, tree));
+    else if (!parameter && is_or && left->kind == JOX_TREE_NAME)
+        optional = is_default(f, tree);
     /* Of `a and b or c` the first operator is told of, or is none. */
     const bool chosen = is_or && is_joining(f, left, "and") && jox_kind_is_value(f->kinds[left->a]);
     if (!optional && !chosen && (is_or || !uses_left(f, t)))
@@ -107,9 +219,10 @@ static void judge_tree(const Search *f, int32_t tree) {
     const JoxTree *t = &f->s->trees[tree];
     if (t->kind == JOX_TREE_UNARY && jox_token_is(&f->s->source->tokens[t->at], "not")) {
         const JoxKind kind = f->kinds[t->a];
-        if (jox_kind_is_value(kind) && !(t->tested && is_parameter(f, t->a)))
+        const bool absent = is_parameter(f, t->a) ? t->tested : may_be_absent(f, t->a, true);
+        if (jox_kind_is_value(kind) && !absent)
             add_misuse(f, t->at, true);
-        else if (kind.bits & JOX_KIND_UNKNOWN)
+        else if ((kind.bits & JOX_KIND_UNKNOWN) || (jox_kind_is_value(kind) && !t->tested))
             add_misuse(f, t->at, false);
     } else if (is_joining(f, t, "and") || is_joining(f, t, "or")) {
         judge_joining(f, tree, is_joining(f, t, "or"));
@@ -118,11 +231,23 @@ static void judge_tree(const Search *f, int32_t tree) {
     }
 }
 
+/* A test of a value that is always there. In a function that runs with the crowd it was meant to
+   ask what the crowd does; while a file loads it may be a switch that is on. */
 static void judge_test(const Search *f, const JoxTreeTest *test) {
     const JoxTree *t = bare(f, test->value);
-    if (jox_kind_is_value(f->kinds[test->value]) && !is_parameter(f, test->value) &&
-        !is_joining(f, t, "and") && !is_joining(f, t, "or"))
+    if (!jox_kind_is_value(f->kinds[test->value]) || is_parameter(f, test->value) ||
+        is_joining(f, t, "and") || is_joining(f, t, "or") || may_be_absent(f, test->value, true))
+        return;
+    if (is_in_hook(f, t)) {
         add_misuse(f, test->at, true);
+        return;
+    }
+    const JoxToken *at = &f->s->source->tokens[test->at];
+    jox_diag_note(f->script->diagnostics,
+                  ((JoxPosition){f->s->source->path, at->line, at->column, at->end_column}),
+                  "lua-operator",
+                  "this test always holds, as its value is always there; what the crowd does is "
+                  "asked in a `when`");
 }
 
 /* The token that writes out the key of a field, a name or a text in brackets; NULL of any other. */
@@ -182,19 +307,66 @@ static void report(JoxBuild *b, JoxMisuse *misuse) {
                     "'%s' decides by whether there is a value, not by what the crowd does", sign);
 }
 
+/* Notes which functions run with the crowd: values of keys that take one. */
+static void find_hooks(const JoxKinds *kinds, Search *searches) {
+    static const char *const KEYS[] = {"when", "steer", "on_enter", "on_exit", "on_take"};
+    for (uint32_t n = 0; n < kinds->source_count; n++) {
+        const Search *f = &searches[n];
+        for (size_t t = 0; f->kinds && t < f->s->tree_count; t++) {
+            const JoxTree *field = &f->s->trees[t];
+            if (field->kind != JOX_TREE_FIELD || !field->named)
+                continue;
+            const JoxKind kind = f->kinds[field->b];
+            bool hook = false;
+            for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
+                hook |= jox_token_is(jox_syntax_token(f->s, (int32_t)t), KEYS[k]);
+            if (hook && kind.bits == JOX_KIND_FUNCTION && kind.site == JOX_SITE_TREE) {
+                const Search *of = &searches[kind.source];
+                of->hooks[of->s->trees[kind.tree].variable] = true;
+            }
+        }
+    }
+}
+
+static Search begin_search(JoxScript *script, const JoxKinds *kinds, uint32_t source) {
+    Search f = {.script = script,
+                .all = kinds,
+                .s = jox_outline_syntax(script->vm.sources[source]),
+                .kinds = kinds->trees[source],
+                .source = source};
+    f.hooks = jox_alloc(f.s->function_count + 1, sizeof *f.hooks);
+    f.fields = jox_alloc(f.s->tree_count + 1, sizeof *f.fields);
+    for (size_t t = 0; t < f.s->tree_count; t++)
+        f.fields[t] = JOX_NO_TREE;
+    for (size_t t = 0; f.kinds && t < f.s->tree_count; t++)
+        if (f.s->trees[t].kind == JOX_TREE_FIELD)
+            f.fields[jox_syntax_bare(f.s, f.s->trees[t].b)] = (int32_t)t;
+    return f;
+}
+
 void jox_misuse_find(JoxBuild *b) {
     JoxScript *script = b->script;
     JOX_ASSERT(script->misuse_count == 0);
     JoxKinds *kinds = jox_kinds_read(script);
-    for (uint32_t n = 0; kinds->settled && n < kinds->source_count; n++) {
-        if (!kinds->trees[n])
-            continue;
-        const Search f = {script, jox_outline_syntax(script->vm.sources[n]), kinds->trees[n], n};
-        for (size_t t = 0; t < f.s->tree_count; t++)
-            judge_tree(&f, (int32_t)t);
-        for (size_t t = 0; t < f.s->test_count; t++)
-            judge_test(&f, &f.s->tests[t]);
+    Search *searches = jox_alloc(kinds->source_count + 1, sizeof *searches);
+    uint32_t looks = 0;
+    for (uint32_t n = 0; n < kinds->source_count; n++) {
+        searches[n] = begin_search(script, kinds, n);
+        searches[n].looks = &looks;
     }
+    find_hooks(kinds, searches);
+    for (uint32_t n = 0; n < kinds->source_count; n++) {
+        const Search *f = &searches[n];
+        for (size_t t = 0; kinds->settled && f->kinds && t < f->s->tree_count; t++)
+            judge_tree(f, (int32_t)t);
+        for (size_t t = 0; kinds->settled && f->kinds && t < f->s->test_count; t++)
+            judge_test(f, &f->s->tests[t]);
+    }
+    for (uint32_t n = 0; n < kinds->source_count; n++) {
+        jox_free(searches[n].hooks);
+        jox_free(searches[n].fields);
+    }
+    jox_free(searches);
     if (!kinds->settled)
         jox_diag_warn(
             script->diagnostics, ((JoxPosition){b->source->path, 0, 0, 0}), "too-large",

@@ -89,6 +89,104 @@ static const char *const GOOD[] = {
               "near(kind(\"any\"), 2) | near(kind(nearest \"ball\"), 2)", ""),
 };
 
+/* Behaviours as people write them: libraries that build states, options, defaults. Of each, nothing
+   is said. */
+static const char *const IDIOMS[] = {
+    /* options that are constants at the top of the file */
+    BEHAVIOUR("local opts = { extra = after(9) }\nlocal cond = stuck(2)\n"
+              "if opts.extra then cond = cond | opts.extra end",
+              "cond", ""),
+    BEHAVIOUR("local opts = {}\nopts.extra = after(9)\nlocal cond = stuck(2)\n"
+              "if opts.extra and opts.other then cond = cond | opts.extra end",
+              "cond", ""),
+    BEHAVIOUR("local opts = { when = after(9) }\nlocal w = opts.when or lasted", "w", ""),
+    BEHAVIOUR("local opts = { when = after(9) }", "opts.when or lasted", ""),
+    BEHAVIOUR("local opts = { at = nearest \"ball\" }", "near(opts.at or \"post\", 2)", ""),
+    BEHAVIOUR("local opts = { calm = after(9) }\nlocal c = after(1)\n"
+              "if not opts.calm then c = lasted end",
+              "c", ""),
+    BEHAVIOUR("local DEFAULTS = { far = near(\"post\", 9) }\n"
+              "local function pick(o) return o.far or DEFAULTS.far end",
+              "pick { } & pick { far = after(1) }", ""),
+    BEHAVIOUR(
+        "local opts = { when = after(9) }\nlocal w = opts.when\nif w then w = w | stuck(3) end",
+        "w", ""),
+    /* what was chosen by `or` */
+    BEHAVIOUR("local maybe\nlocal w = maybe or after(3)\nlocal c = stuck(1)\n"
+              "if w then c = c | w end",
+              "c", ""),
+    BEHAVIOUR("local maybe = nil\nlocal w = maybe or after(3)", "w", ""),
+    BEHAVIOUR("local w = after(3)\nw = w or lasted", "w", ""),
+    BEHAVIOUR("local function f(w) w = w or after(3) if w then return w end return lasted end",
+              "f() | f(stuck(2))", ""),
+    BEHAVIOUR("local function f(o) local w = o.when or after(3) if w then return w end end",
+              "f { }", ""),
+    BEHAVIOUR("local function f(w) local c = w if c then return c & after(1) end return lasted end",
+              "f(stuck(2))", ""),
+    /* lists of what to do, and states that are built in a loop */
+    BEHAVIOUR("local list = { { to = \"B\", when = after(2) } }\nlocal c = stuck(9)\n"
+              "for _, t in ipairs(list) do if t.when then c = c | t.when end end",
+              "c", ""),
+    BEHAVIOUR("local list = { { to = \"B\", when = after(2) }, { to = \"B\", when = after(4) } }\n"
+              "local all\nfor _, t in ipairs(list) do\n"
+              "local w = t.when or lasted all = all and all | w or w end",
+              "all", ""),
+    "local states = {}\nfor i = 1, 3 do\n  local last = i == 3\n"
+    "  states[\"S\" .. i] = { steer = hold, { to = last and \"S1\" or \"S\" .. (i + 1), when = "
+    "after(i) } }\nend\nreturn machine { name = \"m\", start = \"S1\", states = states }",
+    "local function stop(name, opts)\n  opts = opts or {}\n  return { steer = hold,\n"
+    "    { to = name, when = opts.when or after(opts.wait or 2) } }\nend\n"
+    "return machine { name = \"m\", start = \"A\", states = {\n"
+    "  A = stop(\"B\", { when = stuck(2) }), B = stop(\"A\") } }",
+    "local rows = { A = { \"B\", after(1) }, B = { \"A\", after(2), lasted } }\nlocal states = {}\n"
+    "for name, row in pairs(rows) do\n  local when = row[2]\n"
+    "  if row[3] then when = when & row[3] end\n"
+    "  states[name] = { steer = hold, { to = row[1], when = when } }\nend\n"
+    "return machine { name = \"m\", start = \"A\", states = states }",
+    /* functions that give a condition or nothing */
+    BEHAVIOUR("local function maybe(n) if n then return after(n) end end", "maybe(2) or lasted",
+              ""),
+    BEHAVIOUR("local function maybe(n) if n then return after(n) end end\nlocal c = stuck(1)\n"
+              "if maybe(2) then c = c | maybe(2) end",
+              "c", ""),
+    BEHAVIOUR("local function pick(n) if n > 1 then return after(n) else return nil end end\n"
+              "local c = pick(2)\nif not c then c = lasted end",
+              "c", ""),
+    /* varargs, closures, nested functions, shadowing */
+    BEHAVIOUR("local function any(...)\n  local all\n  for i = 1, select(\"#\", ...) do\n"
+              "    local c = select(i, ...)\n    if c then all = all and all | c or c end\n  end\n"
+              "  return all\nend",
+              "any(after(1), nil, stuck(2))", ""),
+    BEHAVIOUR("local function maker()\n  local made\n  return function(c)\n"
+              "    if made then made = made | c else made = c end\n    return made\n  end\nend\n"
+              "local add = maker()\nadd(after(1))",
+              "add(stuck(2))", ""),
+    BEHAVIOUR("local busy = after(1)\ndo\n  local busy = false\n  if busy then return end\nend",
+              "busy", ""),
+    BEHAVIOUR("local c = after(1)\nlocal function f() local c = nil if c then return c end return "
+              "lasted end",
+              "c & f()", ""),
+    /* pcall, goto, division, methods of strings */
+    BEHAVIOUR("local ok, c = pcall(function() return after(2) end)\n"
+              "if not ok or not c then c = lasted end",
+              "c", ""),
+    BEHAVIOUR("local c = after(1)\nfor i = 1, 4 do\n  if i % 2 == 0 then goto on end\n"
+              "  c = c | stuck(i)\n  ::on::\nend",
+              "c", ""),
+    BEHAVIOUR("local n = 7 // 2\nlocal c = n == 3 and after(n) or lasted", "c", ""),
+    BEHAVIOUR("local name = (\"post\"):upper():lower()\n"
+              "local c = name:sub(1, 1) == \"p\" and near(name, 2) or after(1)",
+              "c", ""),
+    BEHAVIOUR("local extra <const> = { after(1) }\nlocal c = extra[1] or lasted", "c", ""),
+    BEHAVIOUR("local lib = require \"crowd\"\nlocal c = lasted\n"
+              "if lib.packed then c = c | lib.packed end",
+              "c", ""),
+    BEHAVIOUR(MINE "local flags = { met = mine.met }\nlocal c = after(5)\n"
+                   "if flags.met then c = c & ~flags.met end",
+              "c", ""),
+    BEHAVIOUR("local c = after(1)\nrepeat local more = c c = more | stuck(1) until c", "c", ""),
+};
+
 /* A backtick marks what is refused. */
 static const char *const BAD[] = {
     BEHAVIOUR("", "after(3) `and stuck(2)", ""),
@@ -126,6 +224,41 @@ static const char *const BAD[] = {
               "on_enter = function(me) `if busy then me.goal = \"post\" end end,"),
     BEHAVIOUR("local busy = after(1)", "function(me) return `not busy end", ""),
     BEHAVIOUR("local t = { { after(1) }, { after(2) } }", "t[1][1] `and t[2][1]", ""),
+    BEHAVIOUR("local c = { busy = after(1) }", "c.busy `or after(2)", ""),
+    BEHAVIOUR("local c = { busy = after(1) }", "`not c.busy", ""),
+    BEHAVIOUR("local c = { busy = after(1) }\nlocal b = c.busy `and stuck(2)", "b", ""),
+    BEHAVIOUR("local c = { busy = after(1) }", "c.busy",
+              "on_enter = function(me) `if c.busy then me.goal = \"post\" end end,"),
+    BEHAVIOUR(
+        "local c = { busy = after(1) }", "c.busy",
+        "on_exit = function(me) if me.x > 1 and `not c.busy then me.goal = \"post\" end end,"),
+    BEHAVIOUR("local busy = after(1)\nlocal function run(me) while me.x > 3 do\n"
+              "`if busy then return end end end",
+              "busy", "on_enter = run,"),
+    BEHAVIOUR("local a = after(1)\nlocal c = a `or lasted", "c", ""),
+    BEHAVIOUR("local a = after(1)\na = after(2)", "a `or lasted", ""),
+    BEHAVIOUR("local a = after(1)\nif 3 > 2 then a = after(2) end", "a `and lasted", ""),
+    BEHAVIOUR("local opts = { when = after(9) }\nlocal w = opts.when or lasted", "w `and after(1)",
+              ""),
+    BEHAVIOUR("local lib = require \"crowd\"\nlocal w = lib.packed `or lasted", "w", ""),
+    BEHAVIOUR(MINE "local n = mine.laps `== 3", "after(1)", "set = { met = n },"),
+    BEHAVIOUR(MINE "local c = lasted\nif mine.laps `== 3 then c = after(1) end", "c", ""),
+    BEHAVIOUR(MINE, "(mine.met `and lasted) | after(3)", ""),
+    BEHAVIOUR("local function both() return after(1) `and lasted end", "both()", ""),
+    BEHAVIOUR("local states = { after(1) }\nlocal c\nfor i = 1, 1 do c = stuck(i) `and lasted end",
+              "c", ""),
+    BEHAVIOUR("", "near(\"post\", 2) `and ~stuck(1) | lasted", ""),
+    BEHAVIOUR("", "after(1) & (stuck(2) `or lasted)", ""),
+    BEHAVIOUR("", "(`not near(\"post\", 2)) or after(2)", ""),
+    BEHAVIOUR("", "now.speed `~= 0", ""),
+    BEHAVIOUR("", "own.speed `== 0", ""),
+    BEHAVIOUR("", "sees(nearest \"ball\") `and after(1)", ""),
+    BEHAVIOUR("", "heard \"alarm\" `or after(9)", ""),
+    BEHAVIOUR("local t = { c = after(1) }", "after(1)", "push_when = t.c `and lasted,"),
+    BEHAVIOUR("local lib = require \"crowd\"", "`not lib.packed", ""),
+    BEHAVIOUR("local near_post = near(\"post\", 2)\nlocal function far(me) return `not near_post "
+              "end",
+              "far", ""),
 };
 
 /* The behaviour's text without its mark, which gives the place. */
@@ -170,6 +303,41 @@ static void valid_lua_loads(void **state) {
                      diagnostics.items[0].message);
         jox_diag_free(&diagnostics);
     }
+}
+
+static void idioms_load_in_silence(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof IDIOMS / sizeof *IDIOMS; i++) {
+        JoxDiagnostics diagnostics = {0};
+        errors_of(IDIOMS[i], &diagnostics);
+        for (size_t d = 0; d < diagnostics.count; d++) {
+            const JoxDiagnostic *told = &diagnostics.items[d];
+            if (told->severity == JOX_SEVERITY_ERROR || !strcmp(told->code, "lua-operator"))
+                fail_msg("%s\n gave %s:%d:%d %s", IDIOMS[i], told->file, told->line, told->column,
+                         told->message);
+        }
+        jox_diag_free(&diagnostics);
+    }
+}
+
+/* While the file loads, a test of what is surely there may be a switch: it is noted, not refused.
+ */
+static void sure_test_is_noted(void **state) {
+    (void)state;
+    JoxDiagnostics diagnostics = {0};
+    const char *text = BEHAVIOUR("local extra = after(9)\nlocal c = stuck(2)\n"
+                                 "if extra then c = c | extra end",
+                                 "c", "");
+    assert_int_equal(errors_of(text, &diagnostics), 0);
+    const JoxDiagnostic *note = NULL;
+    for (size_t d = 0; d < diagnostics.count; d++)
+        if (!strcmp(diagnostics.items[d].code, "lua-operator"))
+            note = &diagnostics.items[d];
+    assert_non_null(note);
+    assert_int_equal(note->severity, JOX_SEVERITY_NOTE);
+    assert_int_equal(note->line, 3);
+    assert_int_equal(note->column, 1);
+    jox_diag_free(&diagnostics);
 }
 
 static void misuse_is_refused_at_its_place(void **state) {
@@ -238,6 +406,8 @@ static void parser_reads_all_of_lua(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(valid_lua_loads),
+        cmocka_unit_test(idioms_load_in_silence),
+        cmocka_unit_test(sure_test_is_noted),
         cmocka_unit_test(misuse_is_refused_at_its_place),
         cmocka_unit_test(library_function_is_judged_by_its_arguments),
         cmocka_unit_test(parser_reads_all_of_lua),

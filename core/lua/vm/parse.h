@@ -11,6 +11,7 @@ struct JoxParser {
     JoxSyntax *tree;
     const JoxToken *tokens;
     size_t at, count;
+    size_t returned;  /* where the last `return` that was read ends */
     int32_t *visible; /* variables, innermost last */
     size_t visible_count, visible_capacity;
     int32_t function; /* being read */

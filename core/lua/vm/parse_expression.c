@@ -30,7 +30,7 @@ int32_t jox_parse_function(JoxParser *p, uint32_t at, bool method) {
     int32_t tree = jox_parse_add(p, JOX_TREE_FUNCTION, at), count = 0;
     JOX_RESERVE(s->functions, s->function_capacity, s->function_count + 1);
     const int32_t number = (int32_t)s->function_count++;
-    s->functions[number] = (JoxTreeFunction){line, line, outer};
+    s->functions[number] = (JoxTreeFunction){line, line, outer, false};
     jox_parse_tree(p, tree)->variable = p->function = number;
     count += method; /* its name is no token of the file: uses of `self` count as a global's */
     jox_parse_expect(p, "(");
@@ -42,6 +42,7 @@ int32_t jox_parse_function(JoxParser *p, uint32_t at, bool method) {
     jox_parse_accept(p, "...");
     jox_parse_expect(p, ")");
     p->block(p);
+    s->functions[number].returns = p->returned == p->at;
     if (p->at < p->count)
         s->functions[number].last_line = p->tokens[p->at].line;
     jox_parse_expect(p, "end");

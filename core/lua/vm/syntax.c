@@ -142,6 +142,7 @@ static void read_return(JoxParser *p) {
         !jox_parse_is(p, "until") && !jox_parse_is(p, ";") && p->at < p->count)
         value = jox_parse_list(p, &last);
     jox_parse_accept(p, ";");
+    p->returned = p->at;
     JOX_RESERVE(s->returns, s->return_capacity, s->return_count + 1);
     s->returns[s->return_count++] = (JoxTreeReturn){p->function, value};
 }
@@ -230,7 +231,7 @@ JoxSyntax *jox_syntax_read(const JoxSource *source) {
         .tree = s, .tokens = source->tokens, .count = source->token_count, .block = read_block};
     s->source = source;
     JOX_RESERVE(s->functions, s->function_capacity, 1);
-    s->functions[s->function_count++] = (JoxTreeFunction){0, 0, JOX_NO_TREE};
+    s->functions[s->function_count++] = (JoxTreeFunction){.parent = JOX_NO_TREE};
     read_block(&p);
     s->whole = !p.failed && p.at == p.count;
     jox_free(p.visible);

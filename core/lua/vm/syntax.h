@@ -45,6 +45,7 @@ typedef struct JoxTreeVariable {
 typedef struct JoxTreeFunction {
     int first_line, last_line; /* as Lua tells them; 0 of the file itself */
     int32_t parent;            /* JOX_NO_TREE of the file itself, which is function 0 */
+    bool returns;              /* its last statement is a `return` */
 } JoxTreeFunction;
 
 typedef enum {
