@@ -1,13 +1,15 @@
-/* Half-planes of one agent, in plain C: of walls, of what it touches, of force, and by the walking
-   law; the kernel of solve makes those of its neighbours by ORCA. All of one agent's for who
-   inspects it. */
+/* Half-planes of one agent: of walls, contacts, neighbours, bodies and force. The kernel of solve
+   makes those of neighbours by itself, unless centres coincide; an inspected agent gets all of them
+   here. */
+#define JOX_ISA_scalar
 #include "base/assert.h"
+#include "base/number/bits.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
-#include "nav/walk.h"
+#include "nav/pair_lanes.h"
 
 /* Where two centres coincide they part in opposite directions that depend on their ids alone. */
-static JoxV2 parting(uint32_t id, uint32_t other) {
+static JoxV2 find_parting(uint32_t id, uint32_t other) {
     uint32_t low = id < other ? id : other, high = id < other ? other : id;
     uint64_t bits = jox_random_bits(0, low, high, JOX_DRAW_AIM, 0);
     JoxV2 d = {(float)(bits & 0xffff) - 32767.5f, (float)(bits >> 16 & 0xffff) - 32767.5f};
@@ -50,56 +52,56 @@ bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
            is_hidden(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 
-/* ORCA's half-plane of agent i for j, who is at p from it. */
-static JoxHalfPlane orca_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
-                                    float radii) {
+/* The half-plane of agent i by the walking law for agent j, which is at q from it; false where the
+   law has none. */
+static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
+                              const JoxPair *q, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
-    float share = s->nav->literal ? 0.5f : jox_param(a, JOX_PARAM_yield, i); /* (3) prints u/2 */
-    JoxV2 velocity = {a->vx[i], a->vy[i]}, away = {1.0f, 0.0f};
-    if (p.x == 0.0f && p.y == 0.0f)
-        away = parting(a->id[i], a->id[j]);
-    return jox_orca_half_plane(p, jox_v2(velocity.x - a->vx[j], velocity.y - a->vy[j]), radii,
-                               jox_param(a, JOX_PARAM_horizon, i), s->planning_time, velocity,
-                               share, away);
+    const JoxVector velocity = {a->vx[j], a->vy[j]};
+    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way[j],
+                                  jox_float_of((uint32_t)a->bound[j])};
+    const JoxWalkerGap gap = jox_walker_gap(s->nav->walk, self, q);
+    const JoxMindsLanes minds = jox_minds_lanes(a, i, (JoxInts)j, heading, (JoxVector){q->x, q->y});
+    JoxVector towards = jv_scale((JoxVector){q->x, q->y}, 1.0f / gap.distance);
+    JoxMask there;
+    if (!(gap.distance > 0.0f)) {
+        const JoxV2 away = find_parting(a->id[i], a->id[j]);
+        towards = (JoxVector){-away.x, -away.y};
+    }
+    const JoxPlaneLanes plane =
+        jox_walker_plane(s->nav->walk, &gap, &minds, towards, velocity, &there);
+    *out = (JoxHalfPlane){{plane.x, plane.y}, plane.offset};
+    return there;
 }
 
-/* The half-plane of one who walks by the law, in place of ORCA's: those it minds are not approached
-   faster than uses up the gap within `close_time`, half of it where they cross. False: the law has
-   none for j. */
-static bool walker_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
-                              JoxHalfPlane *out) {
+/* The half-plane of agent i by ORCA for agent j, which is at q from it. */
+static JoxHalfPlane find_orca_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
+                                    const JoxPair *q) {
     const JoxAgents *a = s->agents;
-    const JoxWalkLaw *law = s->nav->walk;
-    JoxMinds minds = jox_minds(a, i, j, p);
-    if (minds == JOX_MINDS_NOT)
-        return false;
-    float distance = jox_length(p);
-    float gap = distance - jox_walk_width(law, a, i, j, minds);
-    if (gap >= (float)law->close)
-        return false;
-    JoxV2 towards = distance > 0.0f ? jox_scale(p, 1.0f / distance)
-                                    : jox_scale(parting(a->id[i], a->id[j]), -1.0f);
-    float share = minds == JOX_MINDS_CROSSING ? 0.5f : 1.0f;
-    float leaves = towards.x * a->vx[j] + towards.y * a->vy[j];
-    float most = jox_maxf(0.0f, leaves) + share * jox_maxf(gap, 0.0f) / (float)law->close_time;
-    *out = (JoxHalfPlane){jox_scale(towards, -1.0f), -most};
-    return true;
+    const bool coincide = q->x == 0.0f && q->y == 0.0f;
+    const JoxV2 away = coincide ? find_parting(a->id[i], a->id[j]) : (JoxV2){1.0f, 0.0f};
+    return jox_orca_half_plane((JoxV2){q->x, q->y}, (JoxV2){q->vx, q->vy}, q->radii,
+                               jox_param(a, JOX_PARAM_horizon, i), s->planning_time,
+                               (JoxV2){a->vx[i], a->vy[i]}, self->orca.share, away);
 }
 
 uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    const bool walker = jox_solve_walks(s, i);
+    const bool walks = jox_solve_walks(s, i);
+    const JoxSelf self = jox_self_of(s, i, walks);
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
         uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
         if (jox_solve_passes_over(s, i, j))
             continue;
-        JoxV2 p = jox_offset(a, i, j);
-        if (!walker)
-            out[made++] = orca_half_plane(s, i, j, p, jox_at(radius, i) + jox_at(radius, j));
-        else if (walker_half_plane(s, i, j, p, &out[made]))
-            made++;
+        const JoxV2 p = jox_offset(a, i, j);
+        const JoxPair q = {p.x, p.y, a->vx[i] - a->vx[j], a->vy[i] - a->vy[j],
+                           jox_at(radius, i) + jox_at(radius, j)};
+        if (!walks)
+            out[made++] = find_orca_plane(s, i, j, &self, &q);
+        else
+            made += find_walker_plane(s, i, j, &self, &q, &out[made]);
     }
     return made;
 }

@@ -59,13 +59,6 @@ static inline float jox_turn_aside(const JoxSolve *s, uint32_t i) {
     const uint64_t bits = jox_random_of(s->stream, s->agents->id[i], 0, s->moment);
     return jox_minf(stood, 1.0f) * (float)jox_random_share(bits);
 }
-/* The preferred velocity of an agent that stands before others, turned aside by jox_turn_aside. */
-static inline JoxV2 jox_wish_aside(JoxV2 wanted, float turn) {
-    const float right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
-    const float on = 1.0f - JOX_ASIDE_BACK * turn;
-    return jox_v2(on * wanted.x + right * wanted.y, on * wanted.y - right * wanted.x);
-}
-
 /* How many half-planes of each kind an agent has, in their order, which is that of
    JoxConstraintKind. */
 typedef struct JoxHalfPlaneCounts {

@@ -15,8 +15,8 @@
 #include "agents/param_lanes.h"
 #include "geom/wall_grid_lanes.h"
 #include "nav/kernels.h"
+#include "nav/pair_lanes.h"
 #include "nav/rest_lanes.h"
-#include "nav/walk_lanes.h"
 
 typedef struct JoxPacket {
     const JoxSolve *s;
@@ -66,85 +66,7 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
 #define JOX_PUT_EACH(packet, lanes, row, make, kind)                                               \
     jox_put_each(packet, lanes, row, make, offsetof(JoxHalfPlaneCounts, kind))
 
-/* ---- half-planes by ORCA, as of orca.c, to the bit ---- */
-
-/* Two who may meet: where the other is from the agent, m, the agent's velocity less the other's,
-   m/s, and the sum of their radii, m. */
-typedef struct JoxPair {
-    JoxFloats x, y, vx, vy, radii;
-} JoxPair;
-
-/* What ORCA's half-planes of one agent have in common: its velocity, m/s, the inverse of its
-   horizon, 1/s, and its share of the correction. */
-typedef struct JoxOrcaSelf {
-    JoxVector velocity;
-    JoxFloats inverse, share;
-} JoxOrcaSelf;
-
-/* Half of the work for a neighbour: the velocity obstacle is bounded by a disc and by two legs;
-   what both cases need, one root and one quotient, is computed once, of what the case of the lane
-   takes. Roots and quotients take long: those of all neighbours are begun before one of them is
-   used. */
-typedef struct JoxOrcaHalf {
-    JoxVector w;  /* relative velocity less that which makes them meet at the horizon, m/s */
-    JoxMask disc; /* else a leg */
-    JoxFloats length, by, round; /* of w or of a leg; 1 / that, or 1 / distance^2; of the disc */
-} JoxOrcaHalf;
-
-/* Of the lanes, only those of `wanted` (bits) are of any meaning. Adds those of which the two
-   coincide to `coincide`. */
-static inline __attribute__((always_inline)) JoxOrcaHalf jox_orca_begin(const JoxPair *q,
-                                                                        const JoxOrcaSelf *self,
-                                                                        float dt, uint32_t wanted,
-                                                                        uint32_t *coincide) {
-    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats d2 = q->x * q->x + q->y * q->y;
-    const JoxFloats r2 = q->radii * q->radii;
-    const JoxMask overlap = jf_le(d2, r2);
-    JoxFloats inverse = self->inverse, round = q->radii * inverse;
-    if (jm_bits(overlap) & wanted) { /* they are to part within dt */
-        inverse = jf_select(overlap, jf_set(1.0f / dt), inverse);
-        round = jf_select(overlap, q->radii / dt, round);
-        *coincide |= jm_bits(jf_le(d2, zero)) & wanted;
-    }
-    const JoxVector w = {q->vx - q->x * inverse, q->vy - q->y * inverse};
-    const JoxFloats w2 = jv_dot(w, w), along = w.x * q->x + w.y * q->y;
-    const JoxMask before = jm_and(jf_lt(along, zero), jf_lt(r2 * w2, along * along));
-    const JoxMask disc = jm_or(overlap, before);
-    const JoxFloats length = jf_sqrt(jf_select(disc, w2, d2 - r2));
-    const JoxFloats by = one / jf_select(disc, length, d2);
-    return (JoxOrcaHalf){w, disc, length, by, round};
-}
-
-/* The half-plane for a neighbour: see jox_orca_half_plane. Its normal is out along w, or that of
-   the nearer leg, whose direction is (ny, -nx); (1, 0) where the centres coincide and move alike.
- */
-static inline __attribute__((always_inline)) JoxPlaneLanes
-jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
-    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxMask left = jf_lt(zero, q->x * h->w.y - q->y * h->w.x);
-    const JoxFloats side = jf_select(left, h->length, -h->length);
-    const JoxFloats leg_x = q->x * side - q->y * q->radii;
-    const JoxFloats leg_y = q->x * q->radii + q->y * side;
-    const JoxMask rests = jm_without(h->disc, jf_lt(jf_set(1e-6f), h->length));
-    const JoxFloats x = jf_select(h->disc, h->w.x, -leg_y);
-    const JoxFloats y = jf_select(h->disc, h->w.y, leg_x);
-    const JoxFloats nx = jf_select(rests, one, x * h->by);
-    const JoxFloats ny = jf_select(rests, zero, y * h->by);
-    const JoxFloats into = nx * q->vx + ny * q->vy;
-    const JoxFloats change = jf_select(h->disc, h->round - h->length, -into);
-    const JoxFloats own = nx * self->velocity.x + ny * self->velocity.y;
-    return (JoxPlaneLanes){nx, ny, own + change * self->share};
-}
-
 /* ---- half-planes of neighbours ---- */
-
-/* What does not change from neighbour to neighbour. */
-typedef struct JoxSelf {
-    JoxFloats x, y, radius;
-    JoxFloats room; /* that a walker leaves to whom it follows, a share of the law's */
-    JoxOrcaSelf orca;
-} JoxSelf;
 
 /* Whom agents touch: a row has one of each lane, or itself. */
 typedef struct JoxTouched {
@@ -186,65 +108,6 @@ static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint
         if ((picky >> lane & 1) && jox_solve_passes_over(p->s, p->first + lane, index[lane]))
             lanes &= ~(1u << lane);
     return lanes;
-}
-
-static inline JoxSelf jox_self_of(const JoxPacket *p) {
-    const JoxAgents *a = p->s->agents;
-    const uint32_t i = p->first;
-    JoxFloats room = jf_set(1.0f);
-    if (p->walkers)
-        room -= (float)p->s->nav->walk->room_eager * jf_load(a->eager + i);
-    return (JoxSelf){
-        .x = jf_load(a->x + i),
-        .y = jf_load(a->y + i),
-        .radius = jox_param_lanes(a, JOX_PARAM_radius, i),
-        .room = room,
-        .orca = {.velocity = jv_load(a->vx, a->vy, i),
-                 .inverse = 1.0f / jox_param_lanes(a, JOX_PARAM_horizon, i),
-                 .share =
-                     p->s->nav->literal ? jf_set(0.5f) : jox_param_lanes(a, JOX_PARAM_yield, i)},
-    };
-}
-
-/* How far a walker and its neighbour are apart, and what their widths are, m: that of one who
-   follows, and that of one who crosses. */
-typedef struct JoxWalkerGap {
-    JoxFloats distance, follows, crosses;
-} JoxWalkerGap;
-
-static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *self,
-                                          const JoxPair *q) {
-    const JoxVector offset = {q->x, q->y};
-    return (JoxWalkerGap){
-        jf_sqrt(jv_dot(offset, offset)),
-        q->radii * (float)law->width * self->room,
-        q->radii * (float)law->width_cross,
-    };
-}
-
-/* Those for whom a walker is too far away to have a half-plane, however they mind each other. */
-static inline JoxMask jox_walker_is_far(const JoxWalkLaw *law, const JoxWalkerGap *g) {
-    return jf_le(jf_set((float)law->close), g->distance - jf_max(g->crosses, g->follows));
-}
-
-/* The half-planes of walkers in place of ORCA's, of those who mind their neighbours, and who they
-   are; their offset is q->x, q->y: see walker_half_plane in half_planes.c. */
-static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxPair *q,
-                                             const JoxWalkerGap *g, JoxInts others,
-                                             JoxVector velocity, JoxMask *there) {
-    const JoxAgents *a = p->s->agents;
-    const JoxWalkLaw *law = p->s->nav->walk;
-    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxVector offset = {q->x, q->y};
-    const JoxMindsLanes minds = jox_minds_lanes(p->s->nav, a, p->first, others, offset);
-    const JoxFloats gap = g->distance - jf_select(minds.crossing, g->crosses, g->follows);
-    const JoxFloats by = one / g->distance;
-    const JoxVector towards = {q->x * by, q->y * by};
-    const JoxFloats leaves = jv_dot(towards, velocity);
-    const JoxFloats share = jf_select(minds.crossing, jf_set(0.5f), one);
-    const JoxFloats closes = share * jf_max(gap, zero) / (float)law->close_time;
-    *there = jm_without(jm_or(minds.ahead, minds.crossing), jf_le(jf_set((float)law->close), gap));
-    return (JoxPlaneLanes){-towards.x, -towards.y, -(jf_max(zero, leaves) + closes)};
 }
 
 static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlaneLanes b) {
@@ -307,23 +170,35 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
     }
 }
 
-/* The half-planes of `lanes` for a neighbour of each: zeros for those who have none. `walkers`: of
-   them; `all`: those of the packet. */
+/* The half-planes of walkers for a neighbour of each lane; *there: lanes that have one. */
+static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxNeighbour *near,
+                                             const JoxWalkerGap *gap, JoxInts others,
+                                             JoxMask *there) {
+    const JoxNav *nav = p->s->nav;
+    const JoxVector offset = {near->pair.x, near->pair.y};
+    JoxFloats heading[4];
+    jf_records(&nav->headings[0].aim_x, others, heading);
+    const JoxMindsLanes minds = jox_minds_lanes(p->s->agents, p->first, others, heading, offset);
+    const JoxVector towards = jv_scale(offset, 1.0f / gap->distance);
+    return jox_walker_plane(nav->walk, gap, &minds, towards, near->velocity, there);
+}
+
+/* The half-planes of `lanes` (bits) for a neighbour of each; zeros in the other lanes. `walkers`:
+   lanes that walk by the law; `all`: lanes of the packet. */
 static inline __attribute__((always_inline)) void
 jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_t all,
                 const uint32_t walkers, const JoxNeighbour *near, const JoxWalkerGap *gap,
                 const uint32_t *others, JoxPlaneLanes *plane) {
     const JoxPlaneLanes none = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)};
-    const JoxPair *q = &near->pair;
     JoxMask minds = jm_of_bits(lanes);
     *plane = none;
     if (all & ~walkers)
-        *plane = jox_orca_end(q, &self->orca, &near->half);
+        *plane = jox_orca_end(&near->pair, &self->orca, &near->half);
     if (walkers) {
         JoxMask has;
         const JoxMask walk = jm_of_bits(walkers);
-        *plane = jox_select_plane(
-            walk, jox_walker_lanes(p, q, gap, ji_load(others), near->velocity, &has), *plane);
+        *plane =
+            jox_select_plane(walk, jox_walker_lanes(p, near, gap, ji_load(others), &has), *plane);
         minds = jm_without(minds, jm_without(walk, has));
     }
     if (walkers || lanes != JOX_ALL_LANES)
@@ -353,7 +228,7 @@ static inline __attribute__((always_inline)) uint32_t
 jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSolve *s = p->s;
     const JoxNeighbours *near = s->neighbours;
-    const JoxSelf self = jox_self_of(p);
+    const JoxSelf self = jox_self_of(s, p->first, walkers);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
     const uint32_t picky = jox_picky_lanes(p->s->agents, p->first) & p->lanes,

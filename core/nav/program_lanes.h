@@ -1,5 +1,7 @@
-/* The linear programs of linear_program.c for all lanes of a packet in lock step, to the bit. For
-   kernels: part of those that include it. */
+/* The linear programs over half-planes and a disc of velocities, for all lanes in lock step: in two
+   dimensions the velocity nearest to the wanted one (de Berg et al., Computational Geometry, ch.
+   4); in three the one with the least violation (van den Berg et al. 2011). solve_wide.c includes
+   it for packets, linear_program.c at width 1. */
 #ifndef JOX_NAV_PROGRAM_LANES_H
 #define JOX_NAV_PROGRAM_LANES_H
 
@@ -13,6 +15,11 @@
 typedef struct JoxRow {
     float x[JOX_WIDTH], y[JOX_WIDTH], offset[JOX_WIDTH];
 } JoxRow;
+
+/* A half-plane n . v >= offset (m/s) of each lane, in registers; zeros: none. */
+typedef struct JoxPlaneLanes {
+    JoxFloats x, y, offset;
+} JoxPlaneLanes;
 
 static inline JoxVector jox_row_normal(const JoxRow *row) {
     return (JoxVector){jf_load(row->x), jf_load(row->y)};

@@ -10,11 +10,6 @@
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
 
-/* A half-plane n . v >= offset (m/s) of each lane; zeros: none. */
-typedef struct JoxPlaneLanes {
-    JoxFloats x, y, offset;
-} JoxPlaneLanes;
-
 /* What agents want and are pressed by: the velocity that forces give, the half-plane of force, who
    touches something, and who touches something or feels a force. m/s. */
 typedef struct JoxPressed {

@@ -1,11 +1,13 @@
 /* The stage solve: every agent's half-planes, and the best velocity that they leave, by the kernel
    of the run's instruction set. */
+#define JOX_ISA_scalar
 #include <assert.h>
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "nav/kernels.h"
+#include "nav/wish_lanes.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = {jox_solve_packets_##name, jox_wall_clear_##name},
@@ -183,25 +185,22 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
     }
 }
 
-/* What one agent wants, as the kernel has it (wish in solve_wide.c). */
-static JoxV2 wish_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
-                        const JoxHalfPlane *planes) {
+/* The velocity that one agent wants: wish_lanes.h at width 1. */
+static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
+                               const JoxHalfPlane *planes) {
     const JoxAgents *a = s->agents;
-    const JoxV2 w = {a->pref_x[i], a->pref_y[i]};
-    const float length2 = jox_length2(w), tie = 0.02f, slow = 0.2f;
-    const bool gets_on = slow * length2 < jox_dot(jox_v2(a->vx[i], a->vy[i]), w);
+    const JoxWish wish = jox_wish_of(a, i);
+    JoxVector wanted = wish.preferred;
     bool kept_off = false;
     if (jox_solve_walks(s, i))
         return jox_v2(a->walk_x[i], a->walk_y[i]);
-    if (length2 < JOX_STANDS * JOX_STANDS || (gets_on && !(jox_param(a, JOX_PARAM_push, i) > 0.0f)))
-        return w;
     for (uint32_t k = made->walls; k < made->walls + made->contacts + made->agents; k++) {
-        const JoxV2 n = planes[k].normal;
-        const float along = jox_dot(n, w), aside = fabsf(n.x * w.y - n.y * w.x);
-        const bool head_on = along < 0.0f && aside < -tie * along;
-        kept_off |= along < planes[k].offset && (!gets_on || head_on);
+        const JoxVector normal = {planes[k].normal.x, planes[k].normal.y};
+        kept_off |= jox_is_kept_off(&wish, normal, planes[k].offset);
     }
-    return kept_off ? jox_wish_aside(w, gets_on ? 0.0f : jox_turn_aside(s, i)) : w;
+    if (wish.may_turn && kept_off)
+        wanted = jox_turn_wish(wanted, wish.gets_on ? 0.0f : jox_turn_aside(s, i));
+    return jox_v2(wanted.x, wanted.y);
 }
 
 /* Solves for one agent, whose columns stay as they are. */
@@ -213,7 +212,7 @@ static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, half_planes);
     out->count = sort_out(half_planes, &made, out->planes);
     a->failed[i] = 0;
-    jox_solve_one(s, i, &made, half_planes, wish_alone(s, i, &made, half_planes));
+    jox_solve_one(s, i, &made, half_planes, find_wanted_alone(s, i, &made, half_planes));
     out->chosen = jox_v2(a->next_x[i], a->next_y[i]);
     out->failed = a->failed[i];
     a->next_x[i] = x;

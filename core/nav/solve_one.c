@@ -1,9 +1,11 @@
-/* The velocity of one agent, in plain C: for those whom the kernel of solve leaves over, of whom a
-   hard half-plane has to give, or whom what they are pressed by would take far from what they want.
- */
+/* The velocity of one agent: for those that the kernel of solve leaves over, because a hard
+   half-plane has to give, and for inspected agents. Reach and rounding are those of rest_lanes.h at
+   width 1; what gives way at walls stands here alone. */
+#define JOX_ISA_scalar
 #include <math.h>
 
 #include "nav/kernels.h"
+#include "nav/rest_lanes.h"
 
 /* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
    in the contacts. With that the velocity that the forces give meets every hard half-plane. */
@@ -37,20 +39,15 @@ static float kept_off_by_walls(const JoxSolve *s, uint32_t i, const JoxHalfPlane
    there is as near as that, walls apart, which all allow to stand still; false where all that is
    imposed can be met there. */
 static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
-                              JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
-    JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
+                              JoxHalfPlane *half_planes, const JoxPressed *pressed,
+                              JoxV2 velocity) {
+    const JoxV2 wanted = {pressed->wanted.x, pressed->wanted.y};
     uint32_t hard = made->walls + made->contacts, n = 0;
     uint32_t all = hard + made->agents + made->objects + made->force;
-    float reach2 = jox_length2(jox_sub(forced, wanted));
-    if (made->force) {
-        const JoxHalfPlane *force = &half_planes[all - 1];
-        float missing = jox_maxf(0.0f, force->offset - jox_dot(force->normal, wanted));
-        reach2 = jox_maxf(reach2, missing * missing);
-    }
-    if (jox_length2(jox_sub(velocity, wanted)) <= reach2)
+    if (!jox_out_of_reach_lanes(pressed, (JoxVector){velocity.x, velocity.y}))
         return false;
     const float off = kept_off_by_walls(s, i, half_planes, made->walls, wanted);
-    reach2 = jox_maxf(reach2, off * off);
+    const float reach2 = jox_maxf(jox_reach2_lanes(pressed), off * off);
     JoxHalfPlane imposed[JOX_MOST_CONSTRAINTS] = {0};
     for (uint32_t k = 0; k < all; k++)
         if (is_imposed(k, made)) {
@@ -73,19 +70,23 @@ static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneC
     return lowered;
 }
 
-/* Whether feet do nothing but for the program's rounding: contact alone then keeps momentum. */
-static bool is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
-    const float rounding = 2e-5f; /* m/s */
-    JoxV2 by_feet = {velocity.x - a->forced_x[i], velocity.y - a->forced_y[i]};
-    return jox_length2(by_feet) < rounding * rounding;
-}
-
 static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     const float least = 1e-3f; /* m/s */
     for (uint32_t k = 0; k < count; k++)
         if (jox_dot(walls[k].normal, velocity) < walls[k].offset - least)
             return false;
     return true;
+}
+
+/* Forces on agent i and what it wants, at width 1. */
+static JoxPressed find_pressed(const JoxAgents *a, uint32_t i, const JoxHalfPlaneCounts *made,
+                               JoxV2 wanted) {
+    const bool touching = made->contacts > 0;
+    return (JoxPressed){{wanted.x, wanted.y},
+                        {a->forced_x[i], a->forced_y[i]},
+                        {a->half_plane_x[i], a->half_plane_y[i], a->half_plane_offset[i]},
+                        touching,
+                        touching || made->force};
 }
 
 bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
@@ -103,15 +104,14 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
                                  &relaxed);
         relaxed = relaxed && !meets(half_planes, made->walls, velocity);
     }
+    const JoxPressed pressed = find_pressed(a, i, made, wanted);
     bool still; /* whether a wall gives is settled above: nothing asks more of one here */
-    if ((made->contacts || made->force) &&
-        keep_within_reach(s, i, made, half_planes, wanted, velocity))
+    if (keep_within_reach(s, i, made, half_planes, &pressed, velocity))
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                  &still);
-    if (made->contacts && is_as_forced(a, i, velocity))
-        velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
+    const JoxVector planned = jox_as_forced_lanes(&pressed, (JoxVector){velocity.x, velocity.y});
     a->failed[i] |= !met;
-    a->next_x[i] = velocity.x;
-    a->next_y[i] = velocity.y;
+    a->next_x[i] = planned.x;
+    a->next_y[i] = planned.y;
     return relaxed;
 }

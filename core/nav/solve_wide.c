@@ -1,31 +1,25 @@
 /* The kernel of solve. A lane is an agent, a packet is JOX_WIDTH of them; their half-planes are
    made by packet_lanes.h, and the two programs (program_lanes.h) are done for all lanes in lock
    step. Who is not done by the first program waits until a packet of such agents is full
-   (rest_lanes.h). One lane at a time is done, which is rare, what solve_one.c does. */
+   (rest_lanes.h). Lanes of which a hard half-plane has to give, which is rare, are left to
+   solve_one.c, one at a time. */
 #include "base/assert.h"
 #include "nav/packet_lanes.h"
+#include "nav/wish_lanes.h"
 
 /* ---- what is wanted, and the velocity ---- */
 
-/* Of `lanes`, those that a half-plane of people keeps from what they want: any of them, or, of
-   those that get on, one straight against it. */
-static uint32_t kept_off(const JoxPacket *p, JoxVector wanted, JoxMask gets_on) {
-    const JoxFloats tie = jf_set(0.02f), zero = jf_set(0.0f); /* of the way ahead: more is no tie */
+/* The lanes (bits) that a half-plane of contacts or neighbours keeps from the velocity wanted. */
+static uint32_t find_kept_off(const JoxPacket *p, const JoxWish *wish) {
     JoxMask kept = jm_of_bits(0);
-    for (uint32_t row = p->contacts; row < p->objects; row++) {
-        JoxFloats x = jf_load(p->rows[row].x), y = jf_load(p->rows[row].y);
-        JoxFloats along = x * wanted.x + y * wanted.y;
-        JoxFloats against = -along;
-        JoxFloats aside = jf_abs(x * wanted.y - y * wanted.x);
-        JoxMask head_on = jm_and(jf_lt(zero, against), jf_lt(aside, tie * against));
-        JoxMask violated = jf_lt(along, jf_load(p->rows[row].offset));
-        kept = jm_or(kept, jm_without(violated, jm_without(gets_on, head_on)));
-    }
+    for (uint32_t row = p->contacts; row < p->objects; row++)
+        kept = jm_or(kept, jox_is_kept_off(wish, jox_row_normal(&p->rows[row]),
+                                           jf_load(p->rows[row].offset)));
     return jm_bits(kept);
 }
 
-/* How far each of `lanes` turns aside, 0 to 1; 0 in the others. */
-static JoxFloats turns_aside(const JoxPacket *p, uint32_t lanes) {
+/* How far each of `lanes` (bits) turns aside, 0 to 1; 0 in the others. */
+static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
     float turn[JOX_WIDTH] = {0.0f};
     for (; lanes; lanes &= lanes - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
@@ -34,34 +28,21 @@ static JoxFloats turns_aside(const JoxPacket *p, uint32_t lanes) {
     return jf_load(turn);
 }
 
-/* The velocities that agents want. An agent that stands before others wants to go more to its
-   right, by an angle of its own once it has stood for a second: two that meet head-on, and any
-   number that meet in one point, would else stand for ever. An agent that pushes somebody straight
-   ahead wants to go somewhat to its right too, or it would push them along for ever. Walkers have
-   chosen already. */
-static JoxVector wish(const JoxPacket *p) {
+/* The velocities wanted: preferred ones, some of them turned aside. Walkers have chosen already. */
+static JoxVector find_wanted(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
-    const uint32_t i = p->first;
-    const JoxFloats slow = jf_set(0.2f); /* of the wanted speed */
-    JoxVector w = {jf_load(a->pref_x + i), jf_load(a->pref_y + i)};
-    JoxFloats along = jf_load(a->vx + i) * w.x + jf_load(a->vy + i) * w.y;
-    JoxFloats length2 = w.x * w.x + w.y * w.y;
-    JoxMask gets_on = jf_lt(slow * length2, along);
-    JoxMask pushes = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_push, i));
-    JoxMask stands = jf_lt(length2, jf_set(JOX_STANDS) * jf_set(JOX_STANDS));
-    uint32_t aside = p->lanes & ~jm_bits(jm_or(jm_without(gets_on, pushes), stands));
+    const JoxWish wish = jox_wish_of(a, p->first);
+    JoxVector wanted = wish.preferred;
+    uint32_t aside = p->lanes & jm_bits(wish.may_turn);
     if (aside)
-        aside &= kept_off(p, w, gets_on);
+        aside &= find_kept_off(p, &wish);
     if (aside) {
-        const JoxFloats turn = turns_aside(p, aside & ~jm_bits(gets_on));
-        const JoxFloats right = jf_set(JOX_RIGHT_SHARE) + jf_set(JOX_ASIDE_RIGHT) * turn;
-        const JoxFloats on = jf_set(1.0f) - jf_set(JOX_ASIDE_BACK) * turn;
-        const JoxVector turned = {on * w.x + right * w.y, on * w.y - right * w.x};
-        w = jv_select(jm_of_bits(aside), turned, w);
+        const JoxFloats turns = find_turns(p, aside & ~jm_bits(wish.gets_on));
+        wanted = jv_select(jm_of_bits(aside), jox_turn_wish(wanted, turns), wanted);
     }
     if (p->walkers)
-        w = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, i), w);
-    return w;
+        wanted = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, p->first), wanted);
+    return wanted;
 }
 
 /* The half-planes of a lane, one after the other. */
@@ -168,7 +149,7 @@ static uint32_t solve_packet(JoxPacket *p) {
     const uint32_t i = p->first;
     jox_put_half_planes(p);
     const JoxPressed pressed = {
-        wish(p),
+        find_wanted(p),
         {jf_load(a->forced_x + i), jf_load(a->forced_y + i)},
         {jf_load(a->half_plane_x + i), jf_load(a->half_plane_y + i),
          jf_load(a->half_plane_offset + i)},

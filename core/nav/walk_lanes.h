@@ -1,4 +1,4 @@
-/* The precedence of the walking law (walk.h) for all lanes of a packet, to the bit, people's
+/* The precedence of the walking law for all lanes of a packet, people's
    tempers: how eager they are, and the time gap that they keep at present, and how they come to
    the velocity that they choose. For kernels: part of those that include it. */
 #ifndef JOX_NAV_WALK_LANES_H
@@ -9,7 +9,6 @@
 #include "base/number/random.h"
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
-#include "nav/walk.h"
 
 /* Of the directions that are judged, left positive: 0 and +-15 to +-75 degrees. */
 static const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
@@ -19,18 +18,23 @@ static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
     0.0f,         0.25881905f, -0.25881905f, 0.5f,        -0.5f,       0.70710678f,
     -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
 
-/* Whom lanes mind, and how: those who go first, and those who cross. */
+#define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: who heads so goes the same way */
+
+/* How lanes mind one other each: as one ahead, that is followed, or as one crossing, that is
+   passed; neither: not at all. */
 typedef struct JoxMindsLanes {
     JoxMask ahead, crossing;
 } JoxMindsLanes;
 
-/* How agents from `first` on mind one other each, at an offset (m) from them: jox_minds. */
-static inline JoxMindsLanes jox_minds_lanes(const JoxNav *nav, const JoxAgents *a, uint32_t first,
-                                            JoxInts others, JoxVector offset) {
+/* How agents from `first` on mind one other each, at `offset` (m) from them. Of two bound for the
+   same place, the one with less way left goes first, so that nobody waits for one who waits for
+   them; the older one goes first on a tie. Else the one ahead goes first, if it heads within 60
+   degrees of the same direction. Who goes first is minded as ahead; who crosses, comes the other
+   way or stands, as crossing. `heading`: the others' JoxHeading, member by member. */
+static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, JoxInts others,
+                                            const JoxFloats heading[4], JoxVector offset) {
     const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way + first);
     const JoxVector own = {jf_load(a->aim_x + first), jf_load(a->aim_y + first)};
-    JoxFloats heading[4];
-    jf_records(&nav->headings[0].aim_x, others, heading);
     const JoxVector aim = {heading[0], heading[1]};
     const JoxMask stands = jf_le(jf_abs(aim.x) + jf_abs(aim.y), zero);
     const JoxInts bound = ji_load(a->bound + first);

@@ -115,7 +115,9 @@ static inline __attribute__((always_inline)) Minded minded_of(const Packet *p,
         JoxFloats record[4];
         jf_records(&n->motions[0].x, others, record);
         const JoxVector offset = offset_of(p, record, periodic);
-        const JoxMindsLanes how = jox_minds_lanes(p->w->nav, a, i, others, offset);
+        JoxFloats heading[4];
+        jf_records(&p->w->nav->headings[0].aim_x, others, heading);
+        const JoxMindsLanes how = jox_minds_lanes(a, i, others, heading, offset);
         const JoxMask hidden = jf_le(p->clear2, jv_dot(offset, offset));
         JoxMask minds = jm_and(there, jm_or(how.ahead, how.crossing));
         const uint32_t doubtful = jm_bits(minds) & (picky | jm_bits(hidden));

@@ -1,5 +1,5 @@
-/* The kernel of solve against the plain path, one agent at a time: the half-planes of
-   `half_planes.c`, what is wanted as it is said here, and the programs of `linear_program.c`. By
+/* The kernel of solve, and the path of one agent at a time, against plain references
+   (nav_plain.h): half-planes of neighbours, what is wanted, the linear programs. By
    every instruction set that the machine runs, over random crowds and hard ones: packed,
    coincident, far apart, on a lattice, among many walls, with contacts that leave no velocity,
    pressed, with walkers between. */
@@ -15,6 +15,7 @@
 #include "base/mem.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
+#include "unit/nav_plain.h"
 
 enum { CROWDS = 48, MOST_PEOPLE = 300, MOST_PLANES = 4 };
 
@@ -152,6 +153,23 @@ static void end(Crowd *c) {
     jox_free(c->touched.planes);
 }
 
+static JoxV2 turn_right(JoxV2 wanted, float turn) {
+    const float right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
+    const float on = 1.0f - JOX_ASIDE_BACK * turn;
+    return jox_v2(on * wanted.x + right * wanted.y, on * wanted.y - right * wanted.x);
+}
+
+/* All half-planes of an agent, those of neighbours by the reference. Those that core finds are the
+   same. */
+static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
+    JoxHalfPlane neighbours[JOX_MOST_NEIGHBOURS];
+    const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, out);
+    const uint32_t first = made.walls + made.contacts;
+    assert_int_equal(plain_neighbours(s, i, neighbours), made.agents);
+    assert_memory_equal(neighbours, out + first, made.agents * sizeof *neighbours);
+    return made;
+}
+
 /* The preferred velocity, turned to the right for an agent that stands before others or pushes
    somebody straight ahead. */
 static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
@@ -166,7 +184,7 @@ static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uin
         float against = -jox_dot(others[k].normal, wanted);
         bool head_on = against > 0.0f && fabsf(jox_det(others[k].normal, wanted)) < 0.02f * against;
         if (-against < others[k].offset && (!gets_on || head_on))
-            return jox_wish_aside(wanted, gets_on ? 0.0f : jox_turn_aside(s, i));
+            return turn_right(wanted, gets_on ? 0.0f : jox_turn_aside(s, i));
     }
     return wanted;
 }
@@ -199,9 +217,9 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
     for (uint32_t i = 0; i < a->count; i++) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
         if (plans || (!jox_solve_walks(&s, i) && jox_stands_pressed(a, i))) {
-            JoxHalfPlaneCounts made = jox_solve_half_planes(&s, i, list);
+            JoxHalfPlaneCounts made = list_half_planes(&s, i, list);
             JoxV2 wanted = wish(&s, i, list + made.walls, made.contacts + made.agents);
-            relaxed -= jox_solve_one(&s, i, &made, list, wanted);
+            relaxed -= plain_solve_one(&s, i, &made, list, wanted);
         }
         assert_true(next_x[i] == a->next_x[i] && next_y[i] == a->next_y[i]);
         assert_int_equal(failed[i], a->failed[i]);

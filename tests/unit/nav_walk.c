@@ -1,5 +1,6 @@
 /* The walking law: who minds whom, and how a few people walk by it. The constants are given where a
    figure depends on them; elsewhere what is claimed holds for any that make sense. */
+#define JOX_ISA_scalar
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,19 +9,28 @@
 
 #include <cmocka.h>
 
+#include "base/number/bits.h"
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "geom/polygon.h"
-#include "nav/walk.h"
+#include "nav/walk_lanes.h"
 #include "world/world.h"
 
 static const double TURN = 37.0 / 180.0 * 3.14159265358979323846;
 
 /* ---- who minds whom ---- */
 
-/* The second agent is at `offset` from the first. */
-static JoxMinds minds(JoxAgents *a, uint32_t i, JoxV2 offset) {
-    return jox_minds(a, i, 1 - i, i == 0 ? offset : jox_scale(offset, -1.0f));
+typedef enum Minds { MINDS_NOT, MINDS_AHEAD, MINDS_CROSSING } Minds;
+
+/* How agent i minds the other. The second agent is at `offset` from the first. */
+static Minds find_minds(const JoxAgents *a, uint32_t i, JoxV2 offset) {
+    const uint32_t j = 1 - i;
+    const float side = i == 0 ? 1.0f : -1.0f;
+    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way[j], jox_float_of(a->bound[j])};
+    const JoxMindsLanes minds =
+        jox_minds_lanes(a, i, (JoxInts)j, heading, (JoxVector){side * offset.x, side * offset.y});
+    assert_false(minds.ahead && minds.crossing);
+    return minds.ahead ? MINDS_AHEAD : minds.crossing ? MINDS_CROSSING : MINDS_NOT;
 }
 
 static void heads(JoxAgents *a, uint32_t i, double degrees) {
@@ -45,18 +55,18 @@ static void of_those_bound_for_one_place_who_is_nearer_goes_first(void **state) 
     a.bound[0] = a.bound[1] = 4;
     a.way[0] = 5.0f;
     a.way[1] = 4.0f;
-    assert_int_equal(minds(&a, 0, behind), JOX_MINDS_AHEAD);
-    assert_int_equal(minds(&a, 1, behind), JOX_MINDS_NOT);
+    assert_int_equal(find_minds(&a, 0, behind), MINDS_AHEAD);
+    assert_int_equal(find_minds(&a, 1, behind), MINDS_NOT);
     a.way[1] = 5.0f; /* a tie: the older goes first */
-    assert_int_equal(minds(&a, 0, behind), JOX_MINDS_NOT);
-    assert_int_equal(minds(&a, 1, behind), JOX_MINDS_AHEAD);
+    assert_int_equal(find_minds(&a, 0, behind), MINDS_NOT);
+    assert_int_equal(find_minds(&a, 1, behind), MINDS_AHEAD);
     heads(&a, 1, 180.0); /* round a corner they may head against each other */
-    assert_int_equal(minds(&a, 0, behind), JOX_MINDS_NOT);
-    assert_int_equal(minds(&a, 1, behind), JOX_MINDS_AHEAD);
+    assert_int_equal(find_minds(&a, 0, behind), MINDS_NOT);
+    assert_int_equal(find_minds(&a, 1, behind), MINDS_AHEAD);
     a.bound[1] = 3; /* elsewhere: then headings decide */
-    assert_int_equal(minds(&a, 0, behind), JOX_MINDS_CROSSING);
+    assert_int_equal(find_minds(&a, 0, behind), MINDS_CROSSING);
     a.bound[0] = a.bound[1] = 0; /* nowhere is no common place */
-    assert_int_equal(minds(&a, 1, behind), JOX_MINDS_CROSSING);
+    assert_int_equal(find_minds(&a, 1, behind), MINDS_CROSSING);
     jox_agents_free(&a);
 }
 
@@ -67,22 +77,19 @@ static void headings_decide_for_the_others(void **state) {
     const JoxV2 ahead = {1.0f, 0.3f};
     const struct {
         double degrees;
-        JoxMinds first, second;
-    } cases[] = {{0, JOX_MINDS_AHEAD, JOX_MINDS_NOT},
-                 {55, JOX_MINDS_AHEAD, JOX_MINDS_NOT},
-                 {-55, JOX_MINDS_AHEAD, JOX_MINDS_NOT},
-                 {65, JOX_MINDS_CROSSING, JOX_MINDS_CROSSING},
-                 {90, JOX_MINDS_CROSSING, JOX_MINDS_CROSSING},
-                 {180, JOX_MINDS_CROSSING, JOX_MINDS_CROSSING}};
+        Minds first, second;
+    } cases[] = {{0, MINDS_AHEAD, MINDS_NOT},          {55, MINDS_AHEAD, MINDS_NOT},
+                 {-55, MINDS_AHEAD, MINDS_NOT},        {65, MINDS_CROSSING, MINDS_CROSSING},
+                 {90, MINDS_CROSSING, MINDS_CROSSING}, {180, MINDS_CROSSING, MINDS_CROSSING}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         heads(&a, 1, cases[c].degrees);
-        assert_int_equal(minds(&a, 0, ahead), cases[c].first);
-        assert_int_equal(minds(&a, 1, ahead), cases[c].second);
+        assert_int_equal(find_minds(&a, 0, ahead), cases[c].first);
+        assert_int_equal(find_minds(&a, 1, ahead), cases[c].second);
     }
     /* Side by side on ways that part, each has the other ahead or beside: nobody follows both. */
     heads(&a, 1, 0.0);
-    assert_int_equal(minds(&a, 0, (JoxV2){0.0f, 1.0f}), JOX_MINDS_NOT);
-    assert_int_equal(minds(&a, 1, (JoxV2){0.0f, 1.0f}), JOX_MINDS_NOT);
+    assert_int_equal(find_minds(&a, 0, (JoxV2){0.0f, 1.0f}), MINDS_NOT);
+    assert_int_equal(find_minds(&a, 1, (JoxV2){0.0f, 1.0f}), MINDS_NOT);
     jox_agents_free(&a);
 }
 
@@ -91,12 +98,12 @@ static void who_stands_is_passed(void **state) {
     JoxAgents a;
     set_up_pair(&a);
     a.aim_x[1] = a.aim_y[1] = 0.0f;
-    assert_int_equal(minds(&a, 0, (JoxV2){2.0f, 0.0f}), JOX_MINDS_CROSSING);
-    assert_int_equal(minds(&a, 0, (JoxV2){-2.0f, 0.0f}), JOX_MINDS_CROSSING);
+    assert_int_equal(find_minds(&a, 0, (JoxV2){2.0f, 0.0f}), MINDS_CROSSING);
+    assert_int_equal(find_minds(&a, 0, (JoxV2){-2.0f, 0.0f}), MINDS_CROSSING);
     a.bound[0] = a.bound[1] = 2; /* also of those bound for the same place */
     a.way[0] = 9.0f;
     a.way[1] = 3.0f;
-    assert_int_equal(minds(&a, 0, (JoxV2){2.0f, 0.0f}), JOX_MINDS_CROSSING);
+    assert_int_equal(find_minds(&a, 0, (JoxV2){2.0f, 0.0f}), MINDS_CROSSING);
     jox_agents_free(&a);
 }
 
@@ -116,8 +123,8 @@ static void of_two_bound_for_one_place_one_follows(void **state) {
         a.way[0] = (float)floor(4.0 * u[2]);
         a.way[1] = (float)floor(4.0 * u[3]);
         const JoxV2 offset = {(float)jox_cos(7.0 * u[4]), (float)jox_sin(7.0 * u[4])};
-        assert_int_equal((minds(&a, 0, offset) == JOX_MINDS_AHEAD) +
-                             (minds(&a, 1, offset) == JOX_MINDS_AHEAD),
+        assert_int_equal((find_minds(&a, 0, offset) == MINDS_AHEAD) +
+                             (find_minds(&a, 1, offset) == MINDS_AHEAD),
                          1);
     }
     jox_agents_free(&a);

@@ -12,7 +12,6 @@
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "nav/internal.h"
-#include "nav/walk.h"
 #include "world/world.h"
 
 enum { PEOPLE = 400 };

@@ -13,7 +13,7 @@
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
-#include "nav/walk.h"
+#include "unit/nav_plain.h"
 
 enum { OTHERS = 9, EDGES = 3, DIRECTIONS = 11, PACKETS = 3000 };
 static const double PI = 3.14159265358979323846, INTERVAL = 0.05;
@@ -201,10 +201,10 @@ static Way judge(Packet *p, double degrees, double speed) {
         JoxV2 offset = {a->x[j], a->y[j]};
         if (j == p->me || is_hidden(p, j))
             continue;
-        JoxMinds minds = jox_minds(a, p->me, j, offset);
-        if (minds == JOX_MINDS_AHEAD)
+        Minds minds = plain_minds(a, p->me, j, offset);
+        if (minds == MINDS_AHEAD)
             follow(p, &w, j, speed);
-        else if (minds == JOX_MINDS_CROSSING)
+        else if (minds == MINDS_CROSSING)
             cross(p, &w, j, speed);
     }
     for (uint32_t k = 0; k < p->edges && degrees != 0.0; k++)
