@@ -1,4 +1,4 @@
-/* A crowd that the tests of probes move, and figures of it. */
+/* A crowd for tests of probes, its frames, and figures of a probe. */
 #ifndef JOSTLE_TESTS_RECORD_CROWD_H
 #define JOSTLE_TESTS_RECORD_CROWD_H
 
@@ -20,7 +20,7 @@
 
 enum { MOST = 1000 };
 
-/* A crowd that the tests move. */
+/* The crowd; tests set its columns and show it to a probe frame by frame. */
 static struct {
     uint32_t count, key[MOST];
     float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST], load[MOST];
@@ -33,7 +33,7 @@ static struct {
     JoxWalls walls;
 } crowd;
 
-static inline void nobody(uint32_t count) {
+static inline void reset_crowd(uint32_t count) {
     memset(&crowd, 0, sizeof crowd);
     crowd.count = count;
     for (uint32_t i = 0; i < count; i++)
@@ -42,7 +42,7 @@ static inline void nobody(uint32_t count) {
 
 static const char *const STATES[] = {"Walk", "Wait", "Served"};
 
-static inline void show(JoxProbe *probe, double t) {
+static inline void show_crowd(JoxProbe *probe, double t) {
     const JoxFrame frame = {.time = t,
                             .count = crowd.count,
                             .period = crowd.period,
@@ -66,7 +66,7 @@ static inline void show(JoxProbe *probe, double t) {
     jox_probe_frame(probe, &frame);
 }
 
-static inline double figure(const JoxProbe *probe, const char *name) {
+static inline double figure_value(const JoxProbe *probe, const char *name) {
     JoxFigures figures = jox_probe_figures(probe);
     for (uint32_t f = 0; f < figures.count; f++)
         if (!strcmp(figures.items[f].name, name))
@@ -82,7 +82,8 @@ static inline double figure(const JoxProbe *probe, const char *name) {
             fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
     } while (0)
 
-static inline JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count) {
+static inline JoxProbeDef default_probe_def(JoxProbeKind kind, const JoxV2 *points,
+                                            uint32_t count) {
     return (JoxProbeDef){.name = "probe",
                          .kind = kind,
                          .until = INFINITY,

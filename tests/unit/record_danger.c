@@ -1,4 +1,5 @@
-/* Danger over crowds whose figures can be worked out by hand, and the building blocks of pages. */
+/* Danger in crowds whose figures can be computed by hand, trust in a simulation, and parts of
+   pages. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,13 +20,13 @@
 enum { SIDE = 25, MOST = SIDE * SIDE };
 static const float SPACING = 0.4f; /* m: 6.25 people per m2 */
 
-/* A square of people about the middle of 20 m x 20 m. */
+/* A square of people about the centre of a floor of 20 m x 20 m. */
 static struct {
     uint32_t count, key[MOST];
     float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST], load[MOST];
 } crowd;
 
-static JoxDanger *square(uint32_t side) {
+static JoxDanger *create_crowd_square(uint32_t side) {
     memset(&crowd, 0, sizeof crowd);
     crowd.count = side * side;
     for (uint32_t i = 0; i < crowd.count; i++) {
@@ -36,7 +37,7 @@ static JoxDanger *square(uint32_t side) {
     return jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
 }
 
-static void show(JoxDanger *danger, double t) {
+static void show_square(JoxDanger *danger, double t) {
     const JoxFrame frame = {.time = t,
                             .count = crowd.count,
                             .keys = crowd.count,
@@ -50,36 +51,38 @@ static void show(JoxDanger *danger, double t) {
     jox_danger_frame(danger, &frame, NULL);
 }
 
-static int limit_of(const char *key) {
+static int find_limit(const char *key) {
     int l = 0;
     while (strcmp(jox_danger_limits[l].key, key) != 0)
         assert_true(++l < JOX_DANGER_LIMITS);
     return l;
 }
 
-static void a_still_crowd_is_dense_and_calm(void **state) {
+static void still_crowd_is_dense_and_calm(void **state) {
     (void)state;
-    JoxDanger *danger = square(SIDE);
+    JoxDanger *danger = create_crowd_square(SIDE);
     for (int step = 0; step <= 400; step++)
-        show(danger, 0.05 * step);
+        show_square(danger, 0.05 * step);
     JoxDangerMost density = jox_danger_most(danger, JOX_DANGER_DENSITY);
     assert_float_equal(density.value, 6.25, 0.15); /* 1 / spacing2 */
-    JoxDangerCount five = jox_danger_count(danger, limit_of("density_5"));
-    /* All but the border, where half the kernel is empty: within 0.5 m of it, 5 of 25 rows. */
+    JoxDangerCount five = jox_danger_count(danger, find_limit("density_5"));
+    /* All but those near the border, where half of the kernel is empty: within 0.5 m of it, 5 of 25
+       rows. */
     assert_in_range(five.people, 19 * 19, 23 * 23);
     assert_float_equal(five.person_s, 20.0 * five.people, 1e-6);
     assert_float_equal(five.first, 0.0, 1e-9);
-    assert_int_equal(jox_danger_count(danger, limit_of("density_7")).people, 0);
-    assert_true(isnan(jox_danger_count(danger, limit_of("density_7")).first));
+    assert_int_equal(jox_danger_count(danger, find_limit("density_7")).people, 0);
+    assert_true(isnan(jox_danger_count(danger, find_limit("density_7")).first));
     assert_float_equal(jox_danger_most(danger, JOX_DANGER_PRESSURE).value, 0.0, 1e-6);
-    assert_int_equal(jox_danger_count(danger, limit_of("pressure_002")).people, 0);
+    assert_int_equal(jox_danger_count(danger, find_limit("pressure_002")).people, 0);
     jox_danger_free(danger);
 }
 
-/* All sway by +-a along x, two seconds each way: the mean is 0, the variance a2. The velocity of a
-   step is that of its middle. */
-static double pressure_of(double a, double drift, uint32_t side) {
-    JoxDanger *danger = square(side);
+/* Returns the greatest crowd pressure of people who sway by +-a along x, two seconds each way, on
+   top of a drift: the mean velocity is the drift, the variance a2. The velocity of a step is that
+   at its middle. */
+static double measure_sway_pressure(double a, double drift, uint32_t side) {
+    JoxDanger *danger = create_crowd_square(side);
     for (int step = 0; step <= 800; step++) {
         double t = 0.05 * step, v = drift + (fmod(t + 3.975, 4.0) < 2.0 ? a : -a);
         if (step > 0)
@@ -87,10 +90,10 @@ static double pressure_of(double a, double drift, uint32_t side) {
                 crowd.x[i] += (float)(0.05 * v);
                 crowd.vx[i] = (float)v;
             }
-        show(danger, t);
+        show_square(danger, t);
     }
     double value = jox_danger_most(danger, JOX_DANGER_PRESSURE).value;
-    JoxDangerCount count = jox_danger_count(danger, limit_of("pressure_002"));
+    JoxDangerCount count = jox_danger_count(danger, find_limit("pressure_002"));
     assert_int_equal(count.people > 0, value >= 0.02);
     jox_danger_free(danger);
     return value;
@@ -98,28 +101,28 @@ static double pressure_of(double a, double drift, uint32_t side) {
 
 static void pressure_is_density_times_variance_over_time(void **state) {
     (void)state;
-    assert_float_equal(pressure_of(0.1, 0.0, SIDE), 6.25 * 0.01, 0.004);
-    assert_float_equal(pressure_of(0.2, 0.0, SIDE), 6.25 * 0.04, 0.016);
-    /* a common drift is no variance */
-    assert_true(pressure_of(0.0, 0.05, SIDE) < 1e-4);
-    /* three people never are dense enough to be read */
-    assert_true(isnan(pressure_of(0.5, 0.0, 2)));
+    assert_float_equal(measure_sway_pressure(0.1, 0.0, SIDE), 6.25 * 0.01, 0.004);
+    assert_float_equal(measure_sway_pressure(0.2, 0.0, SIDE), 6.25 * 0.04, 0.016);
+    /* a common drift has no variance */
+    assert_true(measure_sway_pressure(0.0, 0.05, SIDE) < 1e-4);
+    /* three people are never dense enough */
+    assert_true(isnan(measure_sway_pressure(0.5, 0.0, 2)));
 }
 
-/* Person 0 is pressed from 2 s to 12 s, person 1 knocked in one step. */
-static JoxDangerCount press(double dt, JoxDangerMost *most) {
-    JoxDanger *danger = square(2);
+/* Presses person 0 from 2 s to 12 s and knocks person 1 in one step. */
+static JoxDangerCount press_and_knock(double dt, JoxDangerMost *most) {
+    JoxDanger *danger = create_crowd_square(2);
     int steps = (int)(20.0 / dt + 0.5);
     for (int step = 0; step <= steps; step++) {
         double t = dt * step;
         crowd.load[0] = t > 2.0 + dt / 2 && t < 12.0 + dt / 2 ? 1000.0f : 0.0f;
         crowd.load[1] = step == steps / 2 ? (float)(500.0 / dt) : 0.0f;
-        crowd.compression[2] = 9000.0f; /* which no limit is for */
-        show(danger, t);
+        crowd.compression[2] = 9000.0f; /* no limit is for compression */
+        show_square(danger, t);
     }
     *most = jox_danger_most(danger, JOX_DANGER_LOAD);
-    JoxDangerCount count = jox_danger_count(danger, limit_of("load_623"));
-    assert_int_equal(jox_danger_count(danger, limit_of("load_1112")).people, 0);
+    JoxDangerCount count = jox_danger_count(danger, find_limit("load_623"));
+    assert_int_equal(jox_danger_count(danger, find_limit("load_1112")).people, 0);
     assert_float_equal(jox_danger_most(danger, JOX_DANGER_COMPRESSION).value, 9000.0, 1.0);
     assert_float_equal(jox_danger_since(danger, count.first), (20.0 - count.first) / 60.0, 1e-6);
     assert_true(isnan(jox_danger_since(danger, NAN)));
@@ -127,14 +130,15 @@ static JoxDangerCount press(double dt, JoxDangerMost *most) {
     return count;
 }
 
-static void what_is_held_counts_and_a_knock_does_not(void **state) {
+static void held_load_counts_and_knock_does_not(void **state) {
     (void)state;
-    /* The mean of a second nears 1000 N as 1 - exp(-t), and falls as exp(-t). */
+    /* The mean over 1 s approaches 1000 N as 1 - exp(-t), and falls as exp(-t). */
     const double up = -log(1.0 - 623.0 / 1000.0), down = log(1000.0 / 623.0);
     for (double dt = 0.0125; dt < 0.11; dt *= 2) {
         JoxDangerMost most;
-        JoxDangerCount count = press(dt, &most);
-        assert_int_equal(count.people, 1); /* the knock of 500 Ns comes to 500 N at most */
+        JoxDangerCount count = press_and_knock(dt, &most);
+        assert_int_equal(count.people,
+                         1); /* the knock of 500 Ns raises the mean to 500 N at most */
         assert_float_equal(count.first, 2.0 + up, 1.01 * dt);
         assert_float_equal(count.person_s, 10.0 - up + down, 2.01 * dt);
         assert_float_equal(count.longest, count.person_s, 1e-9);
@@ -144,38 +148,39 @@ static void what_is_held_counts_and_a_knock_does_not(void **state) {
     }
 }
 
-/* The dose of a load that is borne for so long and then let go. */
-static double dose_of(double load, double seconds) {
+/* Returns the dose of a load borne for `seconds` and then released. */
+static double measure_dose(double load, double seconds) {
     const double dt = 0.05;
-    JoxDanger *danger = square(2);
+    JoxDanger *danger = create_crowd_square(2);
     for (int step = 0; step <= (int)((seconds + 5.0) / dt + 0.5); step++) {
         crowd.load[3] = step > 0 && step * dt < seconds + dt / 2 ? (float)load : 0.0f;
-        show(danger, step * dt);
+        show_square(danger, step * dt);
     }
     double dose = jox_danger_most(danger, JOX_DANGER_DOSE).value;
-    JoxDangerCount count = jox_danger_count(danger, limit_of("dose_1"));
+    JoxDangerCount count = jox_danger_count(danger, find_limit("dose_1"));
     assert_int_equal(count.people, dose >= 1.0);
-    assert_int_equal(jox_danger_count(danger, limit_of("load_623")).people, load > 623.0);
+    assert_int_equal(jox_danger_count(danger, find_limit("load_623")).people, load > 623.0);
     jox_danger_free(danger);
     return dose;
 }
 
 static void dose_is_one_at_the_published_times(void **state) {
     (void)state;
-    /* Taking hold costs the time of integral 1 - (1 - exp -t)^1.739 = 1.45 s, letting go gives
-       1 / 1.739 = 0.58 s: 0.88 s less in all. */
-    assert_float_equal(dose_of(1112.0, 300.0 + 0.88), 1.0, 0.001);
-    assert_float_equal(dose_of(6227.0, 15.0 + 0.88), 1.0, 0.01);
-    /* Between them, and below, on the line through both in logarithms: 2632 N is their geometric
-       mean, that of the times 67.1 s; 623 N has 300 s (1112 / 623)^1.739 = 822 s. */
-    assert_float_equal(dose_of(2631.5, 67.08 + 0.88), 1.0, 0.004);
-    assert_float_equal(dose_of(622.9, 411.0 + 0.88), 0.5, 0.001);
-    assert_float_equal(dose_of(1112.0, 600.0 + 0.88), 2.0, 0.002);
+    /* The rise of the mean costs the integral of 1 - (1 - exp -t)^1.739, 1.45 s; its fall gives 1 /
+       1.739 = 0.58 s: 0.88 s less in all. */
+    assert_float_equal(measure_dose(1112.0, 300.0 + 0.88), 1.0, 0.001);
+    assert_float_equal(measure_dose(6227.0, 15.0 + 0.88), 1.0, 0.01);
+    /* Between the two times, and below, the law is a line through both in logarithms: 2632 N is the
+       geometric mean of the loads, 67.1 s that of the times; 623 N takes 300 s (1112 / 623)^1.739 =
+       822 s. */
+    assert_float_equal(measure_dose(2631.5, 67.08 + 0.88), 1.0, 0.004);
+    assert_float_equal(measure_dose(622.9, 411.0 + 0.88), 0.5, 0.001);
+    assert_float_equal(measure_dose(1112.0, 600.0 + 0.88), 2.0, 0.002);
 }
 
 static void recordings_without_forces_have_no_loads(void **state) {
     (void)state;
-    JoxDanger *danger = square(3);
+    JoxDanger *danger = create_crowd_square(3);
     const JoxFrame frame = {.time = 1.0,
                             .count = crowd.count,
                             .keys = crowd.count,
@@ -220,7 +225,7 @@ static void exits_count_by_name(void **state) {
     text.length = 0;
     json = jox_json_begin(&text, 0);
     jox_json_object(&json, NULL);
-    jox_exits_json(&exits, 53, &json); /* not cleared */
+    jox_exits_json(&exits, 53, &json); /* people are still inside */
     jox_json_end(&json);
     assert_non_null(strstr(text.data, "\"left\": 6, \"inside\": 53, \"last_left_s\": 12.5, "
                                       "\"clearance_s\": null"));
@@ -252,9 +257,9 @@ static void pages_escape_what_they_show(void **state) {
     free(data);
 }
 
-/* A lattice reads the same by the Gaussian and by Voronoi cells; a knot of a few does not. Walls
-   cut cells, and who stands in the open by themselves is not measured. */
-static void voronoi_density_is_the_room_of_one(void **state) {
+/* In a lattice, the Gaussian and the Voronoi density are equal; in a knot of a few people they
+   differ. Walls cut cells, and a person alone in the open is not measured. */
+static void voronoi_density_is_for_one_person(void **state) {
     (void)state;
     enum { COUNT = 100 };
     uint32_t key[COUNT];
@@ -285,7 +290,7 @@ static void voronoi_density_is_the_room_of_one(void **state) {
         assert_float_equal(jox_danger_most(danger, JOX_DANGER_VORONOI).value, 6.25, 1e-3);
         jox_danger_free(danger);
     }
-    for (uint32_t i = 0; i < 7; i++) { /* seven in the open, 0.4 m apart */
+    for (uint32_t i = 0; i < 7; i++) { /* seven people in the open, 0.4 m apart */
         x[i] = i ? 10.0f + 0.4f * cosf((float)i * 1.0471976f) : 10.0f;
         y[i] = i ? 10.0f + 0.4f * sinf((float)i * 1.0471976f) : 10.0f;
     }
@@ -294,7 +299,7 @@ static void voronoi_density_is_the_room_of_one(void **state) {
     jox_danger_frame(danger, &frame, NULL);
     assert_float_equal(jox_danger_most(danger, JOX_DANGER_VORONOI).value, 7.217, 1e-2);
     assert_true(jox_danger_most(danger, JOX_DANGER_DENSITY).value < 2.5);
-    assert_int_equal(jox_danger_count(danger, limit_of("voronoi_7")).people, 1);
+    assert_int_equal(jox_danger_count(danger, find_limit("voronoi_7")).people, 1);
     jox_danger_free(danger);
     danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
     frame.count = 1;
@@ -305,7 +310,7 @@ static void voronoi_density_is_the_room_of_one(void **state) {
     jox_walls_free(&walls);
 }
 
-static void what_is_too_dense_is_told(void **state) {
+static void distrust_names_overlap_and_density(void **state) {
     (void)state;
     JoxText text = {0};
     assert_true(jox_trust_holds(0.1, 10.0) && jox_trust_holds(NAN, NAN));
@@ -328,11 +333,11 @@ static void what_is_too_dense_is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(voronoi_density_is_the_room_of_one),
-        cmocka_unit_test(what_is_too_dense_is_told),
-        cmocka_unit_test(a_still_crowd_is_dense_and_calm),
+        cmocka_unit_test(voronoi_density_is_for_one_person),
+        cmocka_unit_test(distrust_names_overlap_and_density),
+        cmocka_unit_test(still_crowd_is_dense_and_calm),
         cmocka_unit_test(pressure_is_density_times_variance_over_time),
-        cmocka_unit_test(what_is_held_counts_and_a_knock_does_not),
+        cmocka_unit_test(held_load_counts_and_knock_does_not),
         cmocka_unit_test(dose_is_one_at_the_published_times),
         cmocka_unit_test(recordings_without_forces_have_no_loads),
         cmocka_unit_test(exits_count_by_name),

@@ -1,5 +1,5 @@
-/* Densities by people in packets, rows in strips and steps of what is reached, against the same one
-   by one, to the bit, by the kernels of every instruction set. */
+/* The density by packets of people, strips of rows and steps of reached cells, compared bit by bit
+   with plain loops, for the kernels of each instruction set. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,27 +21,27 @@ typedef struct Crowd {
     uint8_t seen[PEOPLE];
 } Crowd;
 
-/* Always the same. */
-static float dice(uint32_t *state) {
+/* Returns a pseudo-random number in [0, 1). */
+static float draw_uniform(uint32_t *state) {
     *state = *state * 1664525u + 1013904223u;
     return (float)(*state >> 8) / 16777216.0f;
 }
 
-/* Anywhere in 0..wide by 0..high, and a little outside; every seventh in the middle of a cell, some
-   nowhere at all. */
-static JoxDensityCrowd gather(Crowd *c, const JoxDensity *d, float wide, float high,
-                              uint32_t count) {
+/* Draws people in 0..wide by 0..high and a little outside; each seventh in the middle of a cell,
+   and two with positions that are NAN or huge. */
+static JoxDensityCrowd draw_density_crowd(Crowd *c, const JoxDensity *d, float wide, float high,
+                                          uint32_t count) {
     uint32_t chance = count;
     for (uint32_t i = 0; i < count; i++) {
-        c->x[i] = wide * (1.04f * dice(&chance) - 0.02f);
-        c->y[i] = high * (1.04f * dice(&chance) - 0.02f);
+        c->x[i] = wide * (1.04f * draw_uniform(&chance) - 0.02f);
+        c->y[i] = high * (1.04f * draw_uniform(&chance) - 0.02f);
         if (i % 7 == 0) {
             c->x[i] = (floorf(c->x[i] / d->cell) + 0.5f) * d->cell;
             c->y[i] = (floorf(c->y[i] / d->cell) + 0.5f) * d->cell;
         }
-        c->weights[0][i] = 3.0f * dice(&chance) - 1.5f;
-        c->weights[1][i] = 3.0f * dice(&chance) - 1.5f;
-        c->seen[i] = dice(&chance) < 0.8f;
+        c->weights[0][i] = 3.0f * draw_uniform(&chance) - 1.5f;
+        c->weights[1][i] = 3.0f * draw_uniform(&chance) - 1.5f;
+        c->seen[i] = draw_uniform(&chance) < 0.8f;
     }
     if (count > 10) {
         c->x[8] = NAN;
@@ -54,14 +54,14 @@ static JoxDensityCrowd gather(Crowd *c, const JoxDensity *d, float wide, float h
                              .weights = {NULL, c->weights[0], c->weights[1]}};
 }
 
-static void line(JoxWalls *walls, float x0, float y0, float x1, float y1) {
+static void add_wall_line(JoxWalls *walls, float x0, float y0, float x1, float y1) {
     const JoxV2 ends[] = {{x0, y0}, {x1, y1}};
     jox_walls_add_polyline(walls, ends, 2, false, 3);
 }
 
-/* One by one, of nodes of all rows. */
-static void put_plainly(const JoxDensity *d, const JoxDensityCrowd *crowd,
-                        float *const mass[FIELDS]) {
+/* Adds people one by one to the nodes of all rows. */
+static void put_one_by_one(const JoxDensity *d, const JoxDensityCrowd *crowd,
+                           float *const mass[FIELDS]) {
     const int across = crowd->period.x > 0.0f, up = crowd->period.y > 0.0f;
     for (uint32_t i = 0; i < crowd->count; i++)
         for (int c = -across; c <= across; c++)
@@ -78,22 +78,22 @@ static void put_plainly(const JoxDensity *d, const JoxDensityCrowd *crowd,
             }
 }
 
-static void assert_same(const float *got, const float *expected, size_t count, JoIsa isa) {
+static void assert_equal_bits(const float *got, const float *expected, size_t count, JoIsa isa) {
     for (size_t c = 0; c < count; c++)
         if (got[c] != expected[c])
             fail_msg("%s: %zu of %zu is %.9g, not %.9g", jox_isa_name(isa), c, count,
                      (double)got[c], (double)expected[c]);
 }
 
-static size_t cells_of(const JoxDensity *d) {
+static size_t count_grid_cells(const JoxDensity *d) {
     return (size_t)d->wide * (size_t)d->high;
 }
 
-static void make(float *fields[FIELDS], size_t cells) {
+static void alloc_fields(float *fields[FIELDS], size_t cells) {
     for (int f = 0; f < FIELDS; f++)
         fields[f] = jox_alloc(cells, sizeof(float));
 }
-static void drop(float *fields[FIELDS]) {
+static void free_fields(float *fields[FIELDS]) {
     for (int f = 0; f < FIELDS; f++)
         jox_free(fields[f]);
 }
@@ -102,22 +102,22 @@ static void drop(float *fields[FIELDS]) {
     for (JoIsa isa = JO_ISA_SCALAR; isa < (JoIsa)JOX_ISA_ROOM; isa++)                              \
         if (jox_isa_runs(isa))
 
-/* Without walls and near them, over periodic edges or not, in strips of any height. */
-static void packets_put_as_one_by_one(void **state) {
+/* With and without walls and periodic edges, in strips of any height. */
+static void packets_put_people_as_one_by_one(void **state) {
     (void)state;
     static Crowd people;
     JoxWalls walls = {0};
-    line(&walls, -1, 12, 17, 15);
-    line(&walls, 12, 1, 12.3f, 11);
+    add_wall_line(&walls, -1, 12, 17, 15);
+    add_wall_line(&walls, 12, 1, 12.3f, 11);
     for (int kind = 0; kind < 8; kind++) {
         const bool walled = kind & 1, sparse = kind & 2, periodic = kind & 4;
         JoxDensity *d = jox_density_create(jox_v2(0, 0), jox_v2(20, 15), 0.3f, JOX_DENSITY_KERNEL);
-        JoxDensityCrowd crowd = gather(&people, d, 20, 15, sparse ? 5 : PEOPLE);
+        JoxDensityCrowd crowd = draw_density_crowd(&people, d, 20, 15, sparse ? 5 : PEOPLE);
         crowd.period = periodic ? jox_v2(20, 15) : jox_v2(0, 0);
         jox_density_walls(d, walled ? &walls : NULL);
         float *plain[FIELDS];
-        make(plain, cells_of(d));
-        put_plainly(d, &crowd, plain);
+        alloc_fields(plain, count_grid_cells(d));
+        put_one_by_one(d, &crowd, plain);
         EACH_ISA(isa) {
             d->isa = isa;
             for (int rows = walled ? d->high : 1; rows <= d->high; rows = 3 * rows + 1)
@@ -127,22 +127,22 @@ static void packets_put_as_one_by_one(void **state) {
                     jox_density_strip(d, FIELDS, first, end);
                     jox_density_put(d, &crowd);
                     for (int f = 0; f < FIELDS; f++)
-                        assert_same(d->work.mass[f], plain[f] + from,
-                                    (size_t)(end - first) * (size_t)d->wide, isa);
+                        assert_equal_bits(d->work.mass[f], plain[f] + from,
+                                          (size_t)(end - first) * (size_t)d->wide, isa);
                 }
         }
-        drop(plain);
+        free_fields(plain);
         jox_density_free(d);
     }
     jox_walls_free(&walls);
 }
 
-/* The Gaussian of all cells, along x and then along y, added up in order. */
-static void spread_plainly(const JoxDensity *d, const float *mass, float *out) {
+/* Spreads all cells by the Gaussian, along x, then along y, adding in order. */
+static void spread_all_cells(const JoxDensity *d, const float *mass, float *out) {
     const double v = (double)jox_density_variance(d);
     const int reach = (int)(3.0f * sqrtf((float)v) + 1.0f), wide = d->wide;
     float *taps = jox_alloc((size_t)reach + 1, sizeof *taps);
-    float *along = jox_alloc(cells_of(d), sizeof *along);
+    float *along = jox_alloc(count_grid_cells(d), sizeof *along);
     double whole = 0.0;
     for (int k = 0; k <= reach; k++) {
         taps[k] = (float)jox_exp(-0.5 * k * k / v);
@@ -165,40 +165,41 @@ static void spread_plainly(const JoxDensity *d, const float *mass, float *out) {
     jox_free(taps);
 }
 
-/* Small floors, and ones that take several strips; few people, and many. */
-static void strips_spread_as_all_at_once(void **state) {
+/* Small floors, and floors of several strips; few people, and many. */
+static void strips_spread_like_whole_grid(void **state) {
     (void)state;
     static const JoxV2 SIZES[] = {{1.2f, 1.1f}, {9.0f, 30.0f}, {620.0f, 40.0f}, {30.0f, 1300.0f}};
     static Crowd people;
     for (size_t size = 0; size < sizeof SIZES / sizeof *SIZES; size++)
         for (uint32_t count = 3; count <= PEOPLE; count += 400) {
             JoxDensity *d = jox_density_create(jox_v2(0, 0), SIZES[size], 0.2f, JOX_DENSITY_KERNEL);
-            const JoxDensityCrowd crowd = gather(&people, d, SIZES[size].x, SIZES[size].y, count);
+            const JoxDensityCrowd crowd =
+                draw_density_crowd(&people, d, SIZES[size].x, SIZES[size].y, count);
             const size_t read = (size_t)d->columns * d->rows;
             float *mass[FIELDS], *plain[FIELDS], *got[FIELDS];
-            make(mass, cells_of(d));
-            make(plain, read);
-            make(got, read);
-            put_plainly(d, &crowd, mass);
+            alloc_fields(mass, count_grid_cells(d));
+            alloc_fields(plain, read);
+            alloc_fields(got, read);
+            put_one_by_one(d, &crowd, mass);
             for (int f = 0; f < FIELDS; f++)
-                spread_plainly(d, mass[f], plain[f]);
+                spread_all_cells(d, mass[f], plain[f]);
             EACH_ISA(isa) {
                 d->isa = isa;
-                for (int f = 0; f < FIELDS; f++) /* all of it is written */
+                for (int f = 0; f < FIELDS; f++) /* shows that each value is written */
                     memset(got[f], 0xff, read * sizeof(float));
                 jox_density_sample(d, &crowd, FIELDS, got);
                 for (int f = 0; f < FIELDS; f++)
-                    assert_same(got[f], plain[f], read, isa);
+                    assert_equal_bits(got[f], plain[f], read, isa);
             }
-            drop(mass);
-            drop(plain);
-            drop(got);
+            free_fields(mass);
+            free_fields(plain);
+            free_fields(got);
             jox_density_free(d);
         }
 }
 
-/* One step of all cells, each with all that it is multiplied by. */
-static void step_plainly(const JoxDensity *d, float share, const float *u, float *out) {
+/* Takes one step for all cells, with all factors. */
+static void step_all_cells(const JoxDensity *d, float share, const float *u, float *out) {
     const JoxDensityFloor *f = d->floor;
     const int wide = d->wide;
     for (int c = wide + 1; c < wide * (d->high - 1) - 1; c++)
@@ -215,20 +216,20 @@ static void step_plainly(const JoxDensity *d, float share, const float *u, float
     }
 }
 
-/* The steps of a sample, by each instruction set, are those of all cells. */
-static void assert_steps(JoxDensity *d, const JoxDensityCrowd *crowd) {
-    const size_t cells = cells_of(d);
+/* Asserts that the steps of a sample equal steps over all cells, for each instruction set. */
+static void assert_steps_equal(JoxDensity *d, const JoxDensityCrowd *crowd) {
+    const size_t cells = count_grid_cells(d);
     const float whole = 0.5f * jox_density_variance(d);
     const int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
     float *mass[FIELDS];
-    make(mass, cells);
-    put_plainly(d, crowd, mass);
+    alloc_fields(mass, cells);
+    put_one_by_one(d, crowd, mass);
     for (int f = 0; f < FIELDS; f++) {
         float *next = jox_alloc(cells, sizeof *next);
         for (size_t c = 0; c < cells; c++)
             mass[f][c] *= d->floor->per[c];
         for (int s = 0; s < steps; s++) {
-            step_plainly(d, whole / (float)steps, mass[f], next);
+            step_all_cells(d, whole / (float)steps, mass[f], next);
             float *swap = mass[f];
             mass[f] = next;
             next = swap;
@@ -241,22 +242,23 @@ static void assert_steps(JoxDensity *d, const JoxDensityCrowd *crowd) {
         jox_density_put(d, crowd);
         for (int f = 0; f < FIELDS; f++) {
             jox_density_diffuse(d, f);
-            assert_same(d->work.mass[f], mass[f], cells, isa);
+            assert_equal_bits(d->work.mass[f], mass[f], cells, isa);
         }
     }
-    drop(mass);
+    free_fields(mass);
 }
 
-/* Among walls of all directions, posts, ways aslant between them, and runs of open floor. */
-static void steps_go_where_people_can_have_come(void **state) {
+/* Among walls in all directions, posts, oblique ways between them, and runs of open floor. */
+static void steps_of_reached_cells_equal_all_steps(void **state) {
     (void)state;
     static Crowd people;
     uint32_t slants = 0, plain = 0, runs = 0, chance = 3;
     for (int plan = 0; plan < 6; plan++) {
         JoxWalls walls = {0};
         for (int w = 0; w < 12; w++) {
-            const float x = 20 * dice(&chance), y = 14 * dice(&chance);
-            line(&walls, x, y, x + 6 * dice(&chance) - 3, y + 6 * dice(&chance) - 3);
+            const float x = 20 * draw_uniform(&chance), y = 14 * draw_uniform(&chance);
+            add_wall_line(&walls, x, y, x + 6 * draw_uniform(&chance) - 3,
+                          y + 6 * draw_uniform(&chance) - 3);
             const JoxV2 post[] = {{y, x}, {y + 0.35f, x + 0.1f}, {y + 0.2f, x + 0.45f}};
             jox_walls_add_solid(&walls, post, 3, 3);
         }
@@ -269,8 +271,8 @@ static void steps_go_where_people_can_have_come(void **state) {
             for (uint32_t r = 0; r < d->floor->run_count; r++)
                 plain += d->floor->runs[r].plain;
             for (uint32_t count = 1; count <= PEOPLE; count = count * 20 + 3) {
-                const JoxDensityCrowd crowd = gather(&people, d, 20, 14, count);
-                assert_steps(d, &crowd);
+                const JoxDensityCrowd crowd = draw_density_crowd(&people, d, 20, 14, count);
+                assert_steps_equal(d, &crowd);
             }
             jox_density_free(d);
         }
@@ -280,9 +282,9 @@ static void steps_go_where_people_can_have_come(void **state) {
     assert_in_range(plain, runs / 4, runs - runs / 4);
 }
 
-/* Means are kept where they are asked for. What is saved has one format, and what is read back is
-   what was saved. */
-static void means_are_kept_where_they_are_wanted(void **state) {
+/* Means are kept only if wanted. The saved format is the same, and a restored density equals the
+   saved one. */
+static void means_are_kept_if_wanted(void **state) {
     (void)state;
     const float x[] = {1, 2, 3}, y[] = {1, 1, 1};
     for (int wanted = 0; wanted < 2; wanted++) {
@@ -314,10 +316,10 @@ static void means_are_kept_where_they_are_wanted(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(packets_put_as_one_by_one),
-        cmocka_unit_test(strips_spread_as_all_at_once),
-        cmocka_unit_test(steps_go_where_people_can_have_come),
-        cmocka_unit_test(means_are_kept_where_they_are_wanted),
+        cmocka_unit_test(packets_put_people_as_one_by_one),
+        cmocka_unit_test(strips_spread_like_whole_grid),
+        cmocka_unit_test(steps_of_reached_cells_equal_all_steps),
+        cmocka_unit_test(means_are_kept_if_wanted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

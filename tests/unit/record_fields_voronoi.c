@@ -17,8 +17,8 @@
             fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
     } while (0)
 
-/* A number within [0, 1) of a counter. */
-static double drawn(uint32_t n) {
+/* Returns a pseudo-random number in [0, 1) from a counter. */
+static double draw_from_counter(uint32_t n) {
     n = (n ^ 61u) ^ (n >> 16);
     n *= 9u;
     n ^= n >> 4;
@@ -26,7 +26,7 @@ static double drawn(uint32_t n) {
     return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
 }
 
-static void a_lattice_has_known_cells(void **state) {
+static void lattice_has_known_cells(void **state) {
     (void)state;
     JoxSites sites = {0};
     JoxCell cell;
@@ -36,8 +36,8 @@ static void a_lattice_has_known_cells(void **state) {
     jox_sites_sort(&sites, 1.0);
     jox_sites_cell(&sites, 10 * 20 + 10, 1.0, &cell);
     assert_near(jox_cell_area(&cell), 0.25, 1e-9);
-    /* At a corner of the lattice the cell ends at the cutoff: a quarter of the 32-gon and the
-       square and stripes towards the others. */
+    /* At a corner of the lattice the cell ends at the cutoff: a quarter of the 32-gon, and a square
+       and stripes towards the neighbours. */
     jox_sites_cell(&sites, 0, 1.0, &cell);
     assert_true(jox_cell_area(&cell) > 0.7 && jox_cell_area(&cell) < 1.4);
     jox_sites_clear(&sites); /* alone: half the sum of 32 triangles */
@@ -48,8 +48,9 @@ static void a_lattice_has_known_cells(void **state) {
     jox_sites_free(&sites);
 }
 
-/* Cells of people at random against points of a fine grid, each given to the nearest person. */
-static void cells_are_what_is_nearest(void **state) {
+/* Cells of people at random places against points of a fine grid, each assigned to the nearest
+   person. */
+static void cell_is_nearest_part_of_plane(void **state) {
     (void)state;
     enum { PEOPLE = 60, FINE = 400 };
     const double side = 5.0, step = side / FINE, cutoff = 0.8;
@@ -58,36 +59,38 @@ static void cells_are_what_is_nearest(void **state) {
     JoxSites sites = {0};
     double areas[PEOPLE] = {0}, within[PEOPLE] = {0};
     for (uint32_t i = 0; i < PEOPLE; i++)
-        jox_sites_add(
-            &sites, jox_v2((float)(side * drawn(2 * i + 1)), (float)(side * drawn(2 * i + 2))), i);
+        jox_sites_add(&sites,
+                      jox_v2((float)(side * draw_from_counter(2 * i + 1)),
+                             (float)(side * draw_from_counter(2 * i + 2))),
+                      i);
     jox_sites_sort(&sites, cutoff);
     for (int r = -FINE / 5; r < FINE + FINE / 5; r++)
         for (int c = -FINE / 5; c < FINE + FINE / 5; c++) {
             double x = (c + 0.5) * step, y = (r + 0.5) * step, best = INFINITY;
-            uint32_t who = 0;
+            uint32_t nearest = 0;
             for (uint32_t i = 0; i < PEOPLE; i++) {
                 double dx = x - sites.points[i].x, dy = y - sites.points[i].y;
                 if (dx * dx + dy * dy < best) {
                     best = dx * dx + dy * dy;
-                    who = i;
+                    nearest = i;
                 }
             }
             bool in_l = x > 1 && y > 1 && x < 4 && y < 4 && (y < 2.5 || x < 2.2);
-            areas[who] += best < cutoff * cutoff ? step * step : 0.0;
-            within[who] += best < cutoff * cutoff && in_l ? step * step : 0.0;
+            areas[nearest] += best < cutoff * cutoff ? step * step : 0.0;
+            within[nearest] += best < cutoff * cutoff && in_l ? step * step : 0.0;
         }
     for (uint32_t i = 0; i < PEOPLE; i++) {
         JoxCell cell;
         jox_sites_cell(&sites, i, cutoff, &cell);
-        /* The disc is a polygon of 32 corners: up to 0.7 % of its area is lost. */
+        /* The polygon of 32 corners has up to 0.7 % less area than the disc. */
         assert_near(jox_cell_area(&cell), areas[i], 0.02);
         assert_near(jox_cell_area_within(&cell, sites.points[i], L, 6), within[i], 0.02);
     }
     jox_sites_free(&sites);
 }
 
-/* What is seen past walls with a gap, against points of a fine grid. */
-static void walls_end_cells(void **state) {
+/* The part of a cell seen past walls with a gap, against points of a fine grid. */
+static void walls_bound_cells(void **state) {
     (void)state;
     enum { FINE = 500 };
     static const JoxV2 BOX[] = {{-0.6f, -0.5f}, {0.7f, -0.5f}, {0.7f, 0.9f}, {-0.6f, 0.9f}};
@@ -96,7 +99,8 @@ static void walls_end_cells(void **state) {
                                     {{0.3f, -0.4f}, {0.9f, -0.4f}}, {{0.4f, -0.6f}, {0.5f, -0.1f}}};
     const JoxBars bars = {walls, sizeof walls / sizeof *walls, 0};
     for (uint32_t n = 0; n < 12; n++) {
-        JoxV2 at = {(float)(0.6 * drawn(3 * n) - 0.3), (float)(0.5 * drawn(3 * n + 1) - 0.25)};
+        JoxV2 at = {(float)(0.6 * draw_from_counter(3 * n) - 0.3),
+                    (float)(0.5 * draw_from_counter(3 * n + 1) - 0.25)};
         JoxCell cell;
         double whole, within, seen = 0.0, seen_within = 0.0, step = 2.0 / FINE;
         jox_cell_begin(&cell, 1.0);
@@ -126,9 +130,8 @@ static void walls_end_cells(void **state) {
     }
 }
 
-/* Nobody is a neighbour through a wall: a corridor 1 m wide has a person each half metre, and
-   others stand behind its walls. */
-static void who_is_behind_a_wall_is_no_neighbour(void **state) {
+/* A corridor 1 m wide has a person every half metre; people behind its walls are no neighbours. */
+static void person_behind_wall_is_no_neighbour(void **state) {
     (void)state;
     static struct JoxBar walls[] = {{{-9, 0}, {9, 0}}, {{-9, 1}, {9, 1}}};
     const JoxBars bars = {walls, 2, 0};
@@ -151,9 +154,9 @@ static void who_is_behind_a_wall_is_no_neighbour(void **state) {
     jox_sites_free(&sites);
 }
 
-/* People in one place, and people denser than they can stand, are found through fewer neighbours:
-   their cells are what all others leave of them. */
-static void crowded_cells_are_what_all_others_leave(void **state) {
+/* Sites at one point, and sites denser than people can stand, are searched in smaller bins; their
+   cells must equal those cut by all other sites. */
+static void crowded_cells_are_cut_by_all_sites(void **state) {
     (void)state;
     enum { HEAP = 3000, APART = 40 };
     const double cutoff = 1.0, sizes[] = {0.0, 1e-4, 0.3, 3.0};
@@ -161,12 +164,14 @@ static void crowded_cells_are_what_all_others_leave(void **state) {
         JoxSites sites = {0};
         for (uint32_t i = 0; i < HEAP + APART; i++) {
             const double size = i < HEAP ? sizes[k] : 6.0;
-            jox_sites_add(
-                &sites, jox_v2((float)(size * drawn(2 * i + 1)), (float)(size * drawn(2 * i + 2))),
-                i);
+            jox_sites_add(&sites,
+                          jox_v2((float)(size * draw_from_counter(2 * i + 1)),
+                                 (float)(size * draw_from_counter(2 * i + 2))),
+                          i);
         }
         jox_sites_sort(&sites, cutoff);
-        assert_true(k > 0 || sites.first[sites.columns * sites.rows] == APART + 1); /* distinct */
+        assert_true(k > 0 ||
+                    sites.first[sites.columns * sites.rows] == APART + 1); /* distinct points */
         for (uint32_t i = 0; i < HEAP + APART; i += i < HEAP ? 97 : 1) {
             JoxCell cell, wanted;
             jox_cell_begin(&wanted, cutoff);
@@ -182,8 +187,8 @@ static void crowded_cells_are_what_all_others_leave(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lattice_has_known_cells), cmocka_unit_test(cells_are_what_is_nearest),
-        cmocka_unit_test(crowded_cells_are_what_all_others_leave),
-        cmocka_unit_test(walls_end_cells), cmocka_unit_test(who_is_behind_a_wall_is_no_neighbour)};
+        cmocka_unit_test(lattice_has_known_cells), cmocka_unit_test(cell_is_nearest_part_of_plane),
+        cmocka_unit_test(crowded_cells_are_cut_by_all_sites), cmocka_unit_test(walls_bound_cells),
+        cmocka_unit_test(person_behind_wall_is_no_neighbour)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* What is recorded: trajectories read back, crashes survived, foreign files spared; densities,
-   regions and joined figures against plain references. */
+/* Recordings: read back, after a crash, beside other files. Also densities, regions and joined
+   summaries against plain references. */
 #include <math.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -38,8 +38,8 @@ static int remove_folder(void **state) {
     return rmdir(folder);
 }
 
-/* Frame f holds agents 0 to 2 at (f + id/4, -f), looking along +y, in state id. */
-static bool put_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
+/* Submits frame f: people 0 to 2 at (f + id/4, -f), looking along +y, in state id. */
+static bool submit_test_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     JoxRecordBody *bodies;
     JoxRecordRow *rows = jox_recorder_take(r, 3, 1, &bodies);
     for (uint32_t i = 0; i < 3; i++)
@@ -49,8 +49,8 @@ static bool put_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     return jox_recorder_put(r, f, error);
 }
 
-/* The first column of the first row. */
-static double ask(sqlite3 *db, const char *sql) {
+/* Returns the first column of the first row. */
+static double query_test_number(sqlite3 *db, const char *sql) {
     sqlite3_stmt *statement;
     assert_int_equal(sqlite3_prepare_v2(db, sql, -1, &statement, NULL), SQLITE_OK);
     assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
@@ -59,7 +59,7 @@ static double ask(sqlite3 *db, const char *sql) {
     return value;
 }
 
-static void a_recording_reads_back(void **state) {
+static void recording_reads_back(void **state) {
     (void)state;
     JoxText error = {0};
     for (int again = 0; again < 2; again++) { /* the second replaces the first */
@@ -68,36 +68,41 @@ static void a_recording_reads_back(void **state) {
         for (uint32_t k = 0; k < 3; k++)
             jox_recorder_state(r, k, "machine", k ? "Go" : "Wait", 0);
         for (uint32_t f = 0; f < 100; f++)
-            assert_true(put_frame(r, f, &error));
+            assert_true(submit_test_frame(r, f, &error));
         assert_true(jox_recorder_close(r, &error));
     }
     assert_null(error.data);
     sqlite3 *db;
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
-    assert_true(ask(db, "SELECT count(*) FROM trajectory_data") == 300);
-    assert_true(ask(db, "SELECT count(*) FROM frame_data") == 100);
-    assert_true(ask(db, "SELECT count(*) FROM trajectory_data WHERE pos_x = frame + id / 4.0 AND "
+    assert_true(query_test_number(db, "SELECT count(*) FROM trajectory_data") == 300);
+    assert_true(query_test_number(db, "SELECT count(*) FROM frame_data") == 100);
+    assert_true(query_test_number(
+                    db, "SELECT count(*) FROM trajectory_data WHERE pos_x = frame + id / 4.0 AND "
                         "pos_y = -frame AND ori_x = 0 AND ori_y = 1") == 300);
-    assert_true(ask(db,
+    assert_true(query_test_number(
+                    db,
                     "SELECT count(*) FROM trajectory_data WHERE state = id AND force = 10.5 AND "
                     "compression = 2.5 AND load = 3.5") == 300);
-    assert_true(ask(db, "SELECT count(*) FROM jostle_body WHERE id = 7 AND x = frame AND y = 2 AND "
+    assert_true(query_test_number(
+                    db, "SELECT count(*) FROM jostle_body WHERE id = 7 AND x = frame AND y = 2 AND "
                         "z = 3 AND qw = 1") == 100);
-    assert_true(ask(db, "SELECT count(*) FROM jostle_state WHERE machine = 'machine' AND "
-                        "state = iif(number = 0, 'Wait', 'Go')") == 3);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'version'") == 2);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'fps'") == 20);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'xmin'") == 0);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'xmax'") == 99.5);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'ymin'") == -99);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'ymax'") == 0);
-    assert_true(ask(db, "SELECT count(*) FROM geometry JOIN frame_data ON hash = geometry_hash "
+    assert_true(query_test_number(db,
+                                  "SELECT count(*) FROM jostle_state WHERE machine = 'machine' AND "
+                                  "state = iif(number = 0, 'Wait', 'Go')") == 3);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'version'") == 2);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'fps'") == 20);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'xmin'") == 0);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'xmax'") == 99.5);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'ymin'") == -99);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'ymax'") == 0);
+    assert_true(query_test_number(
+                    db, "SELECT count(*) FROM geometry JOIN frame_data ON hash = geometry_hash "
                         "WHERE wkt = 'POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))'") == 100);
     sqlite3_close(db);
-    unlink(path); /* nothing lies beside it: remove_folder would fail */
+    unlink(path); /* no other file is left beside it, or remove_folder would fail */
 }
 
-static void a_killed_writer_leaves_whole_frames(void **state) {
+static void killed_writer_leaves_complete_frames(void **state) {
     (void)state;
     pid_t child = fork();
     assert_true(child >= 0);
@@ -105,7 +110,7 @@ static void a_killed_writer_leaves_whole_frames(void **state) {
         JoxText error = {0};
         JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
         for (uint32_t f = 0; r && f < 10000; f++) {
-            put_frame(r, f, &error);
+            submit_test_frame(r, f, &error);
             usleep(5000);
         }
         _exit(1);
@@ -117,51 +122,53 @@ static void a_killed_writer_leaves_whole_frames(void **state) {
     assert_true(WIFSIGNALED(status));
     sqlite3 *db;
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READWRITE, NULL), SQLITE_OK);
-    double frames = ask(db, "SELECT count(*) FROM frame_data");
+    double frames = query_test_number(db, "SELECT count(*) FROM frame_data");
     assert_true(frames > 20);
-    assert_true(ask(db, "SELECT max(frame) + 1 FROM frame_data") == frames);
-    assert_true(ask(db, "SELECT count(*) FROM trajectory_data") == 3 * frames);
-    assert_true(ask(db, "SELECT count(*) FROM jostle_body") == frames);
-    assert_true(ask(db, "SELECT count(*) FROM pragma_integrity_check WHERE integrity_check = "
-                        "'ok'") == 1);
-    assert_true(ask(db, "SELECT value FROM metadata WHERE key = 'xmax'") == frames - 0.5);
+    assert_true(query_test_number(db, "SELECT max(frame) + 1 FROM frame_data") == frames);
+    assert_true(query_test_number(db, "SELECT count(*) FROM trajectory_data") == 3 * frames);
+    assert_true(query_test_number(db, "SELECT count(*) FROM jostle_body") == frames);
+    assert_true(
+        query_test_number(db, "SELECT count(*) FROM pragma_integrity_check WHERE integrity_check = "
+                              "'ok'") == 1);
+    assert_true(query_test_number(db, "SELECT value FROM metadata WHERE key = 'xmax'") ==
+                frames - 0.5);
     sqlite3_close(db);
     JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error); /* and it can be replaced */
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error); /* it can be replaced */
     assert_non_null(r);
-    assert_true(put_frame(r, 0, &error) && jox_recorder_close(r, &error));
+    assert_true(submit_test_frame(r, 0, &error) && jox_recorder_close(r, &error));
     unlink(path);
 }
 
-/* A run may pause behind a frame: it is there without the next one. Waits for it at most 20 s. */
-static void the_last_frame_is_committed_though_none_follows(void **state) {
+/* A run may pause after a frame: it must be committed before the next one. Waits at most 20 s. */
+static void last_frame_is_committed_without_a_next(void **state) {
     (void)state;
     JoxText error = {0};
     JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
     assert_non_null(r);
-    assert_true(put_frame(r, 0, &error));
+    assert_true(submit_test_frame(r, 0, &error));
     sqlite3 *db;
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
     double frames = 0;
     for (int wait = 0; wait < 200 && frames < 1; wait++) {
         usleep(100000);
-        frames = ask(db, "SELECT count(*) FROM frame_data");
+        frames = query_test_number(db, "SELECT count(*) FROM frame_data");
     }
     assert_true(frames == 1);
     sqlite3_close(db);
-    assert_null(jox_recorder_open(path, 20, WKT, &error)); /* while another writes it */
+    assert_null(jox_recorder_open(path, 20, WKT, &error)); /* another run writes it */
     assert_non_null(strstr(error.data, "another run writes it"));
     jox_text_free(&error);
     assert_true(jox_recorder_close(r, &error));
     r = jox_recorder_go_on(path, 0, &error);
     assert_non_null(r);
-    assert_true(put_frame(r, 1, &error) && jox_recorder_close(r, &error));
-    r = jox_recorder_go_on(path, 0, &error); /* takes the second out again */
+    assert_true(submit_test_frame(r, 1, &error) && jox_recorder_close(r, &error));
+    r = jox_recorder_go_on(path, 0, &error); /* removes the second frame again */
     assert_non_null(r);
     assert_true(jox_recorder_close(r, &error));
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
-    assert_true(ask(db, "SELECT count(*) FROM frame_data") == 1);
-    assert_true(ask(db, "SELECT count(*) FROM trajectory_data") == 3);
+    assert_true(query_test_number(db, "SELECT count(*) FROM frame_data") == 1);
+    assert_true(query_test_number(db, "SELECT count(*) FROM trajectory_data") == 3);
     sqlite3_close(db);
     unlink(path);
     assert_null(jox_recorder_go_on(path, 0, &error));
@@ -169,7 +176,7 @@ static void the_last_frame_is_committed_though_none_follows(void **state) {
     jox_text_free(&error);
 }
 
-static void refused(const char *where, const char *why) {
+static void assert_refused(const char *where, const char *why) {
     JoxText error = {0};
     assert_null(jox_recorder_open(where, 20, WKT, &error));
     assert_non_null(error.data);
@@ -178,15 +185,15 @@ static void refused(const char *where, const char *why) {
     jox_text_free(&error);
 }
 
-static void what_is_no_recording_is_spared(void **state) {
+static void other_files_are_not_replaced(void **state) {
     (void)state;
-    refused("/nowhere/at/all.sqlite", "cannot record to");
-    refused(folder, "not a recording");
-    refused("/dev/null", "not a recording");
+    assert_refused("/nowhere/at/all.sqlite", "cannot record to");
+    assert_refused(folder, "not a recording");
+    assert_refused("/dev/null", "not a recording");
     FILE *file = fopen(path, "w");
     fputs("dear diary", file);
     fclose(file);
-    refused(path, "not a recording");
+    assert_refused(path, "not a recording");
     struct stat info;
     assert_true(stat(path, &info) == 0 && info.st_size == 10);
     unlink(path);
@@ -194,25 +201,25 @@ static void what_is_no_recording_is_spared(void **state) {
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(sqlite3_exec(db, "CREATE TABLE diary(day)", NULL, NULL, NULL), SQLITE_OK);
     sqlite3_close(db);
-    refused(path, "not a recording");
+    assert_refused(path, "not a recording");
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-    assert_true(ask(db, "SELECT count(*) FROM diary") == 0);
+    assert_true(query_test_number(db, "SELECT count(*) FROM diary") == 0);
     sqlite3_close(db);
     unlink(path);
 }
 
-static void a_position_that_is_no_number_is_an_error(void **state) {
+static void nan_position_is_an_error(void **state) {
     (void)state;
     JoxText error = {0};
     JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
     assert_non_null(r);
-    assert_true(put_frame(r, 0, &error));
+    assert_true(submit_test_frame(r, 0, &error));
     JoxRecordBody *bodies;
     JoxRecordRow *rows = jox_recorder_take(r, 1, 0, &bodies);
     rows[0] = (JoxRecordRow){.x = NAN};
     jox_recorder_put(r, 1, &error);
-    for (uint32_t f = 2; f < 20; f++) /* the ring goes on turning */
-        put_frame(r, f, &error);
+    for (uint32_t f = 2; f < 20; f++) /* goes round the ring buffer */
+        submit_test_frame(r, f, &error);
     jox_text_free(&error);
     assert_false(jox_recorder_close(r, &error));
     assert_non_null(strstr(error.data, "recording failed"));
@@ -220,26 +227,25 @@ static void a_position_that_is_no_number_is_an_error(void **state) {
     unlink(path);
 }
 
-/* An analyst's program has the recording open while the run ends: nothing is lost, nothing fails.
- */
-static void a_reader_keeps_no_recording_from_its_end(void **state) {
+/* Another program has the recording open when the run ends: nothing is lost, and nothing fails. */
+static void recording_ends_while_another_reads(void **state) {
     (void)state;
     JoxText message = {0};
     JoxRecorder *r = jox_recorder_open(path, 20, WKT, &message);
     assert_non_null(r);
     for (uint32_t f = 0; f < 5; f++)
-        assert_true(put_frame(r, f, &message));
+        assert_true(submit_test_frame(r, f, &message));
     assert_true(jox_recorder_settle(r, &message));
     sqlite3 *other;
     sqlite3_stmt *reading;
     assert_int_equal(sqlite3_open(path, &other), SQLITE_OK);
     sqlite3_prepare_v2(other, "SELECT frame FROM trajectory_data", -1, &reading, NULL);
     assert_int_equal(sqlite3_step(reading), SQLITE_ROW);
-    assert_true(put_frame(r, 5, &message));
+    assert_true(submit_test_frame(r, 5, &message));
     assert_true(jox_recorder_close(r, &message));
     assert_non_null(strstr(message.data, "is whole, but another program has it open"));
     jox_text_free(&message);
-    /* The next run would lose its own file beside it to that program. */
+    /* The other program would delete the log of the next run. */
     JoxRecorder *next = jox_recorder_open(path, 20, WKT, &message);
     assert_null(next);
     assert_non_null(strstr(message.data, "another program reads the recording"));
@@ -258,7 +264,7 @@ static void a_reader_keeps_no_recording_from_its_end(void **state) {
 
 enum { PEOPLE = 60 };
 
-static void density_is_that_of_the_people(void **state) {
+static void density_is_sum_over_people(void **state) {
     (void)state;
     float x[PEOPLE], y[PEOPLE];
     uint32_t dice = 5;
@@ -318,8 +324,8 @@ static void walkable_area_as_text(void **state) {
     jox_walls_free(&walls);
 }
 
-/* What a plan says can be walked is written as it was; what is no hole of it is left out. */
-static void walkable_area_of_a_plan(void **state) {
+/* Outlines are written as given; solids that are not inside one are left out. */
+static void walkable_area_of_outlines(void **state) {
     (void)state;
     JoxWalls all = {0}, walls = {0};
     JoxText out = {0};
@@ -327,7 +333,7 @@ static void walkable_area_of_a_plan(void **state) {
     JoxV2 desk[] = {{1, 1}, {2, 1}, {2, 2}}, far[] = {{15, 1}, {16, 1}, {16, 2}};
     JoxV2 through[] = {{8, 8}, {8, 20}, {12, 20}}, post[] = {{24, 1}, {25, 1}, {25, 2}};
     JoxV2 loop[] = {{3, 3}, {4, 3}, {4, 4}};
-    jox_walls_add_polyline(&all, loop, 3, true, 3); /* a wall about something bounds no area */
+    jox_walls_add_polyline(&all, loop, 3, true, 3); /* a loop of wall bounds no area */
     jox_walls_add_outline(&all, hall, 4, 3);
     jox_walls_add_solid(&all, desk, 3, 3);
     jox_walls_add_solid(&all, far, 3, 3);
@@ -350,7 +356,7 @@ static void walkable_area_of_a_plan(void **state) {
     jox_walls_free(&all);
 }
 
-static void figures_of_several_runs(void **state) {
+static void figures_of_runs_are_joined(void **state) {
     (void)state;
     const char *runs[] = {
         "{\"agents\": 1, \"probes\": {\"c\": [10, -2.5e1]}, \"s\": \"x \\\" 5\", \"t\": true, "
@@ -398,8 +404,8 @@ static void figures_of_several_runs(void **state) {
     jox_text_free(&out);
 }
 
-/* What a run was given, and where something was, has no mean. */
-static void what_is_no_figure_is_listed(void **state) {
+/* Input of a run, and coordinates, have no mean. */
+static void input_and_coordinates_are_listed(void **state) {
     (void)state;
     const char *runs[] = {"{\"scene\": \"a b\", \"seed\": 1, \"dt\": 0.05, \"steps\": 40, "
                           "\"overlap_p99\": 0.1, \"danger\": "
@@ -458,7 +464,7 @@ static void speeds_per_region(void **state) {
     jox_regions_add(r, "right", right, 4);
     const float x[] = {1, 2, 20}, y[] = {1, 2, 1};
     const float before_x[] = {0.94f, 2, 0}, before_y[] = {0.92f, 2, 0};
-    jox_regions_frame(r, x, y, before_x, before_y, 3, 0.05); /* 2 m/s and 0; one far away */
+    jox_regions_frame(r, x, y, before_x, before_y, 3, 0.05); /* 2 m/s and 0; one person far away */
     jox_regions_frame(r, x + 2, y, before_x, before_y, 1, 0.05);
     jox_regions_frame(r, x, y, before_x, before_y, 1, 0.05); /* 2 m/s alone */
     assert_true(fabs(jox_region_speed(&r->items[0]) - 1.5) < 1e-5);
@@ -470,18 +476,17 @@ static void speeds_per_region(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_recording_reads_back),
-        cmocka_unit_test(a_killed_writer_leaves_whole_frames),
-        cmocka_unit_test(the_last_frame_is_committed_though_none_follows),
-        cmocka_unit_test(what_is_no_recording_is_spared),
-        cmocka_unit_test(a_position_that_is_no_number_is_an_error),
-        cmocka_unit_test(density_is_that_of_the_people),
-        cmocka_unit_test(walkable_area_as_text),
-        cmocka_unit_test(walkable_area_of_a_plan),
-        cmocka_unit_test(a_reader_keeps_no_recording_from_its_end),
-        cmocka_unit_test(figures_of_several_runs),
-        cmocka_unit_test(what_is_no_figure_is_listed),
-        cmocka_unit_test(speeds_per_region)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(recording_reads_back),
+                                       cmocka_unit_test(killed_writer_leaves_complete_frames),
+                                       cmocka_unit_test(last_frame_is_committed_without_a_next),
+                                       cmocka_unit_test(other_files_are_not_replaced),
+                                       cmocka_unit_test(nan_position_is_an_error),
+                                       cmocka_unit_test(density_is_sum_over_people),
+                                       cmocka_unit_test(walkable_area_as_text),
+                                       cmocka_unit_test(walkable_area_of_outlines),
+                                       cmocka_unit_test(recording_ends_while_another_reads),
+                                       cmocka_unit_test(figures_of_runs_are_joined),
+                                       cmocka_unit_test(input_and_coordinates_are_listed),
+                                       cmocka_unit_test(speeds_per_region)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

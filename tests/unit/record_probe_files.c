@@ -1,4 +1,4 @@
-/* What probes write: files, summaries, and no memory in steady frames. */
+/* Files and summaries of probes, and that steady frames allocate no memory. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 /* ---- files ---- */
 
-static bool holds(const char *path, const char *first) {
+static bool file_begins_with(const char *path, const char *first) {
     char start[256] = "";
     FILE *file = fopen(path, "rb");
     size_t got = file ? fread(start, 1, sizeof start - 1, file) : 0;
@@ -24,8 +24,8 @@ static bool holds(const char *path, const char *first) {
     return got > 0 && strncmp(start, first, strlen(first)) == 0;
 }
 
-/* Every kind writes its files, whether anyone was there or not. */
-static void every_kind_writes(void **state) {
+/* Each kind writes its files, with and without people. */
+static void every_kind_writes_its_files(void **state) {
     (void)state;
     static const JoxV2 POINTS[] = {{0, 1}, {0, -1}, {2, -1}, {2, 1}};
     static const char *const ENDS[] = {"csv", "png", "svg", "plt"};
@@ -35,17 +35,17 @@ static void every_kind_writes(void **state) {
     jox_walls_add_polyline(&walls, POINTS, 4, false, INFINITY);
     for (int kind = 0; kind < JOX_PROBE_KINDS; kind++)
         for (uint32_t people = 0; people < 3; people++) {
-            JoxProbeDef def =
-                def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+            JoxProbeDef def = default_probe_def((JoxProbeKind)kind, POINTS,
+                                                kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
             JoxProbe *p = jox_probe_create(&def);
             JoxText error = {0};
-            nobody(people);
+            reset_crowd(people);
             for (int step = 0; step < 30; step++) {
                 for (uint32_t i = 0; i < people; i++) {
                     crowd.x[i] = 0.1f * (float)step - 0.95f * (float)(i + 1);
                     crowd.vx[i] = 1;
                 }
-                show(p, 0.1 * step);
+                show_crowd(p, 0.1 * step);
             }
             assert_true(
                 jox_probe_write(p, folder, &walls, "it's a \"test\" `of` $(titles)", &error));
@@ -53,12 +53,12 @@ static void every_kind_writes(void **state) {
             for (int e = 0; e < 4; e++) {
                 static const char *const STARTS[] = {"", "\x89PNG", "<?xml", "reset"};
                 snprintf(path, sizeof path, "%s/probe.%s", folder, ENDS[e]);
-                assert_true(holds(path, STARTS[e]));
+                assert_true(file_begins_with(path, STARTS[e]));
                 assert_int_equal(unlink(path), 0);
             }
             jox_probe_free(p);
         }
-    JoxProbeDef def = def_of(JOX_PROBE_FLOW, POINTS, 2);
+    JoxProbeDef def = default_probe_def(JOX_PROBE_FLOW, POINTS, 2);
     JoxProbe *p = jox_probe_create(&def);
     JoxText error = {0};
     assert_false(jox_probe_write(p, "/proc/none", &walls, "", &error));
@@ -71,9 +71,10 @@ static void every_kind_writes(void **state) {
     assert_int_equal(rmdir(folder), 0);
 }
 
-static void a_summary_is_json(void **state) {
+static void summary_is_json(void **state) {
     (void)state;
-    JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
+    JoxProbeDef def =
+        default_probe_def(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
     JoxProbe *p = jox_probe_create(&def);
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
@@ -86,36 +87,38 @@ static void a_summary_is_json(void **state) {
     jox_probe_free(p);
 }
 
-/* Two people and two bodies: the first enters a state beside the nearer of those that move, then
-   kicks the farther one; the second is hit. Rows tell how both stood before the step. */
-static void a_log_tells_each_action(void **state) {
+/* Two people and two moving bodies: the first person enters a state, with the nearer body in the
+   row, then kicks the farther one; the second person is hit. Rows have positions before the
+   step. */
+static void log_has_each_action(void **state) {
     (void)state;
     static const JoxProbeDef DEF = {
         .name = "probe", .kind = JOX_PROBE_LOG, .until = INFINITY, .every = 1};
-    JoxObject rows[3] = {{.id = 7, .live = true, .moves = true, .round = 0.1f, .grounded = true},
-                         {.id = 8, .live = true, .moves = true, .round = 0.1f},
-                         {.id = 9, .live = true}}; /* a static one, where the first person is */
+    JoxObject rows[3] = {
+        {.id = 7, .live = true, .moves = true, .round = 0.1f, .grounded = true},
+        {.id = 8, .live = true, .moves = true, .round = 0.1f},
+        {.id = 9, .live = true}}; /* a static body at the first person's position */
     rows[0].position = (JoxV3){2, 0, 0.1f};
     rows[1].position = (JoxV3){0, 3, 0.5f};
     rows[1].velocity = (JoxV3){0, -3, 4};
     const JoxObjects objects = {.rows = rows, .count = 3};
     uint32_t kicked[2] = {0, 0}, struck[2] = {0, 0};
     JoxProbe *p = jox_probe_create(&DEF);
-    nobody(2);
+    reset_crowd(2);
     crowd.objects = &objects;
     crowd.kicked = kicked;
     crowd.struck = struck;
     crowd.y[1] = 2;
-    show(p, 0.1);
+    show_crowd(p, 0.1);
     crowd.state[0] = 1;
-    crowd.x[0] = 0.5f; /* after the step: rows have where it was before */
-    show(p, 0.2);
+    crowd.x[0] = 0.5f; /* after the step: rows have the position before */
+    show_crowd(p, 0.2);
     kicked[0] = 1;
     struck[1] = 2;
-    show(p, 0.3);
-    assert_near(figure(p, "entered"), 1, 0);
-    assert_near(figure(p, "kicks"), 1, 0);
-    assert_near(figure(p, "hits"), 1, 0);
+    show_crowd(p, 0.3);
+    assert_near(figure_value(p, "entered"), 1, 0);
+    assert_near(figure_value(p, "kicks"), 1, 0);
+    assert_near(figure_value(p, "hits"), 1, 0);
     char text[1024] = "";
     FILE *file = tmpfile();
     assert_non_null(file);
@@ -132,8 +135,8 @@ static void a_log_tells_each_action(void **state) {
     jox_probe_free(p);
 }
 
-/* A number within [0, 1) of a counter. */
-static double drawn(uint32_t n) {
+/* Returns a pseudo-random number in [0, 1) from a counter. */
+static double draw_from_counter(uint32_t n) {
     n = (n ^ 61u) ^ (n >> 16);
     n *= 9u;
     n ^= n >> 4;
@@ -146,18 +149,18 @@ static void steady_frames_allocate_nothing(void **state) {
     static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
     for (int kind = 0; kind < JOX_PROBE_KINDS; kind++) {
         JoxProbeDef def =
-            def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
-        def.every = 100; /* else lists of intervals grow, now and then */
+            default_probe_def((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+        def.every = 100; /* else lists of intervals grow from time to time */
         def.until = 99;
         JoxProbe *p = jox_probe_create(&def);
-        nobody(200);
+        reset_crowd(200);
         uint64_t before = 0;
         for (int step = 0; step < 100; step++) {
             for (uint32_t i = 0; i < 200; i++) {
-                crowd.x[i] = (float)(4 * drawn(i) - 2 + 0.001 * step);
-                crowd.y[i] = (float)(3 * drawn(i + 5000) - 5);
+                crowd.x[i] = (float)(4 * draw_from_counter(i) - 2 + 0.001 * step);
+                crowd.y[i] = (float)(3 * draw_from_counter(i + 5000) - 5);
             }
-            show(p, 0.1 * step);
+            show_crowd(p, 0.1 * step);
             if (step == 50)
                 before = jox_alloc_count();
         }
@@ -168,10 +171,10 @@ static void steady_frames_allocate_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_writes),
-        cmocka_unit_test(a_summary_is_json),
+        cmocka_unit_test(every_kind_writes_its_files),
+        cmocka_unit_test(summary_is_json),
         cmocka_unit_test(steady_frames_allocate_nothing),
-        cmocka_unit_test(a_log_tells_each_action),
+        cmocka_unit_test(log_has_each_action),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

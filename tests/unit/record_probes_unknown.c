@@ -1,4 +1,4 @@
-/* Probes that see too little to say a figure, and what they say in its place. */
+/* Probes that see too little for a figure, and the reasons that they give. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,10 +13,10 @@
 
 #include "record_crowd.h"
 
-static const JoxV2 DOOR[] = {{0, 1}, {0, -1}}; /* +x goes from its right to its left */
+static const JoxV2 DOOR[] = {{0, 1}, {0, -1}}; /* +x crosses it from right to left */
 
-/* What a figure without a value says; NULL where it has one, or nothing to say. */
-static const char *why(const JoxProbe *p, const char *name) {
+/* Returns the reason why a figure has no value; NULL if it has one, or no reason is given. */
+static const char *read_reason(const JoxProbe *p, const char *name) {
     const JoxFigures figures = jox_probe_figures(p);
     for (uint32_t f = 0; f < figures.count; f++)
         if (strcmp(figures.items[f].name, name) == 0)
@@ -25,43 +25,43 @@ static const char *why(const JoxProbe *p, const char *name) {
     return NULL;
 }
 
-/* Everybody moves in the same frame, or at times that have nothing to do with where they stand. */
-static void a_front_that_has_no_speed_has_none(void **state) {
+/* People all move in the same frame, or at times unrelated to their positions. */
+static void front_without_speed_gives_reason(void **state) {
     (void)state;
     static const double CHANCE[] = {0, 0.31, 0.05, 0.27, 0.11, 0.3, 0.02, 0.2};
     static const char *const SAID[] = {"fewer than three", "at once",
                                        "did not begin to move later"};
     for (int k = 0; k < 3; k++) {
-        JoxProbeDef def = def_of(JOX_PROBE_DISPLACEMENT, NULL, 0);
+        JoxProbeDef def = default_probe_def(JOX_PROBE_DISPLACEMENT, NULL, 0);
         JoxProbe *p = jox_probe_create(&def);
-        nobody(k ? 8 : 2);
+        reset_crowd(k ? 8 : 2);
         for (int step = 0; step <= 100; step++) {
             for (uint32_t i = 0; i < crowd.count; i++) {
                 const double go = 0.0625 * step - 1 - (k == 2 ? CHANCE[i] : 1e-8 * i);
                 crowd.x[i] = (float)(0.4 * i + fmax(go, 0) * (1 + 1e-7 * i));
             }
-            show(p, 0.0625 * step);
+            show_crowd(p, 0.0625 * step);
         }
-        assert_true(isnan(figure(p, "front_speed")));
-        assert_non_null(strstr(why(p, "front_speed"), SAID[k]));
+        assert_true(isnan(figure_value(p, "front_speed")));
+        assert_non_null(strstr(read_reason(p, "front_speed"), SAID[k]));
         jox_probe_free(p);
     }
 }
 
-/* Two who pass side by side are no flow of a thousand a second. */
-static void a_flow_needs_a_second(void **state) {
+/* Two people passing side by side are not a flow of a thousand per second. */
+static void flow_needs_a_second(void **state) {
     (void)state;
-    JoxProbeDef def = def_of(JOX_PROBE_FLOW, DOOR, 2);
+    JoxProbeDef def = default_probe_def(JOX_PROBE_FLOW, DOOR, 2);
     JoxProbe *p = jox_probe_create(&def);
-    nobody(2);
+    reset_crowd(2);
     for (int step = 0; step <= 40; step++) {
         crowd.x[0] = (float)(0.1 * step - 2);
         crowd.x[1] = (float)(0.1 * step - 2.001);
-        show(p, 0.1 * step);
+        show_crowd(p, 0.1 * step);
     }
-    assert_near(figure(p, "passages"), 2, 0);
-    assert_true(isnan(figure(p, "flow")) && isnan(figure(p, "flow_all")));
-    assert_non_null(strstr(why(p, "flow_all"), "within a second"));
+    assert_near(figure_value(p, "passages"), 2, 0);
+    assert_true(isnan(figure_value(p, "flow")) && isnan(figure_value(p, "flow_all")));
+    assert_non_null(strstr(read_reason(p, "flow_all"), "within a second"));
     JoxText text = {0};
     JoxJson json = jox_json_begin(&text, 0);
     jox_probe_json(p, &json, NULL);
@@ -71,9 +71,9 @@ static void a_flow_needs_a_second(void **state) {
     jox_probe_free(p);
 }
 
-/* Nobody, one person, one frame, no time: every figure of every probe is a number of a sane size,
-   or none. */
-static void little_input_gives_no_great_figures(void **state) {
+/* With nobody, one person, one frame or hardly any time, each figure of each probe is NAN or of a
+   sane size. */
+static void little_input_gives_no_huge_figures(void **state) {
     (void)state;
     static const JoxV2 LINE[] = {{5, 6}, {5, 4}, {7, 6}, {7, 4}};
     static const JoxV2 RING[] = {{4, 4}, {6, 4}, {6, 6}, {4, 6}};
@@ -81,22 +81,22 @@ static void little_input_gives_no_great_figures(void **state) {
         for (uint32_t people = 0; people < 3; people++)
             for (int frames = 0; frames < 3; frames++) {
                 const bool ring = kind == JOX_PROBE_MEASURE;
-                JoxProbeDef def = def_of((JoxProbeKind)kind, ring ? RING : LINE,
-                                         kind == JOX_PROBE_FLOW           ? 2
-                                         : kind == JOX_PROBE_WINDING      ? 1
-                                         : kind == JOX_PROBE_DISPLACEMENT ? 0
-                                                                          : 4);
+                JoxProbeDef def = default_probe_def((JoxProbeKind)kind, ring ? RING : LINE,
+                                                    kind == JOX_PROBE_FLOW           ? 2
+                                                    : kind == JOX_PROBE_WINDING      ? 1
+                                                    : kind == JOX_PROBE_DISPLACEMENT ? 0
+                                                                                     : 4);
                 def.high = (JoxV2){10, 10};
                 def.window = 5, def.span = 10;
                 def.states[0] = "A", def.states[1] = "B";
                 JoxProbe *p = jox_probe_create(&def);
-                nobody(people);
+                reset_crowd(people);
                 for (int f = 0; f < frames; f++) {
                     for (uint32_t i = 0; i < people; i++) {
                         crowd.x[i] = 4.9f + 0.2f * (float)f;
                         crowd.y[i] = 5.0f + 0.5f * (float)i;
                     }
-                    show(p, 1.0 + 1e-6 * f); /* hardly any time */
+                    show_crowd(p, 1.0 + 1e-6 * f); /* hardly any time */
                 }
                 const JoxFigures figures = jox_probe_figures(p);
                 for (uint32_t f = 0; f < figures.count; f++)
@@ -109,9 +109,9 @@ static void little_input_gives_no_great_figures(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_front_that_has_no_speed_has_none),
-        cmocka_unit_test(a_flow_needs_a_second),
-        cmocka_unit_test(little_input_gives_no_great_figures),
+        cmocka_unit_test(front_without_speed_gives_reason),
+        cmocka_unit_test(flow_needs_a_second),
+        cmocka_unit_test(little_input_gives_no_huge_figures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Recordings read into frames: each format, what it says of itself, and what is wrong with it. */
+/* Recordings read as frames: each format, its header, and errors in it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,15 +31,15 @@ static int remove_folder(void **state) {
     return rmdir(folder);
 }
 
-static void write_file(const char *text, size_t length) {
+static void write_recording_text(const char *text, size_t length) {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(text, 1, length, file), length);
     assert_int_equal(fclose(file), 0);
 }
 
-/* Reads what is in the file; NULL with the messages in `said`. */
-static JoxTrajectories *read_file(double fps, double unit, JoxText *said) {
+/* Reads the file; returns NULL with the messages in `said`. */
+static JoxTrajectories *read_recording(double fps, double unit, JoxText *said) {
     JoxDiagnostics diagnostics = {0};
     const JoxTrajectoryOptions options = {.fps = fps, .unit = unit};
     JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
@@ -50,10 +50,10 @@ static JoxTrajectories *read_file(double fps, double unit, JoxText *said) {
     return t;
 }
 
-static JoxTrajectories *read_text(const char *text, double fps, double unit) {
+static JoxTrajectories *read_text_recording(const char *text, double fps, double unit) {
     JoxText said = {0};
-    write_file(text, strlen(text));
-    JoxTrajectories *t = read_file(fps, unit, &said);
+    write_recording_text(text, strlen(text));
+    JoxTrajectories *t = read_recording(fps, unit, &said);
     if (!t)
         fail_msg("%s", said.data);
     jox_text_free(&said);
@@ -62,8 +62,9 @@ static JoxTrajectories *read_text(const char *text, double fps, double unit) {
 
 #define assert_near(value, wanted, within) assert_true(fabs((double)(value) - (wanted)) <= (within))
 
-/* Person 7 walks at 1 m/s along x, person 3 stands at (1, 2); frames 10 to 14, 10 a second. */
-static void check_walk(JoxTrajectories *t) {
+/* Asserts that person 7 walks at 1 m/s along x and person 3 stands at (1, 2), in frames 10 to 14 at
+   10 frames per second. */
+static void assert_walk(JoxTrajectories *t) {
     JoxFrame frame;
     assert_int_equal(t->people, 2);
     assert_int_equal(t->frame_count, 5);
@@ -86,7 +87,7 @@ static void check_walk(JoxTrajectories *t) {
     jox_trajectories_free(t);
 }
 
-static void columns_by_place(void **state) {
+static void columns_by_position(void **state) {
     (void)state;
     static const char METRES[] = "# PeTrack project: x.pet\n#framerate: 10.00 fps\n"
                                  "# id frame x/m y/m z/m\n"
@@ -97,14 +98,14 @@ static void columns_by_place(void **state) {
                                       "7 10 0 -100\n7 11 10 -100\n7 12 20 -100\n7 13 30 -100\n"
                                       "7 14 40 -100\n3 14 100 200\n3 13 100 200\n3 12 100 200\n"
                                       "3 11 100 200\n3 10 100 200\n";
-    static char marked[sizeof METRES + 3] = "\xef\xbb\xbf"; /* as some editors write */
-    check_walk(read_text(METRES, 0, 0));
-    check_walk(read_text(strcat(marked, METRES), 0, 0));
-    check_walk(read_text(CENTIMETRES, 0, 0));
-    check_walk(
-        read_text(strstr(CENTIMETRES, "7 10"), 10, 0.01)); /* no header: the caller says it */
-    /* The caller is right where both say something. */
-    JoxTrajectories *t = read_text(METRES, 20, 2);
+    static char marked[sizeof METRES + 3] = "\xef\xbb\xbf"; /* byte order mark of some editors */
+    assert_walk(read_text_recording(METRES, 0, 0));
+    assert_walk(read_text_recording(strcat(marked, METRES), 0, 0));
+    assert_walk(read_text_recording(CENTIMETRES, 0, 0));
+    assert_walk(read_text_recording(strstr(CENTIMETRES, "7 10"), 10,
+                                    0.01)); /* no header: the options give rate and unit */
+    /* Options override the file. */
+    JoxTrajectories *t = read_text_recording(METRES, 20, 2);
     JoxFrame frame;
     assert_true(jox_trajectories_frame(t, 0, &frame));
     assert_near(frame.time, 0.5, 1e-9);
@@ -114,17 +115,20 @@ static void columns_by_place(void **state) {
 
 static void columns_by_name(void **state) {
     (void)state;
-    check_walk(read_text("ID,Frame,x,y\n7,10,0,-1\n7,11,.1,-1\n7,12,.2,-1\n7,13,.3,-1\n7,14,.4,-1\n"
-                         "3,10,1,2\n3,11,1,2\n3,12,1,2\n3,13,1,2\n3,14,1,2\n",
-                         10, 1));
-    /* Time gives the frames a second, names the unit; the order of columns is free. */
-    check_walk(read_text("mass_kg;y_cm;x_cm;frame;time_s;id\n"
-                         "80;-100;0;10;1.0;7\n80;-100;10;11;1.1;7\n80;-100;20;12;1.2;7\n"
-                         "80;-100;30;13;1.3;7\n80;-100;40;14;1.4;7\n81;200;100;10;1.0;3\n"
-                         "81;200;100;11;1.1;3\n81;200;100;12;1.2;3\n81;200;100;13;1.3;3\n"
-                         "81;200;100;14;1.4;3\n",
-                         0, 0));
-    JoxTrajectories *t = read_text("ID,Frame,x,y,v_x,v_y\n1,5,2,3,0.7,-0.2\n", 25, 1);
+    assert_walk(read_text_recording(
+        "ID,Frame,x,y\n7,10,0,-1\n7,11,.1,-1\n7,12,.2,-1\n7,13,.3,-1\n7,14,.4,-1\n"
+        "3,10,1,2\n3,11,1,2\n3,12,1,2\n3,13,1,2\n3,14,1,2\n",
+        10, 1));
+    /* The column of time gives the frame rate, the headers the unit; columns may be in any
+       order. */
+    assert_walk(
+        read_text_recording("mass_kg;y_cm;x_cm;frame;time_s;id\n"
+                            "80;-100;0;10;1.0;7\n80;-100;10;11;1.1;7\n80;-100;20;12;1.2;7\n"
+                            "80;-100;30;13;1.3;7\n80;-100;40;14;1.4;7\n81;200;100;10;1.0;3\n"
+                            "81;200;100;11;1.1;3\n81;200;100;12;1.2;3\n81;200;100;13;1.3;3\n"
+                            "81;200;100;14;1.4;3\n",
+                            0, 0));
+    JoxTrajectories *t = read_text_recording("ID,Frame,x,y,v_x,v_y\n1,5,2,3,0.7,-0.2\n", 25, 1);
     JoxFrame frame;
     assert_true(t->has_velocity && jox_trajectories_frame(t, 0, &frame));
     assert_near(frame.vx[0], 0.7, 1e-6);
@@ -132,15 +136,15 @@ static void columns_by_name(void **state) {
     jox_trajectories_free(t);
 }
 
-/* x = t2: a displacement over +-0.2 s is the derivative; at the ends it is one-sided. Frames that
-   are farther apart than that reach to the next. */
-static void velocity_is_displacement(void **state) {
+/* x = t2: the displacement over +-0.2 s is the derivative; at the ends it is one-sided. Frames
+   farther apart use the next frame. */
+static void velocity_is_displacement_per_time(void **state) {
     (void)state;
     JoxText text = {0};
     JoxFrame frame;
     for (int f = 0; f <= 50; f++)
         jox_text_printf(&text, "1 %d %.9f 0\n", f, 0.04 * f * 0.04 * f);
-    JoxTrajectories *t = read_text(text.data, 25, 1);
+    JoxTrajectories *t = read_text_recording(text.data, 25, 1);
     for (uint32_t f = 5; f <= 45; f++) {
         assert_true(jox_trajectories_frame(t, f, &frame));
         assert_near(frame.vx[0], 2 * 0.04 * f, 1e-4);
@@ -149,18 +153,19 @@ static void velocity_is_displacement(void **state) {
     assert_near(frame.vx[0], 0.2, 1e-4); /* (0.2 s)2 in 0.2 s */
     jox_trajectories_free(t);
     jox_text_free(&text);
-    t = read_text("1 0 0 0\n1 20 1 0\n1 40 2 0\n2 0 5 5\n", 25, 1);
+    t = read_text_recording("1 0 0 0\n1 20 1 0\n1 40 2 0\n2 0 5 5\n", 25, 1);
     assert_true(jox_trajectories_frame(t, 1, &frame));
     assert_near(frame.vx[0], 1.25, 1e-5);
     assert_true(jox_trajectories_frame(t, 0, &frame));
     assert_near(frame.vx[0], 1.25, 1e-5);
-    assert_near(frame.vx[1], 0, 0); /* seen once */
+    assert_near(frame.vx[1], 0, 0); /* seen in one frame only */
     jox_trajectories_free(t);
 }
 
-static void any_ids_will_do(void **state) {
+static void any_ids_are_accepted(void **state) {
     (void)state;
-    JoxTrajectories *t = read_text("-5 0 0 0\n999999999999 0 1 0\n12 0 2 0\n12 -3 2 0\n", 10, 1);
+    JoxTrajectories *t =
+        read_text_recording("-5 0 0 0\n999999999999 0 1 0\n12 0 2 0\n12 -3 2 0\n", 10, 1);
     JoxFrame frame;
     assert_int_equal(t->people, 3);
     assert_int_equal(t->keys, 3);
@@ -173,8 +178,8 @@ static void any_ids_will_do(void **state) {
     jox_trajectories_free(t);
 }
 
-/* What is wrong is told with its line and column, and a way out. */
-static void errors_have_places(void **state) {
+/* Errors have line, column and a way out. */
+static void errors_have_line_and_column(void **state) {
     (void)state;
     static const struct {
         const char *text, *said[3];
@@ -198,8 +203,8 @@ static void errors_have_places(void **state) {
     };
     for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
         JoxText said = {0};
-        write_file(BAD[b].text, strlen(BAD[b].text));
-        assert_null(read_file(BAD[b].fps, BAD[b].unit, &said));
+        write_recording_text(BAD[b].text, strlen(BAD[b].text));
+        assert_null(read_recording(BAD[b].fps, BAD[b].unit, &said));
         for (int s = 0; s < 3 && BAD[b].said[s]; s++)
             if (!strstr(said.data, BAD[b].said[s]))
                 fail_msg("case %zu: '%s' is not in: %s", b, BAD[b].said[s], said.data);
@@ -207,21 +212,21 @@ static void errors_have_places(void **state) {
     }
     JoxText said = {0};
     unlink(path);
-    assert_null(read_file(25, 1, &said));
+    assert_null(read_recording(25, 1, &said));
     assert_non_null(strstr(said.data, "cannot be read"));
     jox_text_free(&said);
 }
 
-/* However a good file is cut or bent, it is read or refused. */
-static void bent_files_do_no_harm(void **state) {
+/* Cut or altered text is either read or refused. */
+static void damaged_text_is_read_or_refused(void **state) {
     (void)state;
     static const char GOOD[] = "# framerate: 10\n# id frame x/cm y/cm\nid,frame,x,y,v_x,v_y\n"
                                "1,0,1.5,-2,0,0\n2,0,3,4e1,0,1\n1,1,1,1,1,1\n";
     char bent[sizeof GOOD];
     uint32_t random = 1;
     for (size_t cut = 0; cut < sizeof GOOD; cut++) {
-        write_file(GOOD, cut);
-        jox_trajectories_free(read_file(25, 1, NULL));
+        write_recording_text(GOOD, cut);
+        jox_trajectories_free(read_recording(25, 1, NULL));
     }
     for (int turn = 0; turn < 2000; turn++) {
         memcpy(bent, GOOD, sizeof GOOD);
@@ -229,8 +234,8 @@ static void bent_files_do_no_harm(void **state) {
             random = random * 1664525u + 1013904223u;
             bent[(random >> 8) % (sizeof GOOD - 1)] = (char)(random >> 24);
         }
-        write_file(bent, sizeof GOOD - 1);
-        jox_trajectories_free(read_file(25, 1, NULL));
+        write_recording_text(bent, sizeof GOOD - 1);
+        jox_trajectories_free(read_recording(25, 1, NULL));
     }
 }
 
@@ -250,7 +255,7 @@ static void make_database(const char *sql) {
     "(13,3,1,2,1,0),(14,3,1,2,1,0);"                                                               \
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
 
-static void both_versions_of_jupedsim(void **state) {
+static void both_jupedsim_versions_are_read(void **state) {
     (void)state;
     make_database(
         TRAJECTORIES
@@ -258,41 +263,40 @@ static void both_versions_of_jupedsim(void **state) {
         "CREATE TABLE geometry(wkt TEXT NOT NULL);"
         "INSERT INTO geometry VALUES('GEOMETRYCOLLECTION (POLYGON ((0 0, 4 0, 4 4, 0 4, 0 "
         "0), (1 1, 2 1, 2 2, 1 1)))');");
-    JoxTrajectories *t = read_file(0, 0, NULL);
+    JoxTrajectories *t = read_recording(0, 0, NULL);
     assert_non_null(t);
     assert_int_equal(t->walls.ring_count, 4); /* a closed line has two sides */
-    check_walk(t);
+    assert_walk(t);
     make_database(TRAJECTORIES
                   "INSERT INTO metadata VALUES('version','2'),('fps','10.0');"
                   "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
                   "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
                   "INSERT INTO geometry VALUES(1,'POLYGON ((0 0, 4 0, 4 4))');");
-    t = read_file(0, 0, NULL);
+    t = read_recording(0, 0, NULL);
     assert_non_null(t);
     assert_int_equal(t->walls.ring_count, 2);
-    check_walk(t);
+    assert_walk(t);
     JoxText said = {0};
     make_database(TRAJECTORIES
                   "INSERT INTO metadata VALUES('fps','10');"
                   "UPDATE trajectory_data SET frame = -9223372036854775807 WHERE id = 3;");
-    assert_null(read_file(0, 0, &said));
+    assert_null(read_recording(0, 0, &said));
     assert_non_null(strstr(said.data, "more than 30 years"));
     make_database(TRAJECTORIES);
-    assert_null(read_file(0, 0, &said));
+    assert_null(read_recording(0, 0, &said));
     assert_non_null(strstr(said.data, "--fps 25"));
-    check_walk(read_file(10, 0, NULL));
+    assert_walk(read_recording(10, 0, NULL));
     make_database(TRAJECTORIES "INSERT INTO metadata VALUES('version','3'),('fps','10');");
-    assert_null(read_file(0, 0, &said));
+    assert_null(read_recording(0, 0, &said));
     assert_non_null(strstr(said.data, "version 3 of the JuPedSim format. Versions 1 and 2 are"));
     make_database("CREATE TABLE other(x)");
-    assert_null(read_file(0, 0, &said));
+    assert_null(read_recording(0, 0, &said));
     assert_non_null(strstr(said.data, "a table trajectory_data"));
     jox_text_free(&said);
 }
 
-/* Whatever an index, a list of frames or the order of rows say, everybody who is in the file is
-   read. */
-static void sqlite_in_any_order(void **state) {
+/* Rows are read whatever the index, the list of frames or their order. */
+static void rows_in_any_order_are_read(void **state) {
     (void)state;
     static const char *const CASES[] = {
         "CREATE INDEX i ON trajectory_data(frame)",
@@ -309,19 +313,19 @@ static void sqlite_in_any_order(void **state) {
                         CASES[c]);
         make_database(sql.data);
         jox_text_free(&sql);
-        JoxTrajectories *t = read_file(0, 0, NULL);
+        JoxTrajectories *t = read_recording(0, 0, NULL);
         assert_non_null(t);
-        check_walk(t);
+        assert_walk(t);
     }
     JoxText said = {0};
     make_database(TRAJECTORIES "INSERT INTO metadata VALUES('fps','10');"
                                "INSERT INTO trajectory_data VALUES(12,3,5,5,1,0)");
-    assert_null(read_file(0, 0, &said));
+    assert_null(read_recording(0, 0, &said));
     assert_non_null(strstr(said.data, "person 3 is in frame 12 twice"));
     jox_text_free(&said);
 }
 
-static void our_recordings_keep_more(void **state) {
+static void own_recordings_keep_forces_and_walls(void **state) {
     (void)state;
     JoxText error = {0};
     unlink(path);
@@ -332,7 +336,7 @@ static void our_recordings_keep_more(void **state) {
     JoxWalls walls = {0};
     jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {2, 1}, {2, 3}}, 3, false, 2.5f);
     jox_recorder_wall(r, 0, 0, &walls, 0, true);
-    /* A gate that opens, then another wall that comes and goes. */
+    /* A gate that opens, then another wall that is added and removed. */
     jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {0, 3}}, 2, false, INFINITY);
     jox_walls_name(&walls, 1, "gate", false);
     jox_recorder_wall(r, 0, 1, &walls, 1, true);
@@ -356,7 +360,7 @@ static void our_recordings_keep_more(void **state) {
         assert_true(jox_recorder_put(r, f, &error));
     }
     assert_true(jox_recorder_close(r, &error));
-    JoxTrajectories *t = read_file(0, 0, NULL);
+    JoxTrajectories *t = read_recording(0, 0, NULL);
     JoxFrame frame;
     assert_non_null(t);
     assert_int_equal(t->group_count, 2);
@@ -374,7 +378,7 @@ static void our_recordings_keep_more(void **state) {
     assert_near(frame.vx[1], 1, 1e-5);
     assert_near(frame.radius[0], 0.35, 1e-6);
     assert_near(frame.radius[1], 0.3, 1e-6);
-    /* Gates and walls as they are in each frame, in any order. */
+    /* Gates and walls in each frame, read in any order. */
     const uint32_t order[] = {2, 0, 1}, rings[] = {2, 2, 3}, stand[] = {1, 2, 2};
     for (uint32_t k = 0; k < 3; k++) {
         assert_true(jox_trajectories_frame(t, order[k], &frame));
@@ -387,13 +391,13 @@ static void our_recordings_keep_more(void **state) {
     }
     assert_true(jox_trajectories_frame(t, 0, &frame));
     assert_near(frame.radius[1], 0.2, 1e-6);
-    /* The walls, not the outline of the walkable area, which need be no wall. */
+    /* The walls, not the outline of the walkable area, which need not be a wall. */
     assert_int_equal(t->walls.count, 6); /* there and back */
     for (uint32_t v = 0; v < t->walls.count; v++)
         assert_true(t->walls.vertices[v].point.y >= 1 && t->walls.vertices[v].point.y <= 3);
     assert_near(t->walls.rings[0].height, 2.5, 0);
     jox_trajectories_free(t);
-    /* As older versions wrote them: of loads nothing is known, of the rest all. */
+    /* Written by older versions: no loads, everything else. */
     sqlite3 *db;
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(
@@ -411,7 +415,7 @@ static void our_recordings_keep_more(void **state) {
                      NULL, NULL, NULL),
         SQLITE_OK);
     sqlite3_close(db);
-    t = read_file(0, 0, NULL);
+    t = read_recording(0, 0, NULL);
     assert_non_null(t);
     assert_true(jox_trajectories_frame(t, 2, &frame));
     assert_null(frame.load);
@@ -422,8 +426,8 @@ static void our_recordings_keep_more(void **state) {
     jox_text_free(&error);
 }
 
-/* Texts that a string of C cannot hold. */
-static void zero_bytes_have_places(void **state) {
+/* Texts with zero bytes, which C strings cannot hold. */
+static void zero_bytes_are_located(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -436,8 +440,8 @@ static void zero_bytes_have_places(void **state) {
                 6, "crowd:1:1: this file is UTF-16. Save it as UTF-8"}};
     for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
         JoxText said = {0};
-        write_file(BAD[b].text, BAD[b].length);
-        assert_null(read_file(25, 1, &said));
+        write_recording_text(BAD[b].text, BAD[b].length);
+        assert_null(read_recording(25, 1, &said));
         if (!strstr(said.data, BAD[b].said))
             fail_msg("%s", said.data);
         jox_text_free(&said);
@@ -446,11 +450,16 @@ static void zero_bytes_have_places(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_by_place),         cmocka_unit_test(columns_by_name),
-        cmocka_unit_test(velocity_is_displacement), cmocka_unit_test(any_ids_will_do),
-        cmocka_unit_test(errors_have_places),       cmocka_unit_test(zero_bytes_have_places),
-        cmocka_unit_test(bent_files_do_no_harm),    cmocka_unit_test(both_versions_of_jupedsim),
-        cmocka_unit_test(our_recordings_keep_more), cmocka_unit_test(sqlite_in_any_order),
+        cmocka_unit_test(columns_by_position),
+        cmocka_unit_test(columns_by_name),
+        cmocka_unit_test(velocity_is_displacement_per_time),
+        cmocka_unit_test(any_ids_are_accepted),
+        cmocka_unit_test(errors_have_line_and_column),
+        cmocka_unit_test(zero_bytes_are_located),
+        cmocka_unit_test(damaged_text_is_read_or_refused),
+        cmocka_unit_test(both_jupedsim_versions_are_read),
+        cmocka_unit_test(own_recordings_keep_forces_and_walls),
+        cmocka_unit_test(rows_in_any_order_are_read),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
