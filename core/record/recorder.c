@@ -336,7 +336,7 @@ JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error)
     FILE *file = ours ? jox_file_open(path, "a") : NULL;
     if (file)
         return create_recorder(path, file, 0.0, NULL, last, error);
-    jox_text_printf(error, "cannot go on recording to '%s': %s", path,
+    jox_text_printf(error, "cannot continue the recording '%s': %s", path,
                     ours ? jox_file_why(errno) : "there is no recording of Jostle's");
     return NULL;
 }

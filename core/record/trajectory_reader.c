@@ -204,7 +204,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
                                 values[6]};
         for (int k = 0; k < 7; k++)
             if (!isfinite(values[k]))
-                return set_damage(why, "%s is nowhere", "a body");
+                return set_damage(why, "the %s of a body is not finite", "position or turn");
         n++;
     }
     if (status != SQLITE_ROW && status != SQLITE_DONE)

@@ -133,7 +133,7 @@ void jox_danger_areas_sections(JoxDangerAreas *areas, JoxSections *s) {
         JOX_SECTION(s, "most_time", area->most_time);
         JOX_SECTION(s, "worst", area->worst);
         if (!s->failed && !are_area_rows_valid(area))
-            jox_sections_fail(s, "rows", "there is no such level");
+            jox_sections_fail(s, "rows", "a level is out of range");
         if (s->failed) {
             area->row_count = 0;
             area->worst = -1;

@@ -9,10 +9,10 @@ enum { CROWDED = 4 }; /* index of level E */
 const JoxLevel jox_levels[JOX_LEVELS] = {
     {"A", 1.21, 3.25, 23.0, "people stand and pass freely"},
     {"B", 0.93, 2.32, 33.0, "people stand freely, and pass with some care"},
-    {"C", 0.65, 1.39, 49.0, "people stand without touching; who passes disturbs others"},
-    {"D", 0.28, 0.93, 66.0, "people stand without touching; nobody passes, all move as a group"},
-    {"E", 0.19, 0.46, 82.0, "touching cannot be avoided; to be borne for short times only"},
-    {"F", 0.0, 0.0, INFINITY, "everybody is touched by those about; nobody can move"},
+    {"C", 0.65, 1.39, 49.0, "people stand without touching; passing through disturbs others"},
+    {"D", 0.28, 0.93, 66.0, "people stand without touching; nobody can pass, all move as a group"},
+    {"E", 0.19, 0.46, 82.0, "contact cannot be avoided; bearable for short times only"},
+    {"F", 0.0, 0.0, INFINITY, "everybody is in contact on all sides; nobody can move"},
 };
 const char jox_levels_source[] =
     "J. J. Fruin, Pedestrian planning and design, 1971, in SI units as commonly quoted";

@@ -21,10 +21,10 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
      "the crowd becomes almost a fluid mass; shock waves run through it",
      "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
     {"voronoi_5", "Voronoi density of 5 per m\xc2\xb2", JOX_DANGER_VORONOI, 5.0,
-     "the same limit, by the room that single people have: it scatters more and reads higher",
+     "the same limit for the space of single people: values scatter more and are higher",
      "as density_5; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
     {"voronoi_7", "Voronoi density of 7 per m\xc2\xb2", JOX_DANGER_VORONOI, 7.0,
-     "the same limit, by the room that single people have",
+     "the same limit for the space of single people",
      "as density_7; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
     {"pressure_002", "crowd pressure of 0.02 per s\xc2\xb2", JOX_DANGER_PRESSURE, 0.02,
      "crowd turbulence sets in", "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
@@ -39,7 +39,7 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
      "death estimated within 15 seconds",
      "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
     {"dose_1", "dose of load of 1", JOX_DANGER_DOSE, 1.0,
-     "the load was borne until death is estimated",
+     "the load lasted until the estimated time of death",
      "our interpolation between the two estimates of Hopkins et al. 1993"},
 };
 
@@ -56,9 +56,9 @@ const char jox_danger_dose_text[] =
     "estimated at the load F. Two such times are published, 1112 N for 5 minutes (the middle of 4 "
     "to 6) and 6227 N for 15 s; between them the power law t = 300 s (1112 N / F)^1.739 through "
     "both is our interpolation, not a measurement. Below 1112 N nothing is known but that men "
-    "held 623 N for a short time, and women less. The safe reading is taken: the same law goes on "
-    "below 1112 N without an end (14 minutes at 623 N, 49 at 300 N), above 6227 N likewise, and "
-    "nobody recovers.";
+    "held 623 N for a short time, and women less. The cautious reading is taken: the same law is "
+    "extended below 1112 N without limit (14 minutes at 623 N, 49 at 300 N) and above 6227 N, and "
+    "no recovery is assumed.";
 
 double jox_danger_dose_rate(double load) {
     /* ln(300 s / 15 s) / ln(6227 N / 1112 N). Below 1 N, where a dose of 1 would take two years,

@@ -305,7 +305,7 @@ static void list_line_sections(JoxDangerLine *line, JoxSections *s) {
     JOX_SECTION(s, "forward", line->forward);
     JOX_SECTION(s, "back", line->back);
     if (!s->failed && !are_line_rows_valid(line))
-        jox_sections_fail(s, "rows", "there is no such side or level");
+        jox_sections_fail(s, "rows", "a side or level is out of range");
     if (s->failed) {
         line->row_count = 0;
         line->worst = -1;

@@ -119,7 +119,7 @@ void jox_danger_walls_sections(JoxDangerWalls *walls, JoxSections *s) {
     JOX_SECTION(s, "greatest", walls->most);
     const uint32_t least = walls->count ? walls->count : 1;
     if (!s->failed && (walls->first >= least || walls->most >= least))
-        jox_sections_fail(s, "pieces", "one that is named is not there");
+        jox_sections_fail(s, "pieces", "an index of a piece is out of range");
     if (s->failed)
         walls->first = walls->most = 0;
 }

@@ -143,7 +143,7 @@ static void add_displacement_figures(const JoxProbeDef *def, const void *state, 
     jox_figure_add(out, "peak", "greatest displacement at any time", "m", peak);
     const char *why;
     const double front = fit_front_speed(def, d, &why);
-    jox_figure_add(out, "front_speed", "speed at which the push travels", "m/s", front);
+    jox_figure_add(out, "front_speed", "speed of the push front", "m/s", front);
     jox_figure_why(out, why);
     jox_free(ends);
 }

@@ -45,10 +45,10 @@ static void add_failures_figures(const JoxProbeDef *def, const void *state, JoxF
             peak_time = def->from + (b + 0.5) * def->every;
         }
     }
-    jox_figure_add(out, "agent_steps", "steps of people that were looked at", "", (double)sum.all);
+    jox_figure_add(out, "agent_steps", "agent-steps measured", "", (double)sum.all);
     jox_figure_add(out, "share", "share whose 2-D program failed", "", compute_failure_share(sum));
     jox_figure_add(out, "peak", "greatest share of an interval", "", peak);
-    jox_figure_add(out, "peak_time", "when that was", "s", peak_time);
+    jox_figure_add(out, "peak_time", "time of the greatest share", "s", peak_time);
 }
 
 static void list_failures_sections(void *state, JoxSections *s) {
@@ -75,13 +75,13 @@ static void plot_failures(const JoxProbeDef *def, const void *state, bool walls,
         jox_plot_nothing(out, "nobody was there");
         return;
     }
-    jox_text_printf(out,
-                    "set xlabel 'time (s)'\nset ylabel 'programs that failed (%%)'\nunset key\n"
-                    "set yrange [0:%g]\nset xrange [%g:%g]\nset boxwidth %g\n"
-                    "set style fill solid 0.9\n"
-                    "plot csv skip 1 using 1:(100*$4) with boxes lc '#1f77b4'\n",
-                    fmax(1.1 * most, 1.0), def->from, def->from + f->count * def->every,
-                    0.9 * def->every);
+    jox_text_printf(
+        out,
+        "set xlabel 'time (s)'\nset ylabel 'linear programs without solution (%%)'\nunset key\n"
+        "set yrange [0:%g]\nset xrange [%g:%g]\nset boxwidth %g\n"
+        "set style fill solid 0.9\n"
+        "plot csv skip 1 using 1:(100*$4) with boxes lc '#1f77b4'\n",
+        fmax(1.1 * most, 1.0), def->from, def->from + f->count * def->every, 0.9 * def->every);
 }
 
 const JoxProbeCalls jox_probe_failures = {

@@ -114,7 +114,7 @@ void jox_flow_sections(void *state, JoxSections *s) {
     JOX_SECTION(s, "standing", f->valid_count);
     JOX_SECTION(s, "width", f->width);
     if (!s->failed && !are_passages_in_range(f))
-        jox_sections_fail(s, "crossings", "a passage is not there");
+        jox_sections_fail(s, "crossings", "an index of a passage is out of range");
     if (s->failed)
         f->count = f->latest_capacity = 0;
 }
@@ -167,9 +167,9 @@ static void add_flow_figures(const JoxProbeDef *def, const void *state, JoxFigur
     for (size_t i = 1; i < count; i++)
         lapses[i - 1] = times[i] - times[i - 1];
     size_t gaps = count ? count - 1 : 0;
-    jox_figure_add(out, "passages", "passages, less those taken back", "", (double)count);
-    jox_figure_add(out, "forward", "passages from its right to its left", "", f->forward);
-    jox_figure_add(out, "back", "passages from its left to its right", "", f->back);
+    jox_figure_add(out, "passages", "passages, without revoked ones", "", (double)count);
+    jox_figure_add(out, "forward", "crossings from right to left of the line", "", f->forward);
+    jox_figure_add(out, "back", "crossings from left to right of the line", "", f->back);
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);
     jox_figure_why(out, FEW);
     jox_figure_add(out, "flow_all", "flow from the first to the last passage", "1/s",

@@ -92,7 +92,7 @@ static void add_lanes_figures(const JoxProbeDef *def, const void *state, JoxFigu
     jox_figure_add(out, "order", "order of the lanes, mean (1: all in lanes)", "", order / n);
     jox_figure_add(out, "order_last", "order of the lanes at the end", "",
                    l->count ? l->items[l->count - 1].order : NAN);
-    jox_figure_add(out, "random", "order that chance alone would give", "", random / n);
+    jox_figure_add(out, "random", "order of people placed at random", "", random / n);
     jox_figure_add(out, "density", "density by counting, mean", "1/m2", density / n);
     jox_figure_add(out, "speed", "speed, mean", "m/s", speed / n);
 }

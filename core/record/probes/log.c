@@ -127,9 +127,9 @@ static void take_log_frame(const JoxProbeDef *def, void *state, const JoxFrame *
 static void add_log_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Log *log = state;
     (void)def;
-    jox_figure_add(out, "entered", "times that somebody entered a state", "", log->counts[ENTERS]);
+    jox_figure_add(out, "entered", "entries into states", "", log->counts[ENTERS]);
     jox_figure_add(out, "kicks", "kicks and throws of bodies", "", log->counts[KICKS]);
-    jox_figure_add(out, "hits", "times that a body hit somebody", "", log->counts[HIT]);
+    jox_figure_add(out, "hits", "hits of people by bodies", "", log->counts[HIT]);
 }
 
 static bool are_actions_valid(const Log *log) {
@@ -161,7 +161,7 @@ static void list_log_sections(void *state, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "actions", log->actions, log->count, log->capacity);
     JOX_SECTION(s, "counts", log->counts);
     if (!s->failed && !are_actions_valid(log))
-        jox_sections_fail(s, "actions", "a state or group of one is not there");
+        jox_sections_fail(s, "actions", "an action has an unknown state or group");
     if (s->failed)
         log->count = log->before_capacity = 0;
 }

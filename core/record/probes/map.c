@@ -170,24 +170,23 @@ static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigure
     jox_figure_add(out, "samples", "samples", "", m->samples);
     jox_figure_add(out, "density_max", "greatest density by the Gaussian of `kernel`", "1/m2",
                    m->samples ? m->density_most : NAN);
-    jox_figure_add(out, "density_max_x", "where that was, x", "m",
+    jox_figure_add(out, "density_max_x", "x of the greatest density", "m",
                    m->samples ? m->density_at.x : NAN);
-    jox_figure_add(out, "density_max_y", "where that was, y", "m",
+    jox_figure_add(out, "density_max_y", "y of the greatest density", "m",
                    m->samples ? m->density_at.y : NAN);
-    jox_figure_add(out, "density_max_time", "when that was", "s",
+    jox_figure_add(out, "density_max_time", "time of the greatest density", "s",
                    m->samples ? m->density_time : NAN);
-    jox_figure_add(out, "density_mean_max", "greatest mean density of a place, likewise", "1/m2",
-                   density / n);
+    jox_figure_add(out, "density_mean_max", "greatest mean density of a cell", "1/m2", density / n);
     jox_figure_add(out, "speed", "speed, mean", "m/s",
                    m->people ? m->speed_sum / (double)m->people : NAN);
     jox_figure_add(out, "pressure_max", "greatest crowd pressure", "1/s2", m->pressure_most);
-    jox_figure_add(out, "pressure_max_x", "where the pressure was, x", "m",
+    jox_figure_add(out, "pressure_max_x", "x of the greatest crowd pressure", "m",
                    pressed ? m->pressure_at.x : NAN);
-    jox_figure_add(out, "pressure_max_y", "where the pressure was, y", "m",
+    jox_figure_add(out, "pressure_max_y", "y of the greatest crowd pressure", "m",
                    pressed ? m->pressure_at.y : NAN);
-    jox_figure_add(out, "pressure_max_time", "when the pressure was", "s",
+    jox_figure_add(out, "pressure_max_time", "time of the greatest crowd pressure", "s",
                    pressed ? m->pressure_time : NAN);
-    jox_figure_add(out, "pressure_mean_max", "greatest mean crowd pressure of a place", "1/s2",
+    jox_figure_add(out, "pressure_mean_max", "greatest mean crowd pressure of a cell", "1/s2",
                    pressure);
     jox_figure_add(out, "compression_max", "greatest compression of any moment", "N/m",
                    m->has_compression ? m->compression_greatest : NAN);

@@ -191,8 +191,7 @@ static void add_measure_figures(const JoxProbeDef *def, const void *state, JoxFi
                    divide_or_nan(voronoi, n));
     jox_figure_add(out, "density_median", "density by Voronoi cells, median", "1/m2",
                    jox_quantile(densities, n, 0.5));
-    jox_figure_add(out, "density_p90",
-                   "density by Voronoi cells that a tenth of the intervals exceed", "1/m2",
+    jox_figure_add(out, "density_p90", "density by Voronoi cells, 90th percentile", "1/m2",
                    jox_quantile(densities, n, 0.9));
     jox_figure_add(out, "density_max", "density by Voronoi cells, greatest", "1/m2",
                    jox_quantile(densities, n, 1.0));

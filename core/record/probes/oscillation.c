@@ -269,14 +269,15 @@ static void add_oscillation_figures(const JoxProbeDef *def, const void *state, J
     jox_figure_add(out, "speed", "speed, root mean square", "m/s",
                    filled > 0.0 ? sqrt(square / filled) : NAN);
     jox_figure_add(out, "frequency", "frequency of the orientation", "rad/s", none * peak * s.step);
-    jox_figure_add(out, "rises", "its peak, over the spectrum about it", "", rises);
+    jox_figure_add(out, "rises", "peak of the orientation over the least power below it", "",
+                   rises);
     jox_figure_add(out, "speed_frequency", "frequency of the speed", "rad/s",
                    none * speed_peak * s.step);
-    jox_figure_add(out, "speed_rises", "the peak of that, over the spectrum about it", "",
+    jox_figure_add(out, "speed_rises", "peak of the speed over the least power below it", "",
                    speed_rises);
     jox_figure_add(out, "anticlockwise", "share that turns anti-clockwise", "",
                    none * turns.anticlockwise / turns.all);
-    jox_figure_add(out, "one_way", "share that turns one way for long", "",
+    jox_figure_add(out, "one_way", "predominance of one sense of rotation", "",
                    none * turns.one_way / turns.all);
     free_spectrum(&s);
 }
@@ -286,7 +287,7 @@ static void list_oscillation_sections(void *state, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "cells", o->cells, o->count, o->capacity);
     JOX_SECTION_ARRAY(s, "frames", o->frames, o->frame_count, o->frame_capacity);
     if (s->failed || (uint64_t)o->frame_count * count_windows(o) != o->count) {
-        jox_sections_fail(s, "cells", "they are not those of its windows");
+        jox_sections_fail(s, "cells", "their number does not fit the windows");
         o->count = o->frame_count = 0;
     }
     o->intervals = o->frame_count;

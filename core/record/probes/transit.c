@@ -110,17 +110,17 @@ static void add_transit_figures(const JoxProbeDef *def, const void *state, JoxFi
         sum += times[p] = t->passages[p].until - t->passages[p].from;
     for (uint32_t k = 0; k < t->since_capacity; k++)
         under_way += isfinite(t->since[k]) != 0;
-    jox_figure_add(out, "passages", "people who made the way", "", t->count);
+    jox_figure_add(out, "passages", "completed transits", "", t->count);
     jox_figure_add(out, "under_way", "people who are under way at the end", "", under_way);
     jox_figure_add(out, "mean", "time taken, mean", "s", t->count ? sum / t->count : NAN);
     jox_figure_add(out, "median", "time taken, median", "s", jox_quantile(times, t->count, 0.5));
-    jox_figure_add(out, "p95", "time that 95 % stayed within", "s",
+    jox_figure_add(out, "p95", "time taken, 95th percentile", "s",
                    jox_quantile(times, t->count, 0.95));
     jox_figure_add(out, "least", "time taken, least", "s", jox_quantile(times, t->count, 0.0));
     jox_figure_add(out, "greatest", "time taken, greatest", "s",
                    jox_quantile(times, t->count, 1.0));
     if (def->kind == JOX_PROBE_VISIT)
-        jox_figure_add(out, "inversions", "pairs that changed their order", "",
+        jox_figure_add(out, "inversions", "share of pairs that changed order", "",
                        measure_inversions(t));
     jox_free(times);
 }
@@ -157,7 +157,7 @@ static void plot_transit(const JoxProbeDef *def, const void *state, bool walls, 
     }
     if (last - first < COMMON_BEGINNING) {
         jox_text_printf(out,
-                        "set xlabel 'time to the end (s)'\nset ylabel 'people who took no longer'\n"
+                        "set xlabel 'time to the end (s)'\nset ylabel 'people within that time'\n"
                         "set xrange [0:*]\nset yrange [0:*]\nset offsets 0, 0, 0.05, 0\nunset key\n"
                         "plot csv skip 1 using 4:(1) smooth cumulative with steps lw 2 lc "
                         "'#1f77b4'\n");

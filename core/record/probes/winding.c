@@ -61,8 +61,8 @@ static void add_winding_figures(const JoxProbeDef *def, const void *state, JoxFi
     jox_figure_add(out, "median", "turns, median", "turns", jox_quantile(turns, count, 0.5));
     jox_figure_add(out, "least", "turns, least", "turns", jox_quantile(turns, count, 0.0));
     jox_figure_add(out, "greatest", "turns, greatest", "turns", jox_quantile(turns, count, 1.0));
-    jox_figure_add(out, "least_running", "least turns of anybody at any time", "turns", lowest);
-    jox_figure_add(out, "clockwise_laps", "laps clockwise", "", clockwise);
+    jox_figure_add(out, "least_running", "least running sum of turns", "turns", lowest);
+    jox_figure_add(out, "clockwise_laps", "people with a whole clockwise lap", "", clockwise);
     jox_free(turns);
 }
 
