@@ -1,3 +1,5 @@
+/* Joins summaries of several runs: reads each as a list of path and value, then writes the
+   statistics of each path. */
 #include "record/aggregate.h"
 
 #include <fnmatch.h>
@@ -79,6 +81,8 @@ typedef struct Reader {
     size_t count, capacity, texts, text; /* `text`: index of the text being read */
 } Reader;
 
+/* Stores a number, text or truth value of the summary being read under its path. Called for each
+   item by the JSON reader. */
 static bool store_summary_item(void *context, const JoxJsonItem *item) {
     Reader *r = context;
     size_t e = 0;
@@ -146,6 +150,7 @@ static void write_given_entry(JoxJson *json, const Entry *entry, size_t count) {
     jox_json_end(json);
 }
 
+/* Writes "given" and "figures"; paths keep the order in which they were first read. */
 static void write_joined_summary(const Reader *r, size_t count, JoxText *out) {
     double *numbers = jox_alloc(count + 1, sizeof *numbers);
     JoxJson json = jox_json_begin(out, 2);

@@ -1,3 +1,5 @@
+/* Samples density, flow and crowd pressure of frames every half second. The velocity in flow and
+   pressure is that between samples. */
 #include "record/local.h"
 
 #include <math.h>

@@ -17,6 +17,7 @@
 
 typedef struct JoxRecorder JoxRecorder;
 
+/* A person in a frame. */
 typedef struct JoxRecordRow {
     uint32_t id;
     float x, y;         /* m */
@@ -28,9 +29,11 @@ typedef struct JoxRecordRow {
     uint16_t group;     /* number in jostle_group */
     float radius;       /* m */
 } JoxRecordRow;
+/* A body in a frame. */
 typedef struct JoxRecordBody {
     uint32_t id;
-    float x, y, z, qx, qy, qz, qw;
+    float x, y, z;        /* m */
+    float qx, qy, qz, qw; /* rotation as a quaternion */
 } JoxRecordBody;
 
 /* Creates a recording; an earlier recording at that path is replaced, any other file is refused.

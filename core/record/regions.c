@@ -1,3 +1,4 @@
+/* Sums and means of speeds in regions. */
 #include "record/regions.h"
 
 #include <math.h>

@@ -13,8 +13,8 @@ typedef struct JoxRegion {
     char *name;
     JoxV2 *points;
     uint32_t count;
-    double speed_sum; /* m/s: sum of the means of frames */
-    uint64_t frames, people;
+    double speed_sum;        /* m/s: sum of the means of frames */
+    uint64_t frames, people; /* frames with people; people summed over frames */
 } JoxRegion;
 
 typedef struct JoxRegions {

@@ -1,3 +1,4 @@
+/* Positions of people in the last frame, and crossings of lines by the path since then. */
 #include "record/track.h"
 
 #include <math.h>

@@ -1,3 +1,5 @@
+/* Turns the rows of a recording into frames: sorts them, gives people keys and measures
+   velocities. Reads text files, too. */
 #include "record/trajectories.h"
 
 #include <errno.h>

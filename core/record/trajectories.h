@@ -22,10 +22,10 @@ typedef struct JoxTrajectoryOptions {
 
 /* Columns of rows, in ascending order of frame, then person. */
 typedef struct JoxTrajectories {
-    double fps;
+    double fps;      /* frames per second */
     int64_t *number; /* frame number of each row */
     uint32_t *key;   /* ids of the file, or their ranks unless all ids are from 0 to 2^22 - 1 */
-    float *x, *y, *vx, *vy;
+    float *x, *y, *vx, *vy;            /* m, m/s */
     float *force, *compression, *load; /* N, N/m, N; NULL unless recorded */
     float *radius;                     /* m; NULL unless recorded */
     uint16_t *group;                   /* NULL unless recorded */
@@ -40,12 +40,12 @@ typedef struct JoxTrajectories {
     int64_t *id;            /* id in the file; freed, with `line`, when reading is finished */
     uint32_t *line;         /* line in a text file; 0 in others */
     size_t count, capacity;
-    size_t *first; /* first row of each frame, and the row count at the end */
-    uint32_t frame_count, keys, people;
-    int64_t last;      /* number of the last frame, which may be empty */
-    JoxV2 period;      /* m */
-    bool has_velocity; /* the file has velocities */
-    JoxV2 low, high;   /* m: bounding box of all rows */
+    size_t *first;                      /* first row of each frame, and the row count at the end */
+    uint32_t frame_count, keys, people; /* all keys are below `keys` */
+    int64_t last;                       /* number of the last frame, which may be empty */
+    JoxV2 period;                       /* m */
+    bool has_velocity;                  /* the file has velocities */
+    JoxV2 low, high;                    /* m: bounding box of all rows */
     /* Walls of the first frame in our recordings; else the outlines of the walkable area, as
        lines. */
     JoxWalls walls;

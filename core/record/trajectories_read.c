@@ -52,6 +52,7 @@ static void reserve_own_columns(JoxTrajectories *t, bool loads, bool radii, size
         JOX_RESERVE(t->state, capacities[5], need);
 }
 
+/* Adds person i of a frame as a row; our own recordings have more columns. */
 static void add_person_row(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
                            const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[OWN]) {
     const size_t row = jox_trajectories_add(t);

@@ -78,6 +78,8 @@ static void read_comment(Text *r, const char *line, size_t length) {
     }
 }
 
+/* Splits a line at the separator, without blanks and quotation marks around fields. Returns the
+   number of fields. */
 static uint32_t split_fields(const Text *r, const char *line, size_t length,
                              Field fields[MOST_FIELDS]) {
     uint32_t count = 0;
@@ -135,6 +137,8 @@ static int find_column(const char *name, double *unit) {
     return !strncasecmp(name, "time", 4) && name[4] && strchr(" _/[(", name[4]) ? TIME : -1;
 }
 
+/* Reads column names and units from a header line. Returns false with errors if a column is
+   missing. */
 static bool read_header(Text *r, const char *line, size_t length) {
     Field fields[MOST_FIELDS];
     choose_separator(r, line, length);
@@ -189,6 +193,8 @@ static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t
     return false;
 }
 
+/* Adds the row of a line. Returns false with an error. Times of the first and last frame give
+   the frame rate. */
 static bool parse_row(Text *r, const char *line, size_t length) {
     Field fields[MOST_FIELDS];
     double v[COLUMNS] = {0};

@@ -49,6 +49,7 @@ JoxColour jox_trajectory_colour(sqlite3_stmt *row, int column) {
     return text && jox_colour_read(text, &colour) ? colour : 0;
 }
 
+/* Reads names and colours of groups from our own recordings. */
 static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
     sqlite3_stmt *statement =
         jox_database_prepare(db, "SELECT name, colour FROM jostle_group ORDER BY number");

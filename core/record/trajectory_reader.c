@@ -68,6 +68,7 @@ static void reserve_frame_columns(JoxTrajectoryReader *r, size_t need) {
     r->group = jox_realloc(r->group, r->capacity, sizeof *r->group);
 }
 
+/* Returns the index of a state number by bisection, or JOX_NO_RECORDED_STATE. */
 static uint32_t find_state_row(const JoxTrajectoryReader *r, int64_t number) {
     uint32_t low = 0, high = r->state_count;
     while (low < high) {
@@ -97,6 +98,7 @@ static float read_radius(sqlite3_stmt *row, int column) {
     return radius > 0.0f && radius < MOST_RADIUS ? radius : RADIUS;
 }
 
+/* Copies the current row of the query into element n of the columns. */
 static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
     reserve_frame_columns(r, (size_t)n + 1);
     r->id[n] = sqlite3_column_int64(r->rows, 0);
@@ -178,6 +180,7 @@ static int64_t find_first_body(JoxTrajectoryReader *r, int64_t number) {
     return low;
 }
 
+/* Reads the bodies of a frame. Returns false with a sentence if a number is not finite. */
 static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out,
                         JoxText *why) {
     if (!r->bodies || !r->body_at)
@@ -214,6 +217,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
     return true;
 }
 
+/* Sets `out` to a frame of a text file, which is in memory. */
 static bool read_frame_in_memory(JoxTrajectoryReader *r, uint32_t frame,
                                  JoxTrajectoryReaderFrame *out) {
     JoxFrame stored;

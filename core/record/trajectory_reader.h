@@ -14,9 +14,9 @@ typedef struct JoxTrajectoryReader JoxTrajectoryReader;
 typedef struct JoxTrajectoryReaderFrame {
     double time; /* s */
     uint32_t count;
-    const int64_t *id;  /* in ascending order; a person has the same id in every frame */
-    const float *x, *y; /* m */
-    const float *face_x, *face_y;
+    const int64_t *id;            /* in ascending order; a person has the same id in every frame */
+    const float *x, *y;           /* m */
+    const float *face_x, *face_y; /* unit vectors along which people look */
     /* index in `states` of JoxTrajectoryReaderInfo, or JOX_NO_RECORDED_STATE */
     const uint32_t *state;
     const float *force, *compression, *load; /* N, N/m, N */

@@ -173,6 +173,8 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     return r->rows != NULL;
 }
 
+/* Reads the bounding box of all people from the metadata; older files of other programs may lack
+   it. */
 static void read_bounds(JoxTrajectoryReader *r) {
 #define BOUND(key) "SELECT CAST(value AS REAL) FROM metadata WHERE key = '" key "'"
     static const char *const QUESTIONS[] = {BOUND("xmin"), BOUND("ymin"), BOUND("xmax"),

@@ -1,3 +1,5 @@
+/* Reads the walls of a recording and builds those of one frame, which are kept until a frame
+   with other rows is asked for. */
 #include "record/wall_history.h"
 
 #include <math.h>
@@ -25,9 +27,9 @@ struct JoxWallHistory {
     uint32_t count, capacity;
     JoxV2 *points;
     size_t point_count, point_capacity;
-    uint32_t *latest; /* 1 + row, by wall number; 0: none. Scratch */
-    uint32_t walls;   /* wall numbers are below this */
-    JoxWalls all, standing;
+    uint32_t *latest;       /* 1 + row, by wall number; 0: none. Scratch */
+    uint32_t walls;         /* wall numbers are below this */
+    JoxWalls all, standing; /* walls of one frame; without open gates */
     bool built;
     int64_t from, until; /* `all` and `standing` are valid for frames from <= f < until */
 };
@@ -62,6 +64,7 @@ static const RecordedWall *find_previous_row(const JoxWallHistory *h, uint32_t n
     return number < h->walls && h->latest[number] ? &h->rows[h->latest[number] - 1] : NULL;
 }
 
+/* Adds a row of the table. A ring with too few points is stored without any, as a removed wall. */
 static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
                          size_t *latest_capacity) {
     const int64_t number = sqlite3_column_int64(list, 1);
@@ -117,6 +120,7 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
 
 /* ---- walls of a frame ---- */
 
+/* Adds the wall of a row to `walls`, unless it is removed. */
 static void build_recorded_wall(JoxWalls *walls, const RecordedWall *row, const JoxV2 *points) {
     const uint32_t first = walls->ring_count;
     if (row->count == 0)

@@ -198,7 +198,7 @@ static void strips_spread_like_whole_grid(void **state) {
         }
 }
 
-/* Takes one step for all cells, with all factors. */
+/* Steps each cell with the formula of a mixed cell. */
 static void step_all_cells(const JoxDensity *d, float share, const float *u, float *out) {
     const JoxDensityFloor *f = d->floor;
     const int wide = d->wide;

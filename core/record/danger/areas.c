@@ -1,3 +1,5 @@
+/* Samples density, number of people and level of service in each area, and writes the table and
+   the figures. */
 #include "record/danger/areas.h"
 
 #include <math.h>
@@ -15,6 +17,7 @@ static bool has_area(const JoxDangerAreas *areas, const JoxV2 *points, uint32_t 
     return false;
 }
 
+/* Adds an area, unless there are too many or it has the outline of another. */
 static void add_danger_area(JoxDangerAreas *areas, const char *name, const JoxV2 *points,
                             uint32_t count) {
     if (areas->count == JOX_DANGER_AREAS || count < 3 || has_area(areas, points, count))
@@ -39,6 +42,7 @@ void jox_danger_areas_add(JoxDangerAreas *areas, const JoxPlace *places, uint32_
             add_danger_area(areas, probes[p].name, probes[p].points, probes[p].count);
 }
 
+/* Counts the people in an area and adds the row of this sample. */
 static void sample_area(JoxDangerArea *area, const JoxFrame *frame, const float *density,
                         double duration) {
     JoxDangerAreaRow row = {.time = frame->time, .density = NAN, .level = -1};

@@ -1,3 +1,5 @@
+/* Counts the time of each cell above the limit, and joins cells into congested regions at the
+   end. */
 #include "record/danger/congestion.h"
 
 #include <math.h>
@@ -89,6 +91,7 @@ static void add_cell(JoxCongestionRegion *region, const Search *s, size_t cell) 
     region->high = (JoxV2){jox_maxf(region->high.x, high.x), jox_maxf(region->high.y, high.y)};
 }
 
+/* Collects the cells connected to `cell` into a region. */
 static JoxCongestionRegion flood_region(Search *s, size_t cell) {
     const JoxV2 middle = jox_density_middle(s->grid, cell);
     JoxCongestionRegion region = {
@@ -109,6 +112,7 @@ static int compare_regions(const void *a, const void *b, const void *context) {
     return (x->seconds < y->seconds) - (x->seconds > y->seconds);
 }
 
+/* Finds the cell that was above the limit longest, and the first time of any cell. */
 static void find_longest(const JoxCongestion *c, const JoxDensity *grid,
                          JoxCongestionFound *found) {
     found->longest = 0.0;

@@ -38,11 +38,11 @@ typedef struct JoxDangerPerson {
 typedef struct JoxDangerRow {
     double time; /* s */
     uint32_t people;
-    float most[JOX_DANGER_MEASURES]; /* greatest of each measure; NAN: not read */
-    uint32_t over[JOX_DANGER_LIMITS];
-    uint32_t levels[JOX_LEVELS]; /* number of people at each level of service */
-    float wall_most;             /* N: greatest load of any wall piece; NAN: unknown */
-    uint32_t left, exits[JOX_DANGER_EXITS];
+    float most[JOX_DANGER_MEASURES];        /* greatest of each measure; NAN: not read */
+    uint32_t over[JOX_DANGER_LIMITS];       /* people over each limit */
+    uint32_t levels[JOX_LEVELS];            /* number of people at each level of service */
+    float wall_most;                        /* N: greatest load of any wall piece; NAN: unknown */
+    uint32_t left, exits[JOX_DANGER_EXITS]; /* people who left so far, in all and by exit */
 } JoxDangerRow;
 
 struct JoxDanger {
@@ -63,8 +63,8 @@ struct JoxDanger {
     uint32_t has_load_capacity;
     uint32_t *loaded; /* indices of the people in the frame for whom it is 1 */
     uint32_t loaded_count, loaded_capacity;
-    double least[JOX_DANGER_MEASURES]; /* lowest limit of each measure; INFINITY: it has none */
-    bool has_compression, has_load;
+    double least[JOX_DANGER_MEASURES]; /* lowest limit of each measure; INFINITY: no limit */
+    bool has_compression, has_load;    /* a frame had these columns */
 
     JoxCongestion congestion;
     JoxDangerLines lines;

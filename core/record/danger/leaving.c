@@ -1,3 +1,4 @@
+/* Counts people who left since the last call, by exit, and gives quantiles of their times. */
 #include "record/danger/leaving.h"
 
 #include <math.h>

@@ -15,7 +15,7 @@ enum {
     JOX_LEFT_ANYWHERE = -2
 };
 
-/* People who left at one time by one exit. */
+/* Number of people who left by an exit at one time. */
 typedef struct JoxLeave {
     double time; /* s */
     uint32_t people;

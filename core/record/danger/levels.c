@@ -1,3 +1,4 @@
+/* Table of levels of service, and look-up of a level by density or flow. */
 #include "record/danger/levels.h"
 
 #include <math.h>

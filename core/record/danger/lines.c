@@ -1,3 +1,4 @@
+/* Counts crossings of lines in each frame, and samples flow, queue and level of service. */
 #include "record/danger/lines.h"
 
 #include <math.h>
@@ -194,6 +195,8 @@ static void update_line_figures(JoxDangerLine *line, JoxDangerLineRow *row, doub
     extend_spell(&line->stop_and_go, row->stop_and_go, row->time, duration);
 }
 
+/* Adds the row of this sample. The first rows have no flow, until there is a row from WINDOW
+   seconds ago. */
 static void sample_line(JoxDangerLine *line, const JoxFrame *frame, const float *density,
                         double duration) {
     uint32_t forward, back;

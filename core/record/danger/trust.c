@@ -1,3 +1,4 @@
+/* The two signs that a simulation is denser than people can be, and their sentence for users. */
 #include "record/danger/trust.h"
 
 #include "record/fields/density.h"

@@ -1,3 +1,4 @@
+/* Updates the mean load of each wall piece in each frame, and writes the figures. */
 #include "record/danger/walls.h"
 
 #include <math.h>
@@ -32,6 +33,7 @@ static JoxDangerPiece *find_piece(JoxDangerWalls *walls, const JoxWallLoad *load
     return &walls->items[p];
 }
 
+/* Updates maximum and time over the limit of piece p. */
 static void update_piece_figures(JoxDangerWalls *walls, uint32_t p, double time, double duration) {
     JoxDangerPiece *piece = &walls->items[p];
     if (piece->load > piece->most) {

@@ -1,3 +1,5 @@
+/* Creates and frees densities, samples them by one of the two kernels, and keeps means and
+   maxima. */
 #include "record/fields/density.h"
 
 #include <math.h>

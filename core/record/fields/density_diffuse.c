@@ -49,6 +49,8 @@ static void add_cell_run(JoxDensityFloor *f, uint32_t first, int from, int to, C
     }
 }
 
+/* Lists runs of cells of one kind, so that a step uses the cheaper kernel where all ways are
+   open. */
 static void list_runs(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     f->run_count = 0;
@@ -74,6 +76,7 @@ static size_t count_words(const JoxDensity *d) {
     return jox_density_words(d) * (size_t)d->high;
 }
 
+/* Sets the bits of cells with a way to the right and up. */
 static void list_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     if (!f->right) {
@@ -153,6 +156,7 @@ static void add_spans(JoxDensityWork *w, const struct JoxDensityRun *run, int ro
     }
 }
 
+/* Lists the parts of all runs that a step must compute. */
 static void list_spans(JoxDensity *d, uint64_t *reached) {
     const JoxDensityFloor *f = d->floor;
     d->work.span_count = 0;

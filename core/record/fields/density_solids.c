@@ -150,6 +150,7 @@ static uint32_t find_crossings(JoxDensitySolids *s, float y) {
     return count;
 }
 
+/* Sorts the stretches of a line and merges those that overlap. */
 static void merge_stretches(Line *line) {
     uint32_t kept = 0;
     jox_sort(line->stretches, line->count, sizeof *line->stretches, compare_stretches, NULL, NULL);
@@ -164,6 +165,7 @@ static void merge_stretches(Line *line) {
     line->count = kept;
 }
 
+/* Builds the stretches of the line at y: solid by solid between pairs of crossings. */
 static void build_line(JoxDensitySolids *s, Line *line, float y) {
     const uint32_t count = find_crossings(s, y);
     line->y = y;

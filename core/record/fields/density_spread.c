@@ -32,6 +32,7 @@ typedef struct Taps {
     float values[MOST_TAPS];
 } Taps;
 
+/* Tabulates the Gaussian of the variance that remains, over three standard deviations. */
 static void tabulate_taps(const JoxDensity *d, Taps *taps) {
     double v = jox_density_variance(d), sum = 0.0;
     const int reach = taps->reach =
@@ -158,6 +159,7 @@ static void convolve_along_y(const JoxDensity *d, const Taps *taps, int field, i
     }
 }
 
+/* Convolves row `row` along x, then along y the row whose neighbours are complete by now. */
 static void spread_row(JoxDensity *d, const Taps *taps, int row, float *const *out) {
     JoxDensitySumKernel *const sum = KERNELS[jox_isa_resolve(d->isa)].sum;
     const int done = row - taps->reach; /* the last row whose neighbours along y are complete */

@@ -54,6 +54,7 @@ static void enter_bar(JoxDensity *d, uint32_t bar, bool fill) {
     }
 }
 
+/* Lists the edges of standing walls, and by cell the edges that pass through it. */
 static void list_bars(JoxDensity *d, const JoxWalls *walls) {
     JoxDensityFloor *f = d->floor;
     const size_t cells = (size_t)d->wide * (size_t)d->high;

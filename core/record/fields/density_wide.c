@@ -19,6 +19,7 @@ static JoxMask place_image(const JoxDensityAxis *axis, JoxFloats at, uint32_t k,
     return jm_and(jf_le(jf_set(axis->first), place), jf_lt(place, jf_set(axis->end)));
 }
 
+/* Places all images of a packet of people. Returns whether any image is wanted. */
 static uint32_t place_packet(const JoxDensityAxis *axis, JoxFloats at, size_t to,
                              JoxDensityPlaced *placed) {
     const uint32_t from = axis->period > 0.0f ? 0 : 1, end = axis->period > 0.0f ? 3 : 2;
@@ -63,6 +64,7 @@ uint64_t JOX_WIDE(jox_density_held)(const float *cells, int count) {
 
 enum { BLOCK = 4 }; /* packets whose sums are kept in registers */
 
+/* Sums `packets` packets of columns from column `at` on over all rows. */
 static inline void sum_packets(const float *const *rows, const float *taps, int count, float scale,
                                float *out, int at, int packets) {
     JoxFloats sums[BLOCK];

@@ -1,3 +1,5 @@
+/* Collects samples in four quarters of the span, and computes crowd pressure when a quarter is
+   complete. */
 #include "record/fields/pressure.h"
 
 #include <math.h>
@@ -70,6 +72,8 @@ static float find_second_least(const float v[QUARTERS]) {
     return next;
 }
 
+/* Returns the pressure of a cell over four complete quarters; NAN if it was too sparse or the
+   flow was not steady. */
 static float measure_cell_pressure(const JoxPressure *p, size_t c) {
     float density = 0.0f, vx = 0.0f, vy = 0.0f, square = 0.0f, within[QUARTERS];
     for (int q = 0; q < QUARTERS; q++) {
@@ -91,6 +95,7 @@ static float measure_cell_pressure(const JoxPressure *p, size_t c) {
     return density / QUARTERS * variance;
 }
 
+/* Builds the summed-area tables of pressures and of measured cells. */
 static void build_sum_tables(JoxPressure *p) {
     const size_t wide = (size_t)p->columns + 1;
     for (uint32_t r = 0; r < p->rows; r++)

@@ -1,3 +1,5 @@
+/* Cuts Voronoi cells by the neighbours of a site, which bins of the plane hold; voronoi_walls.c
+   cuts them by walls. */
 #include "record/fields/voronoi.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Voronoi density of each person in a dense crowd, between the walls near the person. */
 #include "record/fields/voronoi_people.h"
 
 #include <math.h>

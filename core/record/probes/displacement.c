@@ -34,6 +34,8 @@ static float measure_displacement(const JoxProbeDef *def, const Person *p) {
     return def->count ? fabsf(jox_dot(away, jox_unit(def->points[0]))) : jox_length(away);
 }
 
+/* Adds a step to the displacement: to the place of rest in the first `rest` seconds, then to
+   maximum and onset. */
 static void move_person(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
     p->dx += stretch->by.x;
     p->dy += stretch->by.y;

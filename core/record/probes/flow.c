@@ -33,6 +33,8 @@ typedef struct Flow {
     double width; /* m: clear width about the middle of the line; 0 before the first frame */
 } Flow;
 
+/* Adds a crossing. A backward one revokes the last valid passage of that person, and the one
+   before becomes the last. */
 static void add_flow_crossing(Flow *f, uint32_t key, int direction, double time) {
     JOX_RESERVE(f->crossings, f->capacity, f->count + 1);
     Crossing *c = &f->crossings[f->count++];

@@ -42,6 +42,7 @@ static int find_walking_way(const JoxProbeDef *def, const JoxFrame *frame, uint3
     return v > STANDS ? 1 : v < -STANDS ? -1 : 0;
 }
 
+/* Counts walkers by row and way, and adds the order parameter of this frame. */
 static void take_lanes_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
                              const uint8_t *seen) {
     Lanes *l = state;

@@ -41,6 +41,7 @@ typedef struct Log {
     uint32_t counts[3];
 } Log;
 
+/* Returns the index of a name, adding a copy of it if it is new. */
 static uint32_t intern_name(Log *log, const char *text) {
     uint32_t n = 0;
     while (n < log->name_count && strcmp(log->names[n], text) != 0)
@@ -58,6 +59,7 @@ static float measure_gap(const Before *person, const JoxObject *body, float radi
            radius;
 }
 
+/* Returns the row of the moving body nearest to a person; -1 if there is none. */
 static int32_t find_nearest_body(const JoxFrame *frame, const Before *person) {
     int32_t best = -1;
     float least = INFINITY;
@@ -73,6 +75,8 @@ static int32_t find_nearest_body(const JoxFrame *frame, const Before *person) {
     return best;
 }
 
+/* Adds a row: the person as before the step, and the body in row `row` of the objects, -1 for
+   none. */
 static void add_action(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t row) {
     const Before *before = &log->before[frame->key[i]];
     JOX_RESERVE(log->actions, log->capacity, log->count + 1);
@@ -132,6 +136,7 @@ static void add_log_figures(const JoxProbeDef *def, const void *state, JoxFigure
     jox_figure_add(out, "hits", "hits of people by bodies", "", log->counts[HIT]);
 }
 
+/* Returns whether all names of actions are in the table, as after a restore. */
 static bool are_actions_valid(const Log *log) {
     for (uint32_t k = 0; k < log->before_capacity; k++)
         if (log->before[k].known && log->before[k].state >= log->name_count)

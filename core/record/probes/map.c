@@ -121,6 +121,7 @@ static double mean_pressure(const Map *m, JoxV2 at) {
     return known ? m->pressure[c] / m->measured[c] : NAN;
 }
 
+/* Samples density, speed and compression into the sums. */
 static void sample_map(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
     JOX_RESERVE(m->speeds, m->speed_capacity, frame->count + 1);

@@ -85,6 +85,8 @@ static void gather_walls_near_polygon(const JoxProbeDef *def, Measure *m, const 
     }
 }
 
+/* Returns the mean Voronoi density of the polygon, 1/m2: each cell contributes its part inside
+   the polygon over its area. */
 static double measure_voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t *seen) {
     double sum = 0.0;
     for (uint32_t s = 0; s < m->sites.count; s++) {

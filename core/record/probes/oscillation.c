@@ -79,6 +79,7 @@ static void take_oscillation_frame(const JoxProbeDef *def, void *state, const Jo
     }
 }
 
+/* Allocates a spectrum, and sets the length of its segments and the tables over them. */
 static void begin_spectrum(Spectrum *s, const JoxProbeDef *def, uint32_t intervals) {
     const double wanted = fmin(round(def->span / def->every), intervals);
     s->samples = wanted < LEAST_SAMPLES ? 0 : (uint32_t)wanted;
@@ -166,6 +167,7 @@ static void visit_segments(const Oscillation *o, Spectrum *s, SegmentCall of, vo
     jox_free(series);
 }
 
+/* Adds the powers of a segment, for direction and speed, to the spectrum. */
 static void add_segment_powers(Spectrum *s, const double *nx, const double *ny, const double *speed,
                                void *context) {
     (void)context;
@@ -222,6 +224,7 @@ typedef struct Turns {
     double anticlockwise, one_way, all;
 } Turns;
 
+/* Adds the sense of rotation of a segment, by the powers in three bins at the peak. */
 static void add_segment_turn(Spectrum *s, const double *nx, const double *ny, const double *speed,
                              void *context) {
     (void)speed;

@@ -1,3 +1,4 @@
+/* Creates a probe of a kind, gives it the frames that are due, and writes its results. */
 #include "record/probes/probe.h"
 
 #include <math.h>

@@ -66,6 +66,8 @@ static uint8_t classify_state(const JoxProbeDef *def, const char *name) {
     return strcmp(name, def->states[0]) == 0 ? 1 : strcmp(name, def->states[1]) == 0 ? 2 : 0;
 }
 
+/* Takes a frame of the probe `visit`: notes who enters the first state and who completes a visit
+   by entering the second. */
 static void take_visit_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
                              const uint8_t *seen) {
     Transit *t = state;
