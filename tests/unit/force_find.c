@@ -1,4 +1,4 @@
-/* The kernel that finds contacts against the plain path of one agent (contact_near.c), by every
+/* The kernel that finds contacts against plain C of one agent, by every
    instruction set that the machine runs: over random crowds and hard ones, packed into heaps,
    coincident, on a lattice of touching discs, far apart, among walls, with periodic edges. */
 #include <math.h>
@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "base/assert.h"
 #include "base/number/random.h"
 #include "force/kernels.h"
 #include "nav/nav.h"
@@ -102,6 +103,94 @@ static void end(Crowd *c) {
     jox_walls_free(&c->walls);
 }
 
+/* ---- contacts of one agent in plain C ---- */
+
+/* Least normal velocity after the contact: the gap may close within the step, no more; what meets
+   in the step bounces as restitution has it. */
+static float plain_target(float gap, float speed, float restitution, float dt) {
+    float target = gap > 0.0f ? -gap / dt : 0.0f;
+    if (restitution > 0.0f && speed < target)
+        target = jox_maxf(target, -restitution * speed);
+    return target;
+}
+
+/* The contact of agent i and j, over that gap (m); a normal of (0, 0): they stand in one place. */
+static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal, float gap,
+                            float squeeze) {
+    const JoxAgents *a = f->step.agents;
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
+    if (normal.x == 0.0f && normal.y == 0.0f)
+        normal.x = 1.0f; /* people in one place part along x */
+    float speed = (a->vx[i] - a->vx[j]) * normal.x + (a->vy[i] - a->vy[j]) * normal.y;
+    JOX_ASSERT(jox_is_unit(normal));
+    return (JoxFoundPair){
+        .other = j,
+        .other_id = a->id[j],
+        .normal = normal,
+        .squeeze = squeeze,
+        .target = plain_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)), (float)f->step.dt),
+        .mass = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j))};
+}
+
+static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
+    const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;
+    for (uint32_t k = 0; k < near->touch_count[i]; k++)
+        if (index[k] == other)
+            return true;
+    return false;
+}
+
+/* Whether more may be within touching range of an agent than its list holds. */
+static bool is_cut(const JoxNeighbours *near, uint32_t i) {
+    return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
+}
+
+/* Two agents, if the gap between them may close within the step. */
+static bool touches(JoxForces *f, uint32_t i, uint32_t other, bool walls, JoxFoundPair *out) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 offset = jox_offset(a, other, i);
+    float distance2 = jox_length2(offset);
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    float sum = a->breadth[i] + a->breadth[other];
+    float whole = jox_at(radius, i) + jox_at(radius, other);
+    float most = whole + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+    if (!(distance2 < most * most))
+        return false;
+    float distance = sqrtf(distance2), gap = distance - sum;
+    float squeeze = JOX_SQUEEZE * jox_clampf(whole - distance, 0.0f, whole - sum);
+    if (gap > JOX_TOUCH_LEAST && !(squeeze > 0.0f)) {
+        JoxV2 towards = {a->vx[other] - a->vx[i], a->vy[other] - a->vy[i]};
+        float closing = jox_length(towards) * (float)f->step.dt;
+        if (gap > JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing))
+            return false;
+    }
+    JoxV2 at = {a->x[i], a->y[i]};
+    if (walls && jox_wall_grid_separates(f->step.walls, at, jox_sub(at, offset)))
+        return false;
+    f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap < 0.0f;
+    *out = pair_of(f, i, other, jox_unit(offset), gap, squeeze);
+    return true;
+}
+
+static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out) {
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
+    uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i], found = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
+                              : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
+        if (a->id[other] < a->id[i] && (!is_cut(near, other) || lists(near, other, i)))
+            continue;
+        JoxFoundPair pair;
+        if (touches(f, i, other, walls, &pair))
+            jox_pair_insert(out, found++, &pair);
+    }
+    JOX_ASSERT(found <= JOX_MOST_NEIGHBOURS);
+    return found;
+}
+
 static bool same_pair(const JoxFoundPair *a, const JoxFoundPair *b) {
     return a->other == b->other && a->other_id == b->other_id && a->normal.x == b->normal.x &&
            a->normal.y == b->normal.y && a->squeeze == b->squeeze && a->target == b->target &&
@@ -117,7 +206,7 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     if (f->step.walls)
         jox_wall_grid_at(f->step.walls, jox_v2(a->x[i], a->y[i]), &edges);
     const JoxFoundPair *found = (const JoxFoundPair *)f->found.items + f->found_first[i];
-    assert_int_equal(f->found_number[i], jox_contacts_of(f, i, edges > 0, pairs));
+    assert_int_equal(f->found_number[i], plain_contacts(f, i, edges > 0, pairs));
     for (uint32_t k = 0; k < f->found_number[i]; k++)
         assert_true(same_pair(&found[k], &pairs[k]));
     const JoxFoundWall *wall = (const JoxFoundWall *)f->found_walls.items + f->wall_first[i];
