@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "geom/polygon.h"
+#include "geom/walls.h"
 
 typedef enum JoxPlaceKind {
     JOX_PLACE_POINT,   /* points[0]; inside means within `radius` */
@@ -87,6 +88,25 @@ JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t place, JoxV2 point);
 /* Point of a queue's polyline `distance` metres behind its head (extended straight at its end). */
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance);
 int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
+
+/* ---- arrival (place_reach.c): being there, with no wall between ----
+   Conditions of behaviours, sinks and steering ask this; measurements (density, probes) ask the
+   calls above, which know no walls. `walls` are all, with those that are open; NULL: none. */
+
+/* Whether a point is in a place (jox_place_contains) and no standing wall cuts the straight way to
+   the place's nearest point; a set: to that of a member. Solids that hold the nearest point do not
+   count, and neither do walls on which it lies; closed gates do, as nobody leaves by a doorway that
+   is shut. Of an area no way is asked. */
+bool jox_place_is_reached(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
+                          JoxV2 point);
+/* The same of `count` points: in[k] of points[k]. */
+void jox_place_is_reached_each(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
+                               const JoxV2 *points, uint32_t count, bool *in);
+/* Whether the place's nearest point is nearer than `distance` m and no standing wall cuts the way
+   to it. Solids that hold it, and walls and gates on which it lies, do not count: people wait
+   before a gate whose place lies on it. */
+bool jox_place_is_near(const JoxPlace *places, uint32_t place, const JoxWalls *walls, JoxV2 point,
+                       double distance);
 
 /* Appends ", in NAME" of the smallest polygon in which the point lies; with `near`, where there is
    none, ", 3.2 m from NAME" of the nearest place within 10 m. */

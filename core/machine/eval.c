@@ -28,9 +28,10 @@ static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int3
         return false;
     const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
     if (target < 0)
-        return jox_place_contains(run->places, (uint32_t)place, own);
+        return jox_place_is_reached(run->places, (uint32_t)place, run->walls, own);
     const JoxSpot spot = jox_target_find(run, i, target);
-    return spot.found && jox_place_contains(run->places, (uint32_t)place, jox_v2(spot.x, spot.y));
+    return spot.found &&
+           jox_place_is_reached(run->places, (uint32_t)place, run->walls, jox_v2(spot.x, spot.y));
 }
 
 /* Agents of whom all ask about one place, whether they are there themselves. */
@@ -40,7 +41,7 @@ static void all_inside(const JoxMachineRun *run, const uint32_t *agents, uint32_
     bool there[JOX_BATCH];
     for (uint32_t n = 0; n < count; n++)
         at[n] = (JoxV2){run->agents->x[agents[n]], run->agents->y[agents[n]]};
-    jox_place_contains_each(run->places, place, at, count, there);
+    jox_place_is_reached_each(run->places, place, run->walls, at, count, there);
     for (uint32_t n = 0; n < count; n++)
         to[n] = there[n];
 }
@@ -91,6 +92,15 @@ static bool is_touching(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
            (spot->place >= 0 || !jox_is_hidden(run, at, (JoxV2){spot->x, spot->y}, true));
 }
 
+/* Whether a target is nearer than so many metres; of a place, no wall may lie between. */
+static bool is_near(const JoxMachineRun *run, uint32_t i, int32_t target, double metres) {
+    const int32_t place = jox_target_place(run, i, target);
+    if (place < 0)
+        return jox_target_distance(run, i, target) < metres;
+    return jox_place_is_near(run->places, (uint32_t)place, run->walls,
+                             (JoxV2){run->agents->x[i], run->agents->y[i]}, metres);
+}
+
 /* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
 static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, double reach) {
     const JoxAgents *a = run->agents;
@@ -120,7 +130,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : people_in(run, place);
     case JOX_OP_NEAR:
-        return jox_target_distance(run, i, in->target) < a;
+        return is_near(run, i, in->target, a);
     case JOX_OP_FIRST_IN:
         return run->scratch->rank[i] == 0;
     case JOX_OP_TOUCHES:

@@ -168,6 +168,7 @@ static void list_goals(const JoWorld *world, Goals *goals) {
 static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t first_of_sources,
                        const uint32_t *source_of, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
+    const JoxWalls *walls = &scene->world->model.all_walls;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     JoxField *field = jox_routes_look_ahead(&stage, goals->places[n]);
@@ -175,7 +176,7 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
                  jox_alloc((size_t)scene->spec->source_count + 1, sizeof *shut.sources)};
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
-        if (!(goals->of[i] >> n & 1) || jox_place_contains(places, goals->places[n], at) ||
+        if (!(goals->of[i] >> n & 1) || jox_place_is_reached(places, goals->places[n], walls, at) ||
             jox_field_distance(field, at) < INFINITY)
             continue;
         if (i < first_of_sources)

@@ -177,10 +177,11 @@ static void lead_on(Journey *j, uint32_t step, Part part, const char *when) {
     jox_text_printf(&j->text, "\n      { to = \"Stay\", when = %s },", when);
 }
 
-/* When somebody has come to a place: into it, or to within reach of what has no inside. */
-static void arrived(const Journey *j, int32_t place, char out[256]) {
+/* The condition of having come to a place: inside, or within reach of what has no inside. Exits are
+   not reached while a gate on their line is closed; people may wait at such a line. */
+static void arrived(const Journey *j, int32_t place, bool leaves, char out[256]) {
     const JoxPlaceKind kind = kind_of(j, place);
-    const bool thin = kind == JOX_PLACE_LINE || kind == JOX_PLACE_QUEUE;
+    const bool thin = (kind == JOX_PLACE_LINE && !leaves) || kind == JOX_PLACE_QUEUE;
     snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"", place_name(j, place));
 }
 
@@ -310,7 +311,7 @@ static void write_part(Journey *j, uint32_t step, Part part) {
     switch (part) {
     case WALK:
         walk(j, s->to);
-        arrived(j, s->to, when);
+        arrived(j, s->to, false, when);
         snprintf(when + strlen(when), sizeof when - strlen(when),
                  " | near(\"%.80s\", 2.5) & stuck(3)", place_name(j, s->to)); /* others are there */
         if (gathers(j, s)) /* it is full: nobody presses into it */
@@ -345,7 +346,7 @@ static void write_part(Journey *j, uint32_t step, Part part) {
         break;
     default:
         walk(j, s->exit);
-        arrived(j, s->exit, when);
+        arrived(j, s->exit, true, when);
         jox_text_printf(&j->text, "\n      { to = \"Gone\", when = %s },", when);
         end_state(j);
         return;

@@ -282,7 +282,7 @@ static const JoxKey KEYS[] = {
      .meaning = "how long to stand, in s: a number or a distribution"},
     {"step", "until", TEXT, "", 0, 0, "", TO(JoxJourneyStep, until), .meaning = "stands until this signal is given, by an event or by somebody near"},
     {"step", "open", TEXT, "", 0, 0, "", READ_TO(jox_key_gate, JoxJourneyStep, gate, gate), .meaning = "stands until the walls of this name are open"},
-    {"step", "exit", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, exit, exit), .meaning = "place to walk to and to leave by"},
+    {"step", "exit", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, exit, exit), .meaning = "place to walk to and to leave by; not through a wall or a closed gate"},
     {"step", "share", NUMBER, "", 0, 1, "1", TO(JoxJourneyStep, share), .meaning = "of people who do this step; the others go on to the next"},
 
     {"source", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSource, place, place), .meaning = "place where agents appear; of a set each at one of its members"},
@@ -303,7 +303,7 @@ static const JoxKey KEYS[] = {
     {"source", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxAgentSource, memory, memory_count), .of = "draw*",
      .meaning = "in place of what the group gives under the same name"},
 
-    {"sink", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSink, place, place), .meaning = "place; agents that come in are removed"},
+    {"sink", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_place, JoxAgentSink, place, place), .meaning = "place; agents that come in are removed, but not through a wall or a closed gate"},
     {"sink", "group", TEXT, "", 0, 0, "", READ_TO(jox_key_group, JoxAgentSink, group, group), .meaning = "only agents of this group"},
     {"tally", "memory", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxTally, memory, memory), .meaning = "name of a memory of behaviours whose values are taken together"},
     {"tally", "state", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxTally, state, state), .meaning = "only agents in the state of this name"},

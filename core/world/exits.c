@@ -52,7 +52,7 @@ static void count_at(JoWorld *world, const JoxPlace *place) {
 static void count_exit(JoWorld *world, uint32_t place, JoxV2 at) {
     const JoxPlace *places = world->model.places, *of = &places[place];
     for (uint32_t m = 0; of->kind == JOX_PLACE_SET && m < of->member_count; m++)
-        if (jox_place_contains(places, (uint32_t)of->members[m], at)) {
+        if (jox_place_is_reached(places, (uint32_t)of->members[m], &world->model.all_walls, at)) {
             of = &places[of->members[m]];
             break;
         }
@@ -80,7 +80,8 @@ static void count_leavers(JoWorld *world) {
         for (uint32_t p = 0; p < world->model.scene_places; p++) {
             const JoxPlace *place = &world->model.places[p];
             if (isfinite(size_of(place)) &&
-                jox_place_contains(world->model.places, p, world->scratch.gone.items[g]) &&
+                jox_place_is_reached(world->model.places, p, &world->model.all_walls,
+                                     world->scratch.gone.items[g]) &&
                 (!of || size_of(place) < size_of(of)))
                 of = place;
         }
@@ -103,7 +104,8 @@ static void empty_sinks(JoWorld *world) {
         for (uint32_t i = 0; i < a->count; i++) {
             if (a->removed[i] || (sink->group >= 0 && a->group[i] != sink->group))
                 continue;
-            if (!jox_place_contains(world->model.places, sink->place, (JoxV2){a->x[i], a->y[i]}))
+            if (!jox_place_is_reached(world->model.places, sink->place, &world->model.all_walls,
+                                      (JoxV2){a->x[i], a->y[i]}))
                 continue;
             count_exit(world, sink->place, (JoxV2){a->x[i], a->y[i]});
             a->removed[i] = 1;

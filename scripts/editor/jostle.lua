@@ -156,7 +156,7 @@ function Target:where(name, ...) end
 ---@field signal fun(name: string) calls out: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 
---- `inside(place) or inside(target, place)`: the agent, or a target, is in a place
+--- `inside(place) or inside(target, place)`: the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, but for solids that hold the point
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? string|jostle.Target|jostle.Number
 ---@return jostle.Condition
@@ -167,7 +167,7 @@ function inside(a1, a2) end
 ---@return jostle.Condition
 function crosses(a1) end
 
---- `near(target, metres)`: the target is nearer than so many metres
+--- `near(target, metres)`: the target is nearer than so many metres; of a place, no wall or closed gate may lie between, but for those on or in which its nearest point lies
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition

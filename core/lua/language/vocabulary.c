@@ -14,11 +14,13 @@
 const JoxWord jox_words[] = {
     /* conditions */
     {"inside", "t?p", CONDITION, JOX_OP_INSIDE, 0, "inside(place) or inside(target, place)", "",
-     "the agent, or a target, is in a place", "inside \"yard\""},
+     "the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, "
+     "but for solids that hold the point", "inside \"yard\""},
     {"crosses", "p", CONDITION, JOX_OP_CROSSES, 0, "crosses(line)", "",
      "the last step crossed a line, from its right to its left", "crosses \"mid\""},
     {"near", "tn", CONDITION, JOX_OP_NEAR, 0, "near(target, metres)", "",
-     "the target is nearer than so many metres", "near(\"post\", 2)"},
+     "the target is nearer than so many metres; of a place, no wall or closed gate may lie between, but for "
+     "those on or in which its nearest point lies", "near(\"post\", 2)"},
     {"touches", "t", CONDITION, JOX_OP_TOUCHES, 0, "touches(target)", "",
      "the gap to the target is below 5 cm", "touches(nearest \"ball\")"},
     {"first_in", "p", CONDITION, JOX_OP_FIRST_IN, 0, "first_in(queue)", "",

@@ -44,7 +44,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JoxV2 to = aim(run, i, &spot);
     if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
         return jox_unit(jox_sub(to, from));
-    if (jox_place_contains(run->places, (uint32_t)spot.place, from))
+    if (jox_place_is_reached(run->places, (uint32_t)spot.place, run->walls, from))
         return (JoxV2){0.0f, 0.0f};
     return place->kind == JOX_PLACE_POLYGON
                ? jox_unit(jox_sub(to, from))

@@ -127,7 +127,7 @@ static void lead_to(Asking *q, int32_t *places, uint32_t first) {
         at[count] = (JoxV2){a->x[q->s->index[n]], a->y[q->s->index[n]]};
         number[count++] = (uint8_t)n;
     }
-    jox_place_contains_each(run->places, (uint32_t)place, at, count, there);
+    jox_place_is_reached_each(run->places, (uint32_t)place, run->walls, at, count, there);
     q->place = (uint32_t)place;
     q->now.count = 0;
     for (uint32_t n = 0; n < count; n++) {
@@ -205,7 +205,7 @@ int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
         if (state->steer[t].kind != JOX_STEER_FIELD)
             continue;
         const int32_t place = jox_target_place(run, i, state->steer[t].target);
-        if (place < 0 || jox_place_contains(run->places, (uint32_t)place, p))
+        if (place < 0 || jox_place_is_reached(run->places, (uint32_t)place, run->walls, p))
             continue;
         JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
         const JoxField *now = ways[JOX_ROUTE_NOW], *open = ways[JOX_ROUTE_OPEN];

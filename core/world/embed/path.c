@@ -62,7 +62,7 @@ static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t 
             xy[2 * (size_t)count + 1] = (double)at.y;
         }
         count++;
-        if (jox_place_contains(w->model.places, place, at)) {
+        if (jox_place_is_reached(w->model.places, place, &w->model.all_walls, at)) {
             *length = walked;
             return count;
         }

@@ -1,0 +1,81 @@
+/* Arrivals: nobody leaves, queues or gets to a place through a wall or a closed gate, and whoever
+   has a way arrives. */
+#include "unit/run_acted.h"
+
+/* A hall, x from 0 to 24, y from 0 to 8, that a wall may divide at x = 20. */
+#define HALL(wall, place, more)                                                                    \
+    "jostle: 1\nwalls:\n"                                                                          \
+    "  - {line: [[0, 0], [24, 0], [24, 8], [0, 8]], closed: true}\n  - {" wall "}\n"               \
+    "places:\n  out: {" place "}\n  far: {line: [[30, 0], [30, 8]]}\n"                             \
+    "  outs: {set: [far, out]}\n  here: {polygon: [[1, 1], [19, 1], [19, 7], [1, 7]]}\n"           \
+    "groups: {people: {at: [[18, 3], [18, 4], [18, 5]], " more "\n"
+#define WALL "line: [[20, 0], [20, 8]]"
+#define GATE "line: [[20, 0], [20, 8]], name: gate"
+#define BLOCK "solid: [[20, 0], [24, 0], [24, 8], [20, 8]]"
+#define LEAVES "journey: [{exit: out}]}}"
+#define QUEUES "journey: [{queue: [out], service: 0.1}, {exit: here}]}}"
+#define OWN "behaviour: own.lua}}"
+#define BEHIND "line: [[20.2, 2], [20.2, 6]]"
+#define AT_WALL "line: [[20, 2], [20, 6]]"
+#define POINT "point: [20.4, 4], radius: 2"
+#define QUEUE "queue: [[20.3, 4], [17, 4]]"
+#define EAST HEAD "\"Go\", states = { Go = { steer = drift(1, 0) } } }\n"
+#define EAST_UNTIL(when)                                                                           \
+    HEAD "\"Go\", states = { Go = { steer = drift(1, 0), { to = \"Gone\", when = " when " } },\n"  \
+         "  Gone = { removes = true } } }\n"
+
+/* How many of three people leave within 20 s, and how many have left 20 s after what is named gate
+   was opened. */
+typedef struct Arrival {
+    const char *name, *yaml, *behaviour;
+    uint32_t first, later;
+} Arrival;
+
+static const Arrival ARRIVALS[] = {
+    {"a line behind a wall", HALL(WALL, BEHIND, LEAVES), "", 0, 0},
+    {"a line behind a gate", HALL(GATE, BEHIND, LEAVES), "", 0, 3},
+    {"a line on a gate", HALL(GATE, AT_WALL, LEAVES), "", 0, 3},
+    {"a line at a wall", HALL(WALL, AT_WALL, LEAVES), "", 3, 3},
+    {"a line at a solid", HALL(BLOCK, AT_WALL, LEAVES), "", 3, 3},
+    {"a point behind a wall", HALL(WALL, POINT, LEAVES), "", 0, 0},
+    {"a point behind a gate", HALL(GATE, POINT, LEAVES), "", 0, 3},
+    {"a point within a solid", HALL(BLOCK, POINT, LEAVES), "", 3, 3},
+    {"a queue behind a wall", HALL(WALL, QUEUE, QUEUES), "", 0, 0},
+    {"a queue behind a gate", HALL(GATE, QUEUE, QUEUES), "", 0, 3},
+    {"a step behind a wall", HALL(WALL, BEHIND, "journey: [{to: out}, {exit: here}]}}"), "", 0, 0},
+    {"a step on a gate that opens",
+     HALL(GATE, AT_WALL, "journey: [{to: out, open: gate}, {exit: here}]}}"), "", 0, 3},
+    {"a sink behind a wall", HALL(WALL, BEHIND, OWN "\nsinks: [{at: out}]"), EAST, 0, 0},
+    {"a sink behind a gate", HALL(GATE, BEHIND, OWN "\nsinks: [{at: out}]"), EAST, 0, 3},
+    {"a sink of a set behind a wall", HALL(WALL, POINT, OWN "\nsinks: [{at: outs}]"), EAST, 0, 0},
+    {"a sink of a set behind a gate", HALL(GATE, POINT, OWN "\nsinks: [{at: outs}]"), EAST, 0, 3},
+    {"near, behind a wall", HALL(WALL, POINT, OWN), EAST_UNTIL("near(\"out\", 2)"), 0, 0},
+    {"near, within a solid", HALL(BLOCK, POINT, OWN), EAST_UNTIL("near(\"out\", 2)"), 3, 3},
+    {"near, on a gate", HALL(GATE, AT_WALL, OWN), EAST_UNTIL("near(\"out\", 0.5)"), 3, 3},
+    {"near one of a set, behind a wall", HALL(WALL, POINT, OWN), EAST_UNTIL("near(\"outs\", 2)"), 0,
+     0},
+    {"inside, behind a gate", HALL(GATE, POINT, OWN), EAST_UNTIL("inside \"out\""), 0, 3},
+    {"inside, on a gate", HALL(GATE, AT_WALL, OWN), EAST_UNTIL("inside \"out\""), 0, 3},
+};
+
+static void nobody_arrives_through_a_wall(void **state) {
+    (void)state;
+    for (size_t n = 0; n < sizeof ARRIVALS / sizeof *ARRIVALS; n++) {
+        const Arrival *a = &ARRIVALS[n];
+        JoScene *scene = load_own(a->yaml, a->behaviour);
+        step(scene, 400);
+        if (scene->world->state.exits.left != a->first)
+            fail_msg("%s: %d of 3 left", a->name, (int)scene->world->state.exits.left);
+        if (strstr(a->yaml, "name: gate"))
+            does(scene, "open gate");
+        step(scene, 400);
+        if (scene->world->state.exits.left != a->later)
+            fail_msg("%s: %d of 3 left in the end", a->name, (int)scene->world->state.exits.left);
+        jo_scene_free(scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_arrives_through_a_wall)};
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
