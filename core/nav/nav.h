@@ -125,8 +125,12 @@ typedef enum JoxBirthSpot {
     JOX_BIRTH_SHIFTED, /* out of walls that are nearer than 0.99 radii, and of agents that it would
                           overlap by more than a quarter of the smaller diameter */
     JOX_BIRTH_NO_ROOM, /* there is no free spot within 25 m */
-    JOX_BIRTH_IN_SOLID /* the point lies in a wall */
+    JOX_BIRTH_NOT_FOUND, /* the search was ended by its bound: there may be one */
+    JOX_BIRTH_IN_SOLID   /* the point lies in a wall */
 } JoxBirthSpot;
+static inline bool jox_birth_succeeds(JoxBirthSpot spot) {
+    return spot == JOX_BIRTH_AS_WISHED || spot == JOX_BIRTH_SHIFTED;
+}
 /* Finds the nearest free spot of a spiral, with no wall between it and the point; *spot is the
    point itself where there is none. All searches of births between two steps look at 5 million
    spots, and those that come after at 1,000 each. Changes nothing; whoever is born there is told to

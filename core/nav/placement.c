@@ -46,8 +46,10 @@ static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirth
         return JOX_BIRTH_IN_SOLID;
     if (jox_spots_is_free(t, grid, wish->at, wish->radius))
         return JOX_BIRTH_AS_WISHED;
+    t->ended = false;
     if (wish->holds && jox_spots_find(t, grid, &search, spot))
         return JOX_BIRTH_SHIFTED;
+    const bool ended = t->ended;
     search.holds = NULL;
     search.kind = 0;
     const bool found = !wish->stays && jox_spots_find(t, grid, &search, spot);
@@ -55,7 +57,7 @@ static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirth
                !jox_walls_lie_between(grid->walls, wish->at, *spot, NULL));
     if (!found) /* what the search looked at last is taken */
         *spot = wish->at;
-    return found ? JOX_BIRTH_SHIFTED : JOX_BIRTH_NO_ROOM;
+    return found ? JOX_BIRTH_SHIFTED : ended || t->ended ? JOX_BIRTH_NOT_FOUND : JOX_BIRTH_NO_ROOM;
 }
 
 JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *a, const JoxBirthWish *wish,

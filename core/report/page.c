@@ -27,6 +27,7 @@ static void add_demand(JoxPageFigures *f, const JoScene *scene) {
         jox_page_add(f, "", demand.due, "people who were due at %.100s", name.data);
         jox_page_add(f, "", demand.came, "people who came in at %.100s", name.data);
         jox_page_add(f, "", demand.waiting, "people who waited for room there at the end");
+        jox_page_add(f, "", demand.did_not_come, "people who did not come before it ended");
         jox_text_free(&name);
     }
 }

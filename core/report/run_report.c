@@ -116,13 +116,14 @@ static bool write_sources(const char *folder, const JoScene *scene, JoxText *why
     FILE *out = count ? jox_plot_open(folder, "danger-sources.csv", why) : NULL;
     if (!out)
         return count == 0;
-    fputs("source,due,came,waiting\n", out);
+    fputs("source,due,came,waiting,did_not_come\n", out);
     for (uint32_t s = 0; s < count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
         jox_source_name(scene->world, s, &name);
         jox_quote_put(out, jox_quote_csv, name.data);
-        fprintf(out, ",%.0f,%.0f,%.0f\n", demand.due, demand.came, demand.waiting);
+        fprintf(out, ",%.0f,%.0f,%.0f,%.0f\n", demand.due, demand.came, demand.waiting,
+                demand.did_not_come);
         jox_text_free(&name);
     }
     return jox_plot_close(out, "danger-sources.csv", why);

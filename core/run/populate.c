@@ -4,6 +4,7 @@
 
 #include "base/format/noun.h"
 #include "base/mem.h"
+#include "nav/spots/spots.h"
 #include "run/run.h"
 
 /* Names that a group sets must be known to every behaviour of its mix. */
@@ -154,6 +155,10 @@ static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
         jox_text_add(&why, "no spot of its place is free");
     else
         jox_world_say_unplaced(JOX_BIRTH_NO_ROOM, (double)first.x, (double)first.y, &why);
+    if (placed->not_found)
+        jox_text_printf(&why,
+                        "; for %u of them the search was ended, as %d spots had been looked at",
+                        placed->not_found, JOX_SPOTS_MOST);
     snprintf(hint, sizeof hint, "Lower the count to %u, widen the place, or lower the radius", fit);
     jox_diag_add(diagnostics, refused ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING, group->position,
                  "not-placed", given ? "Give other points" : hint, NULL, NULL,

@@ -254,15 +254,19 @@ void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
 /* Adds ,"probes": {...} to a summary. */
 void jox_run_add_probes(const JoScene *scene, JoxJson *json);
-/* results/demand.c: people who were due by a source so far, who of them came, and who did not for
-   want of room; adds ,"sources": {...} to a summary, where there are some; the sentences of the
-   last lines, of sources at which somebody waits. */
+/* results/demand.c: people who were due by a source so far, and of these those who came, who wait
+   for room, and who did not come before the source ended; adds ,"sources": {...} to a summary,
+   where there are some; the sentences of the last lines, of sources at which people are missing. */
 typedef struct JoxDemand {
-    double due, came, waiting;
+    double due, came, waiting, did_not_come;
 } JoxDemand;
 JoxDemand jox_run_demand(const JoScene *scene, uint32_t source);
 void jox_run_add_demand(const JoScene *scene, JoxJson *json);
 void jox_run_say_demand(const JoScene *scene, JoxText *out);
+/* The same of people who begin at given times and wait, as others stand there: adds
+   ,"starts_waiting": N where people begin after 0 s. */
+void jox_run_add_starts(const JoScene *scene, JoxJson *json);
+void jox_run_say_starts(const JoScene *scene, JoxText *out);
 /* tally.c: a tally now, NAN where nobody has what is taken; adds ,"tally": {...} to a summary; the
    sentence of the last lines; warns of names that no behaviour has. */
 double jox_run_tally(const JoScene *scene, const JoxTally *tally);

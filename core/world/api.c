@@ -227,7 +227,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     JoxV2 spot;
     jox_world_raise_walls(world);
     const JoxBirthSpot found = jox_nav_find_birth(world->scratch.nav, a, &wish, &spot);
-    if (found == JOX_BIRTH_NO_ROOM || found == JOX_BIRTH_IN_SOLID) {
+    if (!jox_birth_succeeds(found)) {
         world->state.statistics.not_placed++;
         refuse_birth(found, def, error);
         return (JoAgent){0};

@@ -9,6 +9,7 @@
 #include "base/sort.h"
 #include "geom/area.h"
 #include "geom/polygon.h"
+#include "nav/spots/spots.h"
 #include "world/world.h"
 
 static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
@@ -184,7 +185,7 @@ JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     jox_world_raise_walls(world);
     const JoxBirthSpot found =
         jox_nav_find_birth(world->scratch.nav, &world->state.agents, wish, &spot);
-    if (found == JOX_BIRTH_NO_ROOM || found == JOX_BIRTH_IN_SOLID) {
+    if (!jox_birth_succeeds(found)) {
         while (world->model.place_count > places) /* its own: see add_antipode */
             jox_place_free(&world->model.places[--world->model.place_count]);
         return found;
@@ -211,6 +212,11 @@ JoxBirthSpot jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, uint32_t 
 void jox_world_say_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out) {
     if (spot == JOX_BIRTH_IN_SOLID)
         jox_text_printf(out, "(%g, %g) lies in a wall", x, y);
+    else if (spot == JOX_BIRTH_NOT_FOUND)
+        jox_text_printf(out,
+                        "the search for a free spot near (%g, %g) was ended, as %d spots had been "
+                        "looked at",
+                        x, y, JOX_SPOTS_MOST);
     else
         jox_text_printf(
             out, "there is no free spot within 25 m of (%g, %g) on its side of all walls", x, y);
@@ -294,7 +300,7 @@ void jox_world_starts(JoWorld *world) {
             continue;
         uint32_t agent;
         const JoxBirthSpot spot = jox_world_spawn(world, start->group, start->at, &agent);
-        if (spot == JOX_BIRTH_NO_ROOM)
+        if (spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND)
             continue;
         if (spot == JOX_BIRTH_IN_SOLID)
             lose_start(world, start);
@@ -304,6 +310,16 @@ void jox_world_starts(JoWorld *world) {
     }
     while (p->all_until < model->start_count && p->entered[p->all_until])
         p->all_until++;
+}
+
+uint32_t jox_world_starts_waiting(const JoWorld *world, uint32_t group) {
+    const JoxWorldModel *model = &world->model;
+    const JoxPopulation *p = &world->state.population;
+    const double last = ((double)world->state.tick - 1.0) * model->def.dt + 1e-9; /* step's begin */
+    uint32_t waiting = 0;
+    for (uint32_t s = p->all_until; s < model->start_count && model->starts[s].time <= last; s++)
+        waiting += !p->entered[s] && model->starts[s].group == group;
+    return waiting;
 }
 
 /* ---- model and state ---- */
@@ -346,6 +362,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
         uint32_t agent = JOX_NO_INDEX;
         const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);
         placed.in_solid += spot == JOX_BIRTH_IN_SOLID;
+        placed.not_found += spot == JOX_BIRTH_NOT_FOUND;
         if (agent == JOX_NO_INDEX) {
             placed.first = placed.not_placed++ ? placed.first : i;
             continue;

@@ -106,12 +106,16 @@ typedef struct JoxPlaced {
     uint32_t shifted;    /* to a free spot */
     uint32_t not_placed; /* for whom there is none */
     uint32_t in_solid;   /* of these, whose point lies in a wall */
+    uint32_t not_found;  /* of these, whose search for a spot was ended by its bound */
     uint32_t first;      /* of these, the first: index of its position */
     float farthest;      /* m: the longest way that one was shifted */
 } JoxPlaced;
 /* Makes the agents of all groups that stand there at the start, as far as they fit; fills one of
    `placed` for each group. */
 void jox_world_populate(JoWorld *world, JoxPlaced *placed);
+/* People of a group whose time to come in has passed and who wait until the spot where they begin
+   is free. */
+uint32_t jox_world_starts_waiting(const JoWorld *world, uint32_t group);
 /* Who is to be born: of a group, at a point or near it. */
 typedef struct JoxBirth {
     uint32_t group;

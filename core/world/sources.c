@@ -124,7 +124,8 @@ static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t n
         }
         birth.wish = wish_on(entrance, at, world->model.group_count + 1 + door);
         uint32_t agent = JOX_NO_INDEX;
-        full = jox_world_bear(world, &birth, &agent) == JOX_BIRTH_NO_ROOM;
+        const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);
+        full = spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND;
         if (agent == JOX_NO_INDEX)
             continue;
         sum += cover_of(&world->state.agents, agent);
@@ -254,6 +255,12 @@ double jox_source_waiting(const JoWorld *world, uint32_t s) {
     const JoxSourceFigures *figures = &world->state.sources.figures[s];
     const double late = figures->due - world->state.sources.made[s];
     return (late > 0.0 ? late : 0.0) + (double)figures->kept;
+}
+
+bool jox_source_is_over(const JoWorld *world, uint32_t s) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    const double time = (double)world->state.tick * world->model.def.dt;
+    return time >= source->from && !is_at_work(world, source, time);
 }
 
 /* ---- model and state ---- */

@@ -66,6 +66,8 @@ uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number)
 const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number);
 /* People who were due when people last came in, and did not come for want of room. */
 double jox_source_waiting(const JoWorld *world, uint32_t source);
+/* Whether a source has ended: whoever is still due does not come. */
+bool jox_source_is_over(const JoWorld *world, uint32_t source);
 /* Appends the name of a source: that of its place; where others share it, with its group. */
 void jox_source_name(const JoWorld *world, uint32_t source, JoxText *out);
 /* Lists counts as state. */

@@ -2,6 +2,9 @@
    gets them, and a state that was saved in their midst goes on to the bit. */
 #include "unit/run_acted.h"
 
+#include "jostle_tools.h"
+#include "nav/internal.h"
+
 /* People who come from two sources, in parties of three, walk through a gate to where they leave;
    others cross a circle, each to a place of its own. */
 #define CROWD(bodies, events)                                                                      \
@@ -211,6 +214,18 @@ static void each_comes_in_at_its_time_and_place(void **state) {
     jo_scene_free(scene);
 }
 
+static void expect_closing(const JoScene *scene, const char *text) {
+    char *closing = jo_scene_closing(scene);
+    assert_non_null(strstr(closing, text));
+    jo_free(closing);
+}
+
+static void expect_starts_waiting(const JoScene *scene, double people) {
+    JoFigures *figures = jo_scene_figures(scene);
+    assert_true(jo_figure(figures, "starts_waiting") == people);
+    jo_free(figures);
+}
+
 /* Who would stand in another waits; who comes in elsewhere does not wait for that one. */
 static void who_would_stand_in_another_waits(void **state) {
     (void)state;
@@ -222,6 +237,9 @@ static void who_would_stand_in_another_waits(void **state) {
     assert_int_equal(a->count, 3);
     assert_int_equal(w->state.statistics.shifted_at_birth, 0);
     assert_int_equal(w->state.population.all_until, 0);
+    expect_closing(scene, "1 person of group 'people'");
+    expect_closing(scene, "did not come in at the time given");
+    expect_starts_waiting(scene, 1);
     jo_scene_free(scene);
 
     scene = load_own(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0]]"), STAND);
@@ -232,6 +250,29 @@ static void who_would_stand_in_another_waits(void **state) {
     step(scene, 1);
     assert_int_equal(w->state.agents.count, 2);
     assert_int_equal(w->state.population.all_until, 2);
+    expect_starts_waiting(scene, 0);
+    jo_scene_free(scene);
+}
+
+/* A search that ends by its bound does not say that there is no room. */
+static void search_ended_by_its_bound_is_told(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\nplaces: {hall: {point: [0, 0], radius: 5}}\n"
+                              "groups: {people: {behaviour: own.lua, count: 569, fill: hex, "
+                              "in: hall, spacing: 0.4}}\n",
+                              STANDER);
+    JoWorld *w = scene->world;
+    uint32_t agent;
+    JoxText told = {0};
+    assert_int_equal(jox_world_spawn(w, 0, jox_v2(0, 0), &agent), JOX_BIRTH_SHIFTED);
+    w->scratch.nav->spots.looked = JOX_SPOTS_MOST;
+    const JoxBirthSpot spot = jox_world_spawn(w, 0, jox_v2(1, 0), &agent);
+    assert_int_equal(spot, JOX_BIRTH_NOT_FOUND);
+    jox_world_say_unplaced(spot, 1, 0, &told);
+    assert_non_null(strstr(told.data, "was ended, as 5000000 spots had been looked at"));
+    jox_text_free(&told);
+    w->scratch.nav->spots.looked = 0;
+    assert_int_equal(jox_world_spawn(w, 0, jox_v2(1, 0), &agent), JOX_BIRTH_SHIFTED);
     jo_scene_free(scene);
 }
 
@@ -289,6 +330,7 @@ int main(void) {
                                        cmocka_unit_test(sources_in_full_places_wait),
                                        cmocka_unit_test(each_comes_in_at_its_time_and_place),
                                        cmocka_unit_test(who_would_stand_in_another_waits),
+                                       cmocka_unit_test(search_ended_by_its_bound_is_told),
                                        cmocka_unit_test(nobody_is_born_through_a_wall),
                                        cmocka_unit_test(who_has_come_in_is_state)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -14,7 +14,7 @@ static const float TOUCHING = 0.99f; /* radii from a wall */
 static const float NEARBY =
     0.25f;                     /* m: a search goes on with that of a point in the same square, */
 static const float FAR = 1.0f; /* m: as soon as it is so far away */
-enum { SEARCHES = 8192, MOST_LOOKED = 5000000, FEW = 1000 };
+enum { SEARCHES = 8192, FEW = 1000 };
 
 static uint32_t hash_cell(int32_t x, int32_t y) {
     return (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
@@ -195,7 +195,7 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
     bool found = false, listed = false;
     const float farthest = farthest_of(wish);
     for (uint32_t looked = 0; s.distance < farthest && !s.failed; looked++, t->looked++) {
-        if (t->looked >= MOST_LOOKED && looked >= FEW)
+        if (t->looked >= JOX_SPOTS_MOST && looked >= FEW)
             break;
         *spot = (JoxV2){s.at.x + s.distance * (float)jox_cos(s.angle),
                         s.at.y + s.distance * (float)jox_sin(s.angle)};
@@ -208,6 +208,7 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
     }
     t->blocking = UINT32_MAX;
     s.failed |= s.distance >= farthest;
+    t->ended = !found && !s.failed;
     if (!wish->passable)
         *kept = s;
     return found;

@@ -7,6 +7,7 @@
 #include "geom/wall_grid.h"
 
 #define JOX_SPOTS_FARTHEST 25.0f /* m: how far a search looks */
+enum { JOX_SPOTS_MOST = 5000000 };
 
 /* What a search found about a point, for the next ones near it: all spots about it that are nearer
    than `distance` are taken. They only fill. */
@@ -27,6 +28,7 @@ typedef struct JoxSpots {
     uint32_t next_capacity;
     JoxSearched *searched;
     uint32_t looked; /* spots that all searches have looked at */
+    bool ended; /* the last search found nothing and was ended by its bound, not by its reach */
     /* Edges of walls near the point of a search, and the one that lay before the last spot. */
     uint32_t *edges;
     uint32_t edge_count, edge_capacity, blocking;
@@ -54,7 +56,8 @@ void jox_spots_enter(JoxSpots *spots, uint32_t agent);
    smaller one's breadth. */
 bool jox_spots_is_free(const JoxSpots *spots, const JoxWallGrid *grid, JoxV2 p, float radius);
 /* The first free spot of a spiral about the wish whose ways are half a radius apart, 25 m far, with
-   no wall between; all searches by `spots` together look at 5 million, later ones at 1,000 each. */
+   no wall between; all searches by `spots` together look at JOX_SPOTS_MOST, later ones at 1,000
+   each: then `ended` says that there may be one all the same. */
 bool jox_spots_find(JoxSpots *spots, const JoxWallGrid *grid, const JoxSpotWish *wish, JoxV2 *spot);
 
 #endif

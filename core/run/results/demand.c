@@ -1,13 +1,18 @@
-/* Who was due by sources and did not come: in the last lines of a run and in its figures. */
+/* People who were due, by sources and at given times, and did not come: in the last lines of a run
+   and in its figures. */
 #include "base/format/noun.h"
 #include "run/run.h"
 
 enum { MOST_TOLD = 5 }; /* sources that are named */
 
 JoxDemand jox_run_demand(const JoScene *scene, uint32_t source) {
-    const double waiting = jox_source_waiting(scene->world, source),
+    const double late = jox_source_waiting(scene->world, source),
                  came = (double)scene->world->state.sources.figures[source].came;
-    return (JoxDemand){.due = came + waiting, .came = came, .waiting = waiting};
+    const bool over = jox_source_is_over(scene->world, source);
+    return (JoxDemand){.due = came + late,
+                       .came = came,
+                       .waiting = over ? 0.0 : late,
+                       .did_not_come = over ? late : 0.0};
 }
 
 void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
@@ -22,6 +27,7 @@ void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
         jox_json_number(json, "due", demand.due);
         jox_json_number(json, "came", demand.came);
         jox_json_number(json, "waiting", demand.waiting);
+        jox_json_number(json, "did_not_come", demand.did_not_come);
         jox_json_end(json);
         jox_text_free(&name);
     }
@@ -42,7 +48,7 @@ void jox_run_say_demand(const JoScene *scene, JoxText *out) {
         const JoxDemand demand = jox_run_demand(scene, s);
         const JoxPosition at = scene->spec->sources[s].position;
         char came[JOX_NOUN], due[JOX_NOUN];
-        if (demand.waiting <= 0.0)
+        if (demand.waiting + demand.did_not_come <= 0.0)
             continue;
         if (told == MOST_TOLD) {
             more++;
@@ -55,10 +61,37 @@ void jox_run_say_demand(const JoScene *scene, JoxText *out) {
         jox_source_name(scene->world, s, out);
         jox_text_printf(out, "' (%.200s:%d) %s.", at.file, at.line,
                         has_floor(scene, s) ? "was full" : "lies in walls");
+        if (demand.did_not_come > 0.0)
+            jox_text_printf(out, " It has ended: %s did not come.",
+                            jox_noun(due, (uint64_t)demand.did_not_come, "person|people"));
     }
     if (more > 0) {
         jox_text_add(out, " So it is with ");
         jox_text_noun(out, more, "other source");
         jox_text_add(out, ".");
+    }
+}
+
+void jox_run_add_starts(const JoScene *scene, JoxJson *json) {
+    uint32_t waiting = 0;
+    for (uint32_t g = 0; g < scene->spec->group_count; g++)
+        waiting += jox_world_starts_waiting(scene->world, g);
+    if (scene->world->model.start_count > 0)
+        jox_json_whole(json, "starts_waiting", waiting);
+}
+
+void jox_run_say_starts(const JoScene *scene, JoxText *out) {
+    for (uint32_t g = 0; g < scene->spec->group_count; g++) {
+        const JoxGroup *group = &scene->spec->groups[g];
+        const uint32_t waiting = jox_world_starts_waiting(scene->world, g);
+        if (waiting == 0)
+            continue;
+        jox_text_add(out, " ");
+        jox_text_noun(out, waiting, "person|people");
+        jox_text_printf(
+            out,
+            " of group '%.60s' (%.200s:%d) did not come in at the time given, as others "
+            "stood where they begin.",
+            group->name, group->position.file, group->position.line);
     }
 }

@@ -119,7 +119,7 @@ bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *w
         return false;
     jox_world_raise_walls(world);
     const JoxBirthSpot spot = jox_nav_free_spot(world->scratch.nav, a, i, &at);
-    if (spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_IN_SOLID) {
+    if (!jox_birth_succeeds(spot)) {
         jox_world_say_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
         return false;
     }
