@@ -1,5 +1,5 @@
-/* What danger leaves, as curves over time: greatest values, people over limits, flows; who left;
-   and levels of service. */
+/* Plots of danger over time, in strips one below the other: greatest values, people over limits,
+   flows; people who have left; levels of service. jox_danger_write is the entry point. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,37 +9,36 @@
 #include "picture/plot.h"
 #include "report/danger_files_parts.h"
 
-enum { WIDE = 1300, STRIP = 270 /* px: of a picture, and high, of each of its strips */ };
-static const int LEFT = 10, RIGHT = 29; /* characters: margins, the same of all strips */
+enum { WIDE = 1300, STRIP = 270 /* px: width of a plot, height of a strip */ };
+static const int LEFT = 10, RIGHT = 29; /* margins in characters, equal in all strips */
 
-/* Whether a measure has a strip: compression only where it stands in for load, in older recordings;
-   crowd pressure only where it was measured, which the page says in words. */
-static bool is_drawn(const JoxDanger *d, int measure) {
+/* Returns whether a measure has a strip: compression only in older recordings, which have it
+   instead of load; crowd pressure only if it was measured (the page says so in words). */
+static bool has_measure_strip(const JoxDanger *d, int measure) {
     return measure == JOX_DANGER_COMPRESSION ? d->has_compression && !d->has_load
            : measure == JOX_DANGER_LOAD      ? d->has_load
            : measure == JOX_DANGER_DOSE      ? false
                                              : jox_danger_reads(d, (JoxDangerMeasure)measure);
 }
 
-/* How many strips there are. */
-static int drawn(const JoxDanger *d) {
+static int count_measure_strips(const JoxDanger *d) {
     int count = 0;
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
-        count += is_drawn(d, m);
+        count += has_measure_strip(d, m);
     return count;
 }
 
-/* Opens a script and says, for PNG and SVG, how large and under which title. */
-static void begin_picture(FILE *script, const char *name, bool svg, int width, int height,
-                          const char *title) {
+/* Begins a script: size and output file for PNG or SVG, separator, and the variable `heading`. */
+static void begin_danger_script(FILE *script, const char *name, bool svg, int width, int height,
+                                const char *title) {
     jox_plot_begin(script, name, svg, width, height);
     fputs("set datafile separator comma\nheading = ", script);
     jox_quote_put(script, jox_quote_gnuplot, title);
     fputc('\n', script);
 }
 
-/* Greatest value over time, with the limits as lines that say what they are. */
-static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
+/* Writes the strip of a measure: its greatest value over time, and its limits as labelled lines. */
+static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     static const char *const TITLES[JOX_DANGER_MAPPED] = {
         "Greatest density anywhere, by a Gaussian of R = 1 m", "Greatest crowd pressure anywhere",
         "Greatest compression of a person", "Greatest load of a person, from one side"};
@@ -55,7 +54,7 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
         if (jox_danger_limits[l].measure != measure || limit > 2.0 * fmax(top, limit / 2.1))
             continue;
         if (limit > 1.6 * top && l > 0 && jox_danger_limits[l - 1].measure == measure)
-            continue; /* far above: it would only flatten the line */
+            continue; /* far above the curve, which it would flatten */
         fprintf(script,
                 "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead lc '#c00000' dt "
                 "2\nset label 'limit: %s' at graph 1.01, first %.6g left tc '#c00000' "
@@ -69,8 +68,8 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
             top > 0.0 ? 1.2 * top : 1.0, 3 + (int)measure);
 }
 
-/* People over each limit that anyone passed, and who left. */
-static void counts(const JoxDanger *d, FILE *script) {
+/* Writes the strip of the number of people over each limit that anyone passed. */
+static void write_count_strip(const JoxDanger *d, FILE *script) {
     static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9",
                                           "#cc79a7", "#000000", "#999933", "#882255"};
     bool any = false;
@@ -93,11 +92,12 @@ static void counts(const JoxDanger *d, FILE *script) {
     fputc('\n', script);
 }
 
-static bool has_left(const JoxDanger *d) {
+static bool has_leavers(const JoxDanger *d) {
     return d->row_count > 0 && d->rows[d->row_count - 1].left > 0;
 }
 
-static void leavers(const JoxDanger *d, FILE *script) {
+/* Writes the strip of people inside and people who have left, in all and by exit. */
+static void write_leaving_strip(const JoxDanger *d, FILE *script) {
     const int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS + JOX_LEVELS + 1;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1 left top Left "
           "reverse\nset title 'People who have left, and who are inside'\nplot 'danger.csv' skip 1 "
@@ -115,8 +115,9 @@ static void leavers(const JoxDanger *d, FILE *script) {
     fputc('\n', script);
 }
 
-/* Flow over each line, with that below which people stop and go. */
-static void flows(const JoxDanger *d, FILE *script) {
+/* Writes the strip of the flow over each line, and the flow below which dense crowds stop and
+   go. */
+static void write_flow_strip(const JoxDanger *d, FILE *script) {
     double top = JOX_STOP_FLOW;
     for (uint32_t l = 0; l < d->lines.count; l++)
         top = fmax(top, d->lines.items[l].flow_most);
@@ -143,14 +144,14 @@ static void flows(const JoxDanger *d, FILE *script) {
     fputs("\nunset arrow\nunset label\n", script);
 }
 
-/* ---- pictures ---- */
+/* ---- plots ---- */
 
-/* What all strips over time share. A run begins at 0, though its first sample lies a step behind; a
-   recording anywhere. */
-static void begin_strips(const JoxDanger *d, const char *name, bool svg, int strips,
-                         const char *title, FILE *script) {
+/* Begins a plot of strips over time. The axis of a run begins at 0 although its first sample is
+   one step later; that of a recording begins anywhere. */
+static void begin_strip_plot(const JoxDanger *d, const char *name, bool svg, int strips,
+                             const char *title, FILE *script) {
     const double begun = d->begun > 1.0 ? d->begun : 0.0;
-    begin_picture(script, name, svg, WIDE, 60 + strips * STRIP, title);
+    begin_danger_script(script, name, svg, WIDE, 60 + strips * STRIP, title);
     fprintf(script,
             "set multiplot layout %d,1 title heading font ',14' noenhanced\nset grid\n"
             "set lmargin %d\nset rmargin %d\nset xlabel 'time (s)'\nset xrange [%g:%g]\n",
@@ -158,17 +159,19 @@ static void begin_strips(const JoxDanger *d, const char *name, bool svg, int str
             d->row_count ? fmax(d->rows[d->row_count - 1].time, begun + 1.0) : begun + 1.0);
 }
 
-/* Draws a script NAME.plt that says for both terminals what `put` writes. */
-static bool draw(const JoxDanger *d, const char *folder, const char *name, const char *title,
-                 int strips, void (*put)(const JoxDanger *d, FILE *script), JoxText *error) {
+/* Writes NAME.plt, which draws the same strips as PNG and SVG, and runs it. `write_strips`
+   writes their commands. */
+static bool draw_strips(const JoxDanger *d, const char *folder, const char *name, const char *title,
+                        int strips, void (*write_strips)(const JoxDanger *d, FILE *script),
+                        JoxText *error) {
     char file[40];
     snprintf(file, sizeof file, "%s.plt", name);
     FILE *script = jox_plot_open(folder, file, error);
     if (!script)
         return false;
     for (int svg = 0; svg < 2; svg++) {
-        begin_strips(d, name, svg, strips, title, script);
-        put(d, script);
+        begin_strip_plot(d, name, svg, strips, title, script);
+        write_strips(d, script);
         fputs("unset multiplot\nset output\n", script);
     }
     return jox_plot_close(script, file, error) && jox_plot_draw(folder, file, error);
@@ -178,35 +181,36 @@ static bool has_flows(const JoxDanger *d) {
     return d->lines.count > 0 && d->row_count > 0;
 }
 
-static void put_times(const JoxDanger *d, FILE *script) {
+static void write_time_strips(const JoxDanger *d, FILE *script) {
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
-        if (is_drawn(d, m))
-            strip(d, (JoxDangerMeasure)m, script);
-    counts(d, script);
+        if (has_measure_strip(d, m))
+            write_measure_strip(d, (JoxDangerMeasure)m, script);
+    write_count_strip(d, script);
     if (has_flows(d))
-        flows(d, script);
+        write_flow_strip(d, script);
 }
 
-/* The colours of the levels of service, from pale to dark. */
-static void level_colour(int level, FILE *script) {
+/* Writes the colour of a level of service; A is pale, F dark. */
+static void write_level_colour(int level, FILE *script) {
     const JoxInk ink = jox_palette_value(0.04f + 0.96f * (float)level / (JOX_LEVELS - 1));
     fprintf(script, "lc rgb '#%02x%02x%02x'", ink.r, ink.g, ink.b);
 }
 
-/* How many people are at each level, one upon the other; and below, by area, at which the area is.
- */
-static void put_levels(const JoxDanger *d, FILE *script) {
+/* Writes two strips: the number of people at each level, stacked, and the level of each area
+   over time. */
+static void write_level_strips(const JoxDanger *d, FILE *script) {
     const int first = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1 left top Left reverse "
           "invert\nset style fill solid 1 noborder\nset title 'People at each level of service (A: "
           "most room, F: least)'\nplot ",
           script);
-    for (int k = JOX_LEVELS - 1; k >= 0; k--) { /* the whole first, then less of it upon that */
+    /* stacked: the sum of all levels first, smaller sums over it */
+    for (int k = JOX_LEVELS - 1; k >= 0; k--) {
         fprintf(script, "%s'danger.csv' skip 1 using 1:(%d", k < JOX_LEVELS - 1 ? ", " : "", 0);
         for (int below = 0; below <= k; below++)
             fprintf(script, "+$%d", first + below);
         fputs(") with filledcurves y1=0 ", script);
-        level_colour(k, script);
+        write_level_colour(k, script);
         fprintf(script, " title 'level %s'", jox_levels[k].name);
     }
     fputc('\n', script);
@@ -227,18 +231,19 @@ static void put_levels(const JoxDanger *d, FILE *script) {
                 "%s'levels.dat' using ($4 == %d ? $1 : NaN):3:1:2:($3-0.4):($3+0.4) with "
                 "boxxyerror ",
                 k ? ", " : "", k);
-        level_colour(k, script);
+        write_level_colour(k, script);
         fprintf(script, " title 'level %s'", jox_levels[k].name);
     }
     fputc('\n', script);
 }
 
-/* Stretches of each area at one level: from, until, number of the area, level. */
-static bool write_stretches(const JoxDanger *d, const char *folder, JoxText *error) {
+/* Writes levels.dat, the stretches of time that an area is at one level: from (s), until (s),
+   index of the area, level. */
+static bool write_level_stretches(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "levels.dat", error);
     if (!out)
         return false;
-    fputs("NaN,NaN,NaN,NaN\n", out); /* gnuplot wants one line */
+    fputs("NaN,NaN,NaN,NaN\n", out); /* gnuplot needs at least one line */
     for (uint32_t a = 0; a < d->areas.count; a++) {
         const JoxDangerArea *area = &d->areas.items[a];
         for (uint32_t r = 0, end; r < area->row_count; r = end) {
@@ -261,12 +266,15 @@ bool jox_danger_write(const JoxDanger *d, const char *folder, const char *title,
     if (!title || d->row_count == 0)
         return true;
     snprintf(heading, sizeof heading, "%.200s: danger over time", title);
-    if (!draw(d, folder, "danger", heading, drawn(d) + 1 + has_flows(d), put_times, error))
+    if (!draw_strips(d, folder, "danger", heading, count_measure_strips(d) + 1 + has_flows(d),
+                     write_time_strips, error))
         return false;
     snprintf(heading, sizeof heading, "%.200s: who left", title);
-    if (has_left(d) && !draw(d, folder, "leaving", heading, 1, leavers, error))
+    if (has_leavers(d) &&
+        !draw_strips(d, folder, "leaving", heading, 1, write_leaving_strip, error))
         return false;
     snprintf(heading, sizeof heading, "%.200s: levels of service", title);
-    return write_stretches(d, folder, error) &&
-           draw(d, folder, "levels", heading, 1 + (d->areas.count > 0), put_levels, error);
+    return write_level_stretches(d, folder, error) &&
+           draw_strips(d, folder, "levels", heading, 1 + (d->areas.count > 0), write_level_strips,
+                       error);
 }

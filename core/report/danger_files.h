@@ -1,13 +1,16 @@
-/* The files of danger. */
+/* Files of danger measures: tables, and plots over time. Runs' reports (run_report.c) and
+   recordings' (report.c) write them at their end. */
 #ifndef JOX_REPORT_DANGER_FILES_H
 #define JOX_REPORT_DANGER_FILES_H
 
 #include "record/danger/danger.h"
 
-/* danger.csv (over time), danger-map.csv (by place), danger-limits.csv, danger-levels.csv (of
-   service), danger-areas.csv (the same by area and time), danger-leaving.csv, danger-people.csv
-   (who bore what), danger-lines.csv and danger-walls.csv into a folder that is there; with a title,
-   also danger, leaving and levels as PNG and SVG. False with a sentence in `error`. */
+/* Writes into an existing folder danger.csv (over time), danger-map.csv (by cell),
+   danger-limits.csv, danger-levels.csv (levels of service), danger-congestion.csv,
+   danger-areas.csv (levels by area and time), danger-leaving.csv, danger-people.csv (people with
+   high loads), danger-lines.csv and danger-walls.csv; tables of unknown quantities are left out.
+   With a title, also plots danger, leaving and levels as PNG and SVG. Returns false with a
+   sentence in `error`. */
 bool jox_danger_write(const JoxDanger *danger, const char *folder, const char *title,
                       JoxText *error);
 

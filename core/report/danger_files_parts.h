@@ -1,15 +1,17 @@
-/* What the tables of danger and its pictures share. */
+/* Declarations shared by the tables, plots and maps of danger; private to report. */
 #ifndef JOX_REPORT_DANGER_FILES_PARTS_H
 #define JOX_REPORT_DANGER_FILES_PARTS_H
 
 #include "record/danger/danger_parts.h"
 #include "report/danger_files.h"
 
-/* Of a cell: over samples, of what is borne over the people who stood there. */
-double jox_danger_mean(const JoxDanger *danger, int measure, size_t cell);
-/* NAN where it was never measured. */
-double jox_danger_greatest(const JoxDanger *danger, int measure, size_t cell);
-/* danger.csv and danger-*.csv; those of what is not known are not written. */
+/* Returns a measure's mean in a cell, in its unit: over all samples, or for forces on people,
+   over the samples of the people who stood there. NAN where crowd pressure was never measured. */
+double jox_danger_cell_mean(const JoxDanger *danger, int measure, size_t cell);
+/* Returns a measure's greatest value in a cell; NAN where crowd pressure was never measured. */
+double jox_danger_cell_greatest(const JoxDanger *danger, int measure, size_t cell);
+/* Writes danger.csv and danger-*.csv; those of unknown quantities are not written. Returns false
+   with a sentence in `error`. */
 bool jox_danger_write_tables(const JoxDanger *danger, const char *folder, JoxText *error);
 
 #endif

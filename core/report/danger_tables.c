@@ -1,4 +1,5 @@
-/* Tables of danger: over time, by place, by limit and by person. */
+/* The tables danger.csv and danger-*.csv: over time, by cell, by limit, person, level, line,
+   wall and area. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,10 +8,10 @@
 #include "report/danger_files_parts.h"
 
 enum { MOST_CELLS_DRAWN = 250000 };
-static const double WORTH = 0.01; /* doses of less are not listed */
+static const double WORTH = 0.01; /* least dose that is listed */
 
-/* A number of a table, or nothing where it is not known. */
-static void put(FILE *out, double value) {
+/* Writes a comma and a number, or nothing after the comma if it is not finite (not known). */
+static void put_csv_value(FILE *out, double value) {
     fputc(',', out);
     if (isfinite(value))
         fprintf(out, "%.9g", value);
@@ -40,7 +41,7 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         const JoxDangerRow *row = &d->rows[r];
         fprintf(out, "%.9g,%u", row->time, row->people);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-            put(out, (double)row->most[m]);
+            put_csv_value(out, (double)row->most[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             fprintf(out, ",%u", row->over[l]);
         for (int k = 0; k < JOX_LEVELS; k++)
@@ -53,7 +54,7 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger.csv", error);
 }
 
-double jox_danger_mean(const JoxDanger *d, int measure, size_t cell) {
+double jox_danger_cell_mean(const JoxDanger *d, int measure, size_t cell) {
     double n = measure >= JOX_DANGER_FIRST_BORNE ? d->stood[cell]
                : measure == JOX_DANGER_PRESSURE  ? d->measured[cell]
                                                  : d->samples;
@@ -62,24 +63,26 @@ double jox_danger_mean(const JoxDanger *d, int measure, size_t cell) {
     return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
 }
 
-double jox_danger_greatest(const JoxDanger *d, int measure, size_t cell) {
+double jox_danger_cell_greatest(const JoxDanger *d, int measure, size_t cell) {
     bool missing = measure == JOX_DANGER_PRESSURE && d->measured[cell] == 0;
     return missing ? NAN : (double)d->greatest[measure][cell];
 }
 
-/* The mean at a cell, and the greatest of that and the skipped ones beside and above it. */
-static void put_cells(const JoxDanger *d, int measure, uint32_t column, uint32_t row, uint32_t skip,
-                      FILE *out) {
+/* Writes the mean at a cell, and the greatest value of the block of skip * skip cells that it
+   stands for. */
+static void put_map_cells(const JoxDanger *d, int measure, uint32_t column, uint32_t row,
+                          uint32_t skip, FILE *out) {
     const JoxDensity *g = d->local->grid;
     double most = NAN;
     for (uint32_t r = row; r < row + skip && r < g->rows; r++)
         for (uint32_t c = column; c < column + skip && c < g->columns; c++)
-            most = fmax(most, jox_danger_greatest(d, measure, (size_t)r * g->columns + c));
-    fprintf(out, ",%.4g,%.9g", jox_danger_mean(d, measure, (size_t)row * g->columns + column),
+            most = fmax(most, jox_danger_cell_greatest(d, measure, (size_t)r * g->columns + c));
+    fprintf(out, ",%.4g,%.9g", jox_danger_cell_mean(d, measure, (size_t)row * g->columns + column),
             most);
 }
 
-static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
+/* Writes danger-map.csv, a row per cell. Large maps are thinned to about MOST_CELLS_DRAWN rows. */
+static bool write_danger_map(const JoxDanger *d, const char *folder, JoxText *error) {
     const JoxDensity *g = d->local->grid;
     uint32_t skip = 1;
     while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
@@ -97,7 +100,7 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
             fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
                     g->low.y + ((float)row + 0.5f) * g->cell);
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
-                put_cells(d, m, column, row, skip, out);
+                put_map_cells(d, m, column, row, skip, out);
             fputc('\n', out);
         }
         fputc('\n', out);
@@ -118,13 +121,13 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
         const bool read = jox_danger_reads(d, limit->measure), seen = isfinite(count.first);
         fprintf(out, "%s,%s,%.9g,%s", limit->key, jox_danger_names[limit->measure], limit->value,
                 jox_danger_units[limit->measure]);
-        put(out, read ? count.people : NAN);
-        put(out, read ? count.person_s : NAN);
-        put(out, read ? count.longest : NAN);
-        put(out, count.first);
-        put(out, seen ? (double)count.first_at.x : NAN);
-        put(out, seen ? (double)count.first_at.y : NAN);
-        put(out, jox_danger_since(d, count.first));
+        put_csv_value(out, read ? count.people : NAN);
+        put_csv_value(out, read ? count.person_s : NAN);
+        put_csv_value(out, read ? count.longest : NAN);
+        put_csv_value(out, count.first);
+        put_csv_value(out, seen ? (double)count.first_at.x : NAN);
+        put_csv_value(out, seen ? (double)count.first_at.y : NAN);
+        put_csv_value(out, jox_danger_since(d, count.first));
         fputc(',', out);
         jox_quote_put(out, jox_quote_csv, limit->source);
         fputc('\n', out);
@@ -132,7 +135,8 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
     return jox_plot_close(out, "danger-limits.csv", error);
 }
 
-/* Those who bore a load that counts. */
+/* Writes danger-people.csv: people whose load reached the lowest limit or whose dose reached
+   WORTH. */
 static bool write_people(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-people.csv", error);
     if (!out)
@@ -156,7 +160,7 @@ static bool write_people(const JoxDanger *d, const char *folder, JoxText *error)
     return jox_plot_close(out, "danger-people.csv", error);
 }
 
-/* Levels of service: what they are, and how many person-seconds were spent at each. */
+/* Writes danger-levels.csv: definitions of the levels, and the person-seconds spent at each. */
 static bool write_levels(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-levels.csv", error);
     if (!out)
@@ -176,15 +180,15 @@ static bool write_levels(const JoxDanger *d, const char *folder, JoxText *error)
         const JoxLevel *level = &jox_levels[k];
         fprintf(out, "%s,%.9g,%.9g,%.9g", level->name, level->queue_area, d->level_s[k],
                 level->walk_area);
-        put(out, level->walk_flow);
+        put_csv_value(out, level->walk_flow);
         for (uint32_t l = 0; l < d->lines.count; l++)
-            put(out, d->lines.items[l].worst < 0 ? NAN : d->lines.items[l].level_s[k]);
+            put_csv_value(out, d->lines.items[l].worst < 0 ? NAN : d->lines.items[l].level_s[k]);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-levels.csv", error);
 }
 
-/* What was read at each line, sample by sample. */
+/* Writes danger-lines.csv: a row per line and sample. */
 static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-lines.csv", error);
     if (!out)
@@ -198,16 +202,16 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
             jox_quote_put(out, jox_quote_csv, d->lines.items[l].name);
             fprintf(out, ",%.9g,%.9g,%u,%u,%u", row->time, row->width, row->forward, row->back,
                     row->waiting[row->side]);
-            put(out, row->flow);
-            put(out, row->density);
-            put(out, row->growth);
+            put_csv_value(out, row->flow);
+            put_csv_value(out, row->density);
+            put_csv_value(out, row->growth);
             fprintf(out, ",%s,%d\n", row->level < 0 ? "" : jox_levels[row->level].name,
                     row->stop_and_go != 0);
         }
     return jox_plot_close(out, "danger-lines.csv", error);
 }
 
-static bool write_walls(const JoxDanger *d, const char *folder, JoxText *error) {
+static bool write_danger_walls(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-walls.csv", error);
     if (!out)
         return false;
@@ -218,10 +222,10 @@ static bool write_walls(const JoxDanger *d, const char *folder, JoxText *error) 
         const JoxDangerPiece *piece = &d->walls.items[p];
         fprintf(out, "%.4f,%.4f,%.4f,%.4f,%.9g,%.9g", (double)piece->from.x, (double)piece->from.y,
                 (double)piece->to.x, (double)piece->to.y, (double)piece->load, (double)piece->most);
-        put(out, jox_danger_piece_line_load(piece));
-        put(out, piece->most_time);
-        put(out, piece->seconds);
-        put(out, piece->first);
+        put_csv_value(out, jox_danger_piece_line_load(piece));
+        put_csv_value(out, piece->most_time);
+        put_csv_value(out, piece->seconds);
+        put_csv_value(out, piece->first);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-walls.csv", error);
@@ -252,12 +256,12 @@ static bool write_leaving(const JoxDanger *d, const char *folder, JoxText *error
 }
 
 bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *error) {
-    return write_times(d, folder, error) && write_map(d, folder, error) &&
+    return write_times(d, folder, error) && write_danger_map(d, folder, error) &&
            write_limits(d, folder, error) && write_levels(d, folder, error) &&
            write_congestion(d, folder, error) &&
            (d->areas.count == 0 || write_areas(d, folder, error)) &&
            (d->leaving.count == 0 || write_leaving(d, folder, error)) &&
            (d->lines.count == 0 || write_lines(d, folder, error)) &&
-           (!d->walls.known || write_walls(d, folder, error)) &&
+           (!d->walls.known || write_danger_walls(d, folder, error)) &&
            (!d->has_load || write_people(d, folder, error));
 }

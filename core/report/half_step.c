@@ -1,4 +1,5 @@
-/* A scene once more at half its step, to show what the step makes of its figures. */
+/* jo_scene_half_step: loads a scene once more at half its time step, so that a report can show
+   how much its figures depend on the step. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -6,13 +7,13 @@
 #include "jostle_tools.h"
 #include "run/run.h"
 
-static void to_nobody(void *context, const char *text) {
+static void discard_message(void *context, const char *text) {
     (void)context;
     (void)text;
 }
 
-/* Whether both were made of the same files, byte by byte. */
-static bool same_files(const JoScene *a, const JoScene *b) {
+/* Returns whether two scenes were loaded from the same files, compared by SHA-256. */
+static bool has_same_files(const JoScene *a, const JoScene *b) {
     bool same = a->spec->file_count == b->spec->file_count &&
                 a->world->model.machines.count == b->world->model.machines.count;
     for (uint32_t f = 0; same && f < a->spec->file_count; f++)
@@ -28,7 +29,7 @@ static bool same_files(const JoScene *a, const JoScene *b) {
     return same;
 }
 
-static bool begin_report(JoScene *scene, JoError *error) {
+static bool start_danger_collection(JoScene *scene, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_run_collect_danger(scene, error);
@@ -40,24 +41,24 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
         return NULL;
     }
-    /* Of a resumed scene the files are those that it was loaded from, whatever lies there by now.
-     */
+    /* A resumed scene is loaded from the texts in its checkpoint, even if the files on disk have
+       changed. */
     const bool resumed = scene->resumed.length > 0;
     JoSceneDef half = resumed ? scene->def : *def;
     half.has_dt = half.has_seed = true;
     half.dt = scene->world->model.def.dt / 2;
     half.seed = scene->world->model.def.seed;
-    half.message = to_nobody; /* all has been said once */
+    half.message = discard_message; /* the first scene has reported all messages */
     const JoxOverlay *before = resumed ? jox_overlay_use(&scene->overlay) : NULL;
     JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
     if (resumed)
         jox_overlay_use(before);
-    if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
+    if (scene->swap_seconds > 0.0 || (other && !has_same_files(scene, other))) {
         jox_error(error, JO_INPUT, "its files were edited meanwhile");
         jo_scene_free(other);
         return NULL;
     }
-    if (!other || begin_report(other, error))
+    if (!other || start_danger_collection(other, error))
         return other;
     jo_scene_free(other);
     return NULL;

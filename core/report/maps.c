@@ -1,4 +1,5 @@
-/* The plan and maps over time of a report: one drawing, all panels of one size. */
+/* The plan of a report and its maps of density, load and crowd pressure, and the page's figures
+   of them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,10 +10,10 @@
 #include "report/danger_files_parts.h"
 #include "report/maps.h"
 
-enum { MOST_AS_SVG = 5000 /* people: of more there are images alone */ };
-static const float MARGIN = 1.0f; /* m about what the plan shows */
+enum { MOST_AS_SVG = 5000 /* people; pictures with more have no SVG */ };
+static const float MARGIN = 1.0f; /* m: margin of the plan */
 
-/* ---- what all of them show ---- */
+/* ---- common parts ---- */
 
 float jox_maps_scale_end(double most) {
     static const float ENDS[] = {1, 2, 3, 4, 5, 6, 8, 10};
@@ -25,7 +26,7 @@ float jox_maps_scale_end(double most) {
     return ENDS[e] * power;
 }
 
-JoxPicture jox_maps_begin(const JoxSubject *s, const JoxFrame *frame) {
+JoxPicture jox_maps_new_picture(const JoxSubject *s, const JoxFrame *frame) {
     const JoxDensity *g = s->grid;
     const JoxDrawnBodies *bodies = s->bodies;
     return (JoxPicture){
@@ -42,16 +43,16 @@ JoxPicture jox_maps_begin(const JoxSubject *s, const JoxFrame *frame) {
         .high = {g->low.x + (float)g->columns * g->cell, g->low.y + (float)g->rows * g->cell}};
 }
 
-/* Names of exits, of the length of those that are told; freed by the caller. */
-static const char **exit_names(const JoxSubject *s) {
+/* Returns the names of the subject's exits in an array that the caller frees. */
+static const char **list_exit_names(const JoxSubject *s) {
     const char **names = jox_alloc(s->exits->count + 1, sizeof *names);
     for (uint32_t e = 0; e < s->exits->count; e++)
         names[e] = s->exits->items[e].name;
     return names;
 }
 
-bool jox_maps_put(const JoxSubject *s, const JoxPicture *picture, const char *name,
-                  JoxText *error) {
+bool jox_maps_write_picture(const JoxSubject *s, const JoxPicture *picture, const char *name,
+                            JoxText *error) {
     const bool images = jox_canvas_has_images();
     uint32_t width, height;
     bool good = true;
@@ -75,13 +76,15 @@ bool jox_maps_put(const JoxSubject *s, const JoxPicture *picture, const char *na
 
 /* ---- the plan ---- */
 
-static void widen(JoxPicture *p, JoxV2 low, JoxV2 high) {
+/* Widens the area of a plan by a box, m, and a margin. */
+static void widen_plan_area(JoxPicture *p, JoxV2 low, JoxV2 high) {
     p->low = (JoxV2){jox_minf(p->low.x, low.x - MARGIN), jox_minf(p->low.y, low.y - MARGIN)};
     p->high = (JoxV2){jox_maxf(p->high.x, high.x + MARGIN), jox_maxf(p->high.y, high.y + MARGIN)};
 }
 
-/* What probes measure in, of those that do so somewhere; freed by the caller. */
-static JoxDrawnProbe *probes_of(const JoxSubject *s, uint32_t *count) {
+/* Returns the lines and areas of probes that measure somewhere, in an array that the caller
+   frees. */
+static JoxDrawnProbe *list_drawn_probes(const JoxSubject *s, uint32_t *count) {
     JoxDrawnProbe *probes = jox_alloc(s->probe_count + 1, sizeof *probes);
     *count = 0;
     for (uint32_t p = 0; p < s->probe_count; p++) {
@@ -95,32 +98,32 @@ static JoxDrawnProbe *probes_of(const JoxSubject *s, uint32_t *count) {
 
 bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
     const JoxFrame nobody = {.time = s->until};
-    JoxPicture p = jox_maps_begin(s, &nobody);
+    JoxPicture p = jox_maps_new_picture(s, &nobody);
     const JoxV2 size = jox_sub(p.high, p.low);
     const JoxV2 least = jox_sub(p.low, size), most = jox_add(p.high, size);
-    const char **exits = exit_names(s);
+    const char **exits = list_exit_names(s);
     uint32_t probe_count;
-    JoxDrawnProbe *probes = probes_of(s, &probe_count);
+    JoxDrawnProbe *probes = list_drawn_probes(s, &probe_count);
     for (uint32_t i = 0; i < s->place_count; i++) {
         JoxV2 low, high;
         if (s->places[i].kind == JOX_PLACE_SET || s->places[i].count == 0)
             continue;
         jox_bounds(s->places[i].points, s->places[i].count, &low, &high);
         if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
-            widen(&p, low, high);
+            widen_plan_area(&p, low, high);
     }
     for (uint32_t i = 0; i < probe_count; i++) {
         JoxV2 low, high;
         jox_bounds(probes[i].points, probes[i].count, &low, &high);
         if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
-            widen(&p, low, high);
+            widen_plan_area(&p, low, high);
     }
     p.when = "plan";
     p.exits = exits;
     p.exit_count = s->exits->count;
     p.probes = probes;
     p.probe_count = probe_count;
-    const bool good = jox_maps_put(s, &p, "plan", error);
+    const bool good = jox_maps_write_picture(s, &p, "plan", error);
     jox_free(exits);
     jox_free(probes);
     return good;
@@ -152,15 +155,16 @@ static const struct Map {
 };
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
-static float value_of(const JoxSubject *s, const struct Map *map, size_t cell) {
+static float read_map_value(const JoxSubject *s, const struct Map *map, size_t cell) {
     const uint32_t columns = s->grid->columns;
-    return map->greatest ? (float)jox_danger_greatest(s->danger, (int)map->measure, cell)
+    return map->greatest ? (float)jox_danger_cell_greatest(s->danger, (int)map->measure, cell)
                          : (float)jox_density_mean(s->grid, (uint32_t)(cell % columns),
                                                    (uint32_t)(cell / columns));
 }
 
-/* Loads of walls, for the map of loads; freed by the caller. */
-static JoxDrawnLoad *wall_loads(const JoxSubject *s, double *most, uint32_t *count) {
+/* Returns the greatest load of each wall piece, in an array that the caller frees, and raises
+   `most` to the greatest of them, N. */
+static JoxDrawnLoad *list_wall_loads(const JoxSubject *s, double *most, uint32_t *count) {
     const JoxDangerWalls *walls = &s->danger->walls;
     JoxDrawnLoad *loads = jox_alloc(walls->count + 1, sizeof *loads);
     *count = walls->known ? walls->count : 0;
@@ -174,7 +178,7 @@ static JoxDrawnLoad *wall_loads(const JoxSubject *s, double *most, uint32_t *cou
 
 bool jox_maps_draw_field(const JoxSubject *s, const JoxMapField *map, JoxText *error) {
     const JoxFrame nobody = {.time = s->until};
-    JoxPicture p = jox_maps_begin(s, &nobody);
+    JoxPicture p = jox_maps_new_picture(s, &nobody);
     p.title = map->title;
     p.when = map->when;
     p.panel = true;
@@ -185,11 +189,11 @@ bool jox_maps_draw_field(const JoxSubject *s, const JoxMapField *map, JoxText *e
     p.floor_most = jox_maps_scale_end(map->most);
     p.wall_loads = map->wall_loads;
     p.wall_load_count = map->wall_load_count;
-    return jox_maps_put(s, &p, map->file, error);
+    return jox_maps_write_picture(s, &p, map->file, error);
 }
 
-/* Both maps of density have one scale. */
-static bool draw_map(const JoxSubject *s, const struct Map *map, JoxText *error) {
+/* Draws a map over time. Both maps of density have the same scale. */
+static bool draw_field_map(const JoxSubject *s, const struct Map *map, JoxText *error) {
     const size_t cells = (size_t)s->grid->columns * s->grid->rows;
     float *field = jox_alloc(cells + 1, sizeof *field);
     double most = map->measure == JOX_DANGER_DENSITY ? (double)s->grid->most : 0.0;
@@ -197,11 +201,11 @@ static bool draw_map(const JoxSubject *s, const struct Map *map, JoxText *error)
     uint32_t load_count = 0;
     char when[64];
     for (size_t c = 0; c < cells; c++) {
-        field[c] = value_of(s, map, c);
+        field[c] = read_map_value(s, map, c);
         most = fmax(most, isnan(field[c]) ? 0.0 : (double)field[c]);
     }
     if (map->measure == JOX_DANGER_LOAD)
-        loads = wall_loads(s, &most, &load_count);
+        loads = list_wall_loads(s, &most, &load_count);
     snprintf(when, sizeof when, "%.4g to %.4g s",
              map->greatest ? s->from : fmax(s->from, s->mean_from), s->until);
     const bool good = jox_maps_draw_field(
@@ -223,22 +227,22 @@ static bool draw_map(const JoxSubject *s, const struct Map *map, JoxText *error)
     return good;
 }
 
-/* Of loads and crowd pressure only where there were any. */
-static bool is_drawn(const JoxSubject *s, const struct Map *map) {
+/* Returns whether a map is drawn: those of loads and crowd pressure only if there were any. */
+static bool is_map_drawn(const JoxSubject *s, const struct Map *map) {
     return map->measure == JOX_DANGER_DENSITY ||
            jox_danger_most(s->danger, map->measure).value > 0.0;
 }
 
 void jox_maps_panels(FILE *out, const JoxSubject *s) {
     uint32_t width, height;
-    const JoxPicture p = jox_maps_begin(s, NULL);
+    const JoxPicture p = jox_maps_new_picture(s, NULL);
     jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
 }
 
 void jox_maps_fields(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (size_t m = 0; m < MAP_COUNT; m++)
-        if (is_drawn(s, &MAPS[m]))
+        if (is_map_drawn(s, &MAPS[m]))
             jox_html_figure(out, s->folder, MAPS[m].file, MAPS[m].title, false);
     jox_html_panels_end(out);
 }
@@ -246,6 +250,6 @@ void jox_maps_fields(FILE *out, const JoxSubject *s) {
 bool jox_maps_write(const JoxSubject *s, JoxText *error) {
     bool good = jox_maps_draw_plan(s, error);
     for (size_t m = 0; good && m < MAP_COUNT; m++)
-        good = !is_drawn(s, &MAPS[m]) || draw_map(s, &MAPS[m], error);
+        good = !is_map_drawn(s, &MAPS[m]) || draw_field_map(s, &MAPS[m], error);
     return good;
 }

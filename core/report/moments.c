@@ -1,4 +1,4 @@
-/* Snapshots at telling moments: who stood where, and how dense it was. */
+/* Snapshots of a report at the moments that story.c kept: where people stood, and the density. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,18 +8,18 @@
 #include "picture/html.h"
 #include "report/maps.h"
 
-static bool same_time(const JoxSubject *s, int a, int b) {
+static bool is_same_moment(const JoxSubject *s, int a, int b) {
     const JoxMoment *m = s->story->moments;
     return m[a].taken && m[b].taken && m[a].time == m[b].time;
 }
 
-static void name_moment(const JoxSubject *s, int kind, char title[128], char when[64]) {
+static void write_moment_names(const JoxSubject *s, int kind, char title[128], char when[64]) {
     const JoxMoment *m = &s->story->moments[kind];
     char people[JOX_NOUN];
     snprintf(when, 64, "%.1f s", m->time);
     if (kind == JOX_MOMENT_START)
         snprintf(title, 128, "At the start%s",
-                 same_time(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
+                 is_same_moment(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
     else if (kind == JOX_MOMENT_DENSEST)
         snprintf(title, 128, "Greatest density " JOX_DENSITY_BY);
     else if (kind == JOX_MOMENT_HALF)
@@ -30,8 +30,8 @@ static void name_moment(const JoxSubject *s, int kind, char title[128], char whe
         snprintf(title, 128, "At the end: %s inside", jox_noun(people, m->count, "person|people"));
 }
 
-/* A frame of the moment; its columns are freed by free_frame. */
-static JoxFrame frame_of(const JoxMoment *m) {
+/* Returns a frame of the moment, whose columns free_moment_frame frees. */
+static JoxFrame make_moment_frame(const JoxMoment *m) {
     uint32_t *key = jox_alloc(m->count + 1, sizeof *key);
     float *x = jox_alloc(4 * m->count + 1, sizeof *x);
     const bool radii = m->count && m->people[0].radius > 0.0f;
@@ -42,7 +42,7 @@ static JoxFrame frame_of(const JoxMoment *m) {
         x[m->count + i] = person->y;
         x[2 * m->count + i] = person->radius;
     }
-    float *still = x + 3 * m->count; /* nobody's heading is drawn */
+    float *still = x + 3 * m->count; /* zero velocities: no headings are drawn */
     return (JoxFrame){.time = m->time,
                       .count = (uint32_t)m->count,
                       .key = key,
@@ -53,13 +53,13 @@ static JoxFrame frame_of(const JoxMoment *m) {
                       .radius = radii ? x + 2 * m->count : NULL};
 }
 
-static void free_frame(JoxFrame *frame) {
+static void free_moment_frame(JoxFrame *frame) {
     jox_free((void *)(uintptr_t)frame->key);
     jox_free((void *)(uintptr_t)frame->x);
 }
 
-/* The walls with their gates as they were then; `rings` is freed by the caller. */
-static JoxWalls walls_of(const JoxSubject *s, const JoxMoment *m) {
+/* Returns the walls with the gates as they were at the moment; the caller frees `rings`. */
+static JoxWalls make_moment_walls(const JoxSubject *s, const JoxMoment *m) {
     JoxWalls walls = *s->walls;
     walls.rings = jox_alloc(walls.ring_count + 1, sizeof *walls.rings);
     for (uint32_t r = 0; r < walls.ring_count; r++) {
@@ -72,10 +72,10 @@ static JoxWalls walls_of(const JoxSubject *s, const JoxMoment *m) {
 static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
     const JoxMoment *m = &s->story->moments[kind];
     char file[32], title[128], when[64];
-    JoxFrame frame = frame_of(m);
-    JoxWalls walls = walls_of(s, m);
-    JoxPicture p = jox_maps_begin(s, &frame);
-    name_moment(s, kind, title, when);
+    JoxFrame frame = make_moment_frame(m);
+    JoxWalls walls = make_moment_walls(s, m);
+    JoxPicture p = jox_maps_new_picture(s, &frame);
+    write_moment_names(s, kind, title, when);
     snprintf(file, sizeof file, "snapshot-%d", kind + 1);
     p.title = title;
     p.when = when;
@@ -87,28 +87,28 @@ static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
     p.field = m->field;
     p.floor = JOX_SHOW_DENSITY;
     p.field_legend = "people per m\xc2\xb2 " JOX_DENSITY_BY;
-    p.floor_most = jox_maps_scale_end((double)s->grid->most); /* one scale for all of them */
-    const bool good = jox_maps_put(s, &p, file, error);
+    p.floor_most = jox_maps_scale_end((double)s->grid->most); /* all snapshots have one scale */
+    const bool good = jox_maps_write_picture(s, &p, file, error);
     jox_free(walls.rings);
-    free_frame(&frame);
+    free_moment_frame(&frame);
     return good;
 }
 
-/* One picture a moment. */
-static bool is_shown(const JoxSubject *s, int kind) {
+/* Returns whether a moment gets a picture: it occurred and no other picture shows the same time. */
+static bool is_moment_shown(const JoxSubject *s, int kind) {
     const JoxMoment *m = &s->story->moments[kind];
     return m->taken && m->cells == (size_t)s->grid->columns * s->grid->rows &&
-           (kind == JOX_MOMENT_LAST || !same_time(s, kind, JOX_MOMENT_LAST)) &&
-           (kind != JOX_MOMENT_DENSEST || !same_time(s, kind, JOX_MOMENT_START));
+           (kind == JOX_MOMENT_LAST || !is_same_moment(s, kind, JOX_MOMENT_LAST)) &&
+           (kind != JOX_MOMENT_DENSEST || !is_same_moment(s, kind, JOX_MOMENT_START));
 }
 
 void jox_maps_moments(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (int kind = 0; kind < JOX_MOMENTS; kind++) {
         char file[32], title[128], when[64], caption[200];
-        if (!is_shown(s, kind))
+        if (!is_moment_shown(s, kind))
             continue;
-        name_moment(s, kind, title, when);
+        write_moment_names(s, kind, title, when);
         snprintf(file, sizeof file, "snapshot-%d", kind + 1);
         snprintf(caption, sizeof caption, "%s, %s", title, when);
         jox_html_figure(out, s->folder, file, caption, false);
@@ -119,6 +119,6 @@ void jox_maps_moments(FILE *out, const JoxSubject *s) {
 bool jox_moments_write(const JoxSubject *s, JoxText *error) {
     bool good = true;
     for (int kind = 0; good && kind < JOX_MOMENTS; kind++)
-        good = !is_shown(s, kind) || draw_moment(s, kind, error);
+        good = !is_moment_shown(s, kind) || draw_moment(s, kind, error);
     return good;
 }

@@ -1,5 +1,5 @@
-/* The page of a report: what a run measured, how far half the step changes it, and what that is
-   worth. */
+/* jo_scene_page: index.html of a run's report, with its summary, figures, how far half the step
+   changes them, and how to repeat it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,28 +16,29 @@
 #include "report/run_subject.h"
 #include "run/run.h"
 
-enum { MOST_GROUPS = 12 }; /* that the summary names */
+enum { MOST_GROUPS = 12 }; /* groups named in the summary */
 
-static void add_demand(JoxPageFigures *f, const JoScene *scene) {
+/* Appends per source the people due, arrived, and waiting at the end. */
+static void add_demand_figures(JoxPageFigures *f, const JoScene *scene) {
     f->group = "Who came in by sources";
     for (uint32_t s = 0; s < scene->spec->source_count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
         jox_source_name(scene->world, s, &name);
-        jox_page_add(f, "", demand.due, "people who were due at %.100s", name.data);
-        jox_page_add(f, "", demand.came, "people who came in at %.100s", name.data);
-        jox_page_add(f, "", demand.waiting, "people who waited for room there at the end");
-        jox_page_add(f, "", demand.did_not_come, "people who did not come before it ended");
+        jox_page_add_figure(f, "", demand.due, "people who were due at %.100s", name.data);
+        jox_page_add_figure(f, "", demand.came, "people who came in at %.100s", name.data);
+        jox_page_add_figure(f, "", demand.waiting, "people who waited for room there at the end");
+        jox_page_add_figure(f, "", demand.did_not_come, "people who did not come before it ended");
         jox_text_free(&name);
     }
 }
 
-/* The figures, in an order that two runs of a scene share. */
-static JoxPageFigures collect(const JoScene *scene) {
+/* Lists the figures of a run, in the same order for any two runs of a scene. */
+static JoxPageFigures collect_run_figures(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     JoxPageFigures f = {0};
     jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
-    add_demand(&f, scene);
+    add_demand_figures(&f, scene);
     jox_page_add_danger(&f, jox_run_danger(scene));
     const JoxRegions *regions = jox_run_regions(scene);
     char group[64] = "Regions";
@@ -45,26 +46,28 @@ static JoxPageFigures collect(const JoScene *scene) {
         snprintf(group, sizeof group, "Regions (from %.6g s on)", scene->spec->heatmap_from);
     f.group = group;
     for (uint32_t r = 0; regions && r < regions->count; r++)
-        jox_page_add(&f, "m/s",
-                     regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,
-                     "mean speed in %.60s", regions->items[r].name);
+        jox_page_add_figure(&f, "m/s",
+                            regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,
+                            "mean speed in %.60s", regions->items[r].name);
     const JoxProbe *probe;
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         jox_page_add_probe(&f, probe);
     f.group = "The simulation itself";
-    jox_page_add(&f, "", jox_statistics_overlap_p99(s),
-                 "overlap that 99 %% stay below, share of a diameter");
-    jox_page_add(&f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
-                 "share of people's time in which they overlap by more than %.0f %% of a diameter",
-                 100.0 * JOX_TRUST_OVERLAP);
-    jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
-                 "share of agent-steps whose 2-D program failed");
+    jox_page_add_figure(&f, "", jox_statistics_overlap_p99(s),
+                        "overlap that 99 %% stay below, share of a diameter");
+    jox_page_add_figure(
+        &f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
+        "share of people's time in which they overlap by more than %.0f %% of a diameter",
+        100.0 * JOX_TRUST_OVERLAP);
+    jox_page_add_figure(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
+                        "share of agent-steps whose 2-D program failed");
     return f;
 }
 
 /* ---- parts of the page ---- */
 
-static void put_change(FILE *out, double whole, double half) {
+/* Writes a cell with the difference between two values, also in % of the first. */
+static void put_step_difference(FILE *out, double whole, double half) {
     double change = half - whole;
     fputs("<td class=n>", out);
     if (isfinite(change) && whole != 0.0)
@@ -75,8 +78,9 @@ static void put_change(FILE *out, double whole, double half) {
         fputs("&ndash;", out);
 }
 
-/* The same figure of the other run, by group and name: one run may have left somebody elsewhere. */
-static void put_half(FILE *out, const JoxPageFigure *a, void *context) {
+/* Writes the cells of the run at half the step: the figure of the same group and name, and the
+   difference. It may be missing, if somebody left elsewhere in one of the runs. */
+static void put_half_step_cells(FILE *out, const JoxPageFigure *a, void *context) {
     const JoxPageFigures *other = context;
     const JoxPageFigure *b = NULL;
     for (uint32_t k = 0; k < other->count && !b; k++)
@@ -84,18 +88,18 @@ static void put_half(FILE *out, const JoxPageFigure *a, void *context) {
             strcmp(other->items[k].group, a->group) == 0)
             b = &other->items[k];
     if (b)
-        jox_page_value(out, b);
+        jox_page_put_value(out, b);
     else
         jox_html_cell_number(out, NAN, a->unit);
-    put_change(out, a->value, b ? b->value : NAN);
+    put_step_difference(out, a->value, b ? b->value : NAN);
 }
 
-static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
-    JoxPageFigures whole = collect(scene), other = {0};
+static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
+    JoxPageFigures whole = collect_run_figures(scene), other = {0};
     char heads[128], text[512];
     jox_html_heading(out, "All figures");
     if (half) {
-        other = collect(half);
+        other = collect_run_figures(half);
         snprintf(text, sizeof text,
                  "The same run with the same seed was repeated at half the step, %g s. A figure is "
                  "worth no more digits than the two agree on; at another step chance falls "
@@ -109,15 +113,15 @@ static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, co
         snprintf(heads, sizeof heads, "figure|>step %g s", scene->world->model.def.dt);
     }
     jox_html_paragraph(out, text);
-    jox_page_figures(out, &whole, heads, half ? put_half : NULL, &other);
+    jox_page_put_figures(out, &whole, heads, half ? put_half_step_cells : NULL, &other);
     jox_page_release(&whole);
     jox_page_release(&other);
 }
 
 /* ---- the summary ---- */
 
-/* What was run: the scene, its people by group, for how long, with what. */
-static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) {
+/* Writes what was run: the scene, its people by group, duration, step, seed and version. */
+static void put_run_statement(FILE *out, const JoScene *scene, const JoxSubject *subject) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     JoxText text = {0}, demand = {0};
@@ -139,7 +143,7 @@ static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) 
                     ", simulated once for %.1f s in steps of %g s with seed %llu by Jostle %s.",
                     subject->until, world->model.def.dt, (unsigned long long)world->model.def.seed,
                     jo_version());
-    if (spec->about && *spec->about) /* its first sentence: others speak of the live page */
+    if (spec->about && *spec->about) /* its first sentence; the others are about the live page */
         jox_text_printf(&text, " %.*s", (int)(strcspn(spec->about, ".") + 1), spec->about);
     jox_html_statement(out, "What was run.", text.data);
     jox_run_say_demand(scene, &demand);
@@ -149,7 +153,7 @@ static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) 
     jox_text_free(&text);
 }
 
-/* What a reader can rely on; what went wrong. */
+/* Writes what went wrong in the run, and what is validated. */
 static void put_caveats(FILE *out, const JoScene *scene) {
     char *troubles = jox_run_troubles(scene);
     if (troubles)
@@ -163,25 +167,25 @@ static void put_caveats(FILE *out, const JoScene *scene) {
         "one run with one seed: others give other times; --seeds 20 shows how far they differ.");
 }
 
-static void put_summary(FILE *out, const JoScene *scene, const JoxSubject *subject) {
+static void put_run_summary(FILE *out, const JoScene *scene, const JoxSubject *subject) {
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    put_run(out, scene, subject);
+    put_run_statement(out, scene, subject);
     jox_summary_crowd(out, subject);
     put_caveats(out, scene);
     fputs("</div>\n", out);
 }
 
-/* Pictures that runs alone have. */
-static void put_pictures(FILE *out, const JoScene *scene, const char *directory) {
+/* Writes the figures that only pages of runs have: regions and paths. */
+static void put_run_pictures(FILE *out, const JoScene *scene, const char *directory) {
     if (jox_run_regions(scene))
         jox_html_figure(out, directory, "regions", "Mean speed of the regions", false);
     if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
         jox_html_figure(out, directory, "paths", "Where everybody went", false);
 }
 
-/* Whether the flows on the page are of people who walk by the walking law. */
-static void put_advice(FILE *out, const JoScene *scene) {
+/* Writes a note if flows are measured of people who do not follow the walking law. */
+static void put_model_note(FILE *out, const JoScene *scene) {
     JoxDiagnostics notes = {0};
     char text[1024];
     if (jox_run_advise(scene, &notes)) {
@@ -191,7 +195,7 @@ static void put_advice(FILE *out, const JoScene *scene) {
     jox_diag_free(&notes);
 }
 
-static void put_inputs(FILE *out, const JoScene *scene) {
+static void put_run_inputs(FILE *out, const JoScene *scene) {
     const JoSceneDef *def = &scene->def;
     const JoWorld *world = scene->world;
     jox_html_heading(out, "How to repeat it");
@@ -245,14 +249,14 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
     if (out) {
         JoxSubject subject = jox_run_subject(scene, directory);
         jox_html_begin(out, subject.title);
-        put_summary(out, scene, &subject);
-        jox_page_crowd(out, &subject);
-        put_pictures(out, scene, directory);
-        put_figures(out, scene, half, why);
+        put_run_summary(out, scene, &subject);
+        jox_page_put_crowd(out, &subject);
+        put_run_pictures(out, scene, directory);
+        put_run_figures(out, scene, half, why);
         jox_html_heading(out, "How danger is measured");
-        jox_page_definitions(out, subject.danger);
+        jox_page_put_definitions(out, subject.danger);
         jox_run_subject_free(&subject);
-        jox_page_validation(out);
+        jox_page_put_validation(out);
         jox_html_paragraph(
             out,
             "None of that validates this scenario. Its geometry, numbers of people, behaviours and "
@@ -262,8 +266,8 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
             "limits come from single persons and from what was found after disasters. Read the "
             "limits as places and times to look at, not as a count of injured; run several seeds "
             "before comparing plans.");
-        put_advice(out, scene);
-        put_inputs(out, scene);
+        put_model_note(out, scene);
+        put_run_inputs(out, scene);
         jox_html_end(out);
     }
     bool good = out && jox_plot_close(out, "index.html", &text);

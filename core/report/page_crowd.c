@@ -1,9 +1,9 @@
-/* What pages of runs and of recordings say of a crowd, section by section. */
+/* The sections about the crowd on the pages of runs and recordings, in their order. */
 #include "picture/html.h"
 #include "picture/probe_files.h"
 #include "report/page_parts.h"
 
-static void put_probe(FILE *out, const char *folder, const JoxProbe *probe) {
+static void put_probe_figure(FILE *out, const char *folder, const JoxProbe *probe) {
     char stem[JOX_PROBE_STEM];
     JoxText caption = {0}, window = {0};
     jox_text_printf(&caption, "Probe %.60s: %.40s", jox_probe_def(probe)->name,
@@ -17,14 +17,14 @@ static void put_probe(FILE *out, const char *folder, const JoxProbe *probe) {
     jox_text_free(&window);
 }
 
-void jox_page_crowd(FILE *out, const JoxSubject *s) {
+void jox_page_put_crowd(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Plan");
     jox_maps_plan(out, s);
-    jox_page_leaving(out, s);
-    jox_page_danger(out, s);
-    jox_page_levels(out, s);
+    jox_page_put_leaving(out, s);
+    jox_page_put_danger(out, s);
+    jox_page_put_levels(out, s);
     if (s->probe_count)
         jox_html_heading(out, "What probes measured");
     for (uint32_t p = 0; p < s->probe_count; p++)
-        put_probe(out, s->folder, s->probes[p]);
+        put_probe_figure(out, s->folder, s->probes[p]);
 }

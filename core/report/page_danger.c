@@ -1,4 +1,4 @@
-/* The section on danger on the pages of reports, and its figures. */
+/* The section on danger on the pages of reports, and the figures on it. */
 #include <math.h>
 
 #include "picture/html.h"
@@ -7,61 +7,64 @@
 
 /* ---- figures ---- */
 
-static void add_lines(JoxPageFigures *f, const JoxDanger *danger) {
+static void add_line_figures(JoxPageFigures *f, const JoxDanger *danger) {
     for (uint32_t l = 0; l < danger->lines.count; l++) {
         const JoxDangerLine *line = &danger->lines.items[l];
         const bool known = line->worst >= 0;
-        jox_page_add(f, "1/(m s)", line->flow_most, "greatest flow over %.60s", line->name);
-        jox_page_add(f, "s", known ? line->stop_and_go.seconds : NAN,
-                     "time of stop-and-go at %.60s", line->name);
-        jox_page_add(f, "1/s", line->growth_most, "greatest growth of the queue at %.60s",
-                     line->name);
+        jox_page_add_figure(f, "1/(m s)", line->flow_most, "greatest flow over %.60s", line->name);
+        jox_page_add_figure(f, "s", known ? line->stop_and_go.seconds : NAN,
+                            "time of stop-and-go at %.60s", line->name);
+        jox_page_add_figure(f, "1/s", line->growth_most, "greatest growth of the queue at %.60s",
+                            line->name);
     }
 }
 
-static void add_congestion(JoxPageFigures *f, const JoxDanger *danger) {
+static void add_congestion_figures(JoxPageFigures *f, const JoxDanger *danger) {
     JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
     double area = 0.0;
     for (uint32_t r = 0; r < found.count; r++)
         area += found.regions[r].area;
-    jox_page_add(f, "s", found.longest,
-                 "longest time that a place was above %g per m\xc2\xb2 " JOX_DENSITY_BY,
-                 (double)JOX_CONGESTION_DENSITY);
-    jox_page_add(f, "", found.known ? found.count : NAN, "regions of significant congestion");
-    jox_page_add(f, "m2", found.known ? area : NAN, "area of significant congestion");
+    jox_page_add_figure(f, "s", found.longest,
+                        "longest time that a place was above %g per m\xc2\xb2 " JOX_DENSITY_BY,
+                        (double)JOX_CONGESTION_DENSITY);
+    jox_page_add_figure(f, "", found.known ? found.count : NAN,
+                        "regions of significant congestion");
+    jox_page_add_figure(f, "m2", found.known ? area : NAN, "area of significant congestion");
     jox_congestion_found_free(&found);
 }
 
-static double walls_most(const JoxDanger *danger) {
+static double greatest_wall_load(const JoxDanger *danger) {
     return danger->walls.count ? (double)danger->walls.items[danger->walls.most].most : 0.0;
 }
 
 void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
     f->group = "Danger";
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-        jox_page_add(f, jox_danger_units[m], jox_danger_most(danger, (JoxDangerMeasure)m).value,
-                     "greatest %s", jox_danger_titles[m]);
+        jox_page_add_figure(f, jox_danger_units[m],
+                            jox_danger_most(danger, (JoxDangerMeasure)m).value, "greatest %s",
+                            jox_danger_titles[m]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount count = jox_danger_count(danger, l);
         const char *title = jox_danger_limits[l].title;
         bool read = jox_danger_reads(danger, jox_danger_limits[l].measure);
-        jox_page_add(f, "", read ? count.people : NAN, "people ever over a %s", title);
-        jox_page_add(f, "s", read ? count.person_s : NAN, "person-seconds over a %s", title);
-        jox_page_add(f, "s", read ? count.longest : NAN, "longest time of one person over a %s",
-                     title);
+        jox_page_add_figure(f, "", read ? count.people : NAN, "people ever over a %s", title);
+        jox_page_add_figure(f, "s", read ? count.person_s : NAN, "person-seconds over a %s", title);
+        jox_page_add_figure(f, "s", read ? count.longest : NAN,
+                            "longest time of one person over a %s", title);
     }
-    add_congestion(f, danger);
-    add_lines(f, danger);
-    jox_page_add(f, "N", danger->walls.known ? walls_most(danger) : NAN,
-                 "greatest load on a piece of a wall");
+    add_congestion_figures(f, danger);
+    add_line_figures(f, danger);
+    jox_page_add_figure(f, "N", danger->walls.known ? greatest_wall_load(danger) : NAN,
+                        "greatest load on a piece of a wall");
     f->group = "Levels of service";
     for (int k = 0; k < JOX_LEVELS; k++)
-        jox_page_add(f, "s", danger->level_s[k], "person-seconds at level %s", jox_levels[k].name);
+        jox_page_add_figure(f, "s", danger->level_s[k], "person-seconds at level %s",
+                            jox_levels[k].name);
 }
 
 /* ---- parts of the page ---- */
 
-static void put_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
+static void put_time_and_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
     JoxText text = {0};
     if (isfinite(time)) {
         jox_text_printf(&text, "%.1f s at ", time);
@@ -71,7 +74,7 @@ static void put_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
     jox_text_free(&text);
 }
 
-void jox_page_definitions(FILE *out, const JoxDanger *danger) {
+void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
     char text[1024];
     jox_html_paragraph(
         out,
@@ -117,7 +120,7 @@ void jox_page_definitions(FILE *out, const JoxDanger *danger) {
         jox_html_paragraph(out, "Compression was not measured.");
 }
 
-static void put_limits(FILE *out, const JoxSubject *s) {
+static void put_limit_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     jox_html_table(out, "limit|>people ever over it|>person-seconds|>longest of one "
                         "person|first|>minutes since|meaning, and who says so");
@@ -131,7 +134,7 @@ static void put_limits(FILE *out, const JoxSubject *s) {
         jox_html_cell_number(out, read ? count.people : NAN, "");
         jox_html_cell_number(out, read ? count.person_s : NAN, "s");
         jox_html_cell_number(out, read ? count.longest : NAN, "s");
-        put_place(out, s, count.first, count.first_at);
+        put_time_and_place(out, s, count.first, count.first_at);
         jox_html_cell_number(out, jox_danger_since(danger, count.first), "min");
         jox_text_printf(&meaning, "%s (%s)", limit->what, limit->source);
         jox_html_cell(out, meaning.data);
@@ -140,7 +143,7 @@ static void put_limits(FILE *out, const JoxSubject *s) {
     jox_html_table_end(out);
 }
 
-static void put_most(FILE *out, const JoxSubject *s) {
+static void put_greatest_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     jox_html_table(out, "measure|>greatest|when and where");
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
@@ -148,14 +151,14 @@ static void put_most(FILE *out, const JoxSubject *s) {
         jox_html_row(out);
         jox_html_cell(out, jox_danger_titles[m]);
         jox_html_cell_number(out, most.value, jox_danger_units[m]);
-        put_place(out, s, most.time, most.at);
+        put_time_and_place(out, s, most.time, most.at);
     }
     jox_html_table_end(out);
 }
 
-uint32_t jox_page_most_of(const JoxDanger *danger, uint32_t count,
-                          double (*value)(const JoxDanger *danger, uint32_t k),
-                          uint32_t order[JOX_PAGE_SHOWN]) {
+uint32_t jox_page_rank_greatest(const JoxDanger *danger, uint32_t count,
+                                double (*value)(const JoxDanger *danger, uint32_t k),
+                                uint32_t order[JOX_PAGE_SHOWN]) {
     uint32_t shown = 0;
     for (uint32_t k = 0; k < count; k++) {
         if (!(value(danger, k) > 0.0))
@@ -174,10 +177,11 @@ static double dose_of_person(const JoxDanger *danger, uint32_t k) {
     return danger->people[k].dose;
 }
 
-static void put_people(FILE *out, const JoxSubject *s) {
+static void put_dose_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     uint32_t order[JOX_PAGE_SHOWN];
-    const uint32_t shown = jox_page_most_of(danger, danger->people_capacity, dose_of_person, order);
+    const uint32_t shown =
+        jox_page_rank_greatest(danger, danger->people_capacity, dose_of_person, order);
     if (shown == 0)
         return;
     jox_html_paragraph(out, "The people of the greatest doses; danger-people.csv lists all whose "
@@ -191,7 +195,7 @@ static void put_people(FILE *out, const JoxSubject *s) {
         fprintf(out, "<td class=n>%u", order[k]);
         jox_html_cell_number(out, person->dose, "");
         jox_html_cell_number(out, (double)person->most, "N");
-        put_place(out, s, person->most_time, person->most_at);
+        put_time_and_place(out, s, person->most_time, person->most_at);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
                 jox_html_cell_number(out, person->seconds[l], "s");
@@ -199,10 +203,10 @@ static void put_people(FILE *out, const JoxSubject *s) {
     jox_html_table_end(out);
 }
 
-void jox_page_danger(FILE *out, const JoxSubject *s) {
+void jox_page_put_danger(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Danger: who was over which limit");
-    put_limits(out, s);
-    put_most(out, s);
+    put_limit_table(out, s);
+    put_greatest_table(out, s);
     jox_html_figure(out, s->folder, "danger",
                     "Danger over time; published limits are broken lines, as far as they are near.",
                     true);
@@ -210,5 +214,5 @@ void jox_page_danger(FILE *out, const JoxSubject *s) {
     jox_maps_fields(out, s);
     jox_html_subheading(out, "Telling moments");
     jox_maps_moments(out, s);
-    put_people(out, s);
+    put_dose_table(out, s);
 }

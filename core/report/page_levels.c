@@ -1,15 +1,17 @@
-/* Sections of a page: levels of service, lines that people pass, what walls bore. */
+/* Sections of the pages of reports: levels of service, congestion, lines, loads on walls, and
+   who left when. */
 #include <math.h>
 
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
 #include "report/page_parts.h"
 
-/* N: less is what is left, after the last touch, of a mean over a second. */
+/* N: loads below are written as 0; they are remains, after the last contact, of a mean over a
+   second */
 static const float NOTHING = 0.05f;
 
-/* Fruin's levels: of everybody; by area and time; of lines by flow and area. */
-static void put_queues(FILE *out, const JoxDanger *danger) {
+/* Writes the person-seconds at each of Fruin's levels for queues. */
+static void put_queue_levels(FILE *out, const JoxDanger *danger) {
     double all = 0.0;
     for (int k = 0; k < JOX_LEVELS; k++)
         all += danger->level_s[k];
@@ -25,7 +27,7 @@ static void put_queues(FILE *out, const JoxDanger *danger) {
     jox_html_table_end(out);
 }
 
-static void put_areas(FILE *out, const JoxDanger *danger) {
+static void put_area_levels(FILE *out, const JoxDanger *danger) {
     if (danger->areas.count == 0)
         return;
     jox_html_table(out, "area|>size|>most people|>densest, mean of its people|>when|>seconds at "
@@ -44,7 +46,7 @@ static void put_areas(FILE *out, const JoxDanger *danger) {
     jox_html_table_end(out);
 }
 
-static void put_levels(FILE *out, const JoxSubject *s) {
+static void put_level_section(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Levels of service by area and time");
     jox_html_paragraph(
         out,
@@ -55,12 +57,14 @@ static void put_levels(FILE *out, const JoxSubject *s) {
     jox_html_figure(out, s->folder, "levels",
                     "Above: how many people were at each level. Below: the level of each area.",
                     true);
-    put_areas(out, s->danger);
-    put_queues(out, s->danger);
+    put_area_levels(out, s->danger);
+    put_queue_levels(out, s->danger);
     jox_html_paragraph(out, jox_levels_source);
 }
 
-static void put_spell(FILE *out, const JoxDanger *danger, const JoxDangerSpell *spell, bool known) {
+/* Writes two cells: the total time of a spell, and when it first occurred. */
+static void put_spell_cells(FILE *out, const JoxDanger *danger, const JoxDangerSpell *spell,
+                            bool known) {
     if (!known) {
         jox_html_cell(out, "not measured");
         jox_html_cell(out, "not measured");
@@ -74,7 +78,7 @@ static void put_spell(FILE *out, const JoxDanger *danger, const JoxDangerSpell *
         jox_html_cell(out, "never");
 }
 
-static void put_congestion(FILE *out, const JoxSubject *s) {
+static void put_congestion_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
     char text[400];
@@ -115,7 +119,7 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
     jox_congestion_found_free(&found);
 }
 
-static void put_lines(FILE *out, const JoxSubject *s) {
+static void put_line_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     const JoxDangerLines *lines = &danger->lines;
     jox_html_heading(out, "Doors and other lines");
@@ -153,7 +157,7 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         fputs("<td class=n>", out);
         for (int k = 0; k < JOX_LEVELS && known; k++)
             fprintf(out, "%s%.4g", k ? " / " : "", line->level_s[k]);
-        put_spell(out, danger, &line->stop_and_go, known);
+        put_spell_cells(out, danger, &line->stop_and_go, known);
         jox_html_cell_number(out, line->growth_most, "1/s");
         jox_html_cell_number(out, line->growth_most_time, "s");
     }
@@ -161,12 +165,12 @@ static void put_lines(FILE *out, const JoxSubject *s) {
     jox_html_paragraph(out, jox_stop_and_go_source);
 }
 
-static double most_of_piece(const JoxDanger *danger, uint32_t k) {
+static double greatest_load_of_piece(const JoxDanger *danger, uint32_t k) {
     return (double)danger->walls.items[k].most;
 }
 
-/* The pieces of walls that bore most. */
-static void put_walls(FILE *out, const JoxSubject *s) {
+/* Writes the section on loads of walls: the pieces with the greatest loads. */
+static void put_wall_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     const JoxDangerWalls *walls = &danger->walls;
     jox_html_heading(out, "What walls bore");
@@ -184,7 +188,7 @@ static void put_walls(FILE *out, const JoxSubject *s) {
     jox_html_table(out,
                    "from|to|>at the end|>greatest|>greatest, per metre|>when|>over 4500 N|>first");
     uint32_t order[JOX_PAGE_SHOWN],
-        shown = jox_page_most_of(danger, walls->count, most_of_piece, order);
+        shown = jox_page_rank_greatest(danger, walls->count, greatest_load_of_piece, order);
     for (uint32_t k = 0; k < shown; k++) {
         const JoxDangerPiece *piece = &walls->items[order[k]];
         jox_html_row(out);
@@ -202,7 +206,8 @@ static void put_walls(FILE *out, const JoxSubject *s) {
 
 /* ---- who left ---- */
 
-static void put_quantiles(FILE *out, const JoxLeaving *leaving, int32_t exit, const char *name) {
+static void put_leaving_times(FILE *out, const JoxLeaving *leaving, int32_t exit,
+                              const char *name) {
     static const double SHARES[] = {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
     jox_html_row(out);
     jox_html_cell(out, name);
@@ -211,7 +216,7 @@ static void put_quantiles(FILE *out, const JoxLeaving *leaving, int32_t exit, co
         jox_html_cell_number(out, jox_leaving_quantile(leaving, exit, SHARES[k]), "s");
 }
 
-void jox_page_leaving(FILE *out, const JoxSubject *s) {
+void jox_page_put_leaving(FILE *out, const JoxSubject *s) {
     const JoxLeaving *leaving = &s->danger->leaving;
     jox_html_heading(out, "Who left when, and by where");
     if (leaving->count == 0) {
@@ -220,18 +225,18 @@ void jox_page_leaving(FILE *out, const JoxSubject *s) {
     }
     jox_html_paragraph(out, "Times by which so many of those had left who left there at all.");
     jox_html_table(out, "exit|>people|>first|>5 %|>25 %|>half|>75 %|>95 %|>last");
-    put_quantiles(out, leaving, JOX_LEFT_ANYWHERE, "all");
+    put_leaving_times(out, leaving, JOX_LEFT_ANYWHERE, "all");
     for (uint32_t e = 0; e < s->danger->exit_count; e++)
-        put_quantiles(out, leaving, (int32_t)e, s->danger->exit_names[e]);
+        put_leaving_times(out, leaving, (int32_t)e, s->danger->exit_names[e]);
     if (s->danger->exit_count && jox_leaving_count(leaving, JOX_LEFT_ELSEWHERE))
-        put_quantiles(out, leaving, JOX_LEFT_ELSEWHERE, "elsewhere");
+        put_leaving_times(out, leaving, JOX_LEFT_ELSEWHERE, "elsewhere");
     jox_html_table_end(out);
     jox_html_figure(out, s->folder, "leaving", "People who have left over time", true);
 }
 
-void jox_page_levels(FILE *out, const JoxSubject *s) {
-    put_levels(out, s);
-    put_congestion(out, s);
-    put_lines(out, s);
-    put_walls(out, s);
+void jox_page_put_levels(FILE *out, const JoxSubject *s) {
+    put_level_section(out, s);
+    put_congestion_section(out, s);
+    put_line_section(out, s);
+    put_wall_section(out, s);
 }

@@ -1,4 +1,4 @@
-/* Figures, danger and pictures on the pages of reports. */
+/* Lists and tables of figures on the pages of reports, and the section on validation. */
 #include "report/page_parts.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@
 
 /* ---- figures ---- */
 
-void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char *format, ...) {
+void jox_page_add_figure(JoxPageFigures *f, const char *unit, double value, const char *format,
+                         ...) {
     char name[256];
     va_list arguments;
     va_start(arguments, format);
@@ -22,7 +23,7 @@ void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char 
         (JoxPageFigure){jox_strdup(f->group ? f->group : ""), jox_strdup(name), unit, value, NULL};
 }
 
-void jox_page_value(FILE *out, const JoxPageFigure *figure) {
+void jox_page_put_value(FILE *out, const JoxPageFigure *figure) {
     if (figure->none && !isfinite(figure->value))
         fprintf(out, "<td class=n>%s", figure->none);
     else
@@ -32,21 +33,23 @@ void jox_page_value(FILE *out, const JoxPageFigure *figure) {
 void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside) {
     uint64_t known = 0;
     f->group = "Who left";
-    jox_page_add(f, "", (double)exits->left, "people who left");
-    jox_page_add(f, "", inside, "people still inside at the end");
-    jox_page_add(f, "s", exits->left ? exits->last : NAN, "when the last of those who left did so");
-    jox_page_add(f, "s", jox_exits_clearance(exits, inside), "clearance time: nobody is inside");
+    jox_page_add_figure(f, "", (double)exits->left, "people who left");
+    jox_page_add_figure(f, "", inside, "people still inside at the end");
+    jox_page_add_figure(f, "s", exits->left ? exits->last : NAN,
+                        "when the last of those who left did so");
+    jox_page_add_figure(f, "s", jox_exits_clearance(exits, inside),
+                        "clearance time: nobody is inside");
     if (inside)
         f->items[f->count - 1].none = "not cleared";
     for (uint32_t e = 0; e < exits->count; e++) {
-        jox_page_add(f, "", exits->items[e].people, "people who left at %.60s",
-                     exits->items[e].name);
-        jox_page_add(f, "s", exits->items[e].last, "when the last of them left at %.60s",
-                     exits->items[e].name);
+        jox_page_add_figure(f, "", exits->items[e].people, "people who left at %.60s",
+                            exits->items[e].name);
+        jox_page_add_figure(f, "s", exits->items[e].last, "when the last of them left at %.60s",
+                            exits->items[e].name);
         known += exits->items[e].people;
     }
     if (exits->count && exits->left > known)
-        jox_page_add(f, "", (double)(exits->left - known), "people who left elsewhere");
+        jox_page_add_figure(f, "", (double)(exits->left - known), "people who left elsewhere");
 }
 
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
@@ -58,8 +61,8 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
         jox_text_printf(&group, " (%s)", window.data);
     f->group = group.data;
     for (uint32_t i = 0; i < figures.count; i++) {
-        jox_page_add(f, figures.items[i].unit, figures.items[i].value, "%s",
-                     figures.items[i].title);
+        jox_page_add_figure(f, figures.items[i].unit, figures.items[i].value, "%s",
+                            figures.items[i].title);
         f->items[f->count - 1].none = figures.items[i].why;
     }
     f->group = NULL;
@@ -67,9 +70,9 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     jox_text_free(&window);
 }
 
-void jox_page_figures(FILE *out, const JoxPageFigures *f, const char *heads,
-                      void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
-                      void *context) {
+void jox_page_put_figures(FILE *out, const JoxPageFigures *f, const char *heads,
+                          void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
+                          void *context) {
     const char *group = "";
     jox_html_table(out, heads);
     for (uint32_t i = 0; i < f->count; i++) {
@@ -81,7 +84,7 @@ void jox_page_figures(FILE *out, const JoxPageFigures *f, const char *heads,
         }
         jox_html_row(out);
         jox_html_cell(out, f->items[i].name);
-        jox_page_value(out, &f->items[i]);
+        jox_page_put_value(out, &f->items[i]);
         if (beside)
             beside(out, &f->items[i], context);
     }
@@ -96,7 +99,7 @@ void jox_page_release(JoxPageFigures *f) {
     jox_free(f->items);
 }
 
-void jox_page_validation(FILE *out) {
+void jox_page_put_validation(FILE *out) {
     jox_html_heading(out, "What this is worth");
     jox_html_paragraph(
         out,

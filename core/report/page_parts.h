@@ -1,4 +1,4 @@
-/* What the pages of reports share, of runs and of recordings. */
+/* Figures and sections shared by the pages of runs (page.c) and of recordings (report_page.c). */
 #ifndef JOX_REPORT_PAGE_PARTS_H
 #define JOX_REPORT_PAGE_PARTS_H
 
@@ -7,48 +7,53 @@
 
 #include "report/subject.h"
 
-/* Figures in order, by group and name. */
+/* A named figure. Figures are listed in order, those of one group next to each other. */
 typedef struct JoxPageFigure {
-    char *group, *name; /* groups follow each other */
+    char *group, *name; /* owned strings */
     const char *unit;
     double value;
-    const char *none; /* said where there is no value; NULL: a dash */
+    const char *none; /* text in place of a missing value; NULL: a dash */
 } JoxPageFigure;
+/* A list of figures; jox_page_release frees it. */
 typedef struct JoxPageFigures {
     JoxPageFigure *items;
     uint32_t count, capacity;
-    const char *group; /* of those that are added next */
+    const char *group; /* group of the figures added next */
 } JoxPageFigures;
 
-void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char *format, ...)
+/* Append figures: one by value, unit and name (printf format); those of exits, danger and a
+   probe. */
+void jox_page_add_figure(JoxPageFigures *f, const char *unit, double value, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* `inside`: people who are still there at the end. */
+/* `inside` is the number of people still there at the end. */
 void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside);
 void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger);
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
-/* The cell with its value. */
-void jox_page_value(FILE *out, const JoxPageFigure *figure);
+/* Writes a figure's value as a table cell. */
+void jox_page_put_value(FILE *out, const JoxPageFigure *figure);
 void jox_page_release(JoxPageFigures *f);
 
-/* Sections that pages of runs and of recordings share: the plan; who left; danger, with maps and
-   moments; levels of service; lines; walls; what probes measured. */
-void jox_page_crowd(FILE *out, const JoxSubject *subject);
-void jox_page_leaving(FILE *out, const JoxSubject *subject);
-void jox_page_danger(FILE *out, const JoxSubject *subject);
-void jox_page_levels(FILE *out, const JoxSubject *subject);
-enum { JOX_PAGE_SHOWN = 10 }; /* of people and of pieces of walls: those that bore most */
-/* Of `count` numbers those of the greatest values over 0, descending; returns how many. */
-uint32_t jox_page_most_of(const JoxDanger *danger, uint32_t count,
-                          double (*value)(const JoxDanger *danger, uint32_t k),
-                          uint32_t order[JOX_PAGE_SHOWN]);
-/* A table of them, with a row of each group's name; `heads` as of jox_html_table. `beside`, or
-   NULL: what stands behind each value. */
-void jox_page_figures(FILE *out, const JoxPageFigures *figures, const char *heads,
-                      void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
-                      void *context);
-/* How the measures of danger are defined. */
-void jox_page_definitions(FILE *out, const JoxDanger *danger);
-/* The heading and first paragraph of what a page is worth. */
-void jox_page_validation(FILE *out);
+/* Write sections of the page. jox_page_put_crowd writes the plan, the other three, and the
+   probes' figures; leaving: who left when; danger: limits, maps and moments; levels: levels of
+   service, congestion, lines and walls. */
+void jox_page_put_crowd(FILE *out, const JoxSubject *subject);
+void jox_page_put_leaving(FILE *out, const JoxSubject *subject);
+void jox_page_put_danger(FILE *out, const JoxSubject *subject);
+void jox_page_put_levels(FILE *out, const JoxSubject *subject);
+enum { JOX_PAGE_SHOWN = 10 }; /* most rows in a table of people or wall pieces */
+/* Ranks the indices 0 to `count` - 1 by value and puts those with the greatest values above 0
+   into `order`, descending. Returns how many there are. */
+uint32_t jox_page_rank_greatest(const JoxDanger *danger, uint32_t count,
+                                double (*value)(const JoxDanger *danger, uint32_t k),
+                                uint32_t order[JOX_PAGE_SHOWN]);
+/* Writes a table of figures with a heading row per group. `heads` is as in jox_html_table.
+   `beside`, or NULL, writes further cells behind each value. */
+void jox_page_put_figures(FILE *out, const JoxPageFigures *figures, const char *heads,
+                          void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
+                          void *context);
+/* Writes the definitions of the danger measures. */
+void jox_page_put_definitions(FILE *out, const JoxDanger *danger);
+/* Writes the heading and first paragraph of the section on validation. */
+void jox_page_put_validation(FILE *out);
 
 #endif

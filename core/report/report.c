@@ -1,4 +1,5 @@
-/* jo_report: a scene's probes over a recording. */
+/* jo_report: measures a recording with a scene's probes, or default ones, and writes tables,
+   pictures and a page. `jostle report` is the caller. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,30 +14,33 @@
 #include "task/children.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };
-static const float EDGE = 0.5f; /* m about everyone, of the map that is made without a scene */
+/* m: margin around all positions, for the area measured without a scene */
+static const float EDGE = 0.5f;
 
 JoReportDef jo_default_report_def(void) {
     return (JoReportDef){.cookie = REPORT_COOKIE};
 }
 
-static void complain(JoxReport *r, const char *file, const char *hint, const char *format,
-                     const char *probe, const char *what) {
+static void add_probe_error(JoxReport *r, const char *file, const char *hint, const char *format,
+                            const char *probe, const char *what) {
     JoxPosition at = {file, 0, 0, 0};
     jox_diag_error(&r->diagnostics, at, "bad-probe", hint, format, probe, what);
 }
 
-/* The recording's numbers of the groups that a probe of the scene names; false with an error. */
-static bool find_groups(JoxReport *r, const JoxProbeDef *def, uint16_t *out) {
+/* Maps the groups that a probe of the scene names to the recording's groups. Returns false with
+   an error. */
+static bool find_recorded_groups(JoxReport *r, const JoxProbeDef *def, uint16_t *out) {
     for (uint32_t g = 0; g < def->group_count; g++) {
         const char *name = r->spec->groups[def->groups[g]].name;
         uint32_t found = 0;
         while (found < r->crowd->group_count && strcmp(r->crowd->groups[found], name) != 0)
             found++;
         if (found == r->crowd->group_count) {
-            complain(r, r->def->recording,
-                     r->crowd->group_count ? NULL : "Take `group` out of the probe",
-                     "probe '%.60s' measures the group '%.60s', which this recording does not name",
-                     def->name, name);
+            add_probe_error(
+                r, r->def->recording,
+                r->crowd->group_count ? NULL : "Take `group` out of the probe",
+                "probe '%.60s' measures the group '%.60s', which this recording does not name",
+                def->name, name);
             return false;
         }
         out[g] = (uint16_t)found;
@@ -44,15 +48,17 @@ static bool find_groups(JoxReport *r, const JoxProbeDef *def, uint16_t *out) {
     return true;
 }
 
-static bool add_probe(JoxReport *r, const JoxProbeDef *of) {
+/* Adds a probe of the scene, adapted to the recording. Returns false with an error if the
+   recording lacks what it measures. */
+static bool add_recording_probe(JoxReport *r, const JoxProbeDef *of) {
     JoxProbeDef def = *of;
     uint16_t *groups = jox_alloc(def.group_count + 1, sizeof *groups);
-    bool good = find_groups(r, &def, groups);
+    bool good = find_recorded_groups(r, &def, groups);
     if (good && (def.kind == JOX_PROBE_FAILURES || def.kind == JOX_PROBE_VISIT)) {
-        complain(r, r->def->scene, "Measure it during a run",
-                 "probe '%.60s' needs to know %s; no recording does", def.name,
-                 def.kind == JOX_PROBE_VISIT ? "who is in which state"
-                                             : "whose 2-D program failed");
+        add_probe_error(r, r->def->scene, "Measure it during a run",
+                        "probe '%.60s' needs to know %s; no recording does", def.name,
+                        def.kind == JOX_PROBE_VISIT ? "who is in which state"
+                                                    : "whose 2-D program failed");
         good = false;
     }
     def.groups = groups;
@@ -66,9 +72,9 @@ static bool add_probe(JoxReport *r, const JoxProbeDef *of) {
     return good;
 }
 
-/* Without a scene that has probes: fields, and densities and speeds over time, of all the area that
- * was walked. */
-static void add_usual(JoxReport *r) {
+/* Adds default probes, for a recording without a scene with probes: fields, and densities and
+   speeds over time, over the whole area walked. */
+static void add_default_probes(JoxReport *r) {
     JoxV2 low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
     JoxV2 high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
     JoxV2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
@@ -87,12 +93,13 @@ static void add_usual(JoxReport *r) {
                        .count = 4,
                        .every = 1.0,
                        .cutoff = 1.0};
-    add_probe(r, &map);
-    add_probe(r, &all);
+    add_recording_probe(r, &map);
+    add_recording_probe(r, &all);
 }
 
-/* Loads what the def names; false with errors. */
-static bool load(JoxReport *r) {
+/* Loads the scene and the recording that the def names and creates the probes. Returns false
+   with errors. */
+static bool load_report(JoxReport *r) {
     const JoReportDef *def = r->def;
     JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
     if (def->scene && !(r->spec = jox_scene_load(def->scene, NULL, &r->diagnostics)))
@@ -106,22 +113,23 @@ static bool load(JoxReport *r) {
         return false;
     r->probes = jox_alloc(r->spec ? r->spec->probe_count + 2 : 2, sizeof(JoxProbe *));
     if (jox_is_sqlite(def->recording))
-        r->reel = jox_trajectory_reader_open(def->recording, &options, &r->diagnostics);
-    if (r->reel && !jox_trajectory_reader_info(r->reel).has_bodies) {
-        jox_trajectory_reader_close(r->reel);
-        r->reel = NULL;
+        r->body_reader = jox_trajectory_reader_open(def->recording, &options, &r->diagnostics);
+    if (r->body_reader && !jox_trajectory_reader_info(r->body_reader).has_bodies) {
+        jox_trajectory_reader_close(r->body_reader);
+        r->body_reader = NULL;
     }
     bool good = true;
     if (!r->spec || r->spec->probe_count == 0)
-        add_usual(r);
+        add_default_probes(r);
     for (uint32_t p = 0; r->spec && p < r->spec->probe_count; p++)
-        good = add_probe(r, &r->spec->probes[p]) && good;
+        good = add_recording_probe(r, &r->spec->probes[p]) && good;
     return good;
 }
 
-/* A JoxChildWork: in a process of its own, as the libraries that draw may end theirs where memory
-   runs out. Its result says why it did not succeed, and is empty where it did. */
-static void write_apart(void *report, uint64_t job, JoxText *why) {
+/* Writes all files of the report. A JoxChildWork, run in a child process, since the drawing
+   libraries may exit when memory runs out. `why` states the reason of a failure and stays empty
+   on success. */
+static void write_report_in_child(void *report, uint64_t job, JoxText *why) {
     const JoxReport *r = report;
     const char *folder = r->def->directory, *title = jox_report_title(r);
     (void)job;
@@ -136,9 +144,9 @@ static void write_apart(void *report, uint64_t job, JoxText *why) {
         jox_text_add(why, "writing failed");
 }
 
-static bool write(JoxReport *r, JoError *error) {
+static bool write_report(JoxReport *r, JoError *error) {
     JoxText why = {0}, ended = {0};
-    if (!jox_children_do(write_apart, r, &why, &ended))
+    if (!jox_children_do(write_report_in_child, r, &why, &ended))
         jox_text_printf(&why, "the report in '%s' cannot be written: %s", r->def->directory,
                         ended.data);
     const bool good = why.length == 0;
@@ -151,8 +159,9 @@ static bool write(JoxReport *r, JoError *error) {
 
 /* ---- measuring ---- */
 
-/* The area of a scene that says which, as in a run of it; else all that was walked. */
-static JoxDanger *begin_danger(const JoxReport *r) {
+/* Creates the danger measures over the area that a run of the scene would use, else over the
+   whole area walked. */
+static JoxDanger *create_report_danger(const JoxReport *r) {
     const JoxSceneSpec *spec = r->spec;
     if (spec && spec->heatmap)
         return jox_danger_create(spec->heatmap_low, spec->heatmap_high);
@@ -162,11 +171,12 @@ static JoxDanger *begin_danger(const JoxReport *r) {
                              jox_add(r->crowd->high, (JoxV2){EDGE, EDGE}));
 }
 
-/* For each frame with people, and one more, how many were in a frame before and are in none from
-   here on. */
-static uint32_t *count_leavers(const JoxTrajectories *t) {
+/* Returns, per frame and once more for the end, how many people were in an earlier frame and are
+   in none from there on. */
+static uint32_t *count_leavers_by_frame(const JoxTrajectories *t) {
     uint32_t *left = jox_alloc(t->frame_count + 1, sizeof *left);
-    uint32_t *last = jox_alloc(t->keys + 1, sizeof *last); /* by key: one more than the frame */
+    /* per key: index of the last frame with the person, plus 1 */
+    uint32_t *last = jox_alloc(t->keys + 1, sizeof *last);
     JoxFrame frame;
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++)
         for (uint32_t i = 0; i < frame.count; i++)
@@ -180,47 +190,48 @@ static uint32_t *count_leavers(const JoxTrajectories *t) {
     return left;
 }
 
-/* Whoever is missing from the frame on has left at its time. */
-static void leave(JoxReport *r, uint32_t left, double time) {
+/* Sets the number of people who have left by a frame at `time`, s. */
+static void set_leavers(JoxReport *r, uint32_t left, double time) {
     if (left > r->exits.left)
         r->exits.last = time;
     r->exits.left = left;
 }
 
-static void measure(JoxReport *r) {
+static void measure_recording(JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
-    uint32_t *left = count_leavers(t);
+    uint32_t *left = count_leavers_by_frame(t);
     JoxFrame frame;
-    r->danger = begin_danger(r);
+    r->danger = create_report_danger(r);
     if (r->spec)
         jox_danger_add_plan(r->danger, r->spec->places, r->spec->place_count, r->spec->probes,
                             r->spec->probe_count);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         if (!t->history)
             frame.walls = jox_report_walls(r);
-        leave(r, left[f], frame.time);
+        set_leavers(r, left[f], frame.time);
         for (uint32_t p = 0; p < r->count; p++)
             jox_probe_frame(r->probes[p], &frame);
         jox_danger_frame(r->danger, &frame, &r->exits);
         if (jox_danger_local(r->danger)->time == frame.time)
-            jox_story_sample(&r->story,
-                             &(JoxStorySample){.frame = &frame,
-                                               .grid = jox_danger_local(r->danger)->grid,
-                                               .walls = t->history ? jox_trajectories_walls(t, f)
-                                                                   : jox_report_walls(r),
-                                               .left = r->exits.left,
-                                               .reel = r->reel});
+            jox_story_add_sample(
+                &r->story, &(JoxStorySample){.frame = &frame,
+                                             .grid = jox_danger_local(r->danger)->grid,
+                                             .walls = t->history ? jox_trajectories_walls(t, f)
+                                                                 : jox_report_walls(r),
+                                             .left = r->exits.left,
+                                             .body_reader = r->body_reader});
     }
     int64_t end = t->number[t->count - 1];
-    if (t->last > end) { /* it goes on, empty */
-        leave(r, left[t->frame_count], (double)(end + 1) / t->fps);
+    if (t->last > end) { /* the recording continues without people */
+        set_leavers(r, left[t->frame_count], (double)(end + 1) / t->fps);
         frame = (JoxFrame){.time = (double)t->last / t->fps, .keys = t->keys};
         jox_danger_frame(r->danger, &frame, &r->exits);
     }
     jox_free(left);
 }
 
-static char *summary(const JoxReport *r) {
+/* Returns the report's summary as JSON. */
+static char *build_report_json(const JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
     JoxText out = {0};
     JoxFrame first = {0}, last = {0};
@@ -248,26 +259,26 @@ static char *summary(const JoxReport *r) {
     return out.data;
 }
 
-static char *report(const JoReportDef *def, JoError *error) {
+static char *make_report(const JoReportDef *def, JoError *error) {
     JoxReport r = {.def = def};
     char *text = NULL;
-    bool good = load(&r);
+    bool good = load_report(&r);
     if (good)
-        measure(&r);
-    if (r.spec) /* the lines that errors speak of */
+        measure_recording(&r);
+    if (r.spec) /* lets errors quote their lines */
         for (uint32_t f = 0; f < r.spec->file_count; f++)
             jox_diag_attach_source(&r.diagnostics, r.spec->files[f].path, r.spec->files[f].text,
                                    r.spec->files[f].length);
     jox_run_report(def->message, def->message_context, &r.diagnostics, error);
-    if (good && (!def->directory || write(&r, error)))
-        text = summary(&r);
+    if (good && (!def->directory || write_report(&r, error)))
+        text = build_report_json(&r);
     for (uint32_t p = 0; p < r.count; p++)
         jox_probe_free(r.probes[p]);
     jox_free(r.probes);
     jox_danger_free(r.danger);
     jox_exits_free(&r.exits);
     jox_story_free(&r.story);
-    jox_trajectory_reader_close(r.reel);
+    jox_trajectory_reader_close(r.body_reader);
     jox_trajectories_free(r.crowd);
     jox_scene_free(r.spec);
     return text;
@@ -281,5 +292,5 @@ char *jo_report(const JoReportDef *def, JoError *error) {
         jox_run_message(def->message, def->message_context, "out of memory\n");
         return NULL;
     }
-    return jox_disown(report(def, error));
+    return jox_disown(make_report(def, error));
 }

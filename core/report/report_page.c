@@ -1,4 +1,5 @@
-/* The page of a report on a recording. */
+/* The page (index.html) of a report on a recording, and the recording as the subject of a
+   report. */
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,17 +16,17 @@
 #include "report/page_parts.h"
 #include "report/report.h"
 
-static JoxPageFigures collect(const JoxReport *r) {
+static JoxPageFigures collect_recording_figures(const JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
     JoxPageFigures f = {0};
     JoxFrame first = {0}, last = {0};
     jox_trajectories_frame(t, 0, &first);
     jox_trajectories_frame(t, t->frame_count - 1, &last);
     f.group = "The recording";
-    jox_page_add(&f, "", t->people, "people");
-    jox_page_add(&f, "", t->frame_count, "frames with people");
-    jox_page_add(&f, "s", first.time, "first of them");
-    jox_page_add(&f, "s", last.time, "last of them");
+    jox_page_add_figure(&f, "", t->people, "people");
+    jox_page_add_figure(&f, "", t->frame_count, "frames with people");
+    jox_page_add_figure(&f, "s", first.time, "first of them");
+    jox_page_add_figure(&f, "s", last.time, "last of them");
     jox_page_add_exits(&f, &r->exits, (uint32_t)(t->people - r->exits.left));
     jox_page_add_danger(&f, r->danger);
     for (uint32_t p = 0; p < r->count; p++)
@@ -33,19 +34,19 @@ static JoxPageFigures collect(const JoxReport *r) {
     return f;
 }
 
-static void put_figures(FILE *out, const JoxReport *r) {
-    JoxPageFigures f = collect(r);
+static void put_recording_figures(FILE *out, const JoxReport *r) {
+    JoxPageFigures f = collect_recording_figures(r);
     jox_html_heading(out, "All figures");
     jox_html_paragraph(out, "Somebody has left from the first frame on in which they are missing, "
                             "and in none behind which they come again; where a recording shows a "
                             "part of a place, to leave is to leave the picture.");
-    jox_page_figures(out, &f, "figure|>value", NULL, NULL);
+    jox_page_put_figures(out, &f, "figure|>value", NULL, NULL);
     jox_page_release(&f);
 }
 
-static void put_worth(FILE *out, const JoxReport *r) {
+static void put_recording_validation(FILE *out, const JoxReport *r) {
     bool forces = jox_danger_reads(r->danger, JOX_DANGER_LOAD);
-    jox_page_validation(out);
+    jox_page_put_validation(out);
     jox_html_paragraph(
         out, forces
                  ? "None of that validates this recording. It is a simulated crowd; its geometry, "
@@ -60,7 +61,7 @@ static void put_worth(FILE *out, const JoxReport *r) {
                    "the limits as places and times to look at, not as a count of injured.");
 }
 
-/* SHA-256 of the recording, which may be large; a dash if it cannot be mapped. */
+/* Computes the SHA-256 of a file, mapped as it may be large; "-" if it cannot be mapped. */
 static void hash_file(const char *path, char out[65]) {
     struct stat info;
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -76,7 +77,7 @@ static void hash_file(const char *path, char out[65]) {
         close(file);
 }
 
-static void put_inputs(FILE *out, const JoxReport *r) {
+static void put_recording_inputs(FILE *out, const JoxReport *r) {
     char hash[65];
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle report ", out);
@@ -103,7 +104,7 @@ static void put_inputs(FILE *out, const JoxReport *r) {
     jox_html_table_end(out);
 }
 
-static void put_summary(FILE *out, const JoxReport *r, const JoxSubject *subject) {
+static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubject *subject) {
     JoxText text = {0};
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
@@ -130,18 +131,17 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
         return false;
     const JoxSubject subject = jox_report_subject(r);
     jox_html_begin(out, subject.title);
-    put_summary(out, r, &subject);
-    jox_page_crowd(out, &subject);
-    put_figures(out, r);
+    put_recording_summary(out, r, &subject);
+    jox_page_put_crowd(out, &subject);
+    put_recording_figures(out, r);
     jox_html_heading(out, "How danger is measured");
-    jox_page_definitions(out, subject.danger);
-    put_worth(out, r);
-    put_inputs(out, r);
+    jox_page_put_definitions(out, subject.danger);
+    put_recording_validation(out, r);
+    put_recording_inputs(out, r);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }
 
-/* Of the recording, as they are at first; of the scene where the recording has none over time. */
 const JoxWalls *jox_report_walls(const JoxReport *r) {
     return r->spec && r->spec->walls.ring_count && !r->crowd->history ? &r->spec->walls
                                                                       : &r->crowd->walls;

@@ -1,4 +1,6 @@
-/* The files that a run leaves: CSV files of its probes and of danger, and their pictures. */
+/* jo_scene_report and jo_scene_data: listeners of a run (run/listener.h) that write its report
+   at the end: CSV files of probes, danger and sources, and for the first also plots, maps and
+   snapshots. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,25 +19,27 @@
 #include "run/run.h"
 #include "task/children.h"
 
-static const double PACE = 0.1; /* s between points of paths, or a step where that is longer */
+/* s: interval between points of paths, or a step if that is longer */
+static const double PACE = 0.1;
 
+/* State of the listener, attached by jo_scene_report or jo_scene_data. */
 typedef struct RunReport {
     JoScene *scene;
     char *folder;
-    FILE *claim;     /* of the folder */
-    JoxPaths *paths; /* NULL: CSV files alone, no pictures */
+    FILE *folder_lock; /* lock on the folder, held until release */
+    JoxPaths *paths;   /* NULL for jo_scene_data: CSV files only */
     JoxStory story;
 } RunReport;
 
 static const JoxListenerKind REPORT;
 
-static bool begin(void *self, JoScene *scene, const void *folder, JoError *error) {
+static bool begin_data_files(void *self, JoScene *scene, const void *folder, JoError *error) {
     RunReport *r = self;
     JoxText why = {0};
     if (!jox_plot_folder(folder, &why))
         return jox_run_failed(error, &why);
-    r->claim = jox_folder_claim(folder);
-    if (!r->claim) {
+    r->folder_lock = jox_folder_claim(folder);
+    if (!r->folder_lock) {
         jox_text_printf(&why, "cannot write into '%s': %s", (const char *)folder,
                         jox_file_why(errno));
         return jox_run_failed(error, &why);
@@ -45,28 +49,30 @@ static bool begin(void *self, JoScene *scene, const void *folder, JoError *error
     return jox_run_collect_danger(scene, error);
 }
 
-static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, JoError *error) {
+static bool begin_report_files(void *self, JoScene *scene, const void *folder, JoError *error) {
     RunReport *r = self;
-    if (!begin(self, scene, folder, error))
+    if (!begin_data_files(self, scene, folder, error))
         return false;
     r->paths = jox_paths_create();
     return true;
 }
 
-/* The story goes on with each sample of the density. */
+/* Adds a sample to the story whenever the density was sampled in this step. */
 static void sample_story(RunReport *r, JoScene *scene) {
     const JoxLocal *local = jox_run_local(scene);
     if (local->time != jo_world_time(scene->world))
         return;
-    jox_story_sample(&r->story, &(JoxStorySample){.frame = jox_run_frame(scene, JOX_FRAME_WHOLE),
-                                                  .grid = local->grid,
-                                                  .walls = &scene->world->model.all_walls,
-                                                  .left = scene->world->state.exits.left,
-                                                  .bodies = scene->world->state.bodies});
+    jox_story_add_sample(&r->story,
+                         &(JoxStorySample){.frame = jox_run_frame(scene, JOX_FRAME_WHOLE),
+                                           .grid = local->grid,
+                                           .walls = &scene->world->model.all_walls,
+                                           .left = scene->world->state.exits.left,
+                                           .bodies = scene->world->state.bodies});
 }
 
-/* Points of the paths of those who came first, and of what moves. */
-static bool sample(void *self, JoScene *scene, JoError *error) {
+/* Samples the story, and every PACE seconds the positions of the first JOX_MOST_PATHS agents and
+   of moving bodies. */
+static bool sample_run(void *self, JoScene *scene, JoError *error) {
     RunReport *r = self;
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -100,7 +106,7 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
         colours[g] = scene->spec->groups[g].colour;
     }
     jox_run_area(scene, &low, &high);
-    for (uint32_t p = 0; p < r->paths->count; p++) /* nobody's path is cut off */
+    for (uint32_t p = 0; p < r->paths->count; p++) /* widen the area to contain all paths */
         for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
             const JoxPathPoint *point = &r->paths->items[p].points[i];
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
@@ -110,8 +116,8 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
                           &scene->world->model.all_walls, low, high, title, why);
 }
 
-/* Who came in by sources, where there are some: danger-sources.csv. */
-static bool write_sources(const char *folder, const JoScene *scene, JoxText *why) {
+/* Writes danger-sources.csv, if the scene has sources: people due, arrived and waiting. */
+static bool write_source_table(const char *folder, const JoScene *scene, JoxText *why) {
     const uint32_t count = scene->spec->source_count;
     FILE *out = count ? jox_plot_open(folder, "danger-sources.csv", why) : NULL;
     if (!out)
@@ -129,28 +135,30 @@ static bool write_sources(const char *folder, const JoScene *scene, JoxText *why
     return jox_plot_close(out, "danger-sources.csv", why);
 }
 
-/* The files of probes, of danger and of sources; with a title, their pictures too. */
-static bool write_files(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
+/* Writes the files of probes, danger and sources; with a title, their plots too. */
+static bool write_data_files(const RunReport *r, const JoScene *scene, const char *title,
+                             JoxText *why) {
     const JoxProbe *probe;
     bool good = true;
     for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
         good = jox_probe_write(probe, r->folder, &scene->world->model.all_walls, title, why);
     return good && jox_danger_write(jox_run_danger(scene), r->folder, title, why) &&
-           write_sources(r->folder, scene, why);
+           write_source_table(r->folder, scene, why);
 }
 
-static bool write_data(void *self, JoScene *scene, JoError *error) {
+static bool end_data_files(void *self, JoScene *scene, JoError *error) {
     JoxText why = {0};
-    return write_files(self, scene, NULL, &why) || jox_run_failed(error, &why);
+    return write_data_files(self, scene, NULL, &why) || jox_run_failed(error, &why);
 }
 
-typedef struct Drawing {
+/* Input of draw_report_in_child. */
+typedef struct RunDrawing {
     const RunReport *report;
     const JoScene *scene;
     const JoxSubject *subject;
-} Drawing;
+} RunDrawing;
 
-static bool draw_all(const Drawing *d, JoxText *why) {
+static bool draw_run_report(const RunDrawing *d, JoxText *why) {
     const RunReport *r = d->report;
     const JoScene *scene = d->scene;
     char title[256];
@@ -169,23 +177,23 @@ static bool draw_all(const Drawing *d, JoxText *why) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(r, scene, title, why);
     }
-    return good && write_files(r, scene, name, why);
+    return good && write_data_files(r, scene, name, why);
 }
 
-/* A JoxChildWork: in a process of its own, as the libraries that draw may end theirs where memory
-   runs out. Its result says why it did not succeed, and is empty where it did. */
-static void draw_apart(void *drawing, uint64_t job, JoxText *why) {
+/* Draws the report. A JoxChildWork, run in a child process, since the drawing libraries may exit
+   when memory runs out. `why` states the reason of a failure and stays empty on success. */
+static void draw_report_in_child(void *drawing, uint64_t job, JoxText *why) {
     (void)job;
-    if (!draw_all(drawing, why) && !why->length)
+    if (!draw_run_report(drawing, why) && !why->length)
         jox_text_add(why, "writing failed");
 }
 
-static bool draw(void *self, JoScene *scene, JoError *error) {
+static bool end_run_report(void *self, JoScene *scene, JoError *error) {
     const RunReport *r = self;
     JoxText why = {0}, ended = {0};
     JoxSubject subject = jox_run_subject(scene, r->folder);
-    Drawing drawing = {r, scene, &subject};
-    if (!jox_children_do(draw_apart, &drawing, &why, &ended))
+    RunDrawing drawing = {r, scene, &subject};
+    if (!jox_children_do(draw_report_in_child, &drawing, &why, &ended))
         jox_text_printf(&why, "the report in '%s' cannot be drawn: %s", r->folder, ended.data);
     jox_run_subject_free(&subject);
     jox_text_free(&ended);
@@ -195,8 +203,8 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-/* With what else the page says of the run so far. */
-static void sections(void *self, JoxSections *s) {
+/* Lists the state of the report as sections, with members of the scene that the page states. */
+static void list_report_sections(void *self, JoxSections *s) {
     RunReport *r = self;
     JOX_SECTION(s, "swap_seconds", r->scene->swap_seconds);
     JOX_SECTION(s, "acted_on", r->scene->acted_on);
@@ -206,10 +214,10 @@ static void sections(void *self, JoxSections *s) {
         jox_story_sections(&r->story, s);
 }
 
-static void release(void *self) {
+static void release_run_report(void *self) {
     RunReport *r = self;
-    if (r->claim)
-        jox_file_close(r->claim);
+    if (r->folder_lock)
+        jox_file_close(r->folder_lock);
     jox_free(r->folder);
     jox_paths_free(r->paths);
     jox_story_free(&r->story);
@@ -217,19 +225,19 @@ static void release(void *self) {
 
 static const JoxListenerKind REPORT = {.name = "report",
                                        .size = sizeof(RunReport),
-                                       .begin = begin_with_pictures,
-                                       .frame = sample,
-                                       .sections = sections,
+                                       .begin = begin_report_files,
+                                       .frame = sample_run,
+                                       .sections = list_report_sections,
                                        .goes_on = true,
-                                       .end = draw,
-                                       .release = release};
+                                       .end = end_run_report,
+                                       .release = release_run_report};
 static const JoxListenerKind DATA = {.name = "data files",
                                      .size = sizeof(RunReport),
-                                     .begin = begin,
-                                     .sections = sections,
+                                     .begin = begin_data_files,
+                                     .sections = list_report_sections,
                                      .goes_on = true,
-                                     .end = write_data,
-                                     .release = release};
+                                     .end = end_data_files,
+                                     .release = release_run_report};
 
 JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     const RunReport *report = jox_run_listener(scene, &REPORT);

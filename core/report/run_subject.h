@@ -1,11 +1,13 @@
-/* A run as the subject of a report. */
+/* A run as the subject of a report: used by its page (page.c), its listener (run_report.c) and
+   comparisons. */
 #ifndef JOX_REPORT_RUN_SUBJECT_H
 #define JOX_REPORT_RUN_SUBJECT_H
 
 #include "report/subject.h"
 #include "run/run.h"
 
-/* Of a run that collects danger; `folder` is that of its report. */
+/* Returns a run that collects danger as a subject, for a report in `folder`;
+   jox_run_subject_free frees its own arrays. */
 JoxSubject jox_run_subject(const JoScene *scene, const char *folder);
 void jox_run_subject_free(JoxSubject *subject);
 

@@ -4,16 +4,16 @@
 
 #include "base/mem.h"
 
-static void take_bodies(JoxMoment *m, const JoxStorySample *sample) {
+static void copy_bodies(JoxMoment *m, const JoxStorySample *sample) {
     m->bodies.count = 0;
     jox_draw_add_bodies(&m->bodies, sample->bodies);
-    if (sample->reel)
-        jox_draw_add_recorded(&m->bodies, sample->reel, sample->frame->time);
+    if (sample->body_reader)
+        jox_draw_add_recorded(&m->bodies, sample->body_reader, sample->frame->time);
     for (size_t b = 0; b < m->bodies.count; b++)
-        m->bodies.items[b].name = NULL; /* bodies end before the story does */
+        m->bodies.items[b].name = NULL; /* the names' owner may be freed before the story */
 }
 
-static void take(JoxMoment *m, const JoxStorySample *sample) {
+static void store_moment(JoxMoment *m, const JoxStorySample *sample) {
     const JoxFrame *frame = sample->frame;
     const JoxDensity *grid = sample->grid;
     const JoxWalls *walls = sample->walls;
@@ -32,10 +32,10 @@ static void take(JoxMoment *m, const JoxStorySample *sample) {
     JOX_RESERVE(m->open, m->ring_capacity, walls->ring_count);
     for (m->rings = 0; m->rings < walls->ring_count; m->rings++)
         m->open[m->rings] = walls->rings[m->rings].open;
-    take_bodies(m, sample);
+    copy_bodies(m, sample);
 }
 
-void jox_story_sample(JoxStory *story, const JoxStorySample *sample) {
+void jox_story_add_sample(JoxStory *story, const JoxStorySample *sample) {
     const JoxFrame *frame = sample->frame;
     const JoxDensity *grid = sample->grid;
     float most = 0.0f;
@@ -50,7 +50,7 @@ void jox_story_sample(JoxStory *story, const JoxStorySample *sample) {
     takes[JOX_MOMENT_LAST] = frame->count > 0;
     for (int m = 0; m < JOX_MOMENTS; m++)
         if (takes[m])
-            take(&story->moments[m], sample);
+            store_moment(&story->moments[m], sample);
     story->most = most > story->most ? most : story->most;
     story->half = half;
 }

@@ -1,4 +1,5 @@
-/* Moments of a crowd that a report shows: who stood where, and the density then. */
+/* The moments of a crowd that a report shows: where people stood, and the density. Runs and
+   reports add a sample at each measurement of density; moments.c draws the moments kept. */
 #ifndef JOX_REPORT_STORY_H
 #define JOX_REPORT_STORY_H
 
@@ -8,10 +9,10 @@
 #include "picture/draw.h"
 
 typedef enum JoxMomentKind {
-    JOX_MOMENT_START,
-    JOX_MOMENT_DENSEST, /* of the greatest density anywhere */
-    JOX_MOMENT_HALF,    /* half of those who came so far have left */
-    JOX_MOMENT_LAST,    /* the last in which anybody was there */
+    JOX_MOMENT_START,   /* the first with anybody inside */
+    JOX_MOMENT_DENSEST, /* the one with the greatest density anywhere so far */
+    JOX_MOMENT_HALF,    /* at least as many people have left as are inside */
+    JOX_MOMENT_LAST,    /* the last with anybody inside */
     JOX_MOMENTS
 } JoxMomentKind;
 
@@ -21,34 +22,36 @@ typedef struct JoxMomentPerson {
 } JoxMomentPerson;
 
 typedef struct JoxMoment {
-    bool taken;
+    bool taken;    /* the moment has occurred; else all else is unset */
     double time;   /* s */
-    uint64_t left; /* so far */
+    uint64_t left; /* people who have left by then */
     JoxMomentPerson *people;
     size_t count, capacity;
-    float *field; /* density by cell, 1/m2 */
+    float *field; /* 1/m2: density per cell */
     size_t cells, cell_capacity;
-    uint8_t *open; /* by ring of the walls: whether it was */
+    uint8_t *open; /* per ring of the walls: the gate was open */
     size_t rings, ring_capacity;
-    JoxDrawnBodies bodies; /* without names */
+    JoxDrawnBodies bodies; /* outlines without names */
 } JoxMoment;
 
 typedef struct JoxStory {
     JoxMoment moments[JOX_MOMENTS];
-    float most; /* 1/m2: so far */
-    bool half;  /* had left at the last sample */
+    float most; /* 1/m2: greatest density so far */
+    bool half;  /* at the last sample, half had left */
 } JoxStory;
 
-/* A moment as it is shown to a story. */
+/* A sample of the crowd; all pointers are borrowed for the call. */
 typedef struct JoxStorySample {
     const JoxFrame *frame;
-    const JoxDensity *grid;    /* whose `now` is that of the frame */
-    const JoxWalls *walls;     /* all of them */
-    uint64_t left;             /* people, so far */
-    const JoxBodies *bodies;   /* of a run; or NULL */
-    JoxTrajectoryReader *reel; /* of a recording with bodies; or NULL */
+    const JoxDensity *grid;           /* its `now` is the density of the frame */
+    const JoxWalls *walls;            /* with the open gates */
+    uint64_t left;                    /* people who have left so far */
+    const JoxBodies *bodies;          /* bodies of a run, or NULL */
+    JoxTrajectoryReader *body_reader; /* reader of a recording with bodies, or NULL */
 } JoxStorySample;
-void jox_story_sample(JoxStory *story, const JoxStorySample *sample);
+/* Stores the sample as each of the moments that it is. */
+void jox_story_add_sample(JoxStory *story, const JoxStorySample *sample);
+/* Lists the moments as sections of state, so that a resumed run keeps them. */
 void jox_story_sections(JoxStory *story, JoxSections *sections);
 void jox_story_free(JoxStory *story);
 

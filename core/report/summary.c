@@ -1,4 +1,5 @@
-/* The first section of a report: what happened, in sentences. */
+/* The summary of a report's page: sentences on what happened, from the subject's danger
+   measures. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "record/danger/trust.h"
 #include "report/subject.h"
 
-static void put(FILE *out, const char *lead, JoxText *text) {
+static void put_statement(FILE *out, const char *lead, JoxText *text) {
     jox_html_statement(out, lead, text->data ? text->data : "");
     jox_text_free(text);
 }
@@ -34,7 +35,7 @@ static void say_exits(const JoxSubject *s, JoxText *out) {
         jox_text_add(out, ".");
 }
 
-static void put_leaving(FILE *out, const JoxSubject *s) {
+static void put_leaving_summary(FILE *out, const JoxSubject *s) {
     const JoxLeaving *leaving = &s->danger->leaving;
     const uint64_t left = s->exits->left;
     JoxText text = {0};
@@ -45,7 +46,7 @@ static void put_leaving(FILE *out, const JoxSubject *s) {
                             ? "1 person was"
                             : (jox_noun(people, s->inside, "person|people were"), people),
                         s->until);
-        put(out, "Who got out when.", &text);
+        put_statement(out, "Who got out when.", &text);
         return;
     }
     if (s->inside)
@@ -58,7 +59,7 @@ static void put_leaving(FILE *out, const JoxSubject *s) {
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.5),
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.95), s->exits->last);
     say_exits(s, &text);
-    put(out, "Who got out when.", &text);
+    put_statement(out, "Who got out when.", &text);
     if (s->inside)
         jox_text_printf(&text, "No. %s still inside at %.1f s, the end of what was measured.",
                         s->inside == 1 ? "1 person was"
@@ -66,13 +67,13 @@ static void put_leaving(FILE *out, const JoxSubject *s) {
                         s->until);
     else
         jox_text_printf(&text, "Yes, at %.1f s: from then on nobody is inside.", s->exits->last);
-    put(out, "Cleared?", &text);
+    put_statement(out, "Cleared?", &text);
 }
 
 /* ---- where it was dangerous ---- */
 
-/* Over all samples in which anybody was over a limit, s. */
-static double seconds_over(const JoxDanger *d, int limit) {
+/* Returns the time in which anybody was over a limit, s. */
+static double seconds_over_limit(const JoxDanger *d, int limit) {
     double seconds = 0.0;
     for (uint32_t r = 1; r < d->row_count; r++)
         if (d->rows[r].over[limit] > 0)
@@ -80,8 +81,8 @@ static double seconds_over(const JoxDanger *d, int limit) {
     return seconds;
 }
 
-/* What people did with a measure: "stood in a density of 5 per m2 or more". */
-static const char *verb_of(JoxDangerMeasure measure) {
+/* Returns the verb for a measure, as in "stood in a density of 5 per m2 or more". */
+static const char *choose_verb(JoxDangerMeasure measure) {
     const bool borne =
         measure >= (int)JOX_DANGER_FIRST_BORNE && measure <= (int)JOX_DANGER_LAST_BORNE;
     return borne ? "bore a" : "stood in a";
@@ -90,10 +91,10 @@ static const char *verb_of(JoxDangerMeasure measure) {
 static void say_limit(const JoxSubject *s, int l, JoxText *out) {
     const JoxDangerLimit *limit = &jox_danger_limits[l];
     const JoxDangerCount count = jox_danger_count(s->danger, l);
-    const double seconds = seconds_over(s->danger, l);
+    const double seconds = seconds_over_limit(s->danger, l);
     jox_text_add(out, " ");
     jox_text_noun(out, count.people, "person|people");
-    jox_text_printf(out, " %s %s or more (%s), first at %.1f s at ", verb_of(limit->measure),
+    jox_text_printf(out, " %s %s or more (%s), first at %.1f s at ", choose_verb(limit->measure),
                     limit->title, limit->what, count.first);
     jox_where(s, count.first_at, out);
     if (seconds > 0.0)
@@ -101,7 +102,8 @@ static void say_limit(const JoxSubject *s, int l, JoxText *out) {
     jox_text_printf(out, "; one person was for %.1f s.", count.longest);
 }
 
-/* The greatest of a measure, and its limits up to the first that nobody passed. */
+/* Appends the greatest value of a measure, and its limits in ascending order up to the first
+   that nobody passed. */
 static void say_measure(const JoxSubject *s, JoxDangerMeasure measure, JoxText *out) {
     const JoxDangerMost most = jox_danger_most(s->danger, measure);
     char value[32];
@@ -117,7 +119,7 @@ static void say_measure(const JoxSubject *s, JoxDangerMeasure measure, JoxText *
         if (jox_danger_limits[l].measure != measure)
             continue;
         if (jox_danger_count(s->danger, l).people == 0) {
-            jox_text_printf(out, " Nobody %s %s or more.", verb_of(measure),
+            jox_text_printf(out, " Nobody %s %s or more.", choose_verb(measure),
                             jox_danger_limits[l].title);
             break;
         }
@@ -125,8 +127,8 @@ static void say_measure(const JoxSubject *s, JoxDangerMeasure measure, JoxText *
     }
 }
 
-/* By the Gaussian and by the room that single people have: they differ. */
-static void put_density(FILE *out, const JoxSubject *s) {
+/* Writes the greatest densities, both by the Gaussian and by Voronoi cells, as the two differ. */
+static void put_density_summary(FILE *out, const JoxSubject *s) {
     const JoxDangerMost most = jox_danger_most(s->danger, JOX_DANGER_VORONOI);
     JoxText text = {0}, people = {0};
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
@@ -145,19 +147,19 @@ static void put_density(FILE *out, const JoxSubject *s) {
         jox_text_printf(&text,
                         "Voronoi densities were not measured: nobody stood in %g per m\xc2\xb2.",
                         (double)JOX_VORONOI_LEAST);
-    put(out, "Where it was dense.", &text);
+    put_statement(out, "Where it was dense.", &text);
     jox_text_free(&people);
 }
 
-static void put_load(FILE *out, const JoxSubject *s) {
+static void put_load_summary(FILE *out, const JoxSubject *s) {
     JoxText text = {0};
     if (!jox_danger_reads(s->danger, JOX_DANGER_LOAD))
         return;
     say_measure(s, JOX_DANGER_LOAD, &text);
-    put(out, "What people bore.", &text);
+    put_statement(out, "What people bore.", &text);
 }
 
-static void put_pressure(FILE *out, const JoxSubject *s) {
+static void put_pressure_summary(FILE *out, const JoxSubject *s) {
     const JoxDangerMost most = jox_danger_most(s->danger, JOX_DANGER_PRESSURE);
     JoxText text = {0};
     int l = 0;
@@ -174,11 +176,12 @@ static void put_pressure(FILE *out, const JoxSubject *s) {
             jox_text_printf(&text, " Nobody stood in a %s or more, where turbulence sets in.",
                             jox_danger_limits[l].title);
     }
-    put(out, "Crowd turbulence.", &text);
+    put_statement(out, "Crowd turbulence.", &text);
 }
 
-/* Regions above 4 per m2 for longer than a tenth of the time that everybody took to leave. */
-static void put_congestion(FILE *out, const JoxSubject *s) {
+/* Writes the regions of significant congestion (JOX_CONGESTION_DENSITY for JOX_CONGESTION_SHARE
+   of the time). */
+static void put_congestion_summary(FILE *out, const JoxSubject *s) {
     enum { MOST = 2 };
     const JoxDanger *d = s->danger;
     JoxCongestionFound found = jox_congestion_find(&d->congestion, d->local->grid);
@@ -217,12 +220,13 @@ static void put_congestion(FILE *out, const JoxSubject *s) {
     if (found.count > MOST)
         jox_text_printf(&text, " So %s %u more, for less long; they are in danger-congestion.csv.",
                         found.count - MOST == 1 ? "was" : "were", found.count - MOST);
-    put(out, "Congestion.", &text);
+    put_statement(out, "Congestion.", &text);
     jox_congestion_found_free(&found);
 }
 
-/* How its probe counts a line, where that comes to another number. */
-static void say_probe_of(const JoxSubject *s, const JoxDangerLine *line, JoxText *out) {
+/* Appends the number of passages that a line's probe counted, if it differs from the number of
+   crossings. */
+static void say_probe_count(const JoxSubject *s, const JoxDangerLine *line, JoxText *out) {
     for (uint32_t p = 0; p < s->probe_count; p++) {
         const JoxProbeDef *def = jox_probe_def(s->probes[p]);
         const uint32_t passages = jox_probe_passages(s->probes[p]);
@@ -238,8 +242,8 @@ static void say_probe_of(const JoxSubject *s, const JoxDangerLine *line, JoxText
     }
 }
 
-/* What passed lines, and where it stopped and went. */
-static void put_lines(FILE *out, const JoxSubject *s) {
+/* Writes the crossings and flows of lines, and where there was stop-and-go. */
+static void put_line_summary(FILE *out, const JoxSubject *s) {
     const JoxDangerLines *lines = &s->danger->lines;
     JoxText text = {0};
     if (lines->count == 0)
@@ -256,7 +260,7 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         jox_text_add(&text, "): ");
         jox_text_noun(&text, (uint64_t)line->forward + line->back, "crossing");
         jox_text_printf(&text, " from %.4g s on", s->danger->congestion.begun);
-        say_probe_of(s, line, &text);
+        say_probe_count(s, line, &text);
         jox_text_printf(&text, ", at most %.2f per m and s", line->flow_most);
         if (line->stop_and_go.seconds > 0.0)
             jox_text_printf(&text, ", stop-and-go for %.1f s from %.1f s on",
@@ -268,31 +272,31 @@ static void put_lines(FILE *out, const JoxSubject *s) {
         jox_text_add(&text, ".");
     }
     if (text.length)
-        put(out, "Doors and other lines.", &text);
+        put_statement(out, "Doors and other lines.", &text);
 }
 
 /* ---- levels of service ---- */
 
-/* s: at levels E and F. */
-static double crowded_of(const JoxDangerArea *area) {
+/* Returns the time of an area at levels E and F, s. */
+static double seconds_crowded(const JoxDangerArea *area) {
     return area->level_s[JOX_LEVELS - 2] + area->level_s[JOX_LEVELS - 1];
 }
 
-/* Areas that were at E or F, those of the longest time first. */
-static void say_areas(const JoxDanger *d, JoxText *out) {
+/* Appends the areas that were at level E or F, in descending order of that time. */
+static void say_crowded_areas(const JoxDanger *d, JoxText *out) {
     enum { MOST = 4 };
     uint32_t crowded = 0, told = 0;
     double before = INFINITY;
     for (uint32_t a = 0; a < d->areas.count; a++)
-        crowded += crowded_of(&d->areas.items[a]) > 0.0;
+        crowded += seconds_crowded(&d->areas.items[a]) > 0.0;
     while (told < crowded && told < MOST) {
         double next = 0.0;
         for (uint32_t a = 0; a < d->areas.count; a++)
-            if (crowded_of(&d->areas.items[a]) < before)
-                next = fmax(next, crowded_of(&d->areas.items[a]));
+            if (seconds_crowded(&d->areas.items[a]) < before)
+                next = fmax(next, seconds_crowded(&d->areas.items[a]));
         for (uint32_t a = 0; a < d->areas.count && told < MOST; a++) {
             const JoxDangerArea *area = &d->areas.items[a];
-            if (crowded_of(area) != next)
+            if (seconds_crowded(area) != next)
                 continue;
             told++;
             jox_text_printf(out,
@@ -307,7 +311,7 @@ static void say_areas(const JoxDanger *d, JoxText *out) {
                         crowded - told == 1 ? "was" : "were", crowded - told);
 }
 
-static void put_levels(FILE *out, const JoxSubject *s) {
+static void put_level_summary(FILE *out, const JoxSubject *s) {
     const JoxDanger *d = s->danger;
     double all = 0.0, crowded = 0.0;
     JoxText text = {0};
@@ -321,25 +325,25 @@ static void put_levels(FILE *out, const JoxSubject *s) {
         "People spent %.1f %% of their time here at Fruin's levels E and F for queues: in more "
         "than %.1f per m\xc2\xb2 " JOX_DENSITY_BY ".",
         100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
-    say_areas(d, &text);
-    put(out, "Levels of service.", &text);
+    say_crowded_areas(d, &text);
+    put_statement(out, "Levels of service.", &text);
 }
 
-static void put_trust(FILE *out, const JoxSubject *s) {
+static void put_trust_summary(FILE *out, const JoxSubject *s) {
     const double density = jox_danger_most(s->danger, JOX_DANGER_DENSITY).value;
     JoxText text = {0};
     jox_trust_say(s->overlap_p99, density, &text);
     if (text.length)
-        put(out, "Too dense to trust.", &text);
+        put_statement(out, "Too dense to trust.", &text);
 }
 
 void jox_summary_crowd(FILE *out, const JoxSubject *s) {
-    put_leaving(out, s);
-    put_density(out, s);
-    put_load(out, s);
-    put_pressure(out, s);
-    put_congestion(out, s);
-    put_lines(out, s);
-    put_levels(out, s);
-    put_trust(out, s);
+    put_leaving_summary(out, s);
+    put_density_summary(out, s);
+    put_load_summary(out, s);
+    put_pressure_summary(out, s);
+    put_congestion_summary(out, s);
+    put_line_summary(out, s);
+    put_level_summary(out, s);
+    put_trust_summary(out, s);
 }

@@ -1,11 +1,11 @@
-/* A point of the plan in words. */
+/* Describes a point of the plan in words, for pages and summaries. */
 #include "geom/polygon.h"
 #include "report/subject.h"
 
-static const float NEAR_LINE = 4.0f; /* m: what is farther is not mentioned */
+static const float NEAR_LINE = 4.0f; /* m: lines farther away are not mentioned */
 
-/* The line of a probe that is nearest; NULL where none is near. */
-static const JoxProbeDef *line_near(const JoxSubject *s, JoxV2 at, float *away) {
+/* Returns the nearest line of a flow probe and its distance, m; NULL if none is near. */
+static const JoxProbeDef *find_nearest_line(const JoxSubject *s, JoxV2 at, float *away) {
     const JoxProbeDef *found = NULL;
     *away = NEAR_LINE;
     for (uint32_t p = 0; p < s->probe_count; p++) {
@@ -24,7 +24,7 @@ static const JoxProbeDef *line_near(const JoxSubject *s, JoxV2 at, float *away) 
 
 void jox_where(const JoxSubject *s, JoxV2 at, JoxText *out) {
     float away;
-    const JoxProbeDef *line = line_near(s, at, &away);
+    const JoxProbeDef *line = find_nearest_line(s, at, &away);
     jox_text_printf(out, "(%.1f, %.1f) m", (double)at.x, (double)at.y);
     if (line)
         jox_text_printf(out, ", %.1f m from the line %.60s", (double)away, line->name);
