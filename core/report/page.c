@@ -20,15 +20,17 @@ enum { MOST_GROUPS = 12 }; /* groups named in the summary */
 
 /* Appends per source the people due, arrived, and waiting at the end. */
 static void add_demand_figures(JoxPageFigures *f, const JoScene *scene) {
-    f->group = "Who came in by sources";
+    f->group = "Arrivals by source";
     for (uint32_t s = 0; s < scene->spec->source_count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
         jox_source_name(scene->world, s, &name);
-        jox_page_add_figure(f, "", demand.due, "people who were due at %.100s", name.data);
-        jox_page_add_figure(f, "", demand.came, "people who came in at %.100s", name.data);
-        jox_page_add_figure(f, "", demand.waiting, "people who waited for room there at the end");
-        jox_page_add_figure(f, "", demand.did_not_come, "people who did not come before it ended");
+        jox_page_add_figure(f, "", demand.due, "people due at %.100s", name.data);
+        jox_page_add_figure(f, "", demand.came, "people who arrived at %.100s", name.data);
+        jox_page_add_figure(f, "", demand.waiting, "people waiting for room at %.100s at the end",
+                            name.data);
+        jox_page_add_figure(f, "", demand.did_not_come,
+                            "people who did not arrive before %.100s ended", name.data);
         jox_text_free(&name);
     }
 }
@@ -100,11 +102,12 @@ static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half
     jox_html_heading(out, "All figures");
     if (half) {
         other = collect_run_figures(half);
-        snprintf(text, sizeof text,
-                 "The same run with the same seed was repeated at half the step, %g s. A figure is "
-                 "worth no more digits than the two agree on; at another step chance falls "
-                 "otherwise, too, so that single runs differ as two seeds do.",
-                 half->world->model.def.dt);
+        snprintf(
+            text, sizeof text,
+            "The same run with the same seed was repeated at half the step, %g s. A figure is "
+            "worth no more digits than the two runs agree on. Random numbers differ at another "
+            "step, too, so single runs differ as runs with two seeds do.",
+            half->world->model.def.dt);
         snprintf(heads, sizeof heads, "figure|>step %g s|>step %g s|>difference",
                  scene->world->model.def.dt, half->world->model.def.dt);
     } else {
@@ -148,7 +151,7 @@ static void put_run_statement(FILE *out, const JoScene *scene, const JoxSubject 
     jox_html_statement(out, "What was run.", text.data);
     jox_run_say_demand(scene, &demand);
     if (demand.length)
-        jox_html_statement(out, "Who did not come.", demand.data + 1);
+        jox_html_statement(out, "Who did not arrive.", demand.data + 1);
     jox_text_free(&demand);
     jox_text_free(&text);
 }
@@ -181,7 +184,7 @@ static void put_run_pictures(FILE *out, const JoScene *scene, const char *direct
     if (jox_run_regions(scene))
         jox_html_figure(out, directory, "regions", "Mean speed of the regions", false);
     if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
-        jox_html_figure(out, directory, "paths", "Where everybody went", false);
+        jox_html_figure(out, directory, "paths", "Paths of all people", false);
 }
 
 /* Writes a note if flows are measured of people who do not follow the walking law. */

@@ -75,30 +75,30 @@ static void put_time_and_place(FILE *out, const JoxSubject *s, double time, JoxV
 }
 
 void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
-    char text[1024];
+    char text[1280];
     jox_html_paragraph(
         out,
         "Density is people per m2: each person is spread by a Gaussian of R = 1 m over the "
-        "floor within the walls, which let nothing through. Its greatest value is that of any "
-        "place; who is over a limit is told by the density where they stand. It is a mean over "
+        "floor within the walls, which let nothing through. Its greatest value is taken over all "
+        "places; a person is over a limit if the density where they stand is. It is a mean over "
         "some 3 m2. Voronoi density is one over the area of a person's Voronoi cell, which is "
         "cut off at 1 m and ends at walls, as individual densities of PedPy are: the room of "
         "one person, which scatters more, and reads higher in a dense crowd.");
     snprintf(
         text, sizeof text,
-        "Crowd pressure is the mean density about a place times the variance over time of the "
-        "local velocity there, over %g s: how the crowd as a whole is shaken to and fro, not "
-        "how people walk past each other; the mean of %g m by %g m about the place. It is read "
-        "only where the crowd stood on %g m2 of these at %g per m2 or more all that time and "
-        "the variance does not come from one change of the flow: a knot before a door, a queue "
-        "that starts and a whole crowd that sways slower than every 15 s are not told. Its "
-        "authors' 0.02 per s2 is for a section of 20 m by 14 m; recorded queues of people who "
-        "were in no danger read 0.01 at most.%s",
+        "Crowd pressure is the mean density at a place times the variance over time of the local "
+        "velocity there, over %g s, averaged over %g m by %g m around the place. It shows how "
+        "the crowd as a whole is shaken to and fro, not how people walk past each other. It is "
+        "measured only where the crowd stood on at least %g m2 of that square at %g per m2 or "
+        "more all that time, and the variance does not come from a single change of the flow. "
+        "So it does not show a knot of people before a door, a queue that starts to move, or a "
+        "whole crowd that sways slower than every 15 s. Its authors' limit of 0.02 per s2 is for "
+        "a section of 20 m by 14 m; recorded queues of people in no danger read 0.01 at most.%s",
         (double)JOX_PRESSURE_SPAN, (double)JOX_PRESSURE_SECTION, (double)JOX_PRESSURE_SECTION,
         (double)JOX_PRESSURE_FLOOR, (double)JOX_PRESSURE_LEAST,
         jox_danger_reads(danger, JOX_DANGER_PRESSURE)
             ? ""
-            : " Here it was measured nowhere: its limit has dashes.");
+            : " Here it was measured nowhere, so its limit shows dashes.");
     jox_html_paragraph(out, text);
     if (jox_danger_reads(danger, JOX_DANGER_LOAD)) {
         jox_html_paragraph(
@@ -108,8 +108,9 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
                  "Limits for chests are forces of that kind.");
         jox_html_paragraph(out, jox_danger_dose_text);
     } else {
-        jox_html_paragraph(out, "Load was not measured: this recording does not know the push that "
-                                "people bear. Its limits, and those of dose, have dashes.");
+        jox_html_paragraph(out,
+                           "Load was not measured: this recording has no forces on people. Its "
+                           "limits, and those of dose, show dashes.");
     }
     if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION))
         jox_html_paragraph(
@@ -123,7 +124,7 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
 static void put_limit_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     jox_html_table(out, "limit|>people ever over it|>person-seconds|>longest of one "
-                        "person|first|>minutes since|meaning, and who says so");
+                        "person|first|>minutes since|meaning and source");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         JoxDangerCount count = jox_danger_count(danger, l);
@@ -184,7 +185,7 @@ static void put_dose_table(FILE *out, const JoxSubject *s) {
         jox_page_rank_greatest(danger, danger->people_capacity, dose_of_person, order);
     if (shown == 0)
         return;
-    jox_html_paragraph(out, "The people of the greatest doses; danger-people.csv lists all whose "
+    jox_html_paragraph(out, "The people with the greatest doses; danger-people.csv lists all whose "
                             "dose is over 0.01 or whose load was over the first limit.");
     jox_html_table(
         out, ">person|>dose|>greatest load|when and where|>over 623 N|>over 1112 N|>over 6227 "
@@ -208,8 +209,7 @@ void jox_page_put_danger(FILE *out, const JoxSubject *s) {
     put_limit_table(out, s);
     put_greatest_table(out, s);
     jox_html_figure(out, s->folder, "danger",
-                    "Danger over time; published limits are broken lines, as far as they are near.",
-                    true);
+                    "Danger over time. Dashed lines: published limits near the curves.", true);
     jox_html_subheading(out, "Where");
     jox_maps_fields(out, s);
     jox_html_subheading(out, "Telling moments");

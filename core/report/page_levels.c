@@ -49,11 +49,10 @@ static void put_area_levels(FILE *out, const JoxDanger *danger) {
 static void put_level_section(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Levels of service by area and time");
     jox_html_paragraph(
-        out,
-        "Of queues: by the area that each person has, 1 / density where they stand " JOX_DENSITY_BY
-        ". An area "
-        "is at the level of the mean density about the people in it; the maps of density have "
-        "the same levels on their scales.");
+        out, "Levels for queues, by the area that each person has: 1 / density where they "
+             "stand " JOX_DENSITY_BY ". An area "
+             "is at the level of the mean density about the people in it; the maps of density have "
+             "the same levels on their scales.");
     jox_html_figure(out, s->folder, "levels",
                     "Above: how many people were at each level. Below: the level of each area.",
                     true);
@@ -124,24 +123,23 @@ static void put_line_section(FILE *out, const JoxSubject *s) {
     const JoxDangerLines *lines = &danger->lines;
     jox_html_heading(out, "Doors and other lines");
     if (lines->count == 0) {
-        jox_html_paragraph(out, "Not measured: the scene has no probe `flow`, and a line is needed "
-                                "over which people pass.");
+        jox_html_paragraph(out,
+                           "Not measured: the scene has no probe `flow` with a line that people "
+                           "cross.");
         return;
     }
     jox_html_paragraph(
         out,
-        "What walls leave of a line is measured, of a line of gates all of them. Crossings are "
-        "counted from the beginning on, either way, also those of people who step back; the probe "
-        "of a line counts in its own time, one way, and less those who step back. The rest is of "
-        "the ten "
-        "seconds "
-        "before each moment; nothing is known of the first ten. Density " JOX_DENSITY_BY " is "
-        "that of the people within 2 m of the line on the side that most come from; those "
-        "who wait are the people in sight of an opening's middle within 10 m there; the growth of "
-        "the queue is by how many they became more in a second, inflow less outflow. Levels are "
-        "Fruin's for walkways, by flow, but E or F where the area before the line is that of E "
-        "or F, since a small flow may mean that nobody can move; the seconds are those at A / "
-        "B / C / D / E / F.");
+        "A line is measured where walls leave it open, a line of gates over all its gates. "
+        "Crossings are counted from the beginning on in both directions, also those of people who "
+        "step back; the line's probe counts in its own time window, in one direction, less those "
+        "who step back. All else is measured over the ten seconds before each moment and unknown "
+        "for the first ten. Density " JOX_DENSITY_BY " is that of the people within 2 m of the "
+        "line on the side from which most people come. The queue is the people within 10 m there "
+        "in sight of the middle of an opening; it grows by inflow less outflow, people per "
+        "second. Levels are Fruin's for walkways, by flow, but E or F where the area per person "
+        "before the line is that of E or F, since a small flow may mean that nobody can move; the "
+        "seconds are those at A / B / C / D / E / F.");
     jox_html_table(
         out, "line|>clear width|>crossed forward, back|>greatest flow|worst level|>seconds at "
              "levels|>stop-and-go|first|>greatest growth of the queue|>when");
@@ -173,16 +171,16 @@ static double greatest_load_of_piece(const JoxDanger *danger, uint32_t k) {
 static void put_wall_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     const JoxDangerWalls *walls = &danger->walls;
-    jox_html_heading(out, "What walls bore");
+    jox_html_heading(out, "Loads on walls");
     if (!walls->known) {
         jox_html_paragraph(out, "Not measured: loads on walls are not known here.");
         return;
     }
     char text[400];
     snprintf(text, sizeof text,
-             "Forces of people across each piece of a side of a wall, at most 1 m long, held on "
-             "average for a "
-             "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
+             "Forces of people perpendicular to each piece of a side of a wall, at most 1 m long, "
+             "as a mean over a second. The limit is %g N on a rail: %s (%s). %u of %u pieces were "
+             "ever over it.",
              JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
     jox_html_table(out,
@@ -218,12 +216,13 @@ static void put_leaving_times(FILE *out, const JoxLeaving *leaving, int32_t exit
 
 void jox_page_put_leaving(FILE *out, const JoxSubject *s) {
     const JoxLeaving *leaving = &s->danger->leaving;
-    jox_html_heading(out, "Who left when, and by where");
+    jox_html_heading(out, "Who left when and where");
     if (leaving->count == 0) {
         jox_html_paragraph(out, "Nobody left.");
         return;
     }
-    jox_html_paragraph(out, "Times by which so many of those had left who left there at all.");
+    jox_html_paragraph(out, "Times by which the first person, 5 %, 25 % ... of all people who left "
+                            "by an exit had left.");
     jox_html_table(out, "exit|>people|>first|>5 %|>25 %|>half|>75 %|>95 %|>last");
     put_leaving_times(out, leaving, JOX_LEFT_ANYWHERE, "all");
     for (uint32_t e = 0; e < s->danger->exit_count; e++)

@@ -35,8 +35,7 @@ void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t insid
     f->group = "Who left";
     jox_page_add_figure(f, "", (double)exits->left, "people who left");
     jox_page_add_figure(f, "", inside, "people still inside at the end");
-    jox_page_add_figure(f, "s", exits->left ? exits->last : NAN,
-                        "when the last of those who left did so");
+    jox_page_add_figure(f, "s", exits->left ? exits->last : NAN, "time when the last person left");
     jox_page_add_figure(f, "s", jox_exits_clearance(exits, inside),
                         "clearance time: nobody is inside");
     if (inside)
@@ -44,7 +43,7 @@ void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t insid
     for (uint32_t e = 0; e < exits->count; e++) {
         jox_page_add_figure(f, "", exits->items[e].people, "people who left at %.60s",
                             exits->items[e].name);
-        jox_page_add_figure(f, "s", exits->items[e].last, "when the last of them left at %.60s",
+        jox_page_add_figure(f, "s", exits->items[e].last, "time when the last person left at %.60s",
                             exits->items[e].name);
         known += exits->items[e].people;
     }

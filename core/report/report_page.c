@@ -25,8 +25,8 @@ static JoxPageFigures collect_recording_figures(const JoxReport *r) {
     f.group = "The recording";
     jox_page_add_figure(&f, "", t->people, "people");
     jox_page_add_figure(&f, "", t->frame_count, "frames with people");
-    jox_page_add_figure(&f, "s", first.time, "first of them");
-    jox_page_add_figure(&f, "s", last.time, "last of them");
+    jox_page_add_figure(&f, "s", first.time, "time of the first frame");
+    jox_page_add_figure(&f, "s", last.time, "time of the last frame");
     jox_page_add_exits(&f, &r->exits, (uint32_t)(t->people - r->exits.left));
     jox_page_add_danger(&f, r->danger);
     for (uint32_t p = 0; p < r->count; p++)
@@ -37,9 +37,10 @@ static JoxPageFigures collect_recording_figures(const JoxReport *r) {
 static void put_recording_figures(FILE *out, const JoxReport *r) {
     JoxPageFigures f = collect_recording_figures(r);
     jox_html_heading(out, "All figures");
-    jox_html_paragraph(out, "Somebody has left from the first frame on in which they are missing, "
-                            "and in none behind which they come again; where a recording shows a "
-                            "part of a place, to leave is to leave the picture.");
+    jox_html_paragraph(out,
+                       "A person has left at the first frame in which they are missing, if they "
+                       "never return. Where a recording shows only a part of a place, leaving "
+                       "means leaving the picture.");
     jox_page_put_figures(out, &f, "figure|>value", NULL, NULL);
     jox_page_release(&f);
 }
@@ -48,17 +49,18 @@ static void put_recording_validation(FILE *out, const JoxReport *r) {
     bool forces = jox_danger_reads(r->danger, JOX_DANGER_LOAD);
     jox_page_put_validation(out);
     jox_html_paragraph(
-        out, forces
-                 ? "None of that validates this recording. It is a simulated crowd; its geometry, "
-                   "numbers of people, behaviours and parameters are what its author gave. "
-                   "Load in particular is a model's: forces inside real crowds of this size "
-                   "have hardly been measured, and the limits come from single persons and from "
-                   "what was found after disasters. Read the limits as places and times to look "
-                   "at, not as a count of injured."
-                 : "What is on this page follows from positions alone: it is as good as these are. "
-                   "Velocities are displacements over 0.2 s before and after, unless the recording "
-                   "gives them; those of sway and of noise in tracking add to crowd pressure. Read "
-                   "the limits as places and times to look at, not as a count of injured.");
+        out,
+        forces
+            ? "None of that validates this recording. It is a simulated crowd; its geometry, "
+              "numbers of people, behaviours and parameters are what its author gave. "
+              "Load in particular is a model's: forces inside real crowds of this size "
+              "have hardly been measured, and the limits come from single persons and from "
+              "what was found after disasters. Read the limits as places and times to look "
+              "at, not as a count of injured."
+            : "All figures on this page follow from positions alone and are as accurate as these. "
+              "Velocities are displacements over 0.2 s before and after, unless the recording "
+              "gives them; body sway and tracking noise add to crowd pressure. Read "
+              "the limits as places and times to look at, not as a count of injured.");
 }
 
 /* Computes the SHA-256 of a file, mapped as it may be large; "-" if it cannot be mapped. */
@@ -116,12 +118,13 @@ static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubjec
     jox_html_statement(out, "What was measured.", text.data);
     jox_text_free(&text);
     jox_summary_crowd(out, subject);
-    jox_html_statement(out, "What this is worth.",
-                       jox_danger_reads(r->danger, JOX_DANGER_LOAD)
-                           ? "It is a simulated crowd: the engine is compared with published "
-                             "measurements (jostle reproduce), this scenario is not."
-                           : "All of it follows from positions alone, and is as good as these are; "
-                             "what people bore is not known.");
+    jox_html_statement(
+        out, "What this is worth.",
+        jox_danger_reads(r->danger, JOX_DANGER_LOAD)
+            ? "It is a simulated crowd: the engine is compared with published "
+              "measurements (jostle reproduce), this scenario is not."
+            : "All figures follow from positions alone and are as accurate as these; "
+              "forces on people are not known.");
     fputs("</div>\n", out);
 }
 

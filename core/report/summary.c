@@ -98,8 +98,8 @@ static void say_limit(const JoxSubject *s, int l, JoxText *out) {
                     limit->title, limit->what, count.first);
     jox_where(s, count.first_at, out);
     if (seconds > 0.0)
-        jox_text_printf(out, "; for %.1f s in all there was somebody over it", seconds);
-    jox_text_printf(out, "; one person was for %.1f s.", count.longest);
+        jox_text_printf(out, "; for %.1f s in all somebody was over it", seconds);
+    jox_text_printf(out, ", one person for up to %.1f s.", count.longest);
 }
 
 /* Appends the greatest value of a measure, and its limits in ascending order up to the first
@@ -218,8 +218,8 @@ static void put_congestion_summary(FILE *out, const JoxSubject *s) {
                         region->first, region->last);
     }
     if (found.count > MOST)
-        jox_text_printf(&text, " So %s %u more, for less long; they are in danger-congestion.csv.",
-                        found.count - MOST == 1 ? "was" : "were", found.count - MOST);
+        jox_text_printf(&text, " %u more %s so for less time; danger-congestion.csv has all.",
+                        found.count - MOST, found.count - MOST == 1 ? "was" : "were");
     put_statement(out, "Congestion.", &text);
     jox_congestion_found_free(&found);
 }
@@ -307,8 +307,8 @@ static void say_crowded_areas(const JoxDanger *d, JoxText *out) {
         before = next;
     }
     if (crowded > told)
-        jox_text_printf(out, " So %s %u more, for less long; they are in the table.",
-                        crowded - told == 1 ? "was" : "were", crowded - told);
+        jox_text_printf(out, " %u more %s so for less time; the table has all.", crowded - told,
+                        crowded - told == 1 ? "was" : "were");
 }
 
 static void put_level_summary(FILE *out, const JoxSubject *s) {
