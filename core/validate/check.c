@@ -1,4 +1,5 @@
-/* jo_check: every error of scenes, behaviours and folders of them; nothing is run. */
+/* jo_check: finds errors in scenes, behaviours, claims and mods without running them. `jostle
+   check` is the caller. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,24 +17,24 @@
 #include "validate/check.h"
 #include "validate/claims.h"
 
-enum { DEEPEST = 8, MOST_ERRORS = 10000 };
+enum { DEEPEST = 8, MOST_ERRORS = 10000 }; /* greatest depth of nested folders */
 
-static bool ends_with(const char *path, const char *ending) {
+static bool has_file_ending(const char *path, const char *ending) {
     size_t n = strlen(path), m = strlen(ending);
     return n >= m && strcmp(path + n - m, ending) == 0;
 }
 
-static void keep_message(void *context, const char *text) {
+static void drop_message(void *context, const char *text) {
     (void)context;
     (void)text;
 }
 
-/* A scene is loaded whole, with its behaviours, into a world that never steps. `mod` may be NULL: a
-   mod's folder that is taken. */
+/* Loads a scene with its behaviours into a world that never steps, and keeps all diagnostics.
+   `mod` is the folder of a mod to apply, or NULL. */
 static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) {
     JoSceneDef def = jo_default_scene_def();
     def.path = path;
-    def.message = keep_message;
+    def.message = drop_message;
     def.mods = &mod;
     def.mod_count = mod != NULL;
     def.named_mods_only = def.needed_mods_too = mod != NULL;
@@ -46,8 +47,8 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     jo_scene_free(scene);
 }
 
-/* Whether a text requires a module: by a name in quotes. */
-static bool requires(const char *text, const char *module) {
+/* Returns whether a Lua text requires a module by its name in quotes. */
+static bool requires_module(const char *text, const char *module) {
     const size_t n = strlen(module);
     for (const char *at = text; (at = strstr(at, "require"));) {
         at += strlen("require");
@@ -58,6 +59,7 @@ static bool requires(const char *text, const char *module) {
     return false;
 }
 
+/* Returns whether a Lua file in a folder, other than `but`, requires a module. */
 static bool is_required_in(const char *folder, const char *module, const char *but) {
     char **names = jox_folder_names(folder, false);
     bool found = false;
@@ -65,17 +67,17 @@ static bool is_required_in(const char *folder, const char *module, const char *b
         char path[2048];
         size_t length;
         snprintf(path, sizeof path, "%s/%s", folder, *name);
-        char *text = ends_with(*name, ".lua") && !jox_path_same(path, but)
+        char *text = has_file_ending(*name, ".lua") && !jox_path_same(path, but)
                          ? jox_read_file(path, (size_t)1 << 20, &length)
                          : NULL;
-        found = text && requires(text, module);
+        found = text && requires_module(text, module);
         jox_free(text);
     }
     jox_free(names);
     return found;
 }
 
-/* Whether a file beside this one, or in the folder above, requires it. */
+/* Returns whether a file in the same folder, or the one above, requires this file. */
 static bool is_required(const char *path) {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *folder_name;
     char folder[1024], above[1100], module[600];
@@ -90,9 +92,8 @@ static bool is_required(const char *path) {
     return is_required_in(above, module, path);
 }
 
-/* A file that returns no machine is no error where it is for others to require: it returns
-   functions, or a table that is no machine's, or another file requires it. That is noted instead.
- */
+/* Turns the error "no-machine" into a note if the file is a library for others to require: it
+   returns functions, or a table that is not a machine's, or another file requires it. */
 static void note_library(const char *path, JoxDiagnostics *own) {
     static const JoxScope ANY = {0};
     size_t lacks = 0;
@@ -108,7 +109,8 @@ static void note_library(const char *path, JoxDiagnostics *own) {
     const bool single = count == 1 && !*exports[0].name;
     bool library = !single || strcmp(exports[0].kind, "function") == 0 ||
                    (strcmp(exports[0].kind, "nil") != 0 && is_required(path));
-    for (uint32_t e = 0; e < count; e++) /* a machine's table that nobody made a machine of */
+    /* a table of states that was not made a machine is an error */
+    for (uint32_t e = 0; e < count; e++)
         library &= strcmp(exports[e].name, "states") != 0;
     library &= unread.errors == 0;
     if (library) {
@@ -146,7 +148,7 @@ static bool is_file(const char *path) {
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-/* Files of claims say so: they are no behaviours. */
+/* Returns whether a Lua file is a claim: a line begins with "return claim". */
 static bool is_claim(const char *path) {
     size_t length;
     char *text = jox_read_file(path, (size_t)1 << 20, &length);
@@ -156,7 +158,7 @@ static bool is_claim(const char *path) {
     return claim;
 }
 
-/* Definitions of words for editors: nothing that runs. */
+/* Returns whether a Lua file only has definitions for editors. */
 static bool is_definition(const char *path) {
     size_t length;
     char *text = jox_read_file(path, (size_t)1 << 20, &length);
@@ -177,10 +179,10 @@ static void check_claim(const char *path, JoxDiagnostics *all) {
 
 /* ---- mods ---- */
 
-/* The file that a patch changes: of a mod for "mod:name"; else of the tree that the mods lie in, or
-   of the library. */
-static bool look_for_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
-                            char path[1024]) {
+/* Searches the file that a patch changes: in a mod for "mod:name"; else in the tree that
+   contains the mods, then in the library. Returns false if there is none. */
+static bool search_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                          char path[1024]) {
     const char *kind = patch->lua ? "behaviours" : "scenes", *end = patch->lua ? "lua" : "yaml";
     const char *colon = strchr(patch->target, ':');
     for (uint32_t m = 0; colon && m < mods->found_count; m++) {
@@ -206,12 +208,12 @@ static bool look_for_target(const JoxMods *mods, const JoxMod *mod, const JoxMod
 
 static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
                         char path[1024]) {
-    const bool found = look_for_target(mods, mod, patch, path);
+    const bool found = search_target(mods, mod, patch, path);
     jox_path_clean(path);
     return found;
 }
 
-/* What a mod's patches make of the files that they change. */
+/* Checks the files that a mod's patches change, as they are after the change. */
 static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics *all) {
     for (uint32_t p = 0; p < mod->patch_count; p++) {
         const JoxModPatch *patch = &mod->patches[p];
@@ -234,7 +236,8 @@ static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics
 
 static void check_mod(const char *folder, JoxDiagnostics *all) {
     char beside[1024];
-    snprintf(beside, sizeof beside, "%.900s/../../scene", folder); /* so that others are found */
+    /* a path in the tree of the other mods, to find them */
+    snprintf(beside, sizeof beside, "%.900s/../../scene", folder);
     JoSceneDef def = jo_default_scene_def();
     def.path = beside;
     def.mods = &folder;
@@ -252,7 +255,7 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
 
 /* ---- paths ---- */
 
-/* What is no folder; `mod` as of check_path. */
+/* Checks a file; `named`: it was given itself, not found in a folder. `mod` is as in check_path. */
 static void check_file(const char *path, bool named, const char *mod, JoxDiagnostics *own) {
     if (strcmp(jox_path_name(path), "mod.yaml") == 0) {
         char folder[1024];
@@ -260,20 +263,21 @@ static void check_file(const char *path, bool named, const char *mod, JoxDiagnos
         snprintf(folder, sizeof folder, "%.*s", length ? (int)length : 1, length ? path : ".");
         if (named)
             check_mod(folder, own);
-    } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
+    } else if (has_file_ending(path, ".yaml") || has_file_ending(path, ".yml")) {
         check_scene(path, mod, own);
-    } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
+    } else if (has_file_ending(path, ".lua") && !has_file_ending(path, "_test.lua")) {
         if (is_claim(path))
             check_claim(path, own);
         else if (!is_definition(path))
             check_behaviour(path, NULL, own);
-    } else if (named && !ends_with(path, ".lua")) {
+    } else if (named && !has_file_ending(path, ".lua")) {
         jox_diag_error(own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,
                        "only scenes (.yaml) and behaviours (.lua) can be checked");
     }
 }
 
-/* Names of what lies in a folder, to be freed; NULL and a word on it where nobody can look. */
+/* Lists the names in a folder, for the caller to free; NULL with a diagnostic if it is too deep
+   or cannot be read. */
 static char **list_folder(const char *path, int depth, JoxDiagnostics *own) {
     static const char *const HINT = "Give its path, too, if it is to be looked at";
     const JoxPosition at = {path, 0, 0, 0};
@@ -289,7 +293,7 @@ static char **list_folder(const char *path, int depth, JoxDiagnostics *own) {
     return names;
 }
 
-/* `mod`: the folder of the mod that the path lies in, or NULL. */
+/* Checks a file or folder; `mod` is the folder of the mod that contains it, or NULL. */
 static void check_path(const char *path, bool named, int depth, const char *mod,
                        JoxDiagnostics *all) {
     struct stat info;
@@ -312,8 +316,8 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     for (char **name = names; name && *name; name++) {
         char inner[1024];
         snprintf(inner, sizeof inner, "%s/%s", path, *name);
-        jox_path_clean(inner); /* as scenes name it that lie beside it */
-        bool patches = mod && strcmp(*name, "patches") == 0; /* looked at above */
+        jox_path_clean(inner);                               /* as scenes refer to it */
+        bool patches = mod && strcmp(*name, "patches") == 0; /* check_mod has checked them */
         if (!patches)
             check_path(inner, false, depth + 1, mod, all);
     }
@@ -321,8 +325,8 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     jox_diag_move(all, &own);
 }
 
-/* What was found, and how much that is. */
-static void print(const JoxDiagnostics *all, JoxText *out) {
+/* Appends the diagnostics and a line with their numbers. */
+static void print_findings(const JoxDiagnostics *all, JoxText *out) {
     size_t notes = 0;
     for (size_t d = 0; d < all->count; d++)
         notes += all->items[d].severity == JOX_SEVERITY_NOTE;
@@ -342,7 +346,8 @@ static void print(const JoxDiagnostics *all, JoxText *out) {
     jox_text_add(out, "\n");
 }
 
-/* The folder of the mod that a named path lies in, but is not; "" where it lies in none. */
+/* Finds the folder of the mod that contains a path, which is not the mod itself; "" if there is
+   none. */
 static void find_mod(const char *path, char folder[1024]) {
     static const char *const UP[] = {"", "/..", "/../.."};
     char above[1024];
@@ -365,7 +370,8 @@ static void find_mod(const char *path, char folder[1024]) {
     *folder = 0;
 }
 
-/* One that is named: what lies in a mod is checked as a part of it, and of its patches, the mod. */
+/* Checks a given path. A path inside a mod is checked as a part of the mod; for a patch, the
+   whole mod is. */
 static void check_named(const char *path, JoxDiagnostics *all) {
     char mod[1024], sheet[1024], patches[1024];
     struct stat info, other;
@@ -390,7 +396,7 @@ static void check_named(const char *path, JoxDiagnostics *all) {
 }
 
 JoxDiagnostics jox_check_paths(const char *const *paths, size_t count) {
-    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
+    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps its first 20 */
     for (size_t p = 0; p < count; p++)
         check_named(paths[p], &all);
     return all;
@@ -403,7 +409,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
     if (json)
         jox_diag_json(&all, &text);
     else
-        print(&all, &text);
+        print_findings(&all, &text);
     if (text.length)
         jox_run_message(message, context, text.data);
     size_t errors = all.errors;

@@ -1,4 +1,5 @@
-/* Everything wrong with scenes, behaviours and folders of them. */
+/* Static checks of scenes, behaviours, claims and mods, shared by jo_check (check.c) and
+   jo_migrate (migrate.c). */
 #ifndef JOX_VALIDATE_CHECK_H
 #define JOX_VALIDATE_CHECK_H
 
@@ -6,11 +7,12 @@
 
 #include "base/format/diag.h"
 
-/* Codes of a file, and of a folder, that nobody could look at. */
+/* Diagnostic codes of files and folders that could not be read. */
 #define JOX_CHECK_UNREADABLE "unreadable-file"
 #define JOX_CHECK_UNREAD "unread-folder"
 
-/* To be freed by jox_diag_free. */
+/* Checks files, and folders with all that is in them, and returns the diagnostics, which the
+   caller frees with jox_diag_free. */
 JoxDiagnostics jox_check_paths(const char *const *paths, size_t count);
 
 #endif

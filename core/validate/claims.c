@@ -1,4 +1,4 @@
-/* Claim files: calling measure on what the runs left. */
+/* Loads claim files and calls their function `measure` on what the runs left. */
 #include "validate/claims_parts.h"
 
 #include <math.h>
@@ -9,13 +9,13 @@
 #include "base/format/json.h"
 #include "base/mem.h"
 
-static const uint64_t BUDGET = 200000000; /* instructions of a measure */
-enum { MOST_BYTES = 64 << 20 };           /* of a file that a run left */
+static const uint64_t BUDGET = 200000000; /* Lua instructions of one call */
+enum { MOST_BYTES = 64 << 20 };           /* greatest size of a file that measure reads */
 
 /* ---- what the runs left ---- */
 
-/* Sets table.a.b.c = value, for the path "a.b.c". */
-static void keep_number(void *context, const char *path, double value) {
+/* Sets t.a.b.c = value in the table on top of the stack, for the path "a.b.c". */
+static void set_summary_number(void *context, const char *path, double value) {
     lua_State *L = context;
     int top = lua_gettop(L);
     luaL_checkstack(L, 8, "a summary");
@@ -38,7 +38,8 @@ static void keep_number(void *context, const char *path, double value) {
     lua_settop(L, top);
 }
 
-static char *read_beside(lua_State *L, const char *folder, const char *name, size_t *length) {
+/* Reads a file that a run left, for the caller to free; an error of Lua if there is none. */
+static char *read_run_file(lua_State *L, const char *folder, const char *name, size_t *length) {
     char path[1200];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     char *text = jox_read_file(path, MOST_BYTES, length);
@@ -47,16 +48,16 @@ static char *read_beside(lua_State *L, const char *folder, const char *name, siz
     return text;
 }
 
-/* csv(name): { column = { values } } by the names before " [unit]", and their number in `n`. Values
-   that are no numbers are texts. */
-static int word_csv(lua_State *L) {
+/* The Lua function csv(name): returns { column = { values } }, with columns named without their
+   " [unit]", and the number of rows in `n`. Values that are not numbers are texts. */
+static int push_csv_table(lua_State *L) {
     const char *folder = lua_tostring(L, lua_upvalueindex(1));
     char file[256];
     size_t length;
     snprintf(file, sizeof file, "%.200s.csv", luaL_checkstring(L, 1));
     if (strchr(file, '/'))
         return luaL_error(L, "csv takes the name of a probe");
-    char *text = read_beside(L, folder, file, &length), *at = text;
+    char *text = read_run_file(L, folder, file, &length), *at = text;
     int columns = 0;
     lua_newtable(L);
     int table = lua_gettop(L);
@@ -76,7 +77,7 @@ static int word_csv(lua_State *L) {
     while (*at == '\n' && at[1]) {
         row++;
         for (int c = 0; c < columns && (c == 0 || *at == ','); c++) {
-            char *end = ++at; /* strtod would pass over an empty value into the next line */
+            char *end = ++at; /* strtod would skip an empty value and read on in the next line */
             double value = strchr(",\n", *at) ? 0.0 : strtod(at, &end);
             const size_t size = strcspn(at, ",\n");
             if (size > 0 && end == at + size)
@@ -96,7 +97,8 @@ static int word_csv(lua_State *L) {
     return 1;
 }
 
-/* { name = { summary = {...}, csv = function } } of all runs. */
+/* Pushes `measure` and its argument: a table { name = { summary = {...}, csv = function } } of
+   all runs. */
 static int push_runs(lua_State *L) {
     const JoxClaim *claim = lua_touserdata(L, 1);
     const char *const *folders = lua_touserdata(L, 2);
@@ -106,15 +108,15 @@ static int push_runs(lua_State *L) {
     for (uint32_t r = 0; r < claim->run_count; r++) {
         size_t length;
         lua_newtable(L);
-        char *text = read_beside(L, folders[r], "summary.json", &length);
+        char *text = read_run_file(L, folders[r], "summary.json", &length);
         lua_newtable(L);
-        bool good = jox_json_numbers(text, keep_number, L);
+        bool good = jox_json_numbers(text, set_summary_number, L);
         jox_free(text);
         if (!good)
             return luaL_error(L, "the summary of run '%s' is not JSON", claim->runs[r].name);
         lua_setfield(L, -2, "summary");
         lua_pushstring(L, folders[r]);
-        lua_pushcclosure(L, word_csv, 1);
+        lua_pushcclosure(L, push_csv_table, 1);
         lua_setfield(L, -2, "csv");
         lua_setfield(L, -2, claim->runs[r].name);
     }
@@ -157,7 +159,8 @@ bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double
 
 /* ---- the file ---- */
 
-static bool run_file(JoxClaim *claim, bool quick, JoxDiagnostics *diagnostics) {
+/* Compiles and runs a claim file, which fills in the claim. Returns false with a diagnostic. */
+static bool run_claim_file(JoxClaim *claim, bool quick, JoxDiagnostics *diagnostics) {
     JoxScript *script = claim->code->script;
     const char *why = NULL;
     int line = 0;
@@ -169,7 +172,7 @@ static bool run_file(JoxClaim *claim, bool quick, JoxDiagnostics *diagnostics) {
     lua_setfield(script->vm.L, LUA_REGISTRYINDEX, "jostle claim");
     lua_pushboolean(script->vm.L, quick);
     lua_setfield(script->vm.L, LUA_REGISTRYINDEX, "jostle quick");
-    lua_pushcfunction(script->vm.L, jox_claim_words);
+    lua_pushcfunction(script->vm.L, jox_claim_set_words);
     bool good =
         jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line) && jox_vm_compile(&script->vm, 0);
     if (!good && !why) {
@@ -207,13 +210,13 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
     claim->code = jox_alloc(1, sizeof *claim->code);
     claim->code->lua = jox_lua_create(&limits);
     claim->code->script = jox_script_create(claim->code->lua);
-    if (claim->code->script && run_file(claim, quick, diagnostics))
+    if (claim->code->script && run_claim_file(claim, quick, diagnostics))
         return claim;
     jox_claim_free(claim);
     return NULL;
 }
 
-void jox_claim_set(JoxClaim *claim, const char *const *sets, size_t count) {
+void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count) {
     for (uint32_t r = 0; r < claim->run_count && count > 0; r++) {
         JoxClaimRun *run = &claim->runs[r];
         run->sets = jox_realloc(run->sets, run->set_count + count, sizeof *run->sets);

@@ -1,7 +1,8 @@
-/* Claims: what a scene is to show, written in Lua. A claim file returns claim { id, title, source,
-   text, runs, quick, measure, expect, plots, pictures, tried }; see scenes/claims/README.md. Its
-   function measure works on what the runs left (summary, CSV files of probes) and never sees what
-   is expected. */
+/* Claims: results that scenes are expected to show, as Lua files. A claim file returns claim {
+   id, title, source, text, runs, quick, measure, expect, plots, pictures, tried }; see
+   scenes/claims/README.md. Its function `measure` computes figures from what the runs left
+   (summary, CSV files of probes) and never sees the expected values. reproduce.c runs and
+   measures claims, check.c only loads them. */
 #ifndef JOX_VALIDATE_CLAIMS_H
 #define JOX_VALIDATE_CLAIMS_H
 
@@ -11,69 +12,77 @@
 #include "base/format/diag.h"
 #include "base/text.h"
 
+/* A run of a scene that a claim needs, with a number of seeds. */
 typedef struct JoxClaimRun {
-    char *name, *scene; /* the scene's path, beside the claim's file */
-    char **sets;        /* "PATH=VALUE" */
+    /* `scene`: path of its file, resolved against the claim's file */
+    char *name, *scene;
+    char **sets; /* settings "PATH=VALUE" */
     uint32_t set_count, seeds;
     uint64_t first_seed;
-    double dt, duration; /* s; 0: the scene's */
-    bool first;          /* takes long: begun before others */
+    double dt, duration; /* s; 0: as the scene has it */
+    bool first;          /* takes long, so it is started before others */
 } JoxClaimRun;
 
+/* A figure that `measure` returns, and its expected band. */
 typedef struct JoxClaimFigure {
-    char *name, *unit, *what,
-        *expected;    /* expected: as the source has it, "" where it says nothing */
-    double low, high; /* the band; -INFINITY, INFINITY: open */
-    bool reported;    /* shown, not judged */
+    char *name, *unit; /* key in the table that `measure` returns; unit */
+    char *what;        /* description */
+    char *expected;    /* value as the source states it, or "" */
+    double low, high;  /* edges of the band; -INFINITY or INFINITY: open */
+    bool reported;     /* shown without a verdict */
 } JoxClaimFigure;
 
+/* A picture of a run's report that the page shows. */
 typedef struct JoxClaimPicture {
     char *run, *file;
 } JoxClaimPicture;
 
-/* What is drawn of figures. Points of FIGURES are at x and a figure's mean, with its least and most
-   and its band; of a MAP at x and y, with a figure's mean as the colour; others as they are given,
-   from a source or a law. */
+/* Kinds of curves. FIGURES: x, and a figure's mean with its least and greatest value and its
+   band. MAP: x, y, and a figure's mean as colour. POINTS and LINE: x and y as given, from a
+   source or a law. */
 typedef enum { JOX_CURVE_FIGURES, JOX_CURVE_POINTS, JOX_CURVE_LINE, JOX_CURVE_MAP } JoxCurveKind;
 typedef struct JoxClaimPoint {
     double x, y;
-    uint32_t figure;
+    uint32_t figure; /* index, for FIGURES and MAP */
 } JoxClaimPoint;
 typedef struct JoxClaimCurve {
-    char *label; /* NULL of a map */
+    char *label; /* NULL for a map */
     JoxCurveKind kind;
     JoxClaimPoint *points;
     uint32_t count;
 } JoxClaimCurve;
 typedef struct JoxClaimPlot {
-    char *name, *title, *x, *y, *z; /* of axes, with units; z of a map's colours */
-    JoxClaimCurve *curves;          /* one of a map */
+    char *name, *title, *x, *y, *z; /* labels of the axes with units; z: label of a map's colours */
+    JoxClaimCurve *curves;          /* exactly one for a map */
     uint32_t curve_count;
 } JoxClaimPlot;
 
 typedef struct JoxClaim {
     char *path, *id, *title, *source, *text;
-    char *level;                 /* haste of its people: calm, normal, keen; "" where none walk */
-    char *calibrated, *held_out; /* what constants were chosen on, and with it, or without; or "" */
+    char *level; /* haste of the people: calm, normal, keen; "" if none walk */
+    /* data that constants were chosen with, or that were held out from it; at most one is not "" */
+    char *calibrated, *held_out;
     JoxClaimRun *runs;
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;
     JoxClaimPlot *plots;
-    char **tried; /* what was tried where it misses, sentence by sentence */
+    char **tried; /* sentences on what was tried, for a claim that misses its band */
     uint32_t run_count, figure_count, picture_count, plot_count, tried_count;
-    bool too_long;     /* quick = false: nothing smaller would show it */
-    JoxClaimRun spare; /* while a file is read */
+    bool too_long;     /* `quick = false`: no smaller run would show the result */
+    JoxClaimRun spare; /* the run of `quick` that is being read */
     struct JoxClaimCode *code;
 } JoxClaim;
 
-/* NULL with diagnostics. `quick`: with the smaller runs of its `quick`. */
+/* Loads a claim file; returns NULL with diagnostics. With `quick`, the claim's smaller runs
+   replace the full ones. jox_claim_free frees the claim. */
 JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnostics);
-/* Calls measure once: folders[r] is where run r left summary.json and its CSV files. values[f] by
-   figure, NAN where it is not given. False with a sentence in `why`. */
+/* Calls `measure` once. folders[r] is the folder in which run r left summary.json and its CSV
+   files. Sets values[f] of each figure, NAN if it was not returned. Returns false with a
+   sentence in `why`. */
 bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double *values,
                        JoxText *why);
-/* Has every run of the claim take values ("PATH=VALUE") besides its own. */
-void jox_claim_set(JoxClaim *claim, const char *const *sets, size_t count);
+/* Appends settings ("PATH=VALUE") to all runs of the claim. */
+void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count);
 void jox_claim_free(JoxClaim *claim);
 
 #endif

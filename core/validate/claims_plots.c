@@ -1,4 +1,4 @@
-/* Claim files: the plots of a claim's own figures. */
+/* Reads `plots` of a claim file: curves and maps of the claim's figures. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 static const char *const KINDS[] = {"figures", "points", "line", "map"};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS, MOST_POINTS = 10000 };
 
-/* The claim's figure that is named on top of the stack. */
+/* Returns the index of the figure named on top of the stack. */
 static uint32_t find_figure(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *plot) {
     const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     for (uint32_t f = 0; name && f < claim->figure_count; f++)
@@ -19,7 +19,8 @@ static uint32_t find_figure(lua_State *L, const JoxClaim *claim, const JoxClaimP
     return 0;
 }
 
-static double coordinate(lua_State *L, const JoxClaimPlot *plot, int n) {
+/* Returns element n of the point on top of the stack. */
+static double read_coordinate(lua_State *L, const JoxClaimPlot *plot, int n) {
     double value = lua_rawgeti(L, -1, n) == LUA_TNUMBER ? lua_tonumber(L, -1) : NAN;
     lua_pop(L, 1);
     if (!isfinite(value))
@@ -28,9 +29,9 @@ static double coordinate(lua_State *L, const JoxClaimPlot *plot, int n) {
     return value;
 }
 
-/* The points of the list on top: { x, y }, { x, "figure" }, of a map { x, y, "figure" }. */
-static void read_points(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *plot,
-                        JoxClaimCurve *curve) {
+/* Reads the list of points on top: { x, y } or { x, "figure" }; for a map { x, y, "figure" }. */
+static void read_plot_points(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *plot,
+                             JoxClaimCurve *curve) {
     lua_Integer count = luaL_len(L, -1);
     if (count < 1 || count > MOST_POINTS)
         luaL_error(L, "plot '%s': a curve has from 1 to %d points", plot->name, MOST_POINTS);
@@ -39,9 +40,9 @@ static void read_points(lua_State *L, const JoxClaim *claim, const JoxClaimPlot 
         JoxClaimPoint *point = &curve->points[curve->count];
         if (lua_rawgeti(L, -1, p) != LUA_TTABLE)
             luaL_error(L, "plot '%s': point %d is no table", plot->name, (int)p);
-        point->x = coordinate(L, plot, 1);
+        point->x = read_coordinate(L, plot, 1);
         if (curve->kind != JOX_CURVE_FIGURES)
-            point->y = coordinate(L, plot, 2);
+            point->y = read_coordinate(L, plot, 2);
         if (curve->kind == JOX_CURVE_FIGURES || curve->kind == JOX_CURVE_MAP) {
             lua_rawgeti(L, -1, curve->kind == JOX_CURVE_MAP ? 3 : 2);
             point->figure = find_figure(L, claim, plot);
@@ -52,7 +53,7 @@ static void read_points(lua_State *L, const JoxClaim *claim, const JoxClaimPlot 
     }
 }
 
-/* The curve on top: { "label", figures = {...} }. */
+/* Reads the curve on top: { "label", figures = {...} }. */
 static void read_curve(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *plot,
                        JoxClaimCurve *curve) {
     int kinds = 0;
@@ -61,11 +62,11 @@ static void read_curve(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *
                    plot->name);
     curve->label = jox_strdup(lua_tostring(L, -1));
     lua_pop(L, 1);
-    jox_claim_known(L, "a curve", KINDS, JOX_CURVE_MAP);
+    jox_claim_check_keys(L, "a curve", KINDS, JOX_CURVE_MAP);
     for (int k = 0; k < JOX_CURVE_MAP; k++) {
         if (lua_getfield(L, -1, KINDS[k]) == LUA_TTABLE && kinds++ == 0) {
             curve->kind = (JoxCurveKind)k;
-            read_points(L, claim, plot, curve);
+            read_plot_points(L, claim, plot, curve);
         }
         lua_pop(L, 1);
     }
@@ -73,22 +74,22 @@ static void read_curve(lua_State *L, const JoxClaim *claim, const JoxClaimPlot *
         luaL_error(L, "plot '%s': a curve has one of figures, points and line", plot->name);
 }
 
-static bool is_plain(const char *name) {
+static bool is_plain_name(const char *name) {
     size_t plain = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_");
     return *name && name[plain] == 0 && plain <= 40;
 }
 
-/* The plot on top. */
+/* Reads the plot on top. */
 static void read_plot(lua_State *L, const JoxClaim *claim, JoxClaimPlot *plot) {
     static const char *const KEYS[] = {"name", "title", "x", "y", "z", "map"};
     if (!lua_istable(L, -1))
         luaL_error(L, "each of plots is a table");
-    jox_claim_known(L, "a plot", KEYS, sizeof KEYS / sizeof *KEYS);
-    plot->name = jox_claim_text(L, "a plot", "name", true);
-    plot->title = jox_claim_text(L, "a plot", "title", true);
-    plot->x = jox_claim_text(L, "a plot", "x", true);
-    plot->y = jox_claim_text(L, "a plot", "y", true);
-    if (!is_plain(plot->name))
+    jox_claim_check_keys(L, "a plot", KEYS, sizeof KEYS / sizeof *KEYS);
+    plot->name = jox_claim_read_text(L, "a plot", "name", true);
+    plot->title = jox_claim_read_text(L, "a plot", "title", true);
+    plot->x = jox_claim_read_text(L, "a plot", "x", true);
+    plot->y = jox_claim_read_text(L, "a plot", "y", true);
+    if (!is_plain_name(plot->name))
         luaL_error(L, "plot '%s': a name has letters, digits, - and _", plot->name);
     bool map = lua_getfield(L, -1, "map") == LUA_TTABLE;
     lua_Integer count = map ? 1 : luaL_len(L, -2);
@@ -100,10 +101,10 @@ static void read_plot(lua_State *L, const JoxClaim *claim, JoxClaimPlot *plot) {
     plot->curve_count = (uint32_t)count;
     if (map) {
         plot->curves[0].kind = JOX_CURVE_MAP;
-        read_points(L, claim, plot, &plot->curves[0]);
+        read_plot_points(L, claim, plot, &plot->curves[0]);
     }
     lua_pop(L, 1);
-    plot->z = jox_claim_text(L, "a plot", "z", map);
+    plot->z = jox_claim_read_text(L, "a plot", "z", map);
     for (lua_Integer c = 0; c < count && !map; c++) {
         lua_rawgeti(L, -1, c + 1);
         read_curve(L, claim, plot, &plot->curves[c]);
@@ -111,7 +112,7 @@ static void read_plot(lua_State *L, const JoxClaim *claim, JoxClaimPlot *plot) {
     }
 }
 
-void jox_claim_plots(lua_State *L, JoxClaim *claim) {
+void jox_claim_read_plots(lua_State *L, JoxClaim *claim) {
     int type = lua_getfield(L, -1, "plots");
     if (type != LUA_TNIL && type != LUA_TTABLE)
         luaL_error(L, "plots = { { name = \"speed\", title = ..., x = ..., y = ..., curves } }");

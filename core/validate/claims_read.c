@@ -1,4 +1,5 @@
-/* Claim files: reading the table. */
+/* Reads the table of a claim file into a JoxClaim: runs, figures, pictures. claims.c runs the
+   file, which calls read_claim. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,18 +11,18 @@
 #include "validate/claims_parts.h"
 #include "validate/verdict.h"
 
-enum { FIRST_SEED = 101, FEW_SEEDS = 3 };
+enum { FIRST_SEED = 101, FEW_SEEDS = 3 }; /* default seeds of a run */
 
-static bool bool_of(lua_State *L, const char *key) {
+static bool read_bool_field(lua_State *L, const char *key) {
     lua_getfield(L, -1, key);
     bool value = lua_toboolean(L, -1);
     lua_pop(L, 1);
     return value;
 }
 
-/* Keys of the table on top in ascending order. They are the table's own; their list is left below
-   it on the stack, so that Lua frees it whatever happens. */
-static const char **keys_of(lua_State *L, uint32_t *count) {
+/* Lists the text keys of the table on top in ascending order. The texts belong to the table; the
+   list is left below it on the stack, so that Lua frees it even after an error. */
+static const char **list_text_keys(lua_State *L, uint32_t *count) {
     uint32_t most = 0;
     *count = 0;
     for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
@@ -41,7 +42,7 @@ static void read_sets(lua_State *L, JoxClaimRun *run) {
     if (type != LUA_TTABLE && type != LUA_TNIL)
         luaL_error(L, "run '%s': set = { [\"groups.people.count\"] = 100 }", run->name);
     uint32_t count = 0;
-    const char **keys = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    const char **keys = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
     run->sets = jox_alloc(count + 1, sizeof *run->sets);
     for (uint32_t k = 0; k < count; k++) {
         int kind = lua_getfield(L, -1, keys[k]);
@@ -59,7 +60,7 @@ static void read_sets(lua_State *L, JoxClaimRun *run) {
     lua_settop(L, top);
 }
 
-/* `seeds` of the table on top: "101-110", or how many from 101 on. */
+/* Reads `seeds` of the table on top: a range "101-110", or a number of seeds from FIRST_SEED on. */
 static void read_seeds(lua_State *L, const char *what, const JoxClaimRun *base, JoxClaimRun *run) {
     int type = lua_getfield(L, -1, "seeds");
     double number = lua_tonumber(L, -1);
@@ -74,7 +75,8 @@ static void read_seeds(lua_State *L, const char *what, const JoxClaimRun *base, 
     lua_pop(L, 1);
 }
 
-/* The run on top of the stack; `base` gives what it leaves out (of `quick`), or is NULL. */
+/* Reads the run on top of the stack. For a run of `quick`, `base` supplies what it leaves out;
+   else NULL. */
 static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *base,
                      JoxClaimRun *run) {
     static const char *const KEYS[] = {"scene", "seeds", "duration", "dt", "set", "first"};
@@ -82,8 +84,8 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
     snprintf(what, sizeof what, "run '%.80s'", run->name);
     if (!lua_istable(L, -1))
         luaL_error(L, "%s is a table", what);
-    jox_claim_known(L, what, KEYS, sizeof KEYS / sizeof *KEYS);
-    char *scene = jox_claim_text(L, what, "scene", !base);
+    jox_claim_check_keys(L, what, KEYS, sizeof KEYS / sizeof *KEYS);
+    char *scene = jox_claim_read_text(L, what, "scene", !base);
     char path[JOX_LONGEST_PATH];
     if (!jox_path_beside(claim->path, scene, path))
         luaL_error(L, "the path of the scene of %s is too long", what);
@@ -91,9 +93,9 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
     jox_free(scene);
     jox_path_clean(run->scene);
     read_seeds(L, what, base, run);
-    run->duration = jox_claim_number(L, what, "duration", base ? base->duration : 0.0);
-    run->dt = jox_claim_number(L, what, "dt", base ? base->dt : 0.0);
-    run->first = bool_of(L, "first") || (base && base->first);
+    run->duration = jox_claim_read_number(L, what, "duration", base ? base->duration : 0.0);
+    run->dt = jox_claim_read_number(L, what, "dt", base ? base->dt : 0.0);
+    run->first = read_bool_field(L, "first") || (base && base->first);
     if (run->duration < 0.0 || run->dt < 0.0)
         luaL_error(L, "%s: duration and dt are not negative", what);
     read_sets(L, run);
@@ -111,12 +113,12 @@ void jox_claim_free_run(JoxClaimRun *run) {
     jox_free(run->scene);
 }
 
-static void read_runs(lua_State *L, JoxClaim *claim) {
+static void read_claim_runs(lua_State *L, JoxClaim *claim) {
     int top = lua_gettop(L);
     if (lua_getfield(L, -1, "runs") != LUA_TTABLE)
         luaL_error(L, "a claim needs runs = { name = { scene = \"../x.yaml\" } }");
     uint32_t count;
-    const char **names = keys_of(L, &count);
+    const char **names = list_text_keys(L, &count);
     if (count == 0)
         luaL_error(L, "a claim needs at least one run");
     claim->runs = jox_alloc(count, sizeof *claim->runs);
@@ -139,8 +141,8 @@ static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *wh
     return NULL;
 }
 
-/* Of each run that it names, what it says in place of what `runs` said; false: there is nothing
-   smaller that would show it. */
+/* Reads `quick`: smaller settings per run, which with `quick` replace the full ones; false means
+   that no smaller run would show the result. */
 static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
     if (type == LUA_TBOOLEAN && !lua_toboolean(L, -1)) {
@@ -152,7 +154,7 @@ static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
         luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs; or "
                       "false");
     uint32_t count = 0;
-    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    const char **names = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
     for (uint32_t n = 0; n < count; n++) {
         JoxClaimRun *run = find_run(L, claim, "quick", names[n]);
         claim->spare = (JoxClaimRun){.name = run->name};
@@ -176,13 +178,13 @@ static void read_figure(lua_State *L, JoxClaimFigure *figure) {
         luaL_error(L, "each of expect is { \"name\", unit = ..., band = { least, greatest } }");
     figure->name = jox_strdup(lua_tostring(L, -1));
     lua_pop(L, 1);
-    jox_claim_known(L, "a figure", KEYS, sizeof KEYS / sizeof *KEYS);
-    figure->unit = jox_claim_text(L, "a figure", "unit", false);
-    figure->what = jox_claim_text(L, "a figure", "what", false);
+    jox_claim_check_keys(L, "a figure", KEYS, sizeof KEYS / sizeof *KEYS);
+    figure->unit = jox_claim_read_text(L, "a figure", "unit", false);
+    figure->what = jox_claim_read_text(L, "a figure", "what", false);
     lua_getfield(L, -1, "source");
     figure->expected = jox_strdup(lua_tostring(L, -1) ? lua_tostring(L, -1) : "");
     lua_pop(L, 1);
-    figure->reported = bool_of(L, "reported");
+    figure->reported = read_bool_field(L, "reported");
     figure->low = -INFINITY;
     figure->high = INFINITY;
     int type = lua_getfield(L, -1, "band");
@@ -199,7 +201,7 @@ static void read_figure(lua_State *L, JoxClaimFigure *figure) {
         luaL_error(L, "'%s' needs band = { least, greatest }, or reported = true", figure->name);
 }
 
-static void read_figures(lua_State *L, JoxClaim *claim) {
+static void read_claim_figures(lua_State *L, JoxClaim *claim) {
     if (lua_getfield(L, -1, "expect") != LUA_TTABLE || luaL_len(L, -1) < 1)
         luaL_error(L, "a claim needs expect = { { \"figure\", band = { 1, 2 } } }");
     claim->figure_count = (uint32_t)luaL_len(L, -1);
@@ -221,7 +223,7 @@ static void read_pictures(lua_State *L, JoxClaim *claim) {
     if (type != LUA_TNIL && type != LUA_TTABLE)
         luaL_error(L, "pictures = { name = { \"paths.png\" } }, by the names of runs");
     uint32_t count = 0;
-    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    const char **names = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
     for (uint32_t n = 0; n < count; n++) {
         find_run(L, claim, "pictures", names[n]);
         if (lua_getfield(L, -1, names[n]) != LUA_TTABLE)
@@ -255,13 +257,13 @@ static void read_tried(lua_State *L, JoxClaim *claim) {
     lua_pop(L, 1);
 }
 
-/* How hurried its people are, and what its constants were chosen on. */
-static void read_standing(lua_State *L, JoxClaim *claim) {
+/* Reads the haste of the claim's people, and which data its constants were chosen with. */
+static void read_level_and_calibration(lua_State *L, JoxClaim *claim) {
     static const char *const LEVELS[] = {"", "calm", "normal", "keen"};
     bool known = false;
-    claim->level = jox_claim_text(L, "a claim", "level", false);
-    claim->calibrated = jox_claim_text(L, "a claim", "calibrated", false);
-    claim->held_out = jox_claim_text(L, "a claim", "held_out", false);
+    claim->level = jox_claim_read_text(L, "a claim", "level", false);
+    claim->calibrated = jox_claim_read_text(L, "a claim", "calibrated", false);
+    claim->held_out = jox_claim_read_text(L, "a claim", "held_out", false);
     for (size_t l = 0; l < sizeof LEVELS / sizeof *LEVELS; l++)
         known |= strcmp(claim->level, LEVELS[l]) == 0;
     if (!known)
@@ -270,8 +272,8 @@ static void read_standing(lua_State *L, JoxClaim *claim) {
         luaL_error(L, "a claim is calibrated, or held_out, not both");
 }
 
-/* claim { ... }: reads everything and keeps measure alone. */
-static int word_claim(lua_State *L) {
+/* The Lua function claim { ... }: reads the table and keeps only the function `measure`. */
+static int read_claim(lua_State *L) {
     static const char *const KEYS[] = {"id",         "title",    "source",   "text",  "level",
                                        "calibrated", "held_out", "runs",     "quick", "measure",
                                        "expect",     "plots",    "pictures", "tried"};
@@ -284,30 +286,30 @@ static int word_claim(lua_State *L) {
     lua_settop(L, 1);
     if (claim->id)
         return luaL_error(L, "a file has one claim");
-    jox_claim_known(L, "a claim", KEYS, sizeof KEYS / sizeof *KEYS);
-    claim->id = jox_claim_text(L, "a claim", "id", true);
-    claim->title = jox_claim_text(L, "a claim", "title", true);
-    claim->source = jox_claim_text(L, "a claim", "source", true);
-    claim->text = jox_claim_text(L, "a claim", "text", false);
-    read_standing(L, claim);
-    read_runs(L, claim);
+    jox_claim_check_keys(L, "a claim", KEYS, sizeof KEYS / sizeof *KEYS);
+    claim->id = jox_claim_read_text(L, "a claim", "id", true);
+    claim->title = jox_claim_read_text(L, "a claim", "title", true);
+    claim->source = jox_claim_read_text(L, "a claim", "source", true);
+    claim->text = jox_claim_read_text(L, "a claim", "text", false);
+    read_level_and_calibration(L, claim);
+    read_claim_runs(L, claim);
     read_quick(L, claim, quick);
-    read_figures(L, claim);
-    jox_claim_plots(L, claim);
+    read_claim_figures(L, claim);
+    jox_claim_read_plots(L, claim);
     read_pictures(L, claim);
     read_tried(L, claim);
     if (lua_getfield(L, -1, "measure") != LUA_TFUNCTION)
         return luaL_error(L, "a claim needs measure = function(run) return { figure = 1 } end");
     claim->code->measure = luaL_ref(L, LUA_REGISTRYINDEX);
-    lua_pushnil(L); /* nothing that is expected stays within reach of measure */
+    lua_pushnil(L); /* hides the expected values from measure */
     lua_setfield(L, 1, "expect");
     lua_pushboolean(L, 1);
     return 1;
 }
 
-int jox_claim_words(lua_State *L) {
+int jox_claim_set_words(lua_State *L) {
     lua_newtable(L);
-    lua_pushcfunction(L, word_claim);
+    lua_pushcfunction(L, read_claim);
     lua_setfield(L, -2, "claim");
     jox_script_set_words(L);
     return 0;

@@ -1,11 +1,11 @@
-/* Claim files: fields of a table of Lua, which must be what they are said to be. */
+/* Reads fields of a table in a claim file and checks their types. */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "validate/claims_parts.h"
 
-void jox_claim_known(lua_State *L, const char *what, const char *const *known, size_t count) {
+void jox_claim_check_keys(lua_State *L, const char *what, const char *const *known, size_t count) {
     lua_pushnil(L);
     while (lua_next(L, -2)) {
         const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : NULL;
@@ -21,8 +21,7 @@ void jox_claim_known(lua_State *L, const char *what, const char *const *known, s
     }
 }
 
-/* A text of the table on top; "" where it is absent and not needed. */
-char *jox_claim_text(lua_State *L, const char *what, const char *key, bool needed) {
+char *jox_claim_read_text(lua_State *L, const char *what, const char *key, bool needed) {
     int type = lua_getfield(L, -1, key);
     if (type != LUA_TSTRING && (needed || type != LUA_TNIL))
         luaL_error(L, "%s needs %s = \"...\"", what, key);
@@ -31,7 +30,7 @@ char *jox_claim_text(lua_State *L, const char *what, const char *key, bool neede
     return text;
 }
 
-double jox_claim_number(lua_State *L, const char *what, const char *key, double otherwise) {
+double jox_claim_read_number(lua_State *L, const char *what, const char *key, double otherwise) {
     int type = lua_getfield(L, -1, key);
     double value = type == LUA_TNIL ? otherwise : lua_tonumber(L, -1);
     if (type != LUA_TNIL && (type != LUA_TNUMBER || !isfinite(value)))

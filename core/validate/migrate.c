@@ -1,5 +1,5 @@
-/* jo_migrate: names that are called otherwise now are rewritten where they stand. Which and where
-   is what jo_check finds; every other byte of a file stays as it is. */
+/* jo_migrate: replaces renamed names in scenes, behaviours and mods. jo_check finds which and
+   where; every other byte of a file stays as it is. `jostle migrate` is the caller. */
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -18,19 +18,20 @@
 
 enum { MOST_BYTES = 64 << 20, MOST_ROUNDS = 100 };
 
+/* State of one call. */
 typedef struct Migration {
     const char *const *paths;
     size_t count;
     bool writes;
     JoMessage *message;
     void *context;
-    size_t names, errors; /* renamed; left, that are something else */
-    JoxText unread;       /* what could not be looked at, a line each */
+    size_t names, errors; /* names replaced (or to be replaced); other errors that are left */
+    JoxText unread;       /* files and folders that could not be read, a line each */
     JoError *error;
 } Migration;
 
-/* Whether a file is one of those given, or lies in a folder that is: no other is written. */
-static bool is_given(const Migration *m, const char *file) {
+/* Returns whether a file was given, or is in a folder that was; no other file is written. */
+static bool is_given_file(const Migration *m, const char *file) {
     char real[PATH_MAX], given[PATH_MAX];
     if (!realpath(file, real))
         return false;
@@ -43,34 +44,35 @@ static bool is_given(const Migration *m, const char *file) {
     return false;
 }
 
-/* Whether a diagnostic is of a name that was changed, in a file. */
-static bool is_renamed(const JoxDiagnostic *d) {
+/* Returns whether a diagnostic is about a renamed name in a file. */
+static bool is_rename(const JoxDiagnostic *d) {
     return d->now && d->file;
 }
 
-static bool is_of_word(char c) {
+/* Returns whether a character can be part of a Lua name. */
+static bool is_word_char(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/* Of a name of any script. */
-static bool is_of_name(char c) {
-    return is_of_word(c) || ((unsigned char)c & 0x80);
+/* Returns whether a byte can be part of a name in any script (UTF-8). */
+static bool is_name_char(char c) {
+    return is_word_char(c) || ((unsigned char)c & 0x80);
 }
 
-/* Whether the new name can stand at a place of a file as it is: in Lua, names with spaces, for
-   instance, need quotes. */
-static bool can_stand(const JoxDiagnostic *d, const char *text, const char *at) {
+/* Returns whether the new name can replace the old one without adding quotes; in Lua, a name
+   with spaces for instance needs them. */
+static bool fits_unquoted(const JoxDiagnostic *d, const char *text, const char *at) {
     const size_t length = strlen(d->file);
     const bool lua = length >= 4 && strcmp(d->file + length - 4, ".lua") == 0;
     bool word = !(d->now[0] >= '0' && d->now[0] <= '9');
     for (const char *c = d->now; *c; c++)
-        word = word && is_of_word(*c);
+        word = word && is_word_char(*c);
     return word || !lua || (at > text && (at[-1] == '"' || at[-1] == '\''));
 }
 
-/* Whether a place of a line is that of a column, in letters or in bytes; a name in quotes has the
-   column of its quote. */
-static bool is_at(const char *line, const char *at, int column) {
+/* Returns whether a position in a line is at a column, counted in characters or in bytes. A name
+   in quotes has the column of its quote. */
+static bool is_at_column(const char *line, const char *at, int column) {
     const int quoted = at > line && (at[-1] == '"' || at[-1] == '\'');
     int letters = 0;
     for (const char *c = line; c < at; c++)
@@ -79,9 +81,9 @@ static bool is_at(const char *line, const char *at, int column) {
     return off[0] == 0 || off[1] == 0 || (quoted && (off[0] == 1 || off[1] == 1));
 }
 
-/* Where the name of a diagnostic stands in a text: a whole word of its line, the one whose column
-   it is, or the only one. NULL: it is not certain which. */
-static const char *find_name(const JoxDiagnostic *d, const char *text) {
+/* Finds the old name of a diagnostic in a text: a whole word in its line, at its column or the
+   only one. Returns NULL if that is ambiguous. */
+static const char *find_old_name(const JoxDiagnostic *d, const char *text) {
     const char *line = text, *found = NULL;
     const size_t length = strlen(d->was);
     for (int n = 1; n < d->line && line; n++)
@@ -89,10 +91,10 @@ static const char *find_name(const JoxDiagnostic *d, const char *text) {
     const char *end = line ? line + strcspn(line, "\n") : NULL;
     uint32_t times = 0, exact = 0;
     for (const char *at = line; at && at + length <= end; at++) {
-        if (strncmp(at, d->was, length) != 0 || is_of_name(at[length]) ||
-            (at > line && is_of_name(at[-1])))
+        if (strncmp(at, d->was, length) != 0 || is_name_char(at[length]) ||
+            (at > line && is_name_char(at[-1])))
             continue;
-        const bool is = is_at(line, at, d->column);
+        const bool is = is_at_column(line, at, d->column);
         if (is || exact == 0)
             found = at;
         exact += is;
@@ -101,11 +103,11 @@ static const char *find_name(const JoxDiagnostic *d, const char *text) {
     return exact == 1 || times == 1 ? found : NULL;
 }
 
-/* The text with the new name, to be freed; NULL where it is not certain where the old one is, or
-   the new one cannot stand there. */
-static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *text) {
-    const char *at = find_name(d, text);
-    if (!at || !can_stand(d, text, at))
+/* Returns the text with the new name, for the caller to free, and reports the replacement; NULL
+   if the position is ambiguous or the new name does not fit there. */
+static char *replace_name(const Migration *m, const JoxDiagnostic *d, const char *text) {
+    const char *at = find_old_name(d, text);
+    if (!at || !fits_unquoted(d, text, at))
         return NULL;
     JoxText out = {0}, said = {0};
     jox_text_append(&out, text, (size_t)(at - text));
@@ -118,8 +120,8 @@ static char *rewritten(const Migration *m, const JoxDiagnostic *d, const char *t
     return out.data;
 }
 
-/* Gives a file another text; false with the error. */
-static bool write_file(const Migration *m, const char *path, const char *text) {
+/* Replaces a file by a text. Returns false with the error. */
+static bool write_migrated_file(const Migration *m, const char *path, const char *text) {
     FILE *file = jox_file_replace(path);
     const size_t length = strlen(text);
     const bool good = file && fwrite(text, 1, length, file) == length && fflush(file) == 0 &&
@@ -130,8 +132,8 @@ static bool write_file(const Migration *m, const char *path, const char *text) {
     return whole;
 }
 
-/* A line for each file or folder that could not be looked at. */
-static void tell_unread(Migration *m, const JoxDiagnostics *all) {
+/* Collects a line for each file or folder that could not be read. */
+static void collect_unread(Migration *m, const JoxDiagnostics *all) {
     JoxDiagnostics unread = {.limit = all->count};
     for (size_t i = 0; i < all->count; i++) {
         const JoxDiagnostic *d = &all->items[i];
@@ -144,24 +146,24 @@ static void tell_unread(Migration *m, const JoxDiagnostics *all) {
     jox_diag_free(&unread);
 }
 
-/* Rewrites the names of one file, of the diagnostics from `first` on. Those of a line change each
-   other's columns: the later ones are left for the next round. */
+/* Replaces the names in one file, for its diagnostics from `first` on. A replacement moves the
+   columns behind it, so other diagnostics of the same line are left for the next round. */
 static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) {
     const char *path = all->items[first].file;
     size_t length;
     char *text = jox_read_file(path, MOST_BYTES, &length);
-    if (!text || strlen(text) != length) { /* what holds a zero byte is no text */
+    if (!text || strlen(text) != length) { /* a file with a zero byte is not text */
         jox_free(text);
         return true;
     }
     uint32_t changed = 0;
     for (size_t i = first; i < all->count; i++) {
         const JoxDiagnostic *d = &all->items[i];
-        bool other = !is_renamed(d) || strcmp(d->file, path) != 0;
+        bool other = !is_rename(d) || strcmp(d->file, path) != 0;
         for (size_t k = first; k < i && !other; k++)
-            other = m->writes && is_renamed(&all->items[k]) && all->items[k].line == d->line &&
+            other = m->writes && is_rename(&all->items[k]) && all->items[k].line == d->line &&
                     strcmp(all->items[k].file, path) == 0;
-        char *next = other ? NULL : rewritten(m, d, text);
+        char *next = other ? NULL : replace_name(m, d, text);
         if (!next)
             continue;
         changed++;
@@ -174,41 +176,42 @@ static bool migrate_file(Migration *m, const JoxDiagnostics *all, size_t first) 
         }
     }
     m->names += changed;
-    const bool good = !m->writes || !changed || write_file(m, path, text);
+    const bool good = !m->writes || !changed || write_migrated_file(m, path, text);
     jox_free(text);
     return good;
 }
 
-/* The first diagnostic of a renamed name in the file of this one. */
-static size_t first_of_file(const JoxDiagnostics *all, size_t i) {
+/* Returns the index of the first rename in the same file as diagnostic i. */
+static size_t find_first_in_file(const JoxDiagnostics *all, size_t i) {
     size_t first = 0;
-    while (first < i && !(is_renamed(&all->items[first]) &&
+    while (first < i && !(is_rename(&all->items[first]) &&
                           jox_path_same(all->items[first].file, all->items[i].file)))
         first++;
     return first;
 }
 
-/* One look at all that is given: what is renamed may hide what is wrong behind it. */
+/* Checks all paths and replaces names once. A renamed name may hide errors behind it, so the
+   caller repeats this. */
 static bool migrate_round(Migration *m) {
     JoxDiagnostics all = jox_check_paths(m->paths, m->count);
     bool good = true;
     m->errors = all.errors;
-    tell_unread(m, &all);
+    collect_unread(m, &all);
     for (size_t i = 0; i < all.count && good; i++) {
         const JoxDiagnostic *d = &all.items[i];
-        if (!is_renamed(d) || !is_given(m, d->file))
+        if (!is_rename(d) || !is_given_file(m, d->file))
             continue;
-        const size_t first = first_of_file(&all, i);
+        const size_t first = find_first_in_file(&all, i);
         if (first == i)
             good = migrate_file(m, &all, i);
-        else /* the same place by another path */
+        else /* the same file by another path */
             m->errors -= !m->writes && strcmp(all.items[first].file, d->file) != 0;
     }
     jox_diag_free(&all);
     return good;
 }
 
-static bool migrate(Migration *m) {
+static bool migrate_paths(Migration *m) {
     size_t before;
     int rounds = 0;
     do {
@@ -230,7 +233,7 @@ bool jo_migrate(const char *const *paths, size_t count, bool write, JoMessage *m
                    .message = message,
                    .context = context,
                    .error = error};
-    const bool good = migrate(&m);
+    const bool good = migrate_paths(&m);
     if (good && m.unread.length)
         jox_run_message(message, context, m.unread.data);
     jox_text_free(&m.unread);

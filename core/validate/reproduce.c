@@ -1,4 +1,5 @@
-/* jo_reproduce: claims, the runs that they share, and what is measured on them. */
+/* jo_reproduce: loads claims, plans and executes the runs they share, measures their figures and
+   writes the results. `jostle reproduce` is the caller. */
 #include "validate/reproduce.h"
 
 #include <ctype.h>
@@ -27,15 +28,16 @@ JoReproduceDef jo_default_reproduce_def(void) {
 
 /* ---- claims ---- */
 
-/* "paper" has claims with numbers, those of standards have names of their own, "real" the others.
- */
+/* Returns whether a claim is in a group: a standard's name for its tests, "paper" for claims
+   whose id is a number, "real" for the others. */
 static bool is_in_group(const JoxClaim *claim, const char *group) {
-    if (jox_is_standard(claim))
-        return jox_standards_have(claim, group);
+    if (jox_claim_is_standard(claim))
+        return jox_claim_is_in_standard(claim, group);
     return strcmp(group, isdigit((unsigned char)*claim->id) ? "paper" : "real") == 0;
 }
 
-static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
+/* Returns whether the def selects a claim, by id, group, file name or path, or selects all. */
+static bool is_wanted_claim(const JoReproduceDef *def, const JoxClaim *claim) {
     for (size_t c = 0; c < def->claim_count; c++) {
         const char *file = jox_path_name(claim->path);
         size_t stem = jox_path_stem(file);
@@ -44,10 +46,11 @@ static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
             strcmp(def->claims[c], claim->path) == 0)
             return true;
     }
-    return def->claim_count == 0 && (!def->standards || jox_is_standard(claim));
+    return def->claim_count == 0 && (!def->standards || jox_claim_is_standard(claim));
 }
 
-static char **list_files(const char *folder, size_t *count) {
+/* Lists the paths of the Lua files in a folder, for the caller to free. */
+static char **list_claim_files(const char *folder, size_t *count) {
     char **files = NULL;
     size_t capacity = 0;
     *count = 0;
@@ -65,8 +68,8 @@ static char **list_files(const char *folder, size_t *count) {
     return files;
 }
 
-/* The paper's claims by number first, then others by letter and number. */
-static int by_id(const void *left, const void *right, const void *context) {
+/* Orders claims: the paper's by number first, then others by letter and number. */
+static int compare_claim_ids(const void *left, const void *right, const void *context) {
     (void)context;
     const char *a = ((const JoxOutcome *)left)->claim->id;
     const char *b = ((const JoxOutcome *)right)->claim->id;
@@ -77,16 +80,17 @@ static int by_id(const void *left, const void *right, const void *context) {
     char *a_rest, *b_rest;
     long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, &a_rest, 10);
     long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, &b_rest, 10);
-    if (x == y && *a_rest == '.' && *b_rest == '.') { /* N2.10 comes after N2.9 */
+    if (x == y && *a_rest == '.' && *b_rest == '.') { /* N2.9 before N2.10 */
         x = strtol(a_rest + 1, NULL, 10);
         y = strtol(b_rest + 1, NULL, 10);
     }
     return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
 }
 
-/* Says which claim may be meant: by its id, by its file, or as one of several. */
-static void say_no_claim(const char *asked, char *const *files, size_t count, const JoxText *ids,
-                         const char *folder, JoxDiagnostics *diagnostics) {
+/* Adds an error about an unknown claim, with the most similar id, file name or group as a hint. */
+static void add_no_claim_error(const char *asked, char *const *files, size_t count,
+                               const JoxText *ids, const char *folder,
+                               JoxDiagnostics *diagnostics) {
     static const char *const GROUPS[] = {"paper", "real", "rimea",    "imo",
                                          "nist",  "iso",  "standards"};
     enum { GROUP_COUNT = sizeof GROUPS / sizeof *GROUPS };
@@ -114,10 +118,10 @@ static void say_no_claim(const char *asked, char *const *files, size_t count, co
 static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
     JoxText ids = {0};
     size_t count, capacity = 0;
-    char **files = list_files(all->def->folder, &count);
+    char **files = list_claim_files(all->def->folder, &count);
     for (size_t f = 0; f < count; f++) {
         JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
-        bool wanted = claim && is_wanted(all->def, claim);
+        bool wanted = claim && is_wanted_claim(all->def, claim);
         if (claim)
             jox_text_printf(&ids, "%s ", claim->id);
         if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
@@ -125,7 +129,7 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
             wanted = false;
         }
         if (wanted) {
-            jox_claim_set(claim, all->def->sets, all->def->set_count);
+            jox_claim_add_sets(claim, all->def->sets, all->def->set_count);
             JOX_RESERVE(all->outcomes, capacity, all->outcome_count + 1);
             all->outcomes[all->outcome_count++] = (JoxOutcome){.claim = claim};
         } else {
@@ -133,7 +137,8 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
         }
     }
     if (all->outcome_count)
-        jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id, NULL, NULL);
+        jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, compare_claim_ids, NULL,
+                 NULL);
     if (count == 0)
         jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
                        "Run it in the project's folder, or name one: --claims DIR",
@@ -142,9 +147,10 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
         bool found = false;
         JoReproduceDef one = {.claims = &all->def->claims[c], .claim_count = 1};
         for (uint32_t o = 0; o < all->outcome_count; o++)
-            found |= is_wanted(&one, all->outcomes[o].claim);
+            found |= is_wanted_claim(&one, all->outcomes[o].claim);
         if (!found)
-            say_no_claim(all->def->claims[c], files, count, &ids, all->def->folder, diagnostics);
+            add_no_claim_error(all->def->claims[c], files, count, &ids, all->def->folder,
+                               diagnostics);
     }
     for (size_t f = 0; f < count; f++)
         jox_free(files[f]);
@@ -154,10 +160,10 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
 
 /* ---- runs ---- */
 
-/* The first seed leaves a report, if its claim shows pictures; what a report collects takes time.
- */
-static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
-                        uint64_t seed) {
+/* Returns the index of the job of a run and seed, which is added unless there is an equal one.
+   Only the first seed of a claim with pictures writes a report, since collecting one takes time. */
+static uint32_t add_run_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
+                            uint64_t seed) {
     bool pictures = seed == run->first_seed && claim->picture_count > 0;
     JoxText key = {0}, folder = {0};
     char hash[65];
@@ -171,7 +177,8 @@ static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxCl
             jox_text_free(&key);
             return j;
         }
-    /* The program is not part of the folder's name: a new one writes over what an old one left. */
+    /* The folder's name leaves out the program's hash (the first 64 characters), so that runs of
+       a new program replace old ones. */
     jox_sha256_hex(key.data + 64, key.length - 64, hash);
     const char *file = jox_path_name(run->scene);
     jox_text_printf(&folder, "%s/runs/%.*s-%.10s-%llu", all->def->out, (int)jox_path_stem(file),
@@ -182,7 +189,7 @@ static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxCl
     return all->job_count++;
 }
 
-/* The seeds that were asked for in place of a run's own; a run that has one keeps to one. */
+/* Replaces a run's seeds by those of the option --seeds; a run with one seed keeps one. */
 static void choose_seeds(const JoxReproduction *all, JoxClaimRun *run) {
     if (!all->seeds)
         return;
@@ -190,6 +197,7 @@ static void choose_seeds(const JoxReproduction *all, JoxClaimRun *run) {
     run->seeds = run->seeds > 1 ? all->seeds : 1;
 }
 
+/* Creates the jobs of all claims. */
 static void plan_runs(JoxReproduction *all) {
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         JoxOutcome *outcome = &all->outcomes[o];
@@ -202,14 +210,15 @@ static void plan_runs(JoxReproduction *all) {
             outcome->seeds = run->seeds > outcome->seeds ? run->seeds : outcome->seeds;
             outcome->jobs[r] = jox_alloc(run->seeds, sizeof **outcome->jobs);
             for (uint32_t s = 0; s < run->seeds; s++)
-                outcome->jobs[r][s] = add_job(all, claim, run, run->first_seed + s);
+                outcome->jobs[r][s] = add_run_job(all, claim, run, run->first_seed + s);
         }
     }
 }
 
 /* ---- measuring ---- */
 
-static const char *failed_run(const JoxReproduction *all, const JoxOutcome *outcome) {
+/* Returns the failure of one of the claim's jobs, or NULL. */
+static const char *find_failure(const JoxReproduction *all, const JoxOutcome *outcome) {
     for (uint32_t r = 0; r < outcome->claim->run_count; r++)
         for (uint32_t s = 0; s < outcome->claim->runs[r].seeds; s++)
             if (all->jobs[outcome->jobs[r][s]].state == JOX_JOB_FAILED)
@@ -217,9 +226,11 @@ static const char *failed_run(const JoxReproduction *all, const JoxOutcome *outc
     return NULL;
 }
 
-static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
+/* Measures a claim with each seed and computes the verdicts. Runs with fewer seeds repeat
+   theirs. */
+static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
-    const char *failure = failed_run(all, outcome);
+    const char *failure = find_failure(all, outcome);
     double *values = jox_alloc(claim->figure_count, sizeof *values);
     double *all_values =
         jox_alloc((size_t)claim->figure_count * outcome->seeds, sizeof *all_values);
@@ -252,20 +263,20 @@ static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
     jox_free(folders);
 }
 
-/* ---- the whole ---- */
+/* ---- the call ---- */
 
-static void say(const JoReproduceDef *def, const char *text) {
+static void write_message(const JoReproduceDef *def, const char *text) {
     if (def->message)
         jox_run_message(def->message, def->message_context, text);
     else
         fputs(text, stdout);
 }
 
-static void say_number(JoxText *out, double value) {
+static void append_figure(JoxText *out, double value) {
     jox_text_printf(out, isfinite(value) ? "%.4g" : "-", value);
 }
 
-static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
+static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     JoxText out = {0};
     jox_text_printf(&out, "%s  %s (%s)%s%s%s\n", claim->id, claim->title, claim->source,
@@ -279,12 +290,12 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
         char bound[JOX_BOUND_SIZE], seeds[JOX_NOUN];
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
-        say_number(&out, v->mean);
+        append_figure(&out, v->mean);
         jox_bound_write(bound, v->bound);
         jox_text_printf(&out, "%s%s (", *bound ? " " : "", bound);
-        say_number(&out, v->least);
+        append_figure(&out, v->least);
         jox_text_add(&out, " to ");
-        say_number(&out, v->most);
+        append_figure(&out, v->most);
         jox_text_printf(&out, ", %s) %s", jox_noun(seeds, v->seeds, "seed"), figure->unit);
         if (figure->reported)
             jox_text_add(&out, ", reported\n");
@@ -294,11 +305,11 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     }
     if (outcome->failure)
         jox_text_printf(&out, "   %s\n", outcome->failure);
-    say(def, out.data);
+    write_message(def, out.data);
     jox_text_free(&out);
 }
 
-static void free_all(JoxReproduction *all) {
+static void free_reproduction(JoxReproduction *all) {
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         JoxOutcome *outcome = &all->outcomes[o];
         for (uint32_t r = 0; outcome->jobs && r < outcome->claim->run_count; r++)
@@ -318,7 +329,9 @@ static void free_all(JoxReproduction *all) {
     jox_text_free(&all->left_out);
 }
 
-static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
+/* Executes and measures all claims, writes the results and prints a summary. Sets the number of
+   claims not in band. */
+static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error) {
     double begun = jox_clock_wall();
     plan_runs(all);
     if (!jox_reproduce_run(all)) {
@@ -327,13 +340,13 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
     }
     all->seconds = jox_clock_wall() - begun;
     for (uint32_t o = 0; o < all->outcome_count; o++) {
-        measure(all, &all->outcomes[o]);
-        list_outcome(all->def, &all->outcomes[o]);
+        measure_claim(all, &all->outcomes[o]);
+        print_outcome(all->def, &all->outcomes[o]);
         *missed += !all->outcomes[o].inside;
     }
     JoxText why = {0}, out = {0};
     const bool good = jox_reproduce_write(all, &why) &&
-                      (!all->def->standards || jox_reproduce_standards(all, &why));
+                      (!all->def->standards || jox_reproduce_write_standards(all, &why));
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data);
     jox_text_printf(&out, "%u of %u claims in band", all->outcome_count - (uint32_t)*missed,
@@ -347,13 +360,13 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
     jox_text_printf(&out, "\nreport: %s/index.html\n", all->def->out);
     if (all->def->standards)
         jox_text_printf(&out, "standards: %s/standards.html\n", all->def->out);
-    say(all->def, out.data);
+    write_message(all->def, out.data);
     jox_text_free(&why);
     jox_text_free(&out);
     return good;
 }
 
-static bool reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
+static bool reproduce_claims(const JoReproduceDef *def, size_t *missed, JoError *error) {
     JoxReproduction all = {.def = def};
     JoxDiagnostics diagnostics = {0};
     size_t length;
@@ -374,10 +387,10 @@ static bool reproduce(const JoReproduceDef *def, size_t *missed, JoError *error)
     bool good = diagnostics.errors == 0;
     jox_run_report(def->message, def->message_context, &diagnostics, error);
     for (uint32_t o = 0; good && def->list && o < all.outcome_count; o++)
-        list_outcome(def, &all.outcomes[o]);
+        print_outcome(def, &all.outcomes[o]);
     if (good && !def->list)
-        good = go(&all, missed, error);
-    free_all(&all);
+        good = run_and_measure(&all, missed, error);
+    free_reproduction(&all);
     return good;
 }
 
@@ -385,5 +398,5 @@ bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
     JOX_REQUIRE(def && missed && (def->program || def->list) && def->jobs > 0, false);
     JOX_GUARD (NULL, error)
         return false;
-    return reproduce(def, missed, error);
+    return reproduce_claims(def, missed, error);
 }

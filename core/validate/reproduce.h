@@ -1,4 +1,5 @@
-/* What the files of jo_reproduce share: claims, the runs that they need, and what came of them. */
+/* State of jo_reproduce, shared by reproduce*.c. reproduce.c loads claims, plans their runs as
+   jobs, has reproduce_runs.c execute these, measures, and has the other files write the results. */
 #ifndef JOX_VALIDATE_REPRODUCE_H
 #define JOX_VALIDATE_REPRODUCE_H
 
@@ -12,64 +13,69 @@
 
 typedef enum { JOX_JOB_WAITS, JOX_JOB_RUNS, JOX_JOB_DONE, JOX_JOB_FAILED } JoxJobState;
 
-/* One run of a scene, as a process of its own. */
+/* One run of a scene with one seed, in its own process. Claims that need the same run share a
+   job. */
 typedef struct JoxJob {
-    char *key; /* all that it depends on but the contents of files */
-    char *folder;
+    char *key;    /* all that the run depends on, except the contents of files */
+    char *folder; /* where it leaves its files */
     const JoxClaimRun *run;
     uint64_t seed;
-    bool pictures; /* of its report; else only the data */
+    bool pictures; /* writes a report with pictures; else only data files */
     JoxJobState state;
     pid_t process;
-    bool reused;
-    char *failure; /* what it said, where it failed */
+    bool reused;   /* done by an earlier call */
+    char *failure; /* the end of its output, if it failed; else NULL */
 } JoxJob;
 
+/* A claim with its jobs and the verdicts on its figures. */
 typedef struct JoxOutcome {
     JoxClaim *claim;
-    uint32_t **jobs;      /* [run][seed], index of the job; rows are claim->runs[r].seeds long */
-    uint32_t seeds;       /* the most of its runs */
-    JoxVerdict *verdicts; /* by figure */
-    char *failure;        /* why it could not be measured, or NULL */
-    bool inside, thin;    /* thin: of one of its figures */
+    /* [run][seed]: index of the job; row r has claim->runs[r].seeds elements */
+    uint32_t **jobs;
+    uint32_t seeds;       /* greatest number of seeds of its runs */
+    JoxVerdict *verdicts; /* per figure */
+    char *failure;        /* reason if it could not be measured, or NULL */
+    bool inside, thin;    /* all figures are in band; the verdict on a figure is thin */
 } JoxOutcome;
 
 typedef struct JoxReproduction {
     const JoReproduceDef *def;
     JoxOutcome *outcomes;
     uint32_t outcome_count;
-    JoxJob *jobs;
+    JoxJob *jobs; /* jobs of all claims */
     uint32_t job_count;
     size_t job_capacity;
     char program_sha256[65];
     uint64_t first_seed;
-    uint32_t seeds;   /* in place of those of each claim; 0: those */
-    double seconds;   /* wall time of all */
-    JoxText left_out; /* ids of claims that have no quick runs */
+    uint32_t seeds;   /* number of seeds from first_seed on; 0: as each claim has them */
+    double seconds;   /* s: wall time of all runs */
+    JoxText left_out; /* ids of claims left out because they have no quick runs */
 } JoxReproduction;
 
-/* reproduce_runs.c: does all jobs that are not done already, several at once; false where it was
-   interrupted. */
+/* reproduce_runs.c: executes all jobs that are not done already, several at once. Returns false
+   if it was interrupted. */
 bool jox_reproduce_run(JoxReproduction *all);
-/* reproduce_plots.c: plots of figures, plots/NAME.png of the folder of results, for each claim that
-   was measured. */
-bool jox_reproduce_plots(const JoxReproduction *all, JoxText *error);
-/* NAME of a plot: of its claim's file and its own. */
+/* reproduce_plots.c: draws the plots of all measured claims as plots/NAME.png in the folder of
+   results. Returns false with a sentence in `error`. */
+bool jox_reproduce_draw_plots(const JoxReproduction *all, JoxText *error);
+/* Writes NAME of a plot, made of the names of the claim's file and the plot. */
 void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, char *out,
                              size_t size);
-/* reproduce_deviations.c: a table of what the claims' scenes and behaviours set otherwise than the
-   engine. */
-void jox_reproduce_deviations(const JoxReproduction *all, FILE *out);
-/* reproduce_standards.c: whether a claim is a test of a standard; and one of the group "rimea",
-   "imo", "nist", or "standards", which are all of them. */
-bool jox_is_standard(const JoxClaim *claim);
-bool jox_standards_have(const JoxClaim *claim, const char *group);
-/* standards.html in the folder of results. */
-bool jox_reproduce_standards(const JoxReproduction *all, JoxText *error);
-/* reproduce_page.c: what was run, when and where, in a line; the pictures of a claim. */
-void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size);
-void jox_reproduce_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome);
-/* reproduce_page.c: index.html, table.md and results.json in the folder of results. */
+/* reproduce_deviations.c: writes a table of the parameters that the claims' scenes and
+   behaviours set to other values than the engine's defaults. */
+void jox_reproduce_put_deviations(const JoxReproduction *all, FILE *out);
+/* reproduce_standards.c: return whether a claim is a test of any standard, and of one of the
+   group "rimea", "imo", "nist", "iso" or "standards" (all of them). */
+bool jox_claim_is_standard(const JoxClaim *claim);
+bool jox_claim_is_in_standard(const JoxClaim *claim, const char *group);
+/* Writes standards.html in the folder of results. Returns false with a sentence in `error`. */
+bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error);
+/* reproduce_page.c: writes a line on what was run, when and where; and the plots and pictures of
+   a claim as HTML. */
+void jox_reproduce_describe_run(const JoxReproduction *all, char *out, size_t size);
+void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome);
+/* reproduce_page.c: writes index.html, table.md and results.json in the folder of results.
+   Returns false with a sentence in `error`. */
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);
 
 #endif

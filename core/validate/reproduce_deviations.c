@@ -1,4 +1,5 @@
-/* What scenes and behaviours of the claims set otherwise than the engine does. */
+/* Finds the parameters that scenes and behaviours of the claims set to other values than the
+   engine's defaults, for a table on the page. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,35 +11,37 @@
 #include "picture/html.h"
 #include "validate/reproduce.h"
 
-/* One value, and who works with it. */
-typedef struct Row {
-    int parameter;    /* -1, -2: keys of `forces` */
-    char *where;      /* file, and state or group */
-    char *value;      /* as written */
-    const char *last; /* the claim that was added last */
-    JoxText claims;   /* ids, with links */
-} Row;
+/* A parameter's value, where it is set, and the claims that use it. */
+typedef struct Deviation {
+    int parameter;    /* index of the parameter; -1, -2: rows of FORCES */
+    char *where;      /* file, and the state or group in it */
+    char *value;      /* the value as written */
+    const char *last; /* id of the claim added last */
+    JoxText claims;   /* ids as links in HTML */
+} Deviation;
 
-/* A behaviour, loaded once. */
-typedef struct Kind {
+/* A behaviour, loaded once for all claims. */
+typedef struct Behaviour {
     char *path;
-    JoxMachine *machine; /* NULL: it does not load */
-} Kind;
+    JoxMachine *machine; /* NULL if it does not load */
+} Behaviour;
 
 typedef struct Deviations {
     JoxLua *lua;
-    Row *rows;
+    Deviation *rows;
     uint32_t row_count, row_capacity;
-    Kind *kinds;
-    uint32_t kind_count, kind_capacity;
-    const JoxClaim *claim; /* whose runs are looked at, */
-    uint32_t number;       /* and its place on the page */
+    Behaviour *behaviours;
+    uint32_t behaviour_count, behaviour_capacity;
+    const JoxClaim *claim; /* the claim being examined */
+    uint32_t number;       /* its number on the page */
 } Deviations;
 
+/* Keys of scenes with the engine's defaults. */
 static const char *const FORCES[][2] = {{"forces.enabled", "true"}, {"forces.mode", "physical"}};
 
-static void add(Deviations *d, int parameter, const char *where, const char *value) {
-    Row *row = NULL;
+/* Adds the current claim to the row of a parameter, value and place, which is created if needed. */
+static void add_deviation(Deviations *d, int parameter, const char *where, const char *value) {
+    Deviation *row = NULL;
     for (uint32_t r = 0; r < d->row_count && !row; r++)
         if (d->rows[r].parameter == parameter && !strcmp(d->rows[r].where, where) &&
             !strcmp(d->rows[r].value, value))
@@ -46,8 +49,8 @@ static void add(Deviations *d, int parameter, const char *where, const char *val
     if (!row) {
         JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
         row = &d->rows[d->row_count++];
-        *row =
-            (Row){.parameter = parameter, .where = jox_strdup(where), .value = jox_strdup(value)};
+        *row = (Deviation){
+            .parameter = parameter, .where = jox_strdup(where), .value = jox_strdup(value)};
     }
     if (row->last == d->claim->id)
         return;
@@ -57,8 +60,8 @@ static void add(Deviations *d, int parameter, const char *where, const char *val
     row->last = d->claim->id;
 }
 
-/* A path without the folder of the installed files, which says nothing. */
-static void shorten(const char *path, char out[512]) {
+/* Writes a path without the folder of installed files, which is of no interest. */
+static void shorten_path(const char *path, char out[512]) {
     char clean[1024];
     size_t n = strlen(JOX_DATADIR);
     snprintf(clean, sizeof clean, "%s", path);
@@ -69,7 +72,7 @@ static void shorten(const char *path, char out[512]) {
 
 /* ---- behaviours ---- */
 
-static void keep_last(void *context, const JoSetting *setting) {
+static void keep_last_setting(void *context, const JoSetting *setting) {
     JoxText *out = context;
     out->length = 0;
     jox_text_add(out, setting->value ? setting->value : "");
@@ -77,17 +80,16 @@ static void keep_last(void *context, const JoSetting *setting) {
         jox_text_printf(out, " %s", setting->unit);
 }
 
-/* The value of a path of the machine as it is written, in the last of the places that set it. */
-static void written(const Deviations *d, const JoxMachine *machine, const char *path,
-                    JoxText *out) {
+/* Appends the value of a machine's path as it is written, in the place that sets it last. */
+static void read_written_value(const Deviations *d, const JoxMachine *machine, const char *path,
+                               JoxText *out) {
     static const JoxScope ANY = {0};
-    jox_lua_why(d->lua, machine, path, &ANY, keep_last, out);
+    jox_lua_why(d->lua, machine, path, &ANY, keep_last_setting, out);
 }
 
-/* Whether a value is the engine's: machines keep what they do not set as an own value of each
- * agent.
- */
-static bool is_usual(const JoxMachine *machine, int p, const JoxValue *value) {
+/* Returns whether a value is the engine's default. Machines store defaults that they do not set
+   as an own value of each agent, which is constant then. */
+static bool is_engine_default(const JoxMachine *machine, int p, const JoxValue *value) {
     if (value->kind == JOX_VALUE_OWN) {
         const JoxDist *dist = &machine->own[value->index].dist;
         return dist->kind == JOX_DIST_CONSTANT && dist->a == jox_parameters[p].value;
@@ -96,48 +98,48 @@ static bool is_usual(const JoxMachine *machine, int p, const JoxValue *value) {
            (value->kind == JOX_VALUE_CONST && value->number == jox_parameters[p].value);
 }
 
-static void look_at_value(Deviations *d, const JoxMachine *machine, const char *file,
+static void compare_value(Deviations *d, const JoxMachine *machine, const char *file,
                           const char *owner, int p, const JoxValue *value) {
     char path[200], where[700];
     JoxText text = {0};
-    if (is_usual(machine, p, value))
+    if (is_engine_default(machine, p, value))
         return;
     snprintf(path, sizeof path, "%.100s.%s", owner ? owner : "defaults", jox_parameters[p].name);
     snprintf(where, sizeof where, "%s%s%.100s", file, owner ? ", state " : "", owner ? owner : "");
-    written(d, machine, path, &text);
-    add(d, p, where, text.length ? text.data : "an expression");
+    read_written_value(d, machine, path, &text);
+    add_deviation(d, p, where, text.length ? text.data : "an expression");
     jox_text_free(&text);
 }
 
-static void look_at_behaviour(Deviations *d, const char *path) {
+static void compare_behaviour(Deviations *d, const char *path) {
     char file[512];
-    Kind *kind = NULL;
-    for (uint32_t k = 0; k < d->kind_count && !kind; k++)
-        kind = strcmp(d->kinds[k].path, path) == 0 ? &d->kinds[k] : NULL;
-    if (!kind) {
+    Behaviour *behaviour = NULL;
+    for (uint32_t k = 0; k < d->behaviour_count && !behaviour; k++)
+        behaviour = strcmp(d->behaviours[k].path, path) == 0 ? &d->behaviours[k] : NULL;
+    if (!behaviour) {
         static const JoxScope ANY = {0};
         JoxDiagnostics unread = {0};
-        JOX_RESERVE(d->kinds, d->kind_capacity, d->kind_count + 1);
-        kind = &d->kinds[d->kind_count++];
-        *kind = (Kind){jox_strdup(path), jox_lua_load(d->lua, path, &ANY, &unread)};
+        JOX_RESERVE(d->behaviours, d->behaviour_capacity, d->behaviour_count + 1);
+        behaviour = &d->behaviours[d->behaviour_count++];
+        *behaviour = (Behaviour){jox_strdup(path), jox_lua_load(d->lua, path, &ANY, &unread)};
         jox_diag_free(&unread);
     }
-    shorten(path, file);
-    for (int p = 0; kind->machine && p < JOX_PARAM_COUNT; p++) {
-        const JoxMachine *m = kind->machine;
-        look_at_value(d, m, file, NULL, p, &m->defaults[p]);
+    shorten_path(path, file);
+    for (int p = 0; behaviour->machine && p < JOX_PARAM_COUNT; p++) {
+        const JoxMachine *m = behaviour->machine;
+        compare_value(d, m, file, NULL, p, &m->defaults[p]);
         for (uint32_t s = 0; s < m->state_count; s++)
-            look_at_value(d, m, file, m->states[s].name, p, &m->states[s].param[p]);
+            compare_value(d, m, file, m->states[s].name, p, &m->states[s].param[p]);
     }
 }
 
 /* ---- scenes ---- */
 
-static void look_at_group(Deviations *d, const char *scene, const JoxGroup *group) {
+static void compare_group(Deviations *d, const char *scene, const JoxGroup *group) {
     char where[700];
     snprintf(where, sizeof where, "%s, group %.100s", scene, group->name);
     for (uint32_t m = 0; m < group->mix_count; m++)
-        look_at_behaviour(d, group->mix[m].behaviour);
+        compare_behaviour(d, group->mix[m].behaviour);
     for (uint32_t s = 0; s < group->set_count; s++) {
         const JoxGroupValue *set = &group->set[s];
         int p = jox_parameter_find(set->name);
@@ -146,32 +148,32 @@ static void look_at_group(Deviations *d, const char *scene, const JoxGroup *grou
             (set->dist.kind == JOX_DIST_CONSTANT && set->dist.a == jox_parameters[p].value))
             continue;
         jox_dist_print(&set->dist, &text);
-        add(d, p, where, text.data);
+        add_deviation(d, p, where, text.data);
         jox_text_free(&text);
     }
 }
 
-static void look_at_run(Deviations *d, const JoxClaimRun *run) {
+static void compare_claim_run(Deviations *d, const JoxClaimRun *run) {
     char file[512];
-    JoxDiagnostics unread = {0}; /* a scene that does not load has failed as a run */
+    JoxDiagnostics unread = {0}; /* a scene that does not load has already failed as a run */
     JoxSceneOptions options = {.sets = (const char *const *)run->sets, .set_count = run->set_count};
     JoxSceneSpec *spec = jox_scene_load(run->scene, &options, &unread);
     jox_diag_free(&unread);
     if (!spec)
         return;
-    shorten(run->scene, file);
+    shorten_path(run->scene, file);
     if (!spec->forces)
-        add(d, -1, file, "false");
+        add_deviation(d, -1, file, "false");
     if (spec->literal)
-        add(d, -2, file, "literal");
+        add_deviation(d, -2, file, "literal");
     for (uint32_t g = 0; g < spec->group_count; g++)
-        look_at_group(d, file, &spec->groups[g]);
+        compare_group(d, file, &spec->groups[g]);
     jox_scene_free(spec);
 }
 
 /* ---- the table ---- */
 
-static void put_row(FILE *out, const Row *row) {
+static void put_deviation_row(FILE *out, const Deviation *row) {
     jox_html_row(out);
     if (row->parameter < 0) {
         jox_html_cell(out, FORCES[-1 - row->parameter][0]);
@@ -186,26 +188,26 @@ static void put_row(FILE *out, const Row *row) {
     fputs("</code>", out);
     jox_html_cell(out, row->where);
     fputs("<td>", out);
-    fputs(row->claims.data, out); /* quoted where it was put together */
+    fputs(row->claims.data, out); /* already escaped */
 }
 
-void jox_reproduce_deviations(const JoxReproduction *all, FILE *out) {
+void jox_reproduce_put_deviations(const JoxReproduction *all, FILE *out) {
     Deviations d = {.lua = jox_lua_create(NULL)};
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         d.claim = all->outcomes[o].claim;
         d.number = o;
         for (uint32_t r = 0; r < d.claim->run_count; r++)
-            look_at_run(&d, &d.claim->runs[r]);
+            compare_claim_run(&d, &d.claim->runs[r]);
     }
     jox_html_heading(out, "What scenes and behaviours set instead");
     jox_html_paragraph(out, "Every parameter that a scene's group, a behaviour, or one of its "
                             "states sets otherwise than the engine, for the claims of this page.");
     fputs("<details><summary>All of them</summary>\n", out);
     jox_html_table(out, "parameter|engine|set to|by|claims");
-    for (int p = -2; p < JOX_PARAM_COUNT; p++) /* in the order of the table above */
+    for (int p = -2; p < JOX_PARAM_COUNT; p++) /* in the order of the table of defaults */
         for (uint32_t r = 0; r < d.row_count; r++)
             if (d.rows[r].parameter == p)
-                put_row(out, &d.rows[r]);
+                put_deviation_row(out, &d.rows[r]);
     jox_html_table_end(out);
     fputs("</details>\n", out);
     for (uint32_t r = 0; r < d.row_count; r++) {
@@ -213,11 +215,11 @@ void jox_reproduce_deviations(const JoxReproduction *all, FILE *out) {
         jox_free(d.rows[r].value);
         jox_text_free(&d.rows[r].claims);
     }
-    for (uint32_t k = 0; k < d.kind_count; k++) {
-        jox_free(d.kinds[k].path);
-        jox_machine_free(d.kinds[k].machine);
+    for (uint32_t k = 0; k < d.behaviour_count; k++) {
+        jox_free(d.behaviours[k].path);
+        jox_machine_free(d.behaviours[k].machine);
     }
     jox_free(d.rows);
-    jox_free(d.kinds);
+    jox_free(d.behaviours);
     jox_lua_free(d.lua);
 }

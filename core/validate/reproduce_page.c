@@ -1,4 +1,5 @@
-/* What jo_reproduce leaves for people: a page, a table, and the figures as JSON. */
+/* Writes the results of jo_reproduce: a page (index.html), a Markdown table and the figures as
+   JSON. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +34,7 @@ static void put_bound(FILE *out, double bound) {
     jox_html_text(out, text);
 }
 
-static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
+static const char *name_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
     if (figure->reported)
         return "reported";
     if (verdict->thin)
@@ -43,7 +44,9 @@ static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *ve
 
 /* ---- where and when ---- */
 
-static void first_line(const char *path, const char *key, char *out, size_t size) {
+/* Reads the value behind ": ", or the rest, of the first line of a file that begins with `key`;
+   "" if there is none. */
+static void read_line_value(const char *path, const char *key, char *out, size_t size) {
     char line[512];
     FILE *file = jox_file_open(path, "r");
     *out = 0;
@@ -58,25 +61,25 @@ static void first_line(const char *path, const char *key, char *out, size_t size
         jox_file_close(file);
 }
 
-/* The commit of a checkout, or "". */
-static void commit_of(char *out, size_t size) {
+/* Reads the first 12 characters of the commit of a checkout in the working folder, or "". */
+static void read_commit(char *out, size_t size) {
     char head[512], path[600];
-    first_line(".git/HEAD", "", head, sizeof head);
+    read_line_value(".git/HEAD", "", head, sizeof head);
     if (strncmp(head, "refs/", 5) == 0) {
         snprintf(path, sizeof path, ".git/%s", head);
-        first_line(path, "", head, sizeof head);
+        read_line_value(path, "", head, sizeof head);
     }
     snprintf(out, size, "%.12s", head);
 }
 
-void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size) {
+void jox_reproduce_describe_run(const JoxReproduction *all, char *out, size_t size) {
     char cpu[128], commit[32], day[32];
     struct utsname system;
     time_t now = time(NULL);
     struct tm tm;
     uname(&system);
-    first_line("/proc/cpuinfo", "model name", cpu, sizeof cpu);
-    commit_of(commit, sizeof commit);
+    read_line_value("/proc/cpuinfo", "model name", cpu, sizeof cpu);
+    read_commit(commit, sizeof commit);
     strftime(day, sizeof day, "%Y-%m-%d", gmtime_r(&now, &tm));
     uint32_t reused = 0;
     for (uint32_t j = 0; j < all->job_count; j++)
@@ -97,7 +100,7 @@ void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size) {
 
 /* ---- the page ---- */
 
-static void put_figures(FILE *out, const JoxOutcome *outcome) {
+static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
     fputs("<div class=scroll><table><tr><th>figure<th>source<th>mean<th>95&nbsp;% "
           "bound<th>seeds<th>least "
           "to most of them<th>band<th>verdict</tr>\n",
@@ -125,12 +128,12 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
                 figure->reported ? "none"
                 : v->inside      ? "in"
                                  : "out",
-                verdict_of(figure, v));
+                name_verdict(figure, v));
     }
     fputs("</table></div>\n", out);
 }
 
-void jox_reproduce_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
         char name[200], link[256];
@@ -162,7 +165,7 @@ void jox_reproduce_pictures(FILE *out, const JoxReproduction *all, const JoxOutc
         }
 }
 
-static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+static void put_claim_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     fputs("<details><summary>Runs and what their scenes set</summary>\n", out);
     for (uint32_t r = 0; r < outcome->claim->run_count; r++) {
         const JoxClaimRun *run = &outcome->claim->runs[r];
@@ -192,7 +195,7 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     fputs("</details>\n", out);
 }
 
-/* Of a claim that misses. */
+/* Writes what was tried, for a claim that misses. */
 static void put_tried(FILE *out, const JoxOutcome *outcome) {
     if (outcome->inside || outcome->claim->tried_count == 0)
         return;
@@ -231,10 +234,10 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         jox_html_text(out, outcome->failure);
         fputs("</pre>\n", out);
     }
-    put_figures(out, outcome);
+    put_claim_figures(out, outcome);
     put_tried(out, outcome);
-    jox_reproduce_pictures(out, all, outcome);
-    put_runs(out, all, outcome);
+    jox_reproduce_put_pictures(out, all, outcome);
+    put_claim_runs(out, all, outcome);
 }
 
 static void put_defaults(FILE *out) {
@@ -258,7 +261,7 @@ static void put_defaults(FILE *out) {
             (double)force.reach, (double)force.filter, force.iterations);
 }
 
-static bool write_page(const JoxReproduction *all, const char *when, JoxText *error) {
+static bool write_claims_page(const JoxReproduction *all, const char *when, JoxText *error) {
     FILE *out = jox_plot_open(all->def->out, "index.html", error);
     uint32_t inside = 0;
     if (!out)
@@ -284,19 +287,19 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
     for (uint32_t o = 0; o < all->outcome_count; o++)
         put_claim(out, all, &all->outcomes[o]);
     put_defaults(out);
-    jox_reproduce_deviations(all, out);
+    jox_reproduce_put_deviations(all, out);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }
 
 /* ---- the table and the figures ---- */
 
-static void put_cell(FILE *out, const char *text) {
+static void put_markdown_cell(FILE *out, const char *text) {
     jox_quote_put(out, jox_quote_markdown, text);
     fputs(" | ", out);
 }
 
-static bool write_table(const JoxReproduction *all, const char *when, JoxText *error) {
+static bool write_claims_table(const JoxReproduction *all, const char *when, JoxText *error) {
     FILE *out = jox_plot_open(all->def->out, "table.md", error);
     if (!out)
         return false;
@@ -314,24 +317,24 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             fputs("| ", out);
             jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
             fputc(' ', out);
-            put_cell(out, f ? "" : claim->title);
-            put_cell(out, f ? "" : claim->level);
-            put_cell(out, f                    ? ""
-                          : *claim->calibrated ? "calibrated"
-                          : *claim->held_out   ? "held out"
-                                               : "");
-            put_cell(out, *figure->what ? figure->what : figure->name);
-            put_cell(out, figure->expected);
+            put_markdown_cell(out, f ? "" : claim->title);
+            put_markdown_cell(out, f ? "" : claim->level);
+            put_markdown_cell(out, f                    ? ""
+                                   : *claim->calibrated ? "calibrated"
+                                   : *claim->held_out   ? "held out"
+                                                        : "");
+            put_markdown_cell(out, *figure->what ? figure->what : figure->name);
+            put_markdown_cell(out, figure->expected);
             if (isfinite(v->mean)) {
                 fprintf(out, "%.4g ", v->mean);
-                put_cell(out, figure->unit);
+                put_markdown_cell(out, figure->unit);
             } else {
                 fputs("not measured | ", out);
             }
             jox_bound_write(bound, v->bound);
             fprintf(out, "%s | %u | ", bound, v->seeds);
             put_band(out, figure, "");
-            fprintf(out, " | %s |\n", verdict_of(figure, v));
+            fprintf(out, " | %s |\n", name_verdict(figure, v));
         }
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxClaim *claim = all->outcomes[o].claim;
@@ -349,7 +352,7 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
     return jox_plot_close(out, "table.md", error);
 }
 
-static bool write_json(const JoxReproduction *all, JoxText *error) {
+static bool write_claims_json(const JoxReproduction *all, JoxText *error) {
     JoxText text = {0};
     JoxJson json = jox_json_begin(&text, 1);
     jox_json_object(&json, NULL);
@@ -384,7 +387,8 @@ static bool write_json(const JoxReproduction *all, JoxText *error) {
 
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
-    jox_reproduce_when(all, when, sizeof when);
-    return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
-           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
+    jox_reproduce_describe_run(all, when, sizeof when);
+    return jox_plot_folder(all->def->out, error) && jox_reproduce_draw_plots(all, error) &&
+           write_claims_page(all, when, error) && write_claims_table(all, when, error) &&
+           write_claims_json(all, error);
 }

@@ -1,4 +1,4 @@
-/* Plots of a claim's own figures, beside what its source says. */
+/* Draws the plots of claims with gnuplot: figures as measured beside what their sources say. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "picture/plot.h"
 #include "validate/reproduce.h"
 
-enum { MOST_CELLS = 40 }; /* of a map along an axis */
+enum { MOST_CELLS = 40 }; /* cells of a map along one axis */
 
 void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, char *out,
                              size_t size) {
@@ -19,8 +19,8 @@ void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, ch
     snprintf(out, size, "%.*s-%s", (int)jox_path_stem(file), file, plot->name);
 }
 
-/* A number for gnuplot, which knows NaN and no infinity. */
-static void put(FILE *out, double value) {
+/* Writes a number for gnuplot; infinity becomes NaN, as gnuplot does not know it. */
+static void put_plot_number(FILE *out, double value) {
     if (isfinite(value))
         fprintf(out, " %.7g", value);
     else
@@ -29,21 +29,22 @@ static void put(FILE *out, double value) {
 
 /* ---- curves ---- */
 
-/* x, then of figures mean, least, most and band, else y; curves parted by two blank lines. */
-static void write_curves(const JoxOutcome *outcome, const JoxClaimPlot *plot, FILE *out) {
+/* Writes the data of all curves, separated by two blank lines: per point x, and for figures
+   mean, least, greatest and band, else y. */
+static void write_curve_data(const JoxOutcome *outcome, const JoxClaimPlot *plot, FILE *out) {
     for (uint32_t c = 0; c < plot->curve_count; c++) {
         const JoxClaimCurve *curve = &plot->curves[c];
         for (uint32_t p = 0; p < curve->count; p++) {
             const JoxClaimPoint *point = &curve->points[p];
             const JoxVerdict *v = &outcome->verdicts[point->figure];
             const JoxClaimFigure *figure = &outcome->claim->figures[point->figure];
-            put(out, point->x);
+            put_plot_number(out, point->x);
             if (curve->kind == JOX_CURVE_FIGURES) {
                 const double values[] = {v->mean, v->least, v->most, figure->low, figure->high};
                 for (size_t k = 0; k < sizeof values / sizeof *values; k++)
-                    put(out, values[k]);
+                    put_plot_number(out, values[k]);
             } else {
-                put(out, point->y);
+                put_plot_number(out, point->y);
             }
             fputc('\n', out);
         }
@@ -51,7 +52,7 @@ static void write_curves(const JoxOutcome *outcome, const JoxClaimPlot *plot, FI
     }
 }
 
-/* Whether all of a curve's figures have a band with two ends. */
+/* Returns whether all figures of a curve have a band with two ends. */
 static bool has_band(const JoxClaim *claim, const JoxClaimCurve *curve) {
     bool all = curve->kind == JOX_CURVE_FIGURES;
     for (uint32_t p = 0; all && p < curve->count; p++) {
@@ -61,7 +62,8 @@ static bool has_band(const JoxClaim *claim, const JoxClaimCurve *curve) {
     return all;
 }
 
-static bool same_bands(const JoxClaim *claim, const JoxClaimCurve *a, const JoxClaimCurve *b) {
+/* Returns whether two curves have the same points x and bands. */
+static bool has_same_band(const JoxClaim *claim, const JoxClaimCurve *a, const JoxClaimCurve *b) {
     bool same = a->count == b->count;
     for (uint32_t p = 0; same && p < a->count; p++) {
         const JoxClaimFigure *f = &claim->figures[a->points[p].figure];
@@ -71,8 +73,9 @@ static bool same_bands(const JoxClaim *claim, const JoxClaimCurve *a, const JoxC
     return same;
 }
 
-static void part(FILE *out, const char *name, bool *first, uint32_t index, const char *how,
-                 const char *label) {
+/* Adds an element to the plot command: a data set, drawn as `how` says, with a label. */
+static void add_plot_element(FILE *out, const char *name, bool *first, uint32_t index,
+                             const char *how, const char *label) {
     fputs(*first ? "plot " : ", \\\n  ", out);
     jox_plot_file(out, name, "dat");
     fprintf(out, " index %u using %s title ", index, how);
@@ -81,8 +84,8 @@ static void part(FILE *out, const char *name, bool *first, uint32_t index, const
     *first = false;
 }
 
-static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const char *name,
-                        FILE *out) {
+static void write_curve_plot(const JoxClaim *claim, const JoxClaimPlot *plot, const char *name,
+                             FILE *out) {
     static const char *const COLOURS[] = {"#3b528b", "#d55e00", "#21918c",
                                           "#9a2c8f", "#5a9a20", "#8a6d00"};
     char how[200];
@@ -90,15 +93,17 @@ static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const c
     fputs("set key outside top center horizontal\nset grid\nset offsets graph 0.04, graph 0.04, "
           "graph 0.06, graph 0.06\n",
           out);
-    for (uint32_t c = 0; c < plot->curve_count; c++) { /* behind everything else */
+    /* bands first, so that they are behind the curves; equal bands once */
+    for (uint32_t c = 0; c < plot->curve_count; c++) {
         bool drawn = !has_band(claim, &plot->curves[c]);
         for (uint32_t b = 0; b < c && !drawn; b++)
             drawn = has_band(claim, &plot->curves[b]) &&
-                    same_bands(claim, &plot->curves[b], &plot->curves[c]);
+                    has_same_band(claim, &plot->curves[b], &plot->curves[c]);
         if (!drawn)
-            part(out, name, &first, c,
-                 "1:5:6 with filledcurves fillcolor rgb '#777777' fillstyle transparent solid 0.2",
-                 "band");
+            add_plot_element(
+                out, name, &first, c,
+                "1:5:6 with filledcurves fillcolor rgb '#777777' fillstyle transparent solid 0.2",
+                "band");
     }
     for (uint32_t c = 0; c < plot->curve_count; c++) {
         const JoxClaimCurve *curve = &plot->curves[c];
@@ -109,15 +114,16 @@ static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const c
             snprintf(how, sizeof how, "1:2 with points lw 2 pt 6 ps 1.6 lc '%s'", colour);
         else
             snprintf(how, sizeof how, "1:2 with lines lw 2 dt 2 lc '%s'", colour);
-        part(out, name, &first, c, how, curve->label);
+        add_plot_element(out, name, &first, c, how, curve->label);
     }
     fputc('\n', out);
 }
 
 /* ---- maps ---- */
 
-/* The different values of an axis, in order; at most MOST_CELLS. */
-static uint32_t values_of(const JoxClaimCurve *map, bool y, double out[MOST_CELLS]) {
+/* Lists the different values of an axis in ascending order, at most MOST_CELLS, and returns
+   their number. */
+static uint32_t list_axis_values(const JoxClaimCurve *map, bool y, double out[MOST_CELLS]) {
     uint32_t n = 0;
     double *all = jox_alloc(map->count, sizeof *all);
     for (uint32_t p = 0; p < map->count; p++)
@@ -130,23 +136,24 @@ static uint32_t values_of(const JoxClaimCurve *map, bool y, double out[MOST_CELL
     return n;
 }
 
-static const JoxVerdict *cell(const JoxOutcome *outcome, const JoxClaimCurve *map, double x,
-                              double y) {
+/* Returns the verdict on a map's figure at x, y; NULL if there is none. */
+static const JoxVerdict *find_cell_verdict(const JoxOutcome *outcome, const JoxClaimCurve *map,
+                                           double x, double y) {
     for (uint32_t p = 0; p < map->count; p++)
         if (map->points[p].x == x && map->points[p].y == y)
             return &outcome->verdicts[map->points[p].figure];
     return NULL;
 }
 
-/* Column, row and value, NaN where there is none. */
-static void write_map(const JoxOutcome *outcome, const JoxClaimCurve *map, FILE *out) {
+/* Writes a map's data: column, row and value; NaN where there is none. */
+static void write_map_data(const JoxOutcome *outcome, const JoxClaimCurve *map, FILE *out) {
     double x[MOST_CELLS], y[MOST_CELLS];
-    uint32_t columns = values_of(map, false, x), rows = values_of(map, true, y);
+    uint32_t columns = list_axis_values(map, false, x), rows = list_axis_values(map, true, y);
     for (uint32_t r = 0; r < rows; r++) {
         for (uint32_t c = 0; c < columns; c++) {
-            const JoxVerdict *v = cell(outcome, map, x[c], y[r]);
+            const JoxVerdict *v = find_cell_verdict(outcome, map, x[c], y[r]);
             fprintf(out, "%u %u", c, r);
-            put(out, v ? v->mean : NAN);
+            put_plot_number(out, v ? v->mean : NAN);
             fputc('\n', out);
         }
         fputc('\n', out);
@@ -160,19 +167,20 @@ static void put_ticks(FILE *out, char axis, const double *values, uint32_t count
     fprintf(out, ") scale 0\nset %crange [-0.5:%g]\n", axis, count - 0.5);
 }
 
-/* Cells of one size, whatever the steps between their values; each says its figure. */
-static void draw_map(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char *name,
-                     FILE *out) {
+/* Writes a map's plot: cells of equal size whatever the steps of the axes, each labelled with
+   its value. */
+static void write_map_plot(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char *name,
+                           FILE *out) {
     const JoxClaimCurve *map = &plot->curves[0];
     double x[MOST_CELLS], y[MOST_CELLS], least = INFINITY, most = -INFINITY;
-    uint32_t columns = values_of(map, false, x), rows = values_of(map, true, y);
+    uint32_t columns = list_axis_values(map, false, x), rows = list_axis_values(map, true, y);
     for (uint32_t p = 0; p < map->count; p++) {
         least = fmin(least, outcome->verdicts[map->points[p].figure].mean);
         most = fmax(most, outcome->verdicts[map->points[p].figure].mean);
     }
     put_ticks(out, 'x', x, columns);
     put_ticks(out, 'y', y, rows);
-    if (!(least <= most)) { /* nothing was measured */
+    if (!(least <= most)) { /* no value is finite */
         fputs("set label 1 'not measured' at graph 0.5,0.5 center\nplot NaN notitle\n", out);
         return;
     }
@@ -187,10 +195,11 @@ static void draw_map(const JoxOutcome *outcome, const JoxClaimPlot *plot, const 
         out);
 }
 
-/* ---- all ---- */
+/* ---- all plots ---- */
 
-static bool draw(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char *folder,
-                 JoxText *error) {
+/* Writes the data file and script of a plot and draws it. */
+static bool draw_claim_plot(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char *folder,
+                            JoxText *error) {
     char name[200], file[220];
     bool map = plot->curves[0].kind == JOX_CURVE_MAP;
     jox_reproduce_plot_name(outcome->claim, plot, name, sizeof name);
@@ -199,9 +208,9 @@ static bool draw(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char
     if (!out)
         return false;
     if (map)
-        write_map(outcome, &plot->curves[0], out);
+        write_map_data(outcome, &plot->curves[0], out);
     else
-        write_curves(outcome, plot, out);
+        write_curve_data(outcome, plot, out);
     if (!jox_plot_close(out, file, error))
         return false;
     snprintf(file, sizeof file, "%s.plt", name);
@@ -215,13 +224,13 @@ static bool draw(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char
     jox_quote_put(out, jox_quote_gnuplot, plot->y);
     fputs(" noenhanced\n", out);
     if (map)
-        draw_map(outcome, plot, name, out);
+        write_map_plot(outcome, plot, name, out);
     else
-        draw_curves(outcome->claim, plot, name, out);
+        write_curve_plot(outcome->claim, plot, name, out);
     return jox_plot_close(out, file, error) && jox_plot_draw(folder, file, error);
 }
 
-bool jox_reproduce_plots(const JoxReproduction *all, JoxText *error) {
+bool jox_reproduce_draw_plots(const JoxReproduction *all, JoxText *error) {
     JoxText folder = {0};
     jox_text_printf(&folder, "%s/plots", all->def->out);
     bool good = true;
@@ -229,7 +238,7 @@ bool jox_reproduce_plots(const JoxReproduction *all, JoxText *error) {
         const JoxOutcome *outcome = &all->outcomes[o];
         for (uint32_t p = 0; good && !outcome->failure && p < outcome->claim->plot_count; p++)
             good = jox_plot_folder(folder.data, error) &&
-                   draw(outcome, &outcome->claim->plots[p], folder.data, error);
+                   draw_claim_plot(outcome, &outcome->claim->plots[p], folder.data, error);
     }
     jox_text_free(&folder);
     return good;

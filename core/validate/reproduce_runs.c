@@ -1,5 +1,5 @@
-/* Runs of scenes as processes of their own: several at once, the long ones first, and none that is
-   there already. */
+/* Executes the jobs of jo_reproduce, each as a process: several at once, long ones first, none
+   that was done before. */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -20,30 +20,34 @@
 
 enum { MOST_ARGUMENTS = 200 };
 
-static bool interrupted(const JoxReproduction *all) {
+static bool is_interrupted(const JoxReproduction *all) {
     const volatile int *stop = all->def->stop;
     return stop && __atomic_load_n(stop, __ATOMIC_RELAXED);
 }
 
-static char *path_in(const JoxJob *job, const char *name) {
+/* Returns the path of a file in the job's folder, for the caller to free. */
+static char *make_job_path(const JoxJob *job, const char *name) {
     JoxText path = {0};
     jox_text_printf(&path, "%s/%s", job->folder, name);
     return path.data;
 }
 
-static char *read_in(const JoxJob *job, const char *name) {
+/* Returns the text of a file in the job's folder, for the caller to free, or NULL. */
+static char *read_job_file(const JoxJob *job, const char *name) {
     size_t length;
-    char *path = path_in(job, name), *text = jox_read_file(path, (size_t)16 << 20, &length);
+    char *path = make_job_path(job, name), *text = jox_read_file(path, (size_t)16 << 20, &length);
     jox_free(path);
     return text;
 }
 
+/* Comparison of the inputs that a summary lists with the files on disk. */
 typedef struct Inputs {
-    char *path;     /* of the file that was read last */
-    bool any, hold; /* whether there are inputs, and all are as they were */
+    char *path;     /* "path" of the entry being read */
+    bool any, hold; /* there are inputs; all are unchanged */
 } Inputs;
 
-/* Of "inputs": [{"path": "...", "sha256": "..."}, ...] each file. */
+/* Handles an item of a summary's "inputs": [{"path": "...", "sha256": "..."}, ...]; compares
+   each file with its hash. */
 static bool compare_input(void *context, const JoxJsonItem *item) {
     Inputs *inputs = context;
     if (item->kind == JOX_JSON_ARRAY && !strcmp(item->path, "inputs"))
@@ -65,51 +69,53 @@ static bool compare_input(void *context, const JoxJsonItem *item) {
     return inputs->hold;
 }
 
-/* Whether the files that the summary names are still those that were read. */
-static bool inputs_hold(const char *summary) {
+/* Returns whether the files that the summary lists are unchanged. */
+static bool has_same_inputs(const char *summary) {
     Inputs inputs = {.hold = true};
     bool read = jox_json_read(summary, jox_json_own_files, compare_input, &inputs);
     jox_free(inputs.path);
     return read && inputs.any && inputs.hold;
 }
 
-/* Done before, by the same program, from the same files. */
-static bool is_there(const JoxJob *job) {
-    char *key = read_in(job, "run.txt"), *summary = read_in(job, "summary.json");
-    bool there = key && summary && strcmp(key, job->key) == 0 && inputs_hold(summary);
+/* Returns whether an earlier call did this job with the same program and files. */
+static bool is_done_before(const JoxJob *job) {
+    char *key = read_job_file(job, "run.txt"), *summary = read_job_file(job, "summary.json");
+    bool there = key && summary && strcmp(key, job->key) == 0 && has_same_inputs(summary);
     jox_free(key);
     jox_free(summary);
     return there;
 }
 
-/* What an earlier run left: a probe that is gone must not be measured, nor half a run taken for a
-   whole one. */
-static void clear(const JoxJob *job) {
+/* Deletes what an earlier run left, so that neither files of removed probes nor half a run are
+   measured. */
+static void clear_job_folder(const JoxJob *job) {
     char **names = jox_folder_names(job->folder, false);
     for (char **name = names; name && *name; name++) {
-        char *path = path_in(job, *name);
+        char *path = make_job_path(job, *name);
         remove(path);
         jox_free(path);
     }
     jox_free(names);
 }
 
-/* Ends its process, with what that started itself (gnuplot): half a run is of no use. */
-static void stop(void *running) {
+/* Kills the job's process group, including a gnuplot that it started. Also runs when the call is
+   aborted (base/mem.h). */
+static void kill_job(void *running) {
     JoxJob *job = running;
     kill(-job->process, SIGKILL);
     while (waitpid(job->process, NULL, 0) < 0 && errno == EINTR)
         continue;
 }
 
-static void start(const JoxReproduction *all, JoxJob *job) {
+/* Starts the job's process: `jostle run` with the run's options, its output to log.txt. */
+static void start_job(const JoxReproduction *all, JoxJob *job) {
     char seed[32], dt[32], duration[32];
     const char *arguments[MOST_ARGUMENTS] = {all->def->program, "run",       job->run->scene,
                                              "--quiet",         "--no-mods", "--no-watch",
                                              "--threads",       "1",         "--no-half-step"};
     int n = 9;
-    char *summary = path_in(job, "summary.json"), *log = path_in(job, "log.txt");
-    clear(job);
+    char *summary = make_job_path(job, "summary.json"), *log = make_job_path(job, "log.txt");
+    clear_job_folder(job);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)job->seed);
     snprintf(dt, sizeof dt, "%.9g", job->run->dt);
     snprintf(duration, sizeof duration, "%.9g", job->run->duration);
@@ -130,8 +136,9 @@ static void start(const JoxReproduction *all, JoxJob *job) {
     job->state = JOX_JOB_RUNS;
     job->process = fork();
     if (job->process == 0) {
-        setpgid(0, 0);                    /* Ctrl-C is for the parent, which stops all */
-        prctl(PR_SET_PDEATHSIG, SIGKILL); /* nothing is left running */
+        /* Ctrl-C must reach only the parent, which stops all jobs */
+        setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a job does not outlive the parent */
         int out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
         if (out >= 0) {
             dup2(out, 1);
@@ -141,19 +148,20 @@ static void start(const JoxReproduction *all, JoxJob *job) {
         _exit(127);
     }
     if (job->process > 0) {
-        setpgid(job->process, job->process); /* whoever comes first */
-        jox_hold(job, stop);
+        setpgid(job->process, job->process); /* done in parent and child, as either may run first */
+        jox_hold(job, kill_job);
     }
     jox_free(summary);
     jox_free(log);
 }
 
-static void end(JoxJob *job, int status) {
+/* Records how the job's process ended: run.txt with the key on success, else the failure. */
+static void finish_job(JoxJob *job, int status) {
     jox_let_go(job);
     job->state = JOX_JOB_DONE;
     job->process = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-        char *path = path_in(job, "run.txt");
+        char *path = make_job_path(job, "run.txt");
         FILE *file = jox_file_replace(path);
         if (file) {
             fputs(job->key, file);
@@ -164,7 +172,7 @@ static void end(JoxJob *job, int status) {
     }
     job->state = JOX_JOB_FAILED;
     JoxText why = {0};
-    char *log = read_in(job, "log.txt");
+    char *log = read_job_file(job, "log.txt");
     jox_text_printf(&why, "%s, seed %llu: ", job->run->scene, (unsigned long long)job->seed);
     if (WIFSIGNALED(status))
         jox_text_printf(&why, "ended by signal %d. ", WTERMSIG(status));
@@ -175,7 +183,8 @@ static void end(JoxJob *job, int status) {
     job->failure = why.data;
 }
 
-static void show_progress(const JoxReproduction *all, double begun, bool last) {
+/* Writes a line of progress to stderr: always on a terminal, else at each tenth of the jobs. */
+static void show_run_progress(const JoxReproduction *all, double begun, bool last) {
     uint32_t done = 0, running = 0, reused = 0, failed = 0;
     for (uint32_t j = 0; j < all->job_count; j++) {
         done += all->jobs[j].state >= JOX_JOB_DONE;
@@ -185,7 +194,7 @@ static void show_progress(const JoxReproduction *all, double begun, bool last) {
     }
     double spent = jox_clock_wall() - begun;
     double left = done > reused ? spent / (done - reused) * (double)(all->job_count - done) : NAN;
-    static uint32_t shown; /* tenths */
+    static uint32_t shown; /* tenths of the jobs in the last line */
     bool terminal = isatty(2);
     uint32_t tenth = all->job_count ? 10 * done / all->job_count : 10;
     if (all->def->quiet || (!terminal && tenth == shown))
@@ -200,23 +209,25 @@ static void show_progress(const JoxReproduction *all, double begun, bool last) {
         fputs("\n", stderr);
 }
 
-static bool comes_first(const JoxJob *a, const JoxJob *b) {
+static bool goes_before(const JoxJob *a, const JoxJob *b) {
     return a->run->first && !b->run->first;
 }
 
-/* The next that waits: the long ones first, else in the order of the claims. */
-static JoxJob *next_job(JoxReproduction *all) {
+/* Returns the next waiting job, long ones first, else in the order of the claims; NULL if there
+   is none. */
+static JoxJob *find_next_job(JoxReproduction *all) {
     JoxJob *next = NULL;
     for (uint32_t j = 0; j < all->job_count; j++) {
         JoxJob *job = &all->jobs[j];
-        if (job->state == JOX_JOB_WAITS && (!next || comes_first(job, next)))
+        if (job->state == JOX_JOB_WAITS && (!next || goes_before(job, next)))
             next = job;
     }
     return next;
 }
 
-/* A job whose process has ended, or NULL; the program's other processes are not waited for. */
-static JoxJob *ended_job(JoxReproduction *all, int *status) {
+/* Returns a job whose process has ended, or NULL, without waiting. Other child processes of the
+   program are left alone. */
+static JoxJob *find_ended_job(JoxReproduction *all, int *status) {
     for (uint32_t j = 0; j < all->job_count; j++)
         if (all->jobs[j].state == JOX_JOB_RUNS &&
             waitpid(all->jobs[j].process, status, WNOHANG) == all->jobs[j].process)
@@ -224,15 +235,16 @@ static JoxJob *ended_job(JoxReproduction *all, int *status) {
     return NULL;
 }
 
-static void stop_all(JoxReproduction *all) {
+static void kill_all_jobs(JoxReproduction *all) {
     for (uint32_t j = 0; j < all->job_count; j++)
         if (all->jobs[j].state == JOX_JOB_RUNS) {
             jox_let_go(&all->jobs[j]);
-            stop(&all->jobs[j]);
+            kill_job(&all->jobs[j]);
         }
 }
 
-static void look_for_old(JoxReproduction *all) {
+/* Creates the jobs' folders and marks the jobs that were done before. */
+static void find_finished_jobs(JoxReproduction *all) {
     JoxText error = {0};
     for (uint32_t j = 0; j < all->job_count; j++) {
         JoxJob *job = &all->jobs[j];
@@ -240,7 +252,7 @@ static void look_for_old(JoxReproduction *all) {
             job->state = JOX_JOB_FAILED;
             job->failure = jox_strdup(error.data);
             error.length = 0;
-        } else if (!all->def->fresh && is_there(job)) {
+        } else if (!all->def->fresh && is_done_before(job)) {
             job->state = JOX_JOB_DONE;
             job->reused = true;
         }
@@ -250,32 +262,32 @@ static void look_for_old(JoxReproduction *all) {
 
 bool jox_reproduce_run(JoxReproduction *all) {
     double begun = jox_clock_wall();
-    look_for_old(all);
+    find_finished_jobs(all);
     uint32_t running = 0;
-    while (!interrupted(all)) {
-        JoxJob *job = running < all->def->jobs ? next_job(all) : NULL;
+    while (!is_interrupted(all)) {
+        JoxJob *job = running < all->def->jobs ? find_next_job(all) : NULL;
         if (job) {
-            start(all, job);
+            start_job(all, job);
             running += job->process > 0;
             if (job->process < 0)
-                end(job, 127 << 8);
+                finish_job(job, 127 << 8);
             continue;
         }
-        show_progress(all, begun, false);
+        show_run_progress(all, begun, false);
         if (running == 0)
             break;
         int status;
-        job = ended_job(all, &status);
+        job = find_ended_job(all, &status);
         if (job) {
-            end(job, status);
+            finish_job(job, status);
             running--;
         } else {
             usleep(50000);
         }
     }
-    show_progress(all, begun, true);
-    const bool whole = !interrupted(all);
+    show_run_progress(all, begun, true);
+    const bool whole = !is_interrupted(all);
     if (!whole)
-        stop_all(all);
+        kill_all_jobs(all);
     return whole;
 }

@@ -1,5 +1,5 @@
-/* The page for an authority: each test of a standard with its source, its plan, its criterion, what
-   was measured, and the verdict. */
+/* Writes standards.html, for authorities: each test of a standard with its source, plan,
+   criterion, figures and verdict. */
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ enum { MOST_SETS = 60 };
 
 static const char PAGE[] = "standards.html";
 
-/* By the first letter of a claim's id. */
+/* The standards, found by the first letter of a claim's id. */
 static const struct Standard {
     char letter;
     const char *group, *name, *left_out;
@@ -29,26 +29,27 @@ static const struct Standard {
 };
 enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
 
-static const struct Standard *standard_of(const JoxClaim *claim) {
+static const struct Standard *find_standard(const JoxClaim *claim) {
     for (int s = 0; s < STANDARD_COUNT; s++)
         if (*claim->id == STANDARDS[s].letter)
             return &STANDARDS[s];
     return NULL;
 }
 
-bool jox_standards_have(const JoxClaim *claim, const char *group) {
-    const struct Standard *standard = standard_of(claim);
+bool jox_claim_is_in_standard(const JoxClaim *claim, const char *group) {
+    const struct Standard *standard = find_standard(claim);
     return standard && (strcmp(group, "standards") == 0 || strcmp(group, standard->group) == 0);
 }
 
-bool jox_is_standard(const JoxClaim *claim) {
-    return standard_of(claim) != NULL;
+bool jox_claim_is_standard(const JoxClaim *claim) {
+    return find_standard(claim) != NULL;
 }
 
 /* ---- plans ---- */
 
-/* The scene of a claim's first run at its beginning, as `jostle render` draws it. */
-static bool draw_plan(const JoxReproduction *all, const JoxOutcome *outcome, const char *path) {
+/* Draws the scene of a claim's first run at its start, by a process `jostle render`. */
+static bool draw_test_plan(const JoxReproduction *all, const JoxOutcome *outcome,
+                           const char *path) {
     const JoxClaimRun *run = &outcome->claim->runs[0];
     const char *arguments[2 * MOST_SETS + 8] = {all->def->program, "render", run->scene,
                                                 "--quiet",         "--out",  path};
@@ -58,7 +59,7 @@ static bool draw_plan(const JoxReproduction *all, const JoxOutcome *outcome, con
         arguments[n++] = run->sets[s];
     }
     const pid_t child = fork();
-    if (child == 0) { /* by numbers: what the streams hold is the parent's to write */
+    if (child == 0) { /* by descriptor: buffered output of stdio is left to the parent */
         const int nowhere = open("/dev/null", O_WRONLY);
         if (nowhere >= 0) {
             dup2(nowhere, 1);
@@ -70,12 +71,12 @@ static bool draw_plan(const JoxReproduction *all, const JoxOutcome *outcome, con
     return child > 0 && waitpid(child, &status, 0) == child && status == 0;
 }
 
-static void put_plan(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+static void put_test_plan(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     char name[100], path[1400];
     snprintf(name, sizeof name, "plan-%.40s.png", outcome->claim->id);
     snprintf(path, sizeof path, "%s/%s", all->def->out, name);
-    fputs("<div class=plan>\n", out); /* so wide that its names can be read */
-    if (draw_plan(all, outcome, path))
+    fputs("<div class=plan>\n", out); /* wide enough to read the names */
+    if (draw_test_plan(all, outcome, path))
         jox_html_picture(out, name, NULL, "the set-up at the beginning");
     else
         fputs("<p class=out>The plan could not be drawn.</p>\n", out);
@@ -84,12 +85,12 @@ static void put_plan(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
 
 /* ---- the page ---- */
 
-static void put_summary(FILE *out, const JoxReproduction *all) {
+static void put_standards_summary(FILE *out, const JoxReproduction *all) {
     jox_html_table(out, "standard|tests|pass|fail|not covered");
     for (int s = 0; s < STANDARD_COUNT; s++) {
         uint32_t tests = 0, passes = 0;
         for (uint32_t o = 0; o < all->outcome_count; o++)
-            if (standard_of(all->outcomes[o].claim) == &STANDARDS[s]) {
+            if (find_standard(all->outcomes[o].claim) == &STANDARDS[s]) {
                 tests++;
                 passes += all->outcomes[o].inside;
             }
@@ -103,7 +104,7 @@ static void put_summary(FILE *out, const JoxReproduction *all) {
     jox_html_table_end(out);
 }
 
-static void put_verdict(FILE *out, bool inside, bool thin) {
+static void put_test_verdict(FILE *out, bool inside, bool thin) {
     fprintf(out, "<td class=%s>%s%s", inside ? "in" : "out", inside ? "passes" : "fails",
             thin ? ", thin" : "");
 }
@@ -112,19 +113,19 @@ static void put_overview(FILE *out, const JoxReproduction *all) {
     jox_html_table(out, "test|what|verdict");
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
-        if (!standard_of(outcome->claim))
+        if (!find_standard(outcome->claim))
             continue;
         jox_html_row(out);
         fprintf(out, "<td><a href=\"#t%u\">", o);
         jox_html_text(out, outcome->claim->id);
         fputs("</a>", out);
         jox_html_cell(out, outcome->claim->title);
-        put_verdict(out, outcome->inside, outcome->inside && outcome->thin);
+        put_test_verdict(out, outcome->inside, outcome->inside && outcome->thin);
     }
     jox_html_table_end(out);
 }
 
-static void put_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
+static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
     char bound[JOX_BOUND_SIZE];
     jox_html_row(out);
     jox_html_cell(out, *figure->what ? figure->what : figure->name);
@@ -138,7 +139,7 @@ static void put_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict
     if (figure->reported)
         jox_html_cell(out, "reported");
     else
-        put_verdict(out, v->inside, v->thin);
+        put_test_verdict(out, v->inside, v->thin);
 }
 
 static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
@@ -155,20 +156,20 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     fputs(".</small></p>\n", out);
     if (outcome->failure)
         jox_html_paragraph(out, outcome->failure);
-    put_plan(out, all, outcome);
+    put_test_plan(out, all, outcome);
     jox_html_table(out, "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict");
     for (uint32_t f = 0; f < claim->figure_count; f++)
-        put_figure(out, &claim->figures[f], &outcome->verdicts[f]);
+        put_test_figure(out, &claim->figures[f], &outcome->verdicts[f]);
     jox_html_table_end(out);
-    jox_reproduce_pictures(out, all, outcome);
+    jox_reproduce_put_pictures(out, all, outcome);
 }
 
-bool jox_reproduce_standards(const JoxReproduction *all, JoxText *error) {
+bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error) {
     char when[512];
     FILE *out = jox_plot_open(all->def->out, PAGE, error);
     if (!out)
         return false;
-    jox_reproduce_when(all, when, sizeof when);
+    jox_reproduce_describe_run(all, when, sizeof when);
     jox_html_begin(out, "Tests of standards");
     jox_html_paragraph(out, when);
     jox_html_paragraph(
@@ -182,10 +183,10 @@ bool jox_reproduce_standards(const JoxReproduction *all, JoxText *error) {
         out, "Set-ups and criteria are those of open implementations of the tests, which are named "
              "with each; the texts of the standards themselves were not consulted. A test says "
              "that a model does what it was asked, not that a scenario is safe.");
-    put_summary(out, all);
+    put_standards_summary(out, all);
     put_overview(out, all);
     for (uint32_t o = 0; o < all->outcome_count; o++)
-        if (standard_of(all->outcomes[o].claim))
+        if (find_standard(all->outcomes[o].claim))
             put_test(out, all, &all->outcomes[o]);
     jox_html_end(out);
     return jox_plot_close(out, PAGE, error);

@@ -1,4 +1,4 @@
-/* What a figure's values over seeds say about its band. */
+/* The verdict on a figure: whether its mean over seeds is in its band, and how certain that is. */
 #ifndef JOX_VALIDATE_VERDICT_H
 #define JOX_VALIDATE_VERDICT_H
 
@@ -7,18 +7,20 @@
 
 typedef struct JoxVerdict {
     double mean, least, most; /* over seeds; NAN: not measured */
-    double p95;               /* 95 % of the values lie below it, linear between ranks */
-    double bound;             /* the mean is so sure to 95 %, to either side; NAN of one seed */
+    double p95;               /* 95th percentile of the values, linear between ranks */
+    /* half width of the 95 % confidence interval of the mean; NAN for one seed */
+    double bound;
     uint32_t seeds;
-    bool inside; /* the mean lies in the band */
-    bool thin;   /* an edge of the band lies within the bound about the mean */
+    bool inside; /* the mean is in the band */
+    bool thin;   /* an edge of the band is within the confidence interval */
 } JoxVerdict;
 
+/* Computes the verdict on a figure from its values, one per seed, and its band. */
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high);
 enum { JOX_BOUND_SIZE = 24 };
-/* "+- 0.47": a bound in two digits, or whole where it is greater; "" of one that is not finite. */
+/* Writes a bound as "+- 0.47", with two digits or as a whole number; "" if it is not finite. */
 void jox_bound_write(char out[JOX_BOUND_SIZE], double bound);
-/* Of "101" or "101-110", which is ten of them; at most 1000. False of anything else. */
+/* Parses "101", or "101-110" for ten seeds, at most 1000. Returns false for anything else. */
 bool jox_seeds_read(const char *text, uint64_t *first, uint32_t *count);
 
 #endif
