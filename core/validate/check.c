@@ -279,11 +279,11 @@ static void check_file(const char *path, bool named, const char *mod, JoxDiagnos
 /* Lists the names in a folder, for the caller to free; NULL with a diagnostic if it is too deep
    or cannot be read. */
 static char **list_folder(const char *path, int depth, JoxDiagnostics *own) {
-    static const char *const HINT = "Give its path, too, if it is to be looked at";
+    static const char *const HINT = "Give its path, too, to have it checked";
     const JoxPosition at = {path, 0, 0, 0};
     if (depth >= DEEPEST) {
         jox_diag_warn(own, at, JOX_CHECK_UNREAD, HINT,
-                      "folders are looked at %d deep, not this one", DEEPEST);
+                      "folders are checked %d levels deep, so not this one", DEEPEST);
         return NULL;
     }
     char **names = jox_folder_names(path, false);

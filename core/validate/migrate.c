@@ -114,7 +114,7 @@ static char *replace_name(const Migration *m, const JoxDiagnostic *d, const char
     jox_text_add(&out, d->now);
     jox_text_add(&out, at + strlen(d->was));
     jox_text_printf(&said, "%s:%d:%d: '%s' %s '%s'\n", d->file, d->line, d->column, d->was,
-                    m->writes ? "is now" : "is to be", d->now);
+                    m->writes ? "is now" : "becomes", d->now);
     jox_run_message(m->message, m->context, said.data);
     jox_text_free(&said);
     return out.data;

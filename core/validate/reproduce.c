@@ -376,7 +376,8 @@ static bool reproduce_claims(const JoReproduceDef *def, size_t *missed, JoError 
         jox_sha256_hex(program, length, all.program_sha256);
     jox_free(program);
     if (!def->list && !*all.program_sha256) {
-        jox_error(error, JO_FAILED, "%s, which is to run the scenes, cannot be read", def->program);
+        jox_error(error, JO_FAILED, "the program that runs the scenes, %s, cannot be read",
+                  def->program);
         return false;
     }
     if (def->seeds && !jox_seeds_read(def->seeds, &all.first_seed, &all.seeds))

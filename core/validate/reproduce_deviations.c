@@ -199,11 +199,12 @@ void jox_reproduce_put_deviations(const JoxReproduction *all, FILE *out) {
         for (uint32_t r = 0; r < d.claim->run_count; r++)
             compare_claim_run(&d, &d.claim->runs[r]);
     }
-    jox_html_heading(out, "What scenes and behaviours set instead");
-    jox_html_paragraph(out, "Every parameter that a scene's group, a behaviour, or one of its "
-                            "states sets otherwise than the engine, for the claims of this page.");
-    fputs("<details><summary>All of them</summary>\n", out);
-    jox_html_table(out, "parameter|engine|set to|by|claims");
+    jox_html_heading(out, "Settings that differ from the defaults");
+    jox_html_paragraph(out,
+                       "Every parameter that a scene's group, a behaviour, or one of its states "
+                       "sets to another value than the default, for the claims on this page.");
+    fputs("<details><summary>All settings</summary>\n", out);
+    jox_html_table(out, "parameter|default|set to|by|claims");
     for (int p = -2; p < JOX_PARAM_COUNT; p++) /* in the order of the table of defaults */
         for (uint32_t r = 0; r < d.row_count; r++)
             if (d.rows[r].parameter == p)

@@ -166,7 +166,7 @@ void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const Jox
 }
 
 static void put_claim_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
-    fputs("<details><summary>Runs and what their scenes set</summary>\n", out);
+    fputs("<details><summary>Runs and their scenes</summary>\n", out);
     for (uint32_t r = 0; r < outcome->claim->run_count; r++) {
         const JoxClaimRun *run = &outcome->claim->runs[r];
         const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
@@ -242,12 +242,12 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
 
 static void put_defaults(FILE *out) {
     JoxForceOptions force = jox_force_default_options();
-    fputs(
-        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what scenes and behaviours set "
-        "instead stands in the table after it.</p><div "
-        "class=scroll><table><tr><th>parameter<th>value"
-        "<th>unit<th>meaning</tr>\n",
-        out);
+    fputs("<h2>Defaults of the engine</h2>\n<p>Common to all claims; the next table lists what "
+          "scenes "
+          "and behaviours set to other values.</p><div "
+          "class=scroll><table><tr><th>parameter<th>value"
+          "<th>unit<th>meaning</tr>\n",
+          out);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
         fprintf(out, "<tr><td>%s<td class=n>%g<td>%s<td>%s</tr>\n", info->name, info->value,

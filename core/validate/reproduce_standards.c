@@ -151,7 +151,7 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     jox_html_paragraph(out, claim->text);
     fputs("<p><small>Source: ", out);
     jox_html_text(out, claim->source);
-    fputs(".<br>Haste of its people: ", out);
+    fputs(".<br>Haste of the people: ", out);
     jox_html_text(out, *claim->level ? claim->level : "as the scene says");
     fputs(".</small></p>\n", out);
     if (outcome->failure)
@@ -174,10 +174,10 @@ bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error) {
     jox_html_paragraph(out, when);
     jox_html_paragraph(
         out,
-        "All people walk by one law with one set of constants, which no test changes; what a "
-        "test says of speeds, sizes and times before people move is given to them. Each figure is "
-        "the mean over runs that differ by the seed of their random numbers alone, with its "
-        "95 % bound; thin is a verdict that other seeds might turn. Tests that fail are shown "
+        "All people follow one walking law with one set of constants, which no test changes; "
+        "speeds, sizes and times before people move are set as the test states them. Each figure "
+        "is the mean over runs that differ only by the seed of their random numbers, with its "
+        "95 % bound. A verdict is thin if other seeds might change it. Tests that fail are shown "
         "as failing.");
     jox_html_paragraph(
         out, "Set-ups and criteria are those of open implementations of the tests, which are named "

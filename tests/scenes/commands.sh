@@ -323,7 +323,7 @@ mkdir -p "$work/linked" "$work/deep/2/3/4/5/6/7/8/9"; ln -s / "$work/linked/away
 for command in check "migrate --check" migrate; do
     expect "$command: a folder that cannot be read is told" 3 "linked/away: the folder cannot be read: Permission denied. Give its path" "$JOSTLE" $command "$work/linked"
     grep -q "linked/itself: Too many levels of symbolic links" "$work/out"; verdict "  and a file" $?
-    expect "  and a folder that lies too deep" 0 "/8/9: warning: folders are looked at 8 deep, not this one" "$JOSTLE" $command "$work/deep"
+    expect "  and a folder that lies too deep" 0 "/8/9: warning: folders are checked 8 levels deep, so not this one" "$JOSTLE" $command "$work/deep"
 done
 mkfifo "$work/pipe.yaml"; head -c 100000 /dev/urandom >"$work/noise.yaml"
 expect "migrate: a pipe, noise and nothing" 3 "3 errors left" timeout 20 "$JOSTLE" migrate "$work/pipe.yaml" "$work/noise.yaml" "$work/nothing.yaml"

@@ -51,9 +51,9 @@ cd "$work/tree" || exit 1
 expect "each is told where it is written, with its new name" 1 "names to be renamed" "$JOSTLE" migrate --check scenes behaviours
 cp "$work/out" "$work/told"
 told() { grep -qF "$2" "$work/told"; verdict "  $1" $?; } # NAME LINE
-told "a key of a scene" "scenes/yard.yaml:3:11: 'width_eager' is to be 'room_eager'"
-told "a word of behaviours" "behaviours/other.lua:3:17: 'held' is to be 'holders'"
-told "  behind now." "behaviours/other.lua:3:37: 'held' is to be 'holders'"
+told "a key of a scene" "scenes/yard.yaml:3:11: 'width_eager' becomes 'room_eager'"
+told "a word of behaviours" "behaviours/other.lua:3:17: 'held' becomes 'holders'"
+told "  behind now." "behaviours/other.lua:3:37: 'held' becomes 'holders'"
 diff -r "$work/was" "$work/tree"; verdict "  and no file is changed" $?
 expect "jostle migrate writes all of them" 0 "names renamed" "$JOSTLE" migrate scenes behaviours
 cp "$work/out" "$work/told"
