@@ -1,4 +1,4 @@
-/* A run at half the step, for the page of a report: of the same scene, or none. */
+/* jo_scene_half_step: loads the same scene at half the step, and refuses if its files changed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 static char folder[] = "/tmp/jostle-half-XXXXXX", path[64];
 
-static void write_scene(const char *people) {
+static void write_stander_scene(const char *people) {
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file,
@@ -24,24 +24,24 @@ static void write_scene(const char *people) {
     fclose(file);
 }
 
-static void quiet(void *context, const char *text) {
+static void discard_text(void *context, const char *text) {
     (void)context;
     (void)text;
 }
 
-static JoSceneDef def_of_scene(void) {
+static JoSceneDef make_scene_def(void) {
     JoSceneDef def = jo_default_scene_def();
     def.path = path;
-    def.message = quiet;
+    def.message = discard_text;
     def.named_mods_only = true;
     return def;
 }
 
-static void half_the_step_of_the_same_scene(void **state) {
+static void half_step_run_keeps_scene_and_seed(void **state) {
     (void)state;
     JoError error = {0};
-    write_scene("[0, 0], [1, 0]");
-    JoSceneDef def = def_of_scene();
+    write_stander_scene("[0, 0], [1, 0]");
+    JoSceneDef def = make_scene_def();
     def.has_seed = true;
     def.seed = 9;
     JoScene *scene = jo_scene_load(&def, &error);
@@ -59,20 +59,20 @@ static void half_the_step_of_the_same_scene(void **state) {
     jo_scene_free(scene);
 }
 
-static void files_that_were_edited_meanwhile_are_another_scene(void **state) {
+static void edited_files_refuse_half_step_run(void **state) {
     (void)state;
     JoError error = {0};
-    write_scene("[0, 0], [1, 0]");
-    JoSceneDef def = def_of_scene();
+    write_stander_scene("[0, 0], [1, 0]");
+    JoSceneDef def = make_scene_def();
     JoScene *scene = jo_scene_load(&def, &error);
     assert_non_null(scene);
-    write_scene("[0, 0], [1, 0], [2, 0]");
+    write_stander_scene("[0, 0], [1, 0], [2, 0]");
     assert_null(jo_scene_half_step(&def, scene, &error));
     assert_non_null(strstr(error.text, "edited meanwhile"));
     jo_scene_free(scene);
 }
 
-static int make_folder(void **state) {
+static int make_half_step_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder))
         return -1;
@@ -80,7 +80,7 @@ static int make_folder(void **state) {
     return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_half_step_folder(void **state) {
     (void)state;
     char command[96];
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
@@ -89,8 +89,8 @@ static int remove_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_the_step_of_the_same_scene),
-        cmocka_unit_test(files_that_were_edited_meanwhile_are_another_scene),
+        cmocka_unit_test(half_step_run_keeps_scene_and_seed),
+        cmocka_unit_test(edited_files_refuse_half_step_run),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_half_step_folder, remove_half_step_folder);
 }

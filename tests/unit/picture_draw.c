@@ -345,17 +345,17 @@ static void draws_hostile_names_and_numbers(void **state) {
 }
 
 /* Returns lightness in thousandths of white, with the weights of ITU-R BT.709. */
-static int lightness(JoxInk ink) {
+static int measure_lightness(JoxInk ink) {
     return (int)(0.8 * (213 * ink.r + 715 * ink.g + 72 * ink.b) / 204);
 }
 
 static void greater_values_are_darker_and_classes_differ(void **state) {
     (void)state;
     JoxInk low = jox_palette_value(-1), high = jox_palette_value(2);
-    assert_true(lightness(low) > 900 && lightness(high) < 150);
+    assert_true(measure_lightness(low) > 900 && measure_lightness(high) < 150);
     for (int k = 1; k <= 64; k++)
-        assert_true(lightness(jox_palette_value((float)k / 64)) <
-                    lightness(jox_palette_value((float)(k - 1) / 64)));
+        assert_true(measure_lightness(jox_palette_value((float)k / 64)) <
+                    measure_lightness(jox_palette_value((float)(k - 1) / 64)));
     for (uint32_t a = 0; a < 21; a++) /* classes differ */
         for (uint32_t b = 0; b < a; b++) {
             JoxInk p = jox_palette_class(a), q = jox_palette_class(b);

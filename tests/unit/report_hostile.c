@@ -1,5 +1,5 @@
-/* Names that try to be more than names, through all that writes for gnuplot, browsers and tables.
- */
+/* Hostile names in everything written for gnuplot, browsers and tables: they must stay plain
+   text. */
 #include <dirent.h>
 #include <expat.h>
 #include <math.h>
@@ -25,7 +25,7 @@
 #include "picture/probe_files.h"
 #include "report/danger_files.h"
 
-/* Each would leave a file that begins with "pwned" if it were obeyed. */
+/* Names that would create a file "pwned..." if a program interpreted them. */
 static const char *const HOSTILE[] = {
     "`touch pwned1`",
     "$(touch pwned2)",
@@ -51,15 +51,15 @@ enum { HOSTILE_COUNT = sizeof HOSTILE / sizeof *HOSTILE, PEOPLE = 6 };
 static char folder[] = "/tmp/jostle-hostile-XXXXXX";
 static JoxWalls walls;
 
-/* ---- what came out ---- */
+/* ---- checks of the output ---- */
 
-static char *slurp(const char *path, size_t *length) {
+static char *read_whole_file(const char *path, size_t *length) {
     char *text = jox_read_file(path, (size_t)64 << 20, length);
     assert_non_null(text);
     return text;
 }
 
-static void no_script(void *context, const char *name, const char **attributes) {
+static void refuse_script_elements(void *context, const char *name, const char **attributes) {
     (void)context;
     assert_string_not_equal(name, "script");
     assert_string_not_equal(name, "img");
@@ -67,12 +67,12 @@ static void no_script(void *context, const char *name, const char **attributes) 
         assert_int_not_equal(strncmp(attributes[0], "on", 2), 0);
 }
 
-/* Well-formed XML without elements that we do not write. */
-static void is_svg(const char *path) {
+/* Fails unless a file is well-formed XML without elements and attributes that can run scripts. */
+static void expect_valid_svg(const char *path) {
     size_t length;
-    char *text = slurp(path, &length);
+    char *text = read_whole_file(path, &length);
     XML_Parser parser = XML_ParserCreate(NULL);
-    XML_SetStartElementHandler(parser, no_script);
+    XML_SetStartElementHandler(parser, refuse_script_elements);
     if (XML_Parse(parser, text, (int)length, 1) != XML_STATUS_OK)
         fail_msg("%s:%lu: %s", path, XML_GetCurrentLineNumber(parser),
                  XML_ErrorString(XML_GetErrorCode(parser)));
@@ -80,13 +80,14 @@ static void is_svg(const char *path) {
     jox_free(text);
 }
 
-static bool ends_with(const char *name, const char *ending) {
+static bool has_suffix(const char *name, const char *ending) {
     size_t n = strlen(name), m = strlen(ending);
     return n >= m && strcmp(name + n - m, ending) == 0;
 }
 
-/* Nothing was obeyed, every SVG is whole; the folder is emptied. */
-static void look_and_empty(int least) {
+/* Fails if a name was interpreted, an SVG is invalid, or there are fewer than `least` pictures;
+   then empties the folder. */
+static void check_and_empty_folder(int least) {
     DIR *listing = opendir(".");
     int pictures = 0;
     struct dirent *entry;
@@ -96,11 +97,11 @@ static void look_and_empty(int least) {
             continue;
         if (strncmp(name, "pwned", 5) == 0 && !strchr(name, '.'))
             fail_msg("a name was obeyed: %s", name);
-        if (ends_with(name, ".svg"))
-            is_svg(name);
+        if (has_suffix(name, ".svg"))
+            expect_valid_svg(name);
         struct stat info;
         assert_int_equal(stat(name, &info), 0);
-        bool picture = ends_with(name, ".svg") || ends_with(name, ".png");
+        bool picture = has_suffix(name, ".svg") || has_suffix(name, ".png");
         assert_true(!picture || info.st_size > 100);
         pictures += picture;
         assert_int_equal(unlink(name), 0);
@@ -110,7 +111,7 @@ static void look_and_empty(int least) {
     assert_true(pictures >= least);
 }
 
-static void worked(bool good, JoxText *error) {
+static void expect_success(bool good, JoxText *error) {
     if (!good)
         fail_msg("%s", error->data);
 }
@@ -121,7 +122,7 @@ static const float X[2][PEOPLE] = {{0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f},
                                    {2.6f, 3.6f, 4.6f, 5.6f, 6.6f, 7.6f}};
 static const float Y[PEOPLE] = {1, 1.5f, 2, 2.5f, 3, 3.5f};
 
-static void regions_of(void **state) {
+static void region_plots_survive_hostile_names(void **state) {
     (void)state;
     static const JoxV2 square[] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
     for (int h = 0; h < HOSTILE_COUNT; h++) {
@@ -129,14 +130,14 @@ static void regions_of(void **state) {
         JoxRegions *regions = jox_regions_create();
         jox_regions_add(regions, HOSTILE[h], square, 4);
         jox_regions_frame(regions, X[1], Y, X[0], Y, PEOPLE, 1.0);
-        worked(jox_plot_regions(folder, regions, HOSTILE[h], &error), &error);
-        look_and_empty(1);
+        expect_success(jox_plot_regions(folder, regions, HOSTILE[h], &error), &error);
+        check_and_empty_folder(1);
         jox_regions_free(regions);
         jox_text_free(&error);
     }
 }
 
-static void paths(void **state) {
+static void path_plots_survive_hostile_names(void **state) {
     (void)state;
     for (int h = 0; h < HOSTILE_COUNT; h++) {
         JoxText error = {0};
@@ -145,16 +146,16 @@ static void paths(void **state) {
         for (uint32_t i = 0; i < PEOPLE; i++)
             for (int f = 0; f < 2; f++)
                 jox_paths_add(all, i, false, i % 2, (float)f, X[f][i], Y[i]);
-        worked(jox_plot_paths(folder, all, names, NULL, 2, &walls, jox_v2(0, 0), jox_v2(8, 4),
-                              HOSTILE[h], &error),
-               &error);
-        look_and_empty(1);
+        expect_success(jox_plot_paths(folder, all, names, NULL, 2, &walls, jox_v2(0, 0),
+                                      jox_v2(8, 4), HOSTILE[h], &error),
+                       &error);
+        check_and_empty_folder(1);
         jox_paths_free(all);
         jox_text_free(&error);
     }
 }
 
-static JoxFrame frame_of(int f) {
+static JoxFrame make_crowd_frame(int f) {
     static const uint32_t key[PEOPLE] = {0, 1, 2, 3, 4, 5};
     static float v[PEOPLE], compression[PEOPLE] = {9000, 9000}, load[PEOPLE] = {3000, 3000};
     return (JoxFrame){.time = 20.0 * f,
@@ -169,12 +170,13 @@ static JoxFrame frame_of(int f) {
                       .load = load};
 }
 
-static void probes(void **state) {
+static void probe_plots_survive_hostile_names(void **state) {
     (void)state;
     static const JoxV2 lines[] = {{2, 0}, {2, 4}, {2.2f, 0}, {2.2f, 4}};
     static const JoxV2 square[] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
     for (int kind = 0; kind < JOX_PROBE_VISIT; kind++)
-        for (int h = kind; h < HOSTILE_COUNT; h += JOX_PROBE_VISIT) { /* each name with one kind */
+        /* each name with one kind of probe */
+        for (int h = kind; h < HOSTILE_COUNT; h += JOX_PROBE_VISIT) {
             JoxText error = {0};
             bool within = kind == JOX_PROBE_MEASURE;
             const JoxProbeDef def = {.name = HOSTILE[h],
@@ -193,17 +195,17 @@ static void probes(void **state) {
                                      .onset = 0.1};
             JoxProbe *probe = jox_probe_create(&def);
             for (int f = 0; f < 2; f++) {
-                JoxFrame frame = frame_of(f);
+                JoxFrame frame = make_crowd_frame(f);
                 jox_probe_frame(probe, &frame);
             }
-            worked(jox_probe_write(probe, folder, &walls, HOSTILE[h], &error), &error);
-            look_and_empty(2);
+            expect_success(jox_probe_write(probe, folder, &walls, HOSTILE[h], &error), &error);
+            check_and_empty_folder(2);
             jox_probe_free(probe);
             jox_text_free(&error);
         }
 }
 
-static void danger(void **state) {
+static void danger_plots_survive_hostile_names(void **state) {
     (void)state;
     for (int h = 0; h < HOSTILE_COUNT; h++) {
         JoxText error = {0};
@@ -213,18 +215,18 @@ static void danger(void **state) {
         exit->people = 3;
         exits.left = 3;
         for (int f = 0; f < 2; f++) {
-            JoxFrame frame = frame_of(f);
+            JoxFrame frame = make_crowd_frame(f);
             jox_danger_frame(measured, &frame, &exits);
         }
-        worked(jox_danger_write(measured, folder, HOSTILE[h], &error), &error);
-        look_and_empty(6);
+        expect_success(jox_danger_write(measured, folder, HOSTILE[h], &error), &error);
+        check_and_empty_folder(6);
         jox_danger_free(measured);
         jox_exits_free(&exits);
         jox_text_free(&error);
     }
 }
 
-static void canvases(void **state) {
+static void svg_survives_hostile_names(void **state) {
     (void)state;
     static const JoxV2 line[] = {{1, 1}, {50, 50}, {90, 10}};
     for (int h = 0; h < HOSTILE_COUNT; h++) {
@@ -237,14 +239,14 @@ static void canvases(void **state) {
         jox_canvas_disc(canvas, line[1], 4, HOSTILE[h]);
         jox_canvas_text(canvas, line[0], 12, JOX_ANCHOR_START, false, HOSTILE[h]);
         jox_canvas_close(canvas);
-        worked(jox_canvas_write(canvas, "canvas.svg", &error), &error);
-        look_and_empty(1);
+        expect_success(jox_canvas_write(canvas, "canvas.svg", &error), &error);
+        check_and_empty_folder(1);
         jox_canvas_free(canvas);
         jox_text_free(&error);
     }
 }
 
-static void pages(void **state) {
+static void pages_survive_hostile_names(void **state) {
     (void)state;
     for (int h = 0; h < HOSTILE_COUNT; h++) {
         char *page = NULL;
@@ -269,40 +271,41 @@ static void pages(void **state) {
             plain += *c == '<';
         assert_null(strstr(page, "<script"));
         assert_null(strstr(page, "<img src=x"));
-        assert_int_equal(plain - tags, 7); /* figure, a, img, /a, figcaption and their ends */
+        assert_int_equal(plain - tags, 7); /* the tags of figure, a, img and figcaption */
         free(page);
     }
 }
 
-/* ---- the functions themselves ---- */
+/* ---- single functions ---- */
 
-static void quotes(JoxQuote *quote, const char *text, const char *wanted) {
+static void expect_quoted(JoxQuote *quote, const char *text, const char *wanted) {
     JoxText out = {0};
     quote(&out, text);
     assert_string_equal(out.data, wanted);
     jox_text_free(&out);
 }
 
-static void each_target_has_its_own_quotes(void **state) {
+static void each_target_is_quoted_by_its_own_rules(void **state) {
     (void)state;
-    quotes(jox_quote_gnuplot, "it's `x` \\\n", "\"it\\047s \\140x\\140 \\134 \"");
-    quotes(jox_quote_gnuplot, "\xc3\xa4 \"@y\"", "\"\xc3\xa4 \\042\\100y\\042\"");
-    quotes(jox_quote_gnuplot_file, "< ls", "\"./\\074 ls\"");
-    quotes(jox_quote_gnuplot_file, "/tmp/x", "\"/tmp/x\"");
-    quotes(jox_quote_xml, "<a href=\"x\">'&\x01\n", "&lt;a href=&quot;x&quot;&gt;&#39;&amp;?\n");
-    quotes(jox_quote_url, "a b\"\xc3\xa4/x.png", "a%20b%22%C3%A4/x.png");
-    quotes(jox_quote_csv, "plain name", "plain name");
-    quotes(jox_quote_csv, "a,\"b\"", "\"a,\"\"b\"\"\"");
-    quotes(jox_quote_shell, "groups.g.count=3", "groups.g.count=3");
-    quotes(jox_quote_shell, "it's $(x)", "'it'\\''s $(x)'");
-    quotes(jox_quote_shell, "", "''");
-    quotes(jox_quote_markdown, "a|b <c> `d`", "a\\|b &lt;c> \\`d\\`");
-    quotes(jox_quote_file_name, "../a/b", "_._a_b");
-    quotes(jox_quote_file_name, "", "_");
+    expect_quoted(jox_quote_gnuplot, "it's `x` \\\n", "\"it\\047s \\140x\\140 \\134 \"");
+    expect_quoted(jox_quote_gnuplot, "\xc3\xa4 \"@y\"", "\"\xc3\xa4 \\042\\100y\\042\"");
+    expect_quoted(jox_quote_gnuplot_file, "< ls", "\"./\\074 ls\"");
+    expect_quoted(jox_quote_gnuplot_file, "/tmp/x", "\"/tmp/x\"");
+    expect_quoted(jox_quote_xml, "<a href=\"x\">'&\x01\n",
+                  "&lt;a href=&quot;x&quot;&gt;&#39;&amp;?\n");
+    expect_quoted(jox_quote_url, "a b\"\xc3\xa4/x.png", "a%20b%22%C3%A4/x.png");
+    expect_quoted(jox_quote_csv, "plain name", "plain name");
+    expect_quoted(jox_quote_csv, "a,\"b\"", "\"a,\"\"b\"\"\"");
+    expect_quoted(jox_quote_shell, "groups.g.count=3", "groups.g.count=3");
+    expect_quoted(jox_quote_shell, "it's $(x)", "'it'\\''s $(x)'");
+    expect_quoted(jox_quote_shell, "", "''");
+    expect_quoted(jox_quote_markdown, "a|b <c> `d`", "a\\|b &lt;c> \\`d\\`");
+    expect_quoted(jox_quote_file_name, "../a/b", "_._a_b");
+    expect_quoted(jox_quote_file_name, "", "_");
 }
 
-/* A gnuplot that hangs is ended, and the reason told. */
-static void who_hangs_is_ended(void **state) {
+/* A gnuplot that hangs is killed, and the error says so. */
+static void hanging_gnuplot_is_killed(void **state) {
     (void)state;
     static const char HANGS[] = "#!/bin/sh\nexec sleep 1000\n";
     char *path = strdup(getenv("PATH"));
@@ -323,10 +326,11 @@ static void who_hangs_is_ended(void **state) {
 }
 
 /* The page's script lists the same colours as palette.c. */
-static void the_page_has_the_same_classes(void **state) {
+static void live_page_has_the_same_class_colours(void **state) {
     (void)state;
     size_t length;
-    char *script = slurp(JOX_PAGEDIR "/draw/palette.js", &length), list[256] = "const CLASSES = [";
+    char *script = read_whole_file(JOX_PAGEDIR "/draw/palette.js", &length),
+         list[256] = "const CLASSES = [";
     for (uint32_t n = 0; n < 7; n++) {
         JoxInk ink = jox_palette_class(n);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s\"#%02x%02x%02x\"",
@@ -335,20 +339,20 @@ static void the_page_has_the_same_classes(void **state) {
     strcat(list, "];");
     assert_non_null(strstr(script, list));
     assert_non_null(strstr(script, "c + 0.45 * (towards - c)"));
-    JoxInk light = jox_palette_class(7); /* the first, 45 % of the way to white */
+    JoxInk light = jox_palette_class(7); /* the first class, mixed with 45 % of white */
     assert_int_equal(light.r, lround(0x00 + 0.45 * (255 - 0x00)));
     assert_int_equal(light.g, lround(0x72 + 0.45 * (255 - 0x72)));
     jox_free(script);
 }
 
-static int begin(void **state) {
+static int enter_hostile_folder(void **state) {
     (void)state;
     static const JoxV2 room[] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
     jox_walls_add_polyline(&walls, room, 4, true, INFINITY);
     return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
 }
 
-static int end(void **state) {
+static int leave_hostile_folder(void **state) {
     (void)state;
     jox_walls_free(&walls);
     return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
@@ -356,15 +360,15 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_target_has_its_own_quotes),
-        cmocka_unit_test(regions_of),
-        cmocka_unit_test(paths),
-        cmocka_unit_test(probes),
-        cmocka_unit_test(danger),
-        cmocka_unit_test(canvases),
-        cmocka_unit_test(pages),
-        cmocka_unit_test(who_hangs_is_ended),
-        cmocka_unit_test(the_page_has_the_same_classes),
+        cmocka_unit_test(each_target_is_quoted_by_its_own_rules),
+        cmocka_unit_test(region_plots_survive_hostile_names),
+        cmocka_unit_test(path_plots_survive_hostile_names),
+        cmocka_unit_test(probe_plots_survive_hostile_names),
+        cmocka_unit_test(danger_plots_survive_hostile_names),
+        cmocka_unit_test(svg_survives_hostile_names),
+        cmocka_unit_test(pages_survive_hostile_names),
+        cmocka_unit_test(hanging_gnuplot_is_killed),
+        cmocka_unit_test(live_page_has_the_same_class_colours),
     };
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, enter_hostile_folder, leave_hostile_folder);
 }

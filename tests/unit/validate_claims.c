@@ -1,4 +1,5 @@
-/* Claims: what measure is given of a run's folder, written here by hand, and what is made of it. */
+/* Claims: what `measure` gets from a run's folder, written by hand here, and which of its
+   results are accepted. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,21 +17,22 @@
 
 static char folder[64];
 
-static const char *in_folder(const char *name) {
+static const char *make_claim_path(const char *name) {
     static char path[128];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
 
-static void put(const char *name, const char *text) {
-    FILE *file = fopen(in_folder(name), "w");
+static void write_claim_file(const char *name, const char *text) {
+    FILE *file = fopen(make_claim_path(name), "w");
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
 }
 
-/* Measures figures x, y and z by the body of a function; what went wrong is left in `why`. */
-static bool measure(const char *body, double values[3], JoxText *why) {
+/* Measures figures x, y and z by a function with the given body. Returns false with a sentence
+   in `why`. */
+static bool measure_body(const char *body, double values[3], JoxText *why) {
     JoxText text = {0};
     JoxDiagnostics diagnostics = {0};
     jox_text_printf(&text,
@@ -39,9 +41,9 @@ static bool measure(const char *body, double values[3], JoxText *why) {
                     "  expect = { { 'x', band = { 1, 2 } }, { 'y', reported = true },\n"
                     "    { 'z', reported = true } } }\n",
                     body);
-    put("claim.lua", text.data);
+    write_claim_file("claim.lua", text.data);
     jox_text_free(&text);
-    JoxClaim *claim = jox_claim_load(in_folder("claim.lua"), false, &diagnostics);
+    JoxClaim *claim = jox_claim_load(make_claim_path("claim.lua"), false, &diagnostics);
     assert_non_null(claim);
     assert_int_equal(claim->run_count, 1);
     assert_int_equal(claim->figure_count, 3);
@@ -51,10 +53,10 @@ static bool measure(const char *body, double values[3], JoxText *why) {
     return good;
 }
 
-static void gives(const char *body, double x, double y, double z) {
+static void expect_figures(const char *body, double x, double y, double z) {
     double values[3];
     JoxText why = {0};
-    if (!measure(body, values, &why))
+    if (!measure_body(body, values, &why))
         fail_msg("%s", why.data);
     double wanted[] = {x, y, z};
     for (int f = 0; f < 3; f++)
@@ -65,69 +67,74 @@ static void gives(const char *body, double x, double y, double z) {
     jox_text_free(&why);
 }
 
-static void refuses(const char *body, const char *text) {
+static void expect_refusal(const char *body, const char *text) {
     double values[3];
     JoxText why = {0};
-    assert_false(measure(body, values, &why));
+    assert_false(measure_body(body, values, &why));
     if (!why.data || !strstr(why.data, text))
         fail_msg("'%s' does not say '%s'", why.data ? why.data : "", text);
     jox_text_free(&why);
 }
 
-static void test_summary(void **state) {
+static void measure_reads_numbers_of_summary(void **state) {
     (void)state;
-    put("summary.json", "{\"agents\": 3, \"list\": [1.5, -2e3], \"probes\": {\"door\": "
-                        "{\"flow\": 1.25, \"none\": null, \"name\": \"a\\\"b\"}}, \"done\": true}");
-    gives("local s = run.one.summary return { x = s.agents, y = s.probes.door.flow, "
-          "z = s.probes.door.none }",
-          3, 1.25, NAN);
-    refuses("return { x = run.one.summary.probes.gate.flow }", "claim.lua:3: ");
-    refuses("return { y = 1 }", "measure returned no number 'x'");
-    refuses("return { x = '7' }", "measure returned no number 'x'");
-    refuses("return 1", "measure returned no table");
-    put("summary.json", "{\"agents\": 3");
-    refuses("return { x = 1 }", "is not JSON");
-    unlink(in_folder("summary.json"));
-    refuses("return { x = 1 }", "the run left no summary.json");
+    write_claim_file("summary.json",
+                     "{\"agents\": 3, \"list\": [1.5, -2e3], \"probes\": {\"door\": "
+                     "{\"flow\": 1.25, \"none\": null, \"name\": \"a\\\"b\"}}, \"done\": true}");
+    expect_figures("local s = run.one.summary return { x = s.agents, y = s.probes.door.flow, "
+                   "z = s.probes.door.none }",
+                   3, 1.25, NAN);
+    expect_refusal("return { x = run.one.summary.probes.gate.flow }", "claim.lua:3: ");
+    expect_refusal("return { y = 1 }", "measure returned no number 'x'");
+    expect_refusal("return { x = '7' }", "measure returned no number 'x'");
+    expect_refusal("return 1", "measure returned no table");
+    write_claim_file("summary.json", "{\"agents\": 3");
+    expect_refusal("return { x = 1 }", "is not JSON");
+    unlink(make_claim_path("summary.json"));
+    expect_refusal("return { x = 1 }", "the run left no summary.json");
 }
 
-static void test_csv(void **state) {
+static void measure_reads_columns_of_csv(void **state) {
     (void)state;
-    put("summary.json", "{}");
-    put("a.csv", "time [s],who,last value [m]\n1.5,7,\n2.5,,-3\nnan,9,1e2\n");
-    gives("local a = run.one.csv('a') return { x = a.n, y = a.time[1], z = a.who[1] }", 3, 1.5, 7);
-    /* A value that is missing is missing, and not that of the next line. */
-    gives(
+    write_claim_file("summary.json", "{}");
+    write_claim_file("a.csv", "time [s],who,last value [m]\n1.5,7,\n2.5,,-3\nnan,9,1e2\n");
+    expect_figures("local a = run.one.csv('a') return { x = a.n, y = a.time[1], z = a.who[1] }", 3,
+                   1.5, 7);
+    /* A missing value is nil; the next line's is not taken for it. */
+    expect_figures(
         "local a = run.one.csv('a') return { x = a.who[3], y = a.who[2], z = a['last value'][1] }",
         9, NAN, NAN);
-    gives("local a = run.one.csv('a') return { x = a['last value'][2], y = a['last value'][3], "
-          "z = a.time[3] }",
-          -3, 100, NAN);
-    put("b.csv", "time [s]\n");
-    gives("local b = run.one.csv('b') return { x = b.n, y = #b.time, z = 1 }", 0, 0, 1);
-    put("c.csv", "x,y\r\n1,2\n3");
-    gives("local c = run.one.csv('c') return { x = c.n, y = c.x[2], z = c.x[1] }", 2, 3, 1);
-    put("d.csv", "");
-    gives("return { x = run.one.csv('d').n }", 0, NAN, NAN);
-    refuses("return { x = run.one.csv('absent').n }", "the run left no absent.csv");
-    refuses("return { x = run.one.csv('../a').n }", "csv takes the name of a probe");
+    expect_figures(
+        "local a = run.one.csv('a') return { x = a['last value'][2], y = a['last value'][3], "
+        "z = a.time[3] }",
+        -3, 100, NAN);
+    write_claim_file("b.csv", "time [s]\n");
+    expect_figures("local b = run.one.csv('b') return { x = b.n, y = #b.time, z = 1 }", 0, 0, 1);
+    write_claim_file("c.csv", "x,y\r\n1,2\n3");
+    expect_figures("local c = run.one.csv('c') return { x = c.n, y = c.x[2], z = c.x[1] }", 2, 3,
+                   1);
+    write_claim_file("d.csv", "");
+    expect_figures("return { x = run.one.csv('d').n }", 0, NAN, NAN);
+    expect_refusal("return { x = run.one.csv('absent').n }", "the run left no absent.csv");
+    expect_refusal("return { x = run.one.csv('../a').n }", "csv takes the name of a probe");
 }
 
-static int set_up(void **state) {
+static int make_claim_folder(void **state) {
     (void)state;
     snprintf(folder, sizeof folder, "/tmp/jostle-claims-XXXXXX");
     return mkdtemp(folder) ? 0 : 1;
 }
 
-static int tear_down(void **state) {
+static int remove_claim_folder(void **state) {
     (void)state;
     const char *files[] = {"summary.json", "claim.lua", "a.csv", "b.csv", "c.csv", "d.csv"};
     for (size_t f = 0; f < sizeof files / sizeof *files; f++)
-        unlink(in_folder(files[f]));
+        unlink(make_claim_path(files[f]));
     return rmdir(folder);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_summary), cmocka_unit_test(test_csv)};
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(measure_reads_numbers_of_summary),
+                                       cmocka_unit_test(measure_reads_columns_of_csv)};
+    return cmocka_run_group_tests(tests, make_claim_folder, remove_claim_folder);
 }

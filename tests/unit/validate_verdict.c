@@ -1,4 +1,4 @@
-/* Means over seeds, how sure they are, and what that says about a band. */
+/* Verdicts: means over seeds, their confidence bounds, and whether they are in a band. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,26 +9,26 @@
 
 #include "validate/verdict.h"
 
-static void near_to(double value, double wanted, double within) {
+static void expect_near(double value, double wanted, double within) {
     if (!(fabs(value - wanted) <= within))
         fail_msg("%.9g is not %.9g", value, wanted);
 }
 
 /* 8 9 10 11 12: mean 10, deviation sqrt(2.5), error of the mean .7071, t(4) = 2.776. */
-static void a_mean_has_a_bound(void **state) {
+static void mean_has_confidence_bound(void **state) {
     (void)state;
     const double values[] = {12, 8, 11, 9, 10};
     JoxVerdict v = jox_verdict(values, 5, 9, 11);
-    near_to(v.mean, 10, 1e-12);
-    near_to(v.least, 8, 0);
-    near_to(v.most, 12, 0);
-    near_to(v.bound, 1.9632, 1e-3);
+    expect_near(v.mean, 10, 1e-12);
+    expect_near(v.least, 8, 0);
+    expect_near(v.most, 12, 0);
+    expect_near(v.bound, 1.9632, 1e-3);
     assert_int_equal(v.seeds, 5);
     assert_true(v.inside && v.thin);
 }
 
-/* The mean decides; an edge within the bound about it makes either verdict thin. */
-static void an_edge_within_the_bound_is_thin(void **state) {
+/* The mean decides; a band edge within the bound makes either verdict thin. */
+static void band_edge_within_bound_makes_verdict_thin(void **state) {
     (void)state;
     static const struct {
         double low, high;
@@ -47,8 +47,9 @@ static void an_edge_within_the_bound_is_thin(void **state) {
     }
 }
 
-/* A band of one value is met by any number of equal ones: no rounding comes in. */
-static void equal_values_have_their_own_mean(void **state) {
+/* A band of a single value contains the mean of any number of equal values: rounding must not
+   move it. */
+static void mean_of_equal_values_is_exact(void **state) {
     (void)state;
     double values[30];
     for (uint32_t count = 1; count <= 30; count++)
@@ -61,22 +62,22 @@ static void equal_values_have_their_own_mean(void **state) {
         }
 }
 
-static void one_seed_has_no_bound(void **state) {
+static void single_seed_has_no_bound(void **state) {
     (void)state;
     JoxVerdict v = jox_verdict((const double[]){3}, 1, 2, 3);
     assert_true(isnan(v.bound) && v.inside && !v.thin);
     v = jox_verdict((const double[]){3, 3, 3}, 3, 3, 3);
-    near_to(v.bound, 0, 0);
+    expect_near(v.bound, 0, 0);
     assert_true(v.inside && !v.thin);
 }
 
-static void what_was_not_measured_is_not_inside(void **state) {
+static void unmeasured_value_is_not_in_band(void **state) {
     (void)state;
     JoxVerdict v = jox_verdict((const double[]){3, NAN, 3}, 3, 2, 4);
     assert_true(isnan(v.mean) && isnan(v.bound) && !v.inside && !v.thin);
 }
 
-static void seeds_are_one_or_a_range(void **state) {
+static void seeds_parse_as_one_or_a_range(void **state) {
     (void)state;
     uint64_t first;
     uint32_t count;
@@ -94,7 +95,7 @@ static void seeds_are_one_or_a_range(void **state) {
             fail_msg("'%s' is taken for seeds", WRONG[w]);
 }
 
-static void bounds_have_two_digits_and_no_exponents(void **state) {
+static void bounds_print_two_digits_without_exponent(void **state) {
     (void)state;
     static const struct {
         double bound;
@@ -109,12 +110,12 @@ static void bounds_have_two_digits_and_no_exponents(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_mean_has_a_bound),
-                                       cmocka_unit_test(an_edge_within_the_bound_is_thin),
-                                       cmocka_unit_test(equal_values_have_their_own_mean),
-                                       cmocka_unit_test(one_seed_has_no_bound),
-                                       cmocka_unit_test(what_was_not_measured_is_not_inside),
-                                       cmocka_unit_test(seeds_are_one_or_a_range),
-                                       cmocka_unit_test(bounds_have_two_digits_and_no_exponents)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(mean_has_confidence_bound),
+                                       cmocka_unit_test(band_edge_within_bound_makes_verdict_thin),
+                                       cmocka_unit_test(mean_of_equal_values_is_exact),
+                                       cmocka_unit_test(single_seed_has_no_bound),
+                                       cmocka_unit_test(unmeasured_value_is_not_in_band),
+                                       cmocka_unit_test(seeds_parse_as_one_or_a_range),
+                                       cmocka_unit_test(bounds_print_two_digits_without_exponent)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
