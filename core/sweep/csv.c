@@ -1,4 +1,4 @@
-/* The runs of a sweep as a table for spreadsheets and scripts. */
+/* Writes the runs of a sweep as a CSV table for spreadsheets and scripts: `jostle sweep --csv`. */
 #include <errno.h>
 #include <string.h>
 
@@ -14,7 +14,7 @@ typedef struct Names {
     size_t count, capacity;
 } Names;
 
-static void add_name(Names *names, const char *name, size_t length) {
+static void add_column_name(Names *names, const char *name, size_t length) {
     for (size_t n = 0; n < names->count; n++)
         if (strlen(names->items[n]) == length && strncmp(names->items[n], name, length) == 0)
             return;
@@ -28,34 +28,35 @@ static void free_names(Names *names) {
     jox_free(names->items);
 }
 
-static const char *text_of(sqlite3_stmt *s, int column) {
+static const char *get_column_text(sqlite3_stmt *s, int column) {
     const char *text = (const char *)sqlite3_column_text(s, column);
     return text ? text : "";
 }
 
-/* Every path that a variant sets, in order; and the names of all figures, by their bytes. */
+/* Collects the columns: every path that a variant sets, in order of appearance, and the names of
+   all figures, sorted by bytes. */
 static bool find_columns(const JoxSweepStore *store, Names *paths, Names *figures, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, "SELECT settings FROM variant ORDER BY id", error);
+    sqlite3_stmt *s = jox_sweep_prepare(store, "SELECT settings FROM variant ORDER BY id", error);
     int code = SQLITE_ERROR;
     while (s && (code = sqlite3_step(s)) == SQLITE_ROW)
-        for (const char *line = text_of(s, 0); *line;) {
-            add_name(paths, line, strcspn(line, "="));
+        for (const char *line = get_column_text(s, 0); *line;) {
+            add_column_name(paths, line, strcspn(line, "="));
             line += strcspn(line, "\n");
             line += *line == '\n';
         }
-    jox_sweep_end(store, s);
+    jox_sweep_finalize(store, s);
     if (code != SQLITE_DONE ||
-        !(s = jox_sweep_ask(store, "SELECT DISTINCT name FROM figure ORDER BY name", error)))
-        return s && jox_sweep_broken(store, error);
+        !(s = jox_sweep_prepare(store, "SELECT DISTINCT name FROM figure ORDER BY name", error)))
+        return s && jox_sweep_set_error(store, error);
     while ((code = sqlite3_step(s)) == SQLITE_ROW) {
         JOX_RESERVE(figures->items, figures->capacity, figures->count + 1);
-        figures->items[figures->count++] = jox_strdup(text_of(s, 0));
+        figures->items[figures->count++] = jox_strdup(get_column_text(s, 0));
     }
-    jox_sweep_end(store, s);
-    return code == SQLITE_DONE || jox_sweep_broken(store, error);
+    jox_sweep_finalize(store, s);
+    return code == SQLITE_DONE || jox_sweep_set_error(store, error);
 }
 
-static void put_head(FILE *out, const Names *paths, const Names *figures) {
+static void write_head_row(FILE *out, const Names *paths, const Names *figures) {
     for (size_t p = 0; p < paths->count; p++) {
         jox_quote_put(out, jox_quote_csv, paths->items[p]);
         fputc(',', out);
@@ -68,8 +69,8 @@ static void put_head(FILE *out, const Names *paths, const Names *figures) {
     fputc('\n', out);
 }
 
-/* What the settings of a variant, a line each, set a path to. */
-static void put_setting(FILE *out, const char *settings, const char *path) {
+/* Writes the value that the settings of a variant (one a line) give to `path`; nothing if none. */
+static void write_setting(FILE *out, const char *settings, const char *path) {
     const size_t n = strlen(path);
     for (const char *line = settings; *line;) {
         const size_t all = strcspn(line, "\n");
@@ -84,13 +85,14 @@ static void put_setting(FILE *out, const char *settings, const char *path) {
     }
 }
 
-/* Both are in the order of names. */
-static bool put_figures(const JoxSweepStore *store, FILE *out, sqlite3_stmt *figure,
-                        const Names *figures, JoError *error) {
+/* Writes the figures of one run, one cell each. The rows of `figure` and the columns have the same
+   order. */
+static bool write_figure_cells(const JoxSweepStore *store, FILE *out, sqlite3_stmt *figure,
+                               const Names *figures, JoError *error) {
     int code = sqlite3_step(figure);
     for (size_t f = 0; f < figures->count; f++) {
         fputc(',', out);
-        if (code != SQLITE_ROW || strcmp(text_of(figure, 0), figures->items[f]) != 0)
+        if (code != SQLITE_ROW || strcmp(get_column_text(figure, 0), figures->items[f]) != 0)
             continue;
         if (sqlite3_column_type(figure, 1) != SQLITE_NULL)
             fprintf(out, "%.9g", sqlite3_column_double(figure, 1));
@@ -98,49 +100,49 @@ static bool put_figures(const JoxSweepStore *store, FILE *out, sqlite3_stmt *fig
     }
     sqlite3_reset(figure);
     fputc('\n', out);
-    return code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
+    return code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_set_error(store, error);
 }
 
-static bool put_rows(const JoxSweepStore *store, FILE *out, const Names *paths,
-                     const Names *figures, JoError *error) {
-    sqlite3_stmt *run = jox_sweep_ask(
+static bool write_run_rows(const JoxSweepStore *store, FILE *out, const Names *paths,
+                           const Names *figures, JoError *error) {
+    sqlite3_stmt *run = jox_sweep_prepare(
         store,
         "SELECT v.settings, r.variant, r.seed, r.state, r.reason, r.hash, r.steps, r.simulated_s"
         " FROM run r JOIN variant v ON v.id = r.variant ORDER BY r.variant, r.seed",
         error);
     sqlite3_stmt *figure =
-        run ? jox_sweep_ask(store,
-                            "SELECT name, value FROM figure WHERE variant = ? AND seed = ?"
-                            " ORDER BY name",
-                            error)
+        run ? jox_sweep_prepare(store,
+                                "SELECT name, value FROM figure WHERE variant = ? AND seed = ?"
+                                " ORDER BY name",
+                                error)
             : NULL;
     int code = SQLITE_DONE;
     bool good = figure != NULL;
     while (good && (code = sqlite3_step(run)) == SQLITE_ROW) {
         for (size_t p = 0; p < paths->count; p++) {
-            put_setting(out, text_of(run, 0), paths->items[p]);
+            write_setting(out, get_column_text(run, 0), paths->items[p]);
             fputc(',', out);
         }
         for (int c = 2; c < 8; c++) {
             fputs(c > 2 ? "," : "", out);
-            jox_quote_put(out, jox_quote_csv, text_of(run, c));
+            jox_quote_put(out, jox_quote_csv, get_column_text(run, c));
         }
         sqlite3_bind_int64(figure, 1, sqlite3_column_int64(run, 1));
         sqlite3_bind_int64(figure, 2, sqlite3_column_int64(run, 2));
-        good = put_figures(store, out, figure, figures, error);
+        good = write_figure_cells(store, out, figure, figures, error);
     }
-    good = good && (code == SQLITE_DONE || jox_sweep_broken(store, error));
-    jox_sweep_end(store, run);
-    jox_sweep_end(store, figure);
+    good = good && (code == SQLITE_DONE || jox_sweep_set_error(store, error));
+    jox_sweep_finalize(store, run);
+    jox_sweep_finalize(store, figure);
     return good;
 }
 
-bool jox_sweep_csv(const JoxSweepStore *store, FILE *out, JoError *error) {
+bool jox_sweep_write_csv(const JoxSweepStore *store, FILE *out, JoError *error) {
     Names paths = {0}, figures = {0};
     bool good = find_columns(store, &paths, &figures, error);
     if (good)
-        put_head(out, &paths, &figures);
-    good = good && put_rows(store, out, &paths, &figures, error);
+        write_head_row(out, &paths, &figures);
+    good = good && write_run_rows(store, out, &paths, &figures, error);
     free_names(&paths);
     free_names(&figures);
     return good;
@@ -156,7 +158,7 @@ bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error) {
     FILE *out = !good ? NULL : prints ? stdout : jox_file_replace(csv);
     if (good && !out)
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, jox_file_why(errno));
-    good = out && jox_sweep_csv(&store, out, error);
+    good = out && jox_sweep_write_csv(&store, out, error);
     if (out && !prints && (good ? jox_file_close(out) : jox_file_drop(out)) != 0 && good) {
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, strerror(errno));
         good = false;

@@ -1,4 +1,5 @@
-/* Curves over time and fields over the floor of one run. */
+/* Samples curves over time and fields over the floor while one run goes on. run.c attaches this as
+   a listener of the scene and fetches the result as pieces. */
 #include <math.h>
 #include <string.h>
 
@@ -8,20 +9,21 @@
 #include "sweep/sweep.h"
 
 typedef struct Collected {
-    uint64_t every; /* steps between points */
+    uint64_t every; /* steps between two points of a curve */
     JoxSweepCurve *curves;
     uint32_t count;
     size_t capacity;
-    double *times; /* s: of the points so far */
-    uint32_t samples;
+    double *times;    /* s: times of the points so far, the same for all curves */
+    uint32_t samples; /* points so far */
     size_t time_capacity;
-    float *most;    /* 1/m2: the greatest density of each cell */
-    float now;      /* 1/m2: the greatest of any cell since the last point; NAN: none */
-    double noted_s; /* of the last sample of densities */
+    float *most;    /* 1/m2: greatest density of each cell so far */
+    float now;      /* 1/m2: greatest density anywhere since the last point; NAN: not measured */
+    double noted_s; /* time, s, of the last density frame that was used */
 } Collected;
 
-/* Whole seconds, or a handsome part or multiple of one, of which about JOX_SWEEP_SAMPLES fit. */
-static double pace(double seconds) {
+/* Returns the interval between points, s, for a run of `seconds`: the least round one that gives at
+   most JOX_SWEEP_SAMPLES points. */
+static double choose_interval(double seconds) {
     static const double STEPS[] = {0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800};
     const size_t count = sizeof STEPS / sizeof *STEPS;
     for (size_t s = 0; s < count; s++)
@@ -30,8 +32,9 @@ static double pace(double seconds) {
     return seconds / JOX_SWEEP_SAMPLES;
 }
 
-/* Adds a value of the present moment. A curve that begins later was 0 before. */
-static void add(Collected *c, const char *name, const char *unit, double value) {
+/* Appends a value at the present time to the curve `name`. A curve that begins later was 0
+   before. */
+static void add_sample(Collected *c, const char *name, const char *unit, double value) {
     uint32_t k = 0;
     while (k < c->count && strcmp(c->curves[k].name, name) != 0)
         k++;
@@ -48,48 +51,49 @@ static void add(Collected *c, const char *name, const char *unit, double value) 
     }
 }
 
-static double mean_speed(const JoxFrame *frame) {
+double jox_sweep_mean_speed(const JoxFrame *frame) {
     double sum = 0;
     for (uint32_t i = 0; i < frame->count; i++)
         sum += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
     return frame->count ? sum / frame->count : NAN;
 }
 
-static void sample(Collected *c, JoScene *scene) {
+static void sample_curves(Collected *c, JoScene *scene) {
     const JoxExits *exits = &scene->world->state.exits;
     const JoxProbe *probe;
     char name[200];
     JOX_RESERVE(c->times, c->time_capacity, c->samples + 1);
     c->times[c->samples++] = jo_world_time(scene->world);
-    add(c, "people inside", "", scene->world->state.agents.count);
-    add(c, "people who left", "", (double)exits->left);
+    add_sample(c, "people inside", "", scene->world->state.agents.count);
+    add_sample(c, "people who left", "", (double)exits->left);
     for (uint32_t e = 0; e < exits->count; e++) {
         snprintf(name, sizeof name, "left by %.150s", exits->items[e].name);
-        add(c, name, "", exits->items[e].people);
+        add_sample(c, name, "", exits->items[e].people);
     }
-    add(c, "greatest density", "1/m2", c->now);
-    add(c, "mean speed", "m/s",
-        c->samples > 1 ? mean_speed(jox_run_frame(scene, JOX_FRAME_VELOCITIES)) : NAN);
+    add_sample(c, "greatest density", "1/m2", c->now);
+    add_sample(c, "mean speed", "m/s",
+               c->samples > 1 ? jox_sweep_mean_speed(jox_run_frame(scene, JOX_FRAME_VELOCITIES))
+                              : NAN);
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW) {
             snprintf(name, sizeof name, "passed %.150s", jox_probe_def(probe)->name);
-            add(c, name, "", jox_probe_passages(probe));
+            add_sample(c, name, "", jox_probe_passages(probe));
         }
     c->now = NAN;
 }
 
-static bool begin(void *self, JoScene *scene, const void *seconds, JoError *error) {
+static bool begin_curves(void *self, JoScene *scene, const void *seconds, JoError *error) {
     Collected *c = self;
-    const double dt = scene->world->model.def.dt, of = pace(*(const double *)seconds);
+    const double dt = scene->world->model.def.dt, of = choose_interval(*(const double *)seconds);
     const JoxDensity *grid = jox_run_local(scene)->grid;
     (void)error;
     *c = (Collected){.every = (uint64_t)fmax(1.0, of / dt + 0.5), .now = NAN, .noted_s = NAN};
     c->most = jox_alloc((size_t)grid->columns * grid->rows, sizeof *c->most);
-    sample(c, scene);
+    sample_curves(c, scene);
     return true;
 }
 
-static bool frame(void *self, JoScene *scene, JoError *error) {
+static bool update_curves(void *self, JoScene *scene, JoError *error) {
     Collected *c = self;
     const JoxLocal *local = jox_run_local(scene);
     (void)error;
@@ -102,19 +106,19 @@ static bool frame(void *self, JoScene *scene, JoError *error) {
         }
     }
     if (scene->world->state.tick % c->every == 0)
-        sample(c, scene);
+        sample_curves(c, scene);
     return true;
 }
 
-static bool end(void *self, JoScene *scene, JoError *error) {
+static bool finish_curves(void *self, JoScene *scene, JoError *error) {
     Collected *c = self;
     (void)error;
     if (c->times[c->samples - 1] < jo_world_time(scene->world))
-        sample(c, scene);
+        sample_curves(c, scene);
     return true;
 }
 
-static void release(void *self) {
+static void free_curves(void *self) {
     Collected *c = self;
     for (uint32_t k = 0; k < c->count; k++)
         jox_sweep_free_curve(&c->curves[k]);
@@ -125,21 +129,22 @@ static void release(void *self) {
 
 static const JoxListenerKind CURVES = {.name = "curves and fields",
                                        .size = sizeof(Collected),
-                                       .begin = begin,
-                                       .frame = frame,
-                                       .end = end,
-                                       .release = release};
+                                       .begin = begin_curves,
+                                       .frame = update_curves,
+                                       .end = finish_curves,
+                                       .release = free_curves};
 
 bool jox_sweep_collect(JoScene *scene, double seconds, JoError *error) {
-    return jox_run_collect_danger(scene, error) && /* and densities, of which curves are drawn */
+    return jox_run_collect_danger(scene, error) && /* it measures the densities */
            jox_run_listen(scene, &CURVES, &seconds, error);
 }
 
 /* ---- fields ---- */
 
-/* Of a block of cells the greatest value, or the mean over its floor; NAN without floor. */
-static float of_block(const Collected *c, const JoxDensity *grid, uint32_t size, uint32_t column,
-                      uint32_t row, bool mean) {
+/* Reduces a block of cells to one value, 1/m2: the mean over its floor, or the greatest density;
+   NAN without floor. */
+static float reduce_block(const Collected *c, const JoxDensity *grid, uint32_t size,
+                          uint32_t column, uint32_t row, bool mean) {
     double area = 0, sum = 0;
     float most = 0;
     for (uint32_t y = row * size; y < (row + 1) * size && y < grid->rows; y++)
@@ -155,8 +160,8 @@ static float of_block(const Collected *c, const JoxDensity *grid, uint32_t size,
     return area > 0 ? (mean ? (float)(sum / area) : most) : NAN;
 }
 
-static void put_field(const Collected *c, const JoxDensity *grid, const char *name, bool mean,
-                      JoxText *pieces) {
+static void put_density_field(const Collected *c, const JoxDensity *grid, const char *name,
+                              bool mean, JoxText *pieces) {
     const double cells = (double)grid->columns * grid->rows;
     const uint32_t size = (uint32_t)ceil(sqrt(fmax(1.0, cells / JOX_SWEEP_CELLS)));
     JoxSweepField field = {.name = jox_strdup(name),
@@ -170,7 +175,7 @@ static void put_field(const Collected *c, const JoxDensity *grid, const char *na
     for (uint32_t row = 0; row < field.rows; row++)
         for (uint32_t column = 0; column < field.columns; column++)
             field.values[(size_t)row * field.columns + column] =
-                of_block(c, grid, size, column, row, mean);
+                reduce_block(c, grid, size, column, row, mean);
     jox_sweep_put_field(pieces, &field);
     jox_sweep_free_field(&field);
 }
@@ -180,6 +185,6 @@ void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces) {
     JOX_ASSERT(c);
     for (uint32_t k = 0; k < c->count; k++)
         jox_sweep_put_curve(pieces, &c->curves[k]);
-    put_field(c, jox_run_local(scene)->grid, "greatest density", false, pieces);
-    put_field(c, jox_run_local(scene)->grid, "mean density", true, pieces);
+    put_density_field(c, jox_run_local(scene)->grid, "greatest density", false, pieces);
+    put_density_field(c, jox_run_local(scene)->grid, "mean density", true, pieces);
 }

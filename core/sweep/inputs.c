@@ -9,9 +9,11 @@
 #include "base/guard.h"
 #include "run/run.h"
 
-enum { MOST_ALIKE = 20 }; /* variants that are refused for one reason, before any loads */
+/* Variants refused for the same reason until reading stops, if none has loaded */
+enum { MOST_ALIKE = 20 };
 
-JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant, uint64_t seed) {
+JoSceneDef jox_sweep_scene_def(const JoSweepDef *def, const JoxSweepVariant *variant,
+                               uint64_t seed) {
     JoSceneDef scene = def->scene;
     const char **sets = jox_alloc(scene.override_count + variant->set_count + 1, sizeof *sets);
     for (size_t o = 0; o < scene.override_count; o++)
@@ -26,6 +28,7 @@ JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant
     return scene;
 }
 
+/* Asks the def's `vet` whether the scene may be loaded; without one, it may. */
 static bool is_vetted(const JoSweepDef *def, const JoSceneDef *scene, JoError *error) {
     const JoxOutside outside = jox_guard_leave();
     const bool good = !def->vet || def->vet(def->vet_context, scene, error);
@@ -33,18 +36,19 @@ static bool is_vetted(const JoSweepDef *def, const JoSceneDef *scene, JoError *e
     return good;
 }
 
-static void hear(void *context, const char *text) {
+static void add_load_message(void *context, const char *text) {
     jox_text_add(context, text);
 }
 
-/* Loads without placing anybody, and keeps what was read. */
-static bool load(const JoSweepDef *def, const JoSceneDef *vetted, JoxOverlay *files,
-                 JoError *error) {
+/* Loads a scene without placing people, and adds all texts that it read to `files`. Messages are
+   passed on only if loading fails. */
+static bool load_dry(const JoSweepDef *def, const JoSceneDef *vetted, JoxOverlay *files,
+                     JoError *error) {
     JoSceneDef dry = *vetted;
     JoxText said = {0};
     dry.dry = true;
-    dry.resumable = true; /* keeps all texts */
-    dry.message = hear;
+    dry.resumable = true; /* so that the scene keeps its texts */
+    dry.message = add_load_message;
     dry.message_context = &said;
     JoScene *scene = jo_scene_load(&dry, error);
     const bool good = scene != NULL;
@@ -58,7 +62,7 @@ static bool load(const JoSweepDef *def, const JoSceneDef *vetted, JoxOverlay *fi
 }
 
 /* "a.yaml:3:5: unknown key" */
-static char *reason_of(const JoError *error) {
+static char *describe_refusal(const JoError *error) {
     JoxText text = {0};
     if (*error->file)
         jox_text_printf(&text, "%s:%d:%d: ", error->file, (int)error->line, (int)error->column);
@@ -66,9 +70,10 @@ static char *reason_of(const JoError *error) {
     return text.data;
 }
 
-/* Whether to go on reading after `read` variants, of which `alike` were refused for one reason and
-   none loaded: thousands that fail alike would be read for minutes. */
-static bool is_to_go_on(const JoSweepDef *def, uint32_t alike, uint32_t read, uint32_t all,
+/* Returns whether to read on after `read` variants, of which the first `alike` were refused for the
+   same reason; reading thousands that fail alike takes minutes. Returns false with `error` if
+   stopped. */
+static bool may_read_on(const JoSweepDef *def, uint32_t alike, uint32_t read, uint32_t all,
                         JoError *error) {
     if (def->stop && __atomic_load_n(def->stop, __ATOMIC_RELAXED)) {
         jox_error(error, JO_FAILED,
@@ -83,14 +88,14 @@ static bool is_to_go_on(const JoSweepDef *def, uint32_t alike, uint32_t read, ui
     return false;
 }
 
-/* Says on stderr how far the reading is, once it takes longer than people wait without a word: on a
-   terminal a line that is rewritten, and erased at last; else a line now and then. `shown`: when,
-   s of wall time; at first when the reading began. */
+/* Shows on stderr how many variants are read, if reading takes longer than a second. On a terminal
+   this is one line, rewritten and erased at the end; else a line every 10 s. `shown` is when the
+   last line was shown, s of wall time, at first the beginning; negative once a line stands. */
 static void show_reading(const JoSweepDef *def, uint32_t read, uint32_t all, double *shown) {
     static const double FIRST = 1.0, REWRITTEN = 0.2, EACH_LINE = 10.0; /* s */
     const bool terminal = isatty(2), last = read == all;
     const double now = jox_clock_wall();
-    const bool any = *shown < 0.0; /* negative, once a line is there */
+    const bool any = *shown < 0.0; /* a line stands already */
     const double since = now - fabs(*shown), least = !terminal ? EACH_LINE
                                                      : any     ? REWRITTEN
                                                                : FIRST;
@@ -104,30 +109,31 @@ static void show_reading(const JoSweepDef *def, uint32_t read, uint32_t all, dou
                 terminal ? "" : "\n");
 }
 
-static bool load_all(const JoSweepDef *def, const JoxSweepPlan *plan, const char *const *names,
-                     JoxOverlay *files, char **refused, double *shown, JoError *error) {
+/* Loads each variant once, for its first seed. */
+static bool load_variants(const JoSweepDef *def, const JoxSweepPlan *plan, const char *const *names,
+                          JoxOverlay *files, char **refused, double *shown, JoError *error) {
     uint32_t loaded = 0, alike = 0, first = plan->variant_count;
     for (uint32_t v = 0; v < plan->variant_count; v++) {
         JoError why = {0};
         show_reading(def, v, plan->variant_count, shown);
         if (def->only && (def->only - 1) / plan->seeds != v)
             continue;
-        JoSceneDef scene = jox_sweep_scene(def, &plan->variants[v], plan->first_seed);
-        const bool good = is_vetted(def, &scene, &why) && load(def, &scene, files, &why);
+        JoSceneDef scene = jox_sweep_scene_def(def, &plan->variants[v], plan->first_seed);
+        const bool good = is_vetted(def, &scene, &why) && load_dry(def, &scene, files, &why);
         jox_free((void *)(uintptr_t)scene.overrides);
         loaded += good;
-        if (!is_to_go_on(def, 0, v, plan->variant_count, error))
+        if (!may_read_on(def, 0, v, plan->variant_count, error))
             return false;
         if (good)
             continue;
-        if (why.code == JO_FAILED) { /* not for what it says */
+        if (why.code == JO_FAILED) { /* the program failed, not the scene */
             *error = why;
             return false;
         }
-        refused[v] = reason_of(&why);
+        refused[v] = describe_refusal(&why);
         first = v < first ? v : first;
         alike += loaded == 0 && alike == v && !strcmp(refused[v], refused[0]);
-        if (!is_to_go_on(def, alike, v + 1, plan->variant_count, error))
+        if (!may_read_on(def, alike, v + 1, plan->variant_count, error))
             return false;
     }
     files->sealed = true;
@@ -141,7 +147,7 @@ bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
                            const char *const *names, JoxOverlay *files, char **refused,
                            JoError *error) {
     double shown = jox_clock_wall();
-    const bool good = load_all(def, plan, names, files, refused, &shown, error);
+    const bool good = load_variants(def, plan, names, files, refused, &shown, error);
     show_reading(def, plan->variant_count, plan->variant_count, &shown);
     return good;
 }
@@ -171,7 +177,7 @@ bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
                   {"input log", def->scene.input_log ? def->scene.input_log : ""}};
     bool good = true;
     for (size_t k = 0; good && k < sizeof shared / sizeof *shared; k++)
-        good = jox_sweep_note(store, shared[k].key, shared[k].value, differences, error);
+        good = jox_sweep_note_value(store, shared[k].key, shared[k].value, differences, error);
     for (size_t f = 0; good && f < files->count; f++)
         good = jox_sweep_note_input(store, files->files[f].path, files->files[f].text,
                                     files->files[f].length, differences, error);

@@ -1,12 +1,14 @@
-/* The runs of several files of one sweep, in one. */
+/* Merges the files of a sweep whose runs were spread over machines: `jostle sweep --merge`. Each
+   part is attached to the output as the database `part`, and its runs are copied. */
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
 #include "sweep/store.h"
 
-/* Of `part`, that is attached: runs that the file has not, or has only as failed; the numbers of
-   variants and curves are those of each file. */
+/* Adds the part's variants and curve names, and lists in `moved` the runs that the output lacks or
+   has only as failed. The ids of variants and curves differ between files, so rows are matched by
+   settings and by name. */
 static const char CHOOSE[] =
     "INSERT INTO main.variant(settings, plan) SELECT settings, plan FROM part.variant WHERE true"
     " ON CONFLICT(settings) DO UPDATE SET plan = coalesce(plan, excluded.plan);"
@@ -20,6 +22,7 @@ static const char CHOOSE[] =
     " LEFT JOIN main.run r ON r.variant = v.id AND r.seed = p.seed"
     " WHERE r.state IS NULL OR (r.state = 'failed' AND p.state != 'failed');"
     "DELETE FROM main.run WHERE (variant, seed) IN (SELECT variant, seed FROM temp.moved);";
+/* Copies the runs that are listed in `moved`, with the output's ids. */
 static const char MOVE[] =
     "INSERT INTO main.run SELECT m.variant, m.seed, p.state, p.reason, p.hash, p.steps,"
     " p.simulated_s, p.cpu_s, p.wall_s, p.summary FROM temp.moved m"
@@ -33,14 +36,15 @@ static const char MOVE[] =
     " p.columns, p.rows, p.cells FROM temp.moved m"
     " JOIN part.field p ON p.variant = m.was AND p.seed = m.seed;";
 
-/* A run that both have, with other results. */
+/* Finds a run that both files have, with different hashes. */
 static const char CLASH[] =
     "SELECT v.settings, p.seed, r.hash, p.hash FROM part.run p"
     " JOIN part.variant w ON w.id = p.variant JOIN main.variant v ON v.settings = w.settings"
     " JOIN main.run r ON r.variant = v.id AND r.seed = p.seed WHERE r.hash != p.hash LIMIT 1";
 
-static bool agrees(const JoxSweepStore *store, const char *part, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, CLASH, error);
+/* Returns false with `error` if a run has another hash in the part than in the output. */
+static bool check_hashes(const JoxSweepStore *store, const char *part, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, CLASH, error);
     if (!s)
         return false;
     const int code = sqlite3_step(s);
@@ -56,24 +60,24 @@ static bool agrees(const JoxSweepStore *store, const char *part, JoError *error)
                   (const char *)sqlite3_column_text(s, 3), (const char *)sqlite3_column_text(s, 2),
                   store->path);
     } else if (code != SQLITE_DONE) {
-        jox_sweep_broken(store, error);
+        jox_sweep_set_error(store, error);
     }
-    jox_sweep_end(store, s);
+    jox_sweep_finalize(store, s);
     return code == SQLITE_DONE;
 }
 
-/* Notes what another file's runs share; differences are told. */
-static bool compare(const JoxSweepStore *store, const JoxSweepStore *part, JoxText *differences,
-                    JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(part, "SELECT key, value FROM sweep", error);
+/* Stores what the runs of a part share; differences from the output go to `differences`. */
+static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
+                          JoxText *differences, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(part, "SELECT key, value FROM sweep", error);
     int code = SQLITE_ERROR;
     bool good = s != NULL;
     while (good && (code = sqlite3_step(s)) == SQLITE_ROW)
-        good = jox_sweep_note(store, (const char *)sqlite3_column_text(s, 0),
-                              (const char *)sqlite3_column_text(s, 1), differences, error);
-    good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
-    jox_sweep_end(part, s);
-    if (!good || !(s = jox_sweep_ask(part, "SELECT path, text FROM input", error)))
+        good = jox_sweep_note_value(store, (const char *)sqlite3_column_text(s, 0),
+                                    (const char *)sqlite3_column_text(s, 1), differences, error);
+    good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
+    jox_sweep_finalize(part, s);
+    if (!good || !(s = jox_sweep_prepare(part, "SELECT path, text FROM input", error)))
         return false;
     while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
         const char *path = (const char *)sqlite3_column_text(s, 0);
@@ -81,16 +85,16 @@ static bool compare(const JoxSweepStore *store, const JoxSweepStore *part, JoxTe
         good = path && jox_sweep_note_input(store, path, text, (size_t)sqlite3_column_bytes(s, 1),
                                             differences, error);
     }
-    good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
-    jox_sweep_end(part, s);
+    good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
+    jox_sweep_finalize(part, s);
     return good;
 }
 
 static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError *error) {
     JoxSweepStore part;
     JoxText differences = {0};
-    bool good =
-        jox_sweep_open_to_read(&part, path, error) && compare(store, &part, &differences, error);
+    bool good = jox_sweep_open_to_read(&part, path, error) &&
+                compare_notes(store, &part, &differences, error);
     if (good && differences.length) {
         jox_error(error, JO_INPUT, "%.200s is of another sweep than %.200s:\n%.500s", path,
                   store->path, differences.data);
@@ -101,40 +105,43 @@ static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError 
     return good;
 }
 
-static bool attach(const JoxSweepStore *store, const char *path, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, "ATTACH ? AS part", error);
+static bool attach_part(const JoxSweepStore *store, const char *path, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, "ATTACH ? AS part", error);
     if (s)
         sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
-    return jox_sweep_finish(store, s, error);
+    return jox_sweep_step_once(store, s, error);
 }
 
-static bool merge(const JoxSweepStore *store, const char *path, JoError *error) {
+/* Merges one part: checks that it belongs to the same sweep, then copies its runs, each in a
+   transaction. */
+static bool merge_part(const JoxSweepStore *store, const char *path, JoError *error) {
     JoError ignored;
-    bool good = jox_sweep_do_sql(store, "BEGIN IMMEDIATE", error) &&
-                is_same_sweep(store, path, error) && jox_sweep_do_sql(store, "COMMIT", error);
+    bool good = jox_sweep_execute(store, "BEGIN IMMEDIATE", error) &&
+                is_same_sweep(store, path, error) && jox_sweep_execute(store, "COMMIT", error);
     if (!good) {
-        jox_sweep_do_sql(store, "ROLLBACK", &ignored);
+        jox_sweep_execute(store, "ROLLBACK", &ignored);
         return false;
     }
-    if (!attach(store, path, error))
+    if (!attach_part(store, path, error))
         return false;
-    good = jox_sweep_do_sql(store, "BEGIN IMMEDIATE", error) && agrees(store, path, error) &&
-           jox_sweep_do_sql(store, CHOOSE, error) && jox_sweep_do_sql(store, MOVE, error) &&
-           jox_sweep_do_sql(store, "COMMIT", error);
+    good = jox_sweep_execute(store, "BEGIN IMMEDIATE", error) && check_hashes(store, path, error) &&
+           jox_sweep_execute(store, CHOOSE, error) && jox_sweep_execute(store, MOVE, error) &&
+           jox_sweep_execute(store, "COMMIT", error);
     if (!good)
-        jox_sweep_do_sql(store, "ROLLBACK", &ignored);
-    jox_sweep_do_sql(store, "DETACH part", &ignored);
+        jox_sweep_execute(store, "ROLLBACK", &ignored);
+    jox_sweep_execute(store, "DETACH part", &ignored);
     return good;
 }
 
-static bool count(const JoxSweepStore *store, JoxSweepState state, uint32_t *out, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, "SELECT count(*) FROM run WHERE state = ?", error);
+static bool count_runs(const JoxSweepStore *store, JoxSweepState state, uint32_t *out,
+                       JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, "SELECT count(*) FROM run WHERE state = ?", error);
     if (!s)
         return false;
     sqlite3_bind_text(s, 1, jox_sweep_states[state], -1, SQLITE_STATIC);
-    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
+    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_set_error(store, error);
     *out = good ? (uint32_t)sqlite3_column_int64(s, 0) : 0;
-    jox_sweep_end(store, s);
+    jox_sweep_finalize(store, s);
     return good;
 }
 
@@ -148,10 +155,10 @@ bool jo_sweep_merge(const char *out, const char *const *parts, size_t part_count
     *counts = (JoSweepCounts){0};
     bool good = jox_sweep_open(&store, out, error);
     for (size_t p = 0; good && p < part_count; p++)
-        good = merge(&store, parts[p], error);
-    good = good && count(&store, JOX_SWEEP_DONE, &done, error) &&
-           count(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
-           count(&store, JOX_SWEEP_FAILED, &counts->failed, error);
+        good = merge_part(&store, parts[p], error);
+    good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&
+           count_runs(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
+           count_runs(&store, JOX_SWEEP_FAILED, &counts->failed, error);
     counts->done = done + counts->troubled;
     counts->runs = counts->done + counts->failed;
     jox_sweep_close(&store);

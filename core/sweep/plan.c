@@ -1,4 +1,5 @@
-/* Which runs a sweep has: every combination of the values that its settings take. */
+/* Makes the plan of a sweep from its settings: every combination of the values that they take. Also
+   names variants by the settings in which they differ. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +9,8 @@
 #include "base/text.h"
 #include "sweep/sweep.h"
 
-/* Where a list's value that begins at `text` ends: at a comma that stands in no bracket, brace or
-   quotes, or at the end. NULL where one of these is not closed. */
+/* Returns the end of the value that begins at `text`: a comma outside brackets, braces and quotes,
+   or the end of the list. NULL if one of these is not closed. */
 static const char *end_of_value(const char *text) {
     int depth = 0;
     char quote = 0;
@@ -28,19 +29,19 @@ static const char *end_of_value(const char *text) {
     return quote || depth != 0 ? NULL : text;
 }
 
-static bool refuse(JoError *error, const char *set, const char *what) {
+static bool refuse_set(JoError *error, const char *set, const char *what) {
     jox_error(error, JO_USAGE, "--set %.120s: %s", set, what);
     return false;
 }
 
-static bool add_value(JoxSweepAxis *axis, const char *set, const char *from, const char *to,
-                      JoError *error) {
+static bool add_axis_value(JoxSweepAxis *axis, const char *set, const char *from, const char *to,
+                           JoError *error) {
     while (from < to && isspace((unsigned char)*from))
         from++;
     while (to > from && isspace((unsigned char)to[-1]))
         to--;
     if (from == to)
-        return refuse(error, set, "a value of the list is empty: PATH=A,B,C");
+        return refuse_set(error, set, "a value of the list is empty: PATH=A,B,C");
     char *value = jox_strndup(from, (size_t)(to - from));
     JOX_RESERVE(axis->values, axis->capacity, axis->count + 1);
     axis->values[axis->count++] = value;
@@ -65,18 +66,18 @@ static bool has_twice(const JoxSweepAxis *axis) {
 static bool read_axis(JoxSweepAxis *axis, const char *set, JoError *error) {
     const char *equals = strchr(set, '=');
     if (!equals || equals == set)
-        return refuse(error, set, "is written PATH=VALUE, or PATH=A,B,C for a variant of each");
+        return refuse_set(error, set, "is written PATH=VALUE, or PATH=A,B,C for a variant of each");
     axis->path = jox_strndup(set, (size_t)(equals - set));
     for (const char *at = equals + 1, *end;; at = end + 1) {
         end = end_of_value(at);
         if (!end)
-            return refuse(error, set, "a bracket or quote is not closed");
-        if (!add_value(axis, set, at, end, error))
+            return refuse_set(error, set, "a bracket or quote is not closed");
+        if (!add_axis_value(axis, set, at, end, error))
             return false;
         if (!*end)
             break;
     }
-    return !has_twice(axis) || refuse(error, set, "a value stands in the list twice");
+    return !has_twice(axis) || refuse_set(error, set, "a value stands in the list twice");
 }
 
 static bool read_axes(JoxSweepPlan *plan, const char *const *sets, size_t count, JoError *error) {
@@ -84,17 +85,18 @@ static bool read_axes(JoxSweepPlan *plan, const char *const *sets, size_t count,
     for (size_t s = 0; s < count; s++) {
         JoxSweepAxis *axis = &plan->axes[plan->axis_count++];
         if (!sets || !sets[s])
-            return refuse(error, "NULL", "is no setting");
+            return refuse_set(error, "NULL", "is no setting");
         if (!read_axis(axis, sets[s], error))
             return false;
         for (uint32_t a = 0; a + 1 < plan->axis_count; a++)
             if (strcmp(plan->axes[a].path, axis->path) == 0)
-                return refuse(error, sets[s],
-                              "this path is set twice; give all of its values in one list");
+                return refuse_set(error, sets[s],
+                                  "this path is set twice; give all of its values in one list");
     }
     return true;
 }
 
+/* Decodes the number of a variant into one value of each axis, the last axis fastest. */
 static void make_variant(const JoxSweepPlan *plan, uint32_t number, JoxSweepVariant *v) {
     JoxText key = {0};
     v->sets = jox_alloc(plan->axis_count + 1, sizeof *v->sets);
@@ -111,8 +113,8 @@ static void make_variant(const JoxSweepPlan *plan, uint32_t number, JoxSweepVari
     v->key = key.data ? key.data : jox_strdup("");
 }
 
-bool jox_sweep_plan(JoxSweepPlan *plan, const char *const *sets, size_t count, uint64_t first_seed,
-                    uint32_t seeds, JoError *error) {
+bool jox_sweep_make_plan(JoxSweepPlan *plan, const char *const *sets, size_t count,
+                         uint64_t first_seed, uint32_t seeds, JoError *error) {
     *plan = (JoxSweepPlan){.first_seed = first_seed, .seeds = seeds};
     if (!read_axes(plan, sets, count, error))
         return false;
@@ -135,7 +137,7 @@ bool jox_sweep_plan(JoxSweepPlan *plan, const char *const *sets, size_t count, u
     return true;
 }
 
-void jox_sweep_plan_free(JoxSweepPlan *plan) {
+void jox_sweep_free_plan(JoxSweepPlan *plan) {
     for (uint32_t a = 0; plan->axes && a < plan->axis_count; a++) {
         for (uint32_t v = 0; v < plan->axes[a].count; v++)
             jox_free(plan->axes[a].values[v]);
@@ -155,8 +157,8 @@ void jox_sweep_plan_free(JoxSweepPlan *plan) {
 
 /* ---- names ---- */
 
-/* The line of a key that sets a path, or NULL. */
-static const char *line_of(const char *key, const char *path, size_t length) {
+/* Returns the line of a key that sets a path, or NULL. */
+static const char *find_set_line(const char *key, const char *path, size_t length) {
     for (const char *line = key; *line;) {
         if (strncmp(line, path, length) == 0 && line[length] == '=')
             return line;
@@ -166,16 +168,17 @@ static const char *line_of(const char *key, const char *path, size_t length) {
     return NULL;
 }
 
-static bool same_line(const char *a, const char *b) {
+static bool are_lines_equal(const char *a, const char *b) {
     const size_t n = a ? strcspn(a, "\n") : 0, m = b ? strcspn(b, "\n") : 0;
     return !a == !b && n == m && strncmp(a ? a : "", b ? b : "", n) == 0;
 }
 
-/* The paths that keys set, each once. */
+/* The paths that the keys set, each once. A cache: with many variants, comparing all keys for each
+   name would take minutes. */
 typedef struct Path {
     const char *text;
     size_t length;
-    bool differs; /* keys differ in what they set it to */
+    bool differs; /* the keys set it to different values */
 } Path;
 typedef struct Paths {
     const char *const *keys;
@@ -184,50 +187,50 @@ typedef struct Paths {
     size_t count, capacity;
 } Paths;
 
-static bool differ(const Paths *paths, const char *path, size_t length) {
-    const char *first = line_of(paths->keys[0], path, length);
+static bool do_keys_differ(const Paths *paths, const char *path, size_t length) {
+    const char *first = find_set_line(paths->keys[0], path, length);
     for (uint32_t k = 1; k < paths->key_count; k++)
-        if (!same_line(line_of(paths->keys[k], path, length), first))
+        if (!are_lines_equal(find_set_line(paths->keys[k], path, length), first))
             return true;
     return false;
 }
 
-/* Whether the variants differ in what they set a path to: found out once for each. */
-static bool differs(Paths *paths, const char *path, size_t length) {
+/* Returns whether the variants set a path to different values; computed once per path. */
+static bool is_path_varied(Paths *paths, const char *path, size_t length) {
     for (size_t p = 0; p < paths->count; p++)
         if (paths->items[p].length == length && !memcmp(paths->items[p].text, path, length))
             return paths->items[p].differs;
     JOX_RESERVE(paths->items, paths->capacity, paths->count + 1);
     Path *fresh = &paths->items[paths->count++];
-    *fresh = (Path){path, length, differ(paths, path, length)};
+    *fresh = (Path){path, length, do_keys_differ(paths, path, length)};
     return fresh->differs;
 }
 
-/* Where the last name of a path that ends at `end` begins. */
-static const char *last_of(const char *path, const char *end) {
+/* Returns where the last name of a path begins; the path ends at `end`. */
+static const char *find_last_name(const char *path, const char *end) {
     while (end > path && end[-1] != '.')
         end--;
     return end;
 }
 
-/* The end of a path: what stands behind its last dot; where that is a value of the n-th of a list,
-   with the list and the number: "walls.3.open". */
-static const char *tail_of(const char *path, size_t length) {
-    const char *at = last_of(path, path + length);
-    const char *before = at > path ? last_of(path, at - 1) : at;
+/* Returns the end of a path that serves as its short name: what follows the last dot. If a number
+   precedes it, as in "walls.3.open", the list and the number are included. */
+static const char *find_path_tail(const char *path, size_t length) {
+    const char *at = find_last_name(path, path + length);
+    const char *before = at > path ? find_last_name(path, at - 1) : at;
     const bool in_list = before < at && strspn(before, "0123456789") == (size_t)(at - 1 - before);
-    return !in_list ? at : before > path ? last_of(path, before - 1) : before;
+    return !in_list ? at : before > path ? find_last_name(path, before - 1) : before;
 }
 
-/* Whether another path of the key that makes a difference has the same end. */
-static bool shares_tail(Paths *paths, const char *key, const char *path, size_t length) {
-    const char *tail = tail_of(path, length);
+/* Returns whether the key sets another path that varies and has the same short name. */
+static bool is_tail_ambiguous(Paths *paths, const char *key, const char *path, size_t length) {
+    const char *tail = find_path_tail(path, length);
     const size_t size = (size_t)(path + length - tail);
     for (const char *line = key; *line;) {
         const size_t n = strcspn(line, "=");
-        const char *other = tail_of(line, n);
+        const char *other = find_path_tail(line, n);
         if (line != path && (size_t)(line + n - other) == size && memcmp(other, tail, size) == 0 &&
-            differs(paths, line, n))
+            is_path_varied(paths, line, n))
             return true;
         line += strcspn(line, "\n");
         line += *line == '\n';
@@ -235,14 +238,15 @@ static bool shares_tail(Paths *paths, const char *key, const char *path, size_t 
     return false;
 }
 
-void jox_sweep_names(const char *const *keys, uint32_t count, char **names) {
+void jox_sweep_name_variants(const char *const *keys, uint32_t count, char **names) {
     Paths paths = {.keys = keys, .key_count = count};
     for (uint32_t k = 0; k < count; k++) {
         JoxText name = {0};
         for (const char *line = keys[k]; *line;) {
             const size_t n = strcspn(line, "="), all = strcspn(line, "\n");
-            if (differs(&paths, line, n)) {
-                const char *from = shares_tail(&paths, keys[k], line, n) ? line : tail_of(line, n);
+            if (is_path_varied(&paths, line, n)) {
+                const char *from =
+                    is_tail_ambiguous(&paths, keys[k], line, n) ? line : find_path_tail(line, n);
                 jox_text_printf(&name, "%s%.*s", name.length ? ", " : "", (int)(line + all - from),
                                 from);
             }

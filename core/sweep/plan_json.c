@@ -1,4 +1,5 @@
-/* The plan of a scene, for pictures of runs whose scene is not at hand. */
+/* Writes the plan of a scene as JSON, so that the results of a sweep can be drawn without its
+   scene. compare/side_plan.c reads it. */
 #include <math.h>
 
 #include "base/format/json_writer.h"
@@ -35,7 +36,7 @@ void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls) {
     jox_json_end(json);
 }
 
-static void put_probes(JoxJson *json, const JoxSceneSpec *spec) {
+static void put_plan_probes(JoxJson *json, const JoxSceneSpec *spec) {
     static const char *const KINDS[JOX_PROBE_KINDS] = {[JOX_PROBE_FLOW] = "flow",
                                                        [JOX_PROBE_MEASURE] = "measure",
                                                        [JOX_PROBE_TRANSIT] = "transit"};
@@ -43,7 +44,7 @@ static void put_probes(JoxJson *json, const JoxSceneSpec *spec) {
     for (uint32_t p = 0; p < spec->probe_count; p++) {
         const JoxProbeDef *probe = &spec->probes[p];
         if (!KINDS[probe->kind])
-            continue; /* it measures nowhere in particular */
+            continue; /* kinds that measure no particular place */
         jox_json_object(json, NULL);
         jox_json_string(json, "name", probe->name);
         jox_json_string(json, "kind", KINDS[probe->kind]);
@@ -53,8 +54,8 @@ static void put_probes(JoxJson *json, const JoxSceneSpec *spec) {
     jox_json_end(json);
 }
 
-/* A disc by its middle, other parts by their outlines. */
-static void put_bodies(JoxJson *json, const JoxBodies *bodies) {
+/* Writes a disc as its centre and radius, other parts as their outlines. */
+static void put_plan_bodies(JoxJson *json, const JoxBodies *bodies) {
     JoxDrawnBodies drawn = {0};
     jox_draw_add_bodies(&drawn, bodies);
     jox_json_array(json, "bodies");
@@ -91,7 +92,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
         jox_json_end(&json);
     }
     jox_json_end(&json);
-    put_probes(&json, spec);
-    put_bodies(&json, scene->world->state.bodies);
+    put_plan_probes(&json, spec);
+    put_plan_bodies(&json, scene->world->state.bodies);
     jox_json_end(&json);
 }

@@ -1,4 +1,5 @@
-/* One run of a sweep, in a process of its own. */
+/* Simulates one run of a sweep and packs its results into pieces. sweep.c calls this in a child
+   process. */
 #include <math.h>
 #include <string.h>
 
@@ -9,17 +10,18 @@
 
 const char *const jox_sweep_states[3] = {"done", "troubled", "failed"};
 
-static void add_text(JoxText *pieces, const char *name, const char *text) {
+static void add_text_piece(JoxText *pieces, const char *name, const char *text) {
     jox_pieces_add(pieces, name, text, strlen(text));
 }
 
-static void hear(void *context, const char *text) {
+static void add_run_message(void *context, const char *text) {
     jox_text_add(context, text);
 }
 
-/* Loads, steps, and adds what is to be kept; false with `error`. */
-static bool simulate(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pieces,
-                     char **troubles, JoError *error) {
+/* Loads the scene, steps it to the end, and appends its results. Sets *troubles to what did not go
+   as written, or NULL; to be freed. Returns false with `error`. */
+static bool simulate_run(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pieces,
+                         char **troubles, JoError *error) {
     JoScene *scene = jo_scene_load(def, error);
     if (!scene)
         return false;
@@ -43,8 +45,8 @@ static bool simulate(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pie
         const JoxSweepNumbers numbers = {jo_world_hash(scene->world), stats.steps,
                                          stats.simulated_s, stats.cpu_s, stats.wall_s};
         jox_pieces_add(pieces, "numbers", &numbers, sizeof numbers);
-        add_text(pieces, "summary", summary);
-        add_text(pieces, "plan", plan.data);
+        add_text_piece(pieces, "summary", summary);
+        add_text_piece(pieces, "plan", plan.data);
         jox_sweep_put_collected(scene, pieces);
         *troubles = jox_run_troubles(scene);
     } else if (good) {
@@ -57,15 +59,15 @@ static bool simulate(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pie
     return good;
 }
 
-void jox_sweep_do(const JoxSweepRun *run, JoxText *pieces) {
+void jox_sweep_simulate(const JoxSweepRun *run, JoxText *pieces) {
     JoSceneDef def = *run->def;
     JoError error = {0};
     JoxText said = {0};
     char *troubles = NULL;
-    def.message = hear;
+    def.message = add_run_message;
     def.message_context = &said;
     jox_pieces_begin(pieces);
-    const bool good = simulate(run, &def, pieces, &troubles, &error);
+    const bool good = simulate_run(run, &def, pieces, &troubles, &error);
     const uint32_t state = !good      ? JOX_SWEEP_FAILED
                            : troubles ? JOX_SWEEP_TROUBLED
                                       : JOX_SWEEP_DONE;
@@ -75,9 +77,9 @@ void jox_sweep_do(const JoxSweepRun *run, JoxText *pieces) {
         jox_text_printf(&why, "%s:%d:%d: ", error.file, (int)error.line, (int)error.column);
     jox_text_add(&why, good && troubles ? troubles : *error.text ? error.text : "it failed");
     if (state != JOX_SWEEP_DONE)
-        add_text(pieces, "reason", why.data);
+        add_text_piece(pieces, "reason", why.data);
     jox_text_free(&why);
-    add_text(pieces, "said", said.data ? said.data : "");
+    add_text_piece(pieces, "said", said.data ? said.data : "");
     jox_pieces_end(pieces);
     jo_free(troubles);
     jox_text_free(&said);

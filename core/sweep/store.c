@@ -8,7 +8,7 @@
 #include "base/guard.h"
 #include "base/hash.h"
 
-/* In the head of the file: "JSwp", and the version of these tables. */
+/* Header fields of the SQLite file: the id "JSwp", and the version of these tables. */
 #define APPLICATION "1246984048"
 #define FORMAT "1"
 
@@ -33,7 +33,7 @@ static const char SCHEMA[] =
 static const char *const TABLES[] = {"sweep",      "input",       "variant", "run", "figure",
                                      "curve_name", "curve_point", "field",   NULL};
 
-bool jox_sweep_broken(const JoxSweepStore *store, JoError *error) {
+bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error) {
     const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
     const bool bad = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
                      code == SQLITE_MISMATCH;
@@ -46,52 +46,52 @@ bool jox_sweep_broken(const JoxSweepStore *store, JoError *error) {
     return false;
 }
 
-sqlite3_stmt *jox_sweep_ask(const JoxSweepStore *store, const char *sql, JoError *error) {
+sqlite3_stmt *jox_sweep_prepare(const JoxSweepStore *store, const char *sql, JoError *error) {
     sqlite3_stmt *statement = jox_database_prepare(store->db, sql);
     if (!statement)
-        jox_sweep_broken(store, error);
+        jox_sweep_set_error(store, error);
     return statement;
 }
 
-void jox_sweep_end(const JoxSweepStore *store, sqlite3_stmt *statement) {
+void jox_sweep_finalize(const JoxSweepStore *store, sqlite3_stmt *statement) {
     jox_database_finalize(store->db, statement);
 }
 
-bool jox_sweep_do_sql(const JoxSweepStore *store, const char *sql, JoError *error) {
+bool jox_sweep_execute(const JoxSweepStore *store, const char *sql, JoError *error) {
     return sqlite3_exec(store->db->sqlite, sql, NULL, NULL, NULL) == SQLITE_OK ||
-           jox_sweep_broken(store, error);
+           jox_sweep_set_error(store, error);
 }
 
-bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error) {
+bool jox_sweep_step_once(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error) {
     const bool good = statement && sqlite3_step(statement) == SQLITE_DONE;
     if (statement && !good)
-        jox_sweep_broken(store, error);
-    jox_sweep_end(store, statement);
+        jox_sweep_set_error(store, error);
+    jox_sweep_finalize(store, statement);
     return good;
 }
 
 /* ---- opening ---- */
 
-/* A whole number that a pragma tells; -1 where it tells none. */
-static int64_t tell(const JoxSweepStore *store, const char *pragma) {
+/* Reads a pragma that returns a whole number; -1 if it returns none. */
+static int64_t read_pragma(const JoxSweepStore *store, const char *pragma) {
     sqlite3_stmt *s = jox_database_prepare(store->db, pragma);
     int64_t value = -1;
     if (s && sqlite3_step(s) == SQLITE_ROW)
         value = sqlite3_column_int64(s, 0);
-    jox_sweep_end(store, s);
+    jox_sweep_finalize(store, s);
     return value;
 }
 
-static bool is_ours(const JoxSweepStore *store, JoError *error) {
+static bool check_format(const JoxSweepStore *store, JoError *error) {
     char text[24];
-    snprintf(text, sizeof text, "%lld", (long long)tell(store, "PRAGMA application_id"));
+    snprintf(text, sizeof text, "%lld", (long long)read_pragma(store, "PRAGMA application_id"));
     if (strcmp(text, APPLICATION) != 0) {
         const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
         jox_error(error, JO_INPUT, "%.300s is no file of `jostle sweep`%s; it is left as it is",
                   store->path, code == SQLITE_NOTADB ? ", nor any SQLite database" : "");
         return false;
     }
-    snprintf(text, sizeof text, "%lld", (long long)tell(store, "PRAGMA user_version"));
+    snprintf(text, sizeof text, "%lld", (long long)read_pragma(store, "PRAGMA user_version"));
     if (strcmp(text, FORMAT) == 0)
         return true;
     jox_error(error, JO_INPUT, "%.300s is a sweep's file of format %s, and this program has %s",
@@ -99,8 +99,9 @@ static bool is_ours(const JoxSweepStore *store, JoError *error) {
     return false;
 }
 
-/* Opens the file; false with `error`. */
-static bool connect(JoxSweepStore *store, const char *path, JoxDatabaseUse use, JoError *error) {
+/* Opens the database; false with `error`. */
+static bool connect_database(JoxSweepStore *store, const char *path, JoxDatabaseUse use,
+                             JoError *error) {
     JoxText why = {0};
     store->db = jox_database_open(path, use, &why);
     if (!store->db)
@@ -110,8 +111,8 @@ static bool connect(JoxSweepStore *store, const char *path, JoxDatabaseUse use, 
     return store->db != NULL;
 }
 
-/* Lets statements name the tables of a sweep; false with `error`. */
-static bool allow(const JoxSweepStore *store, JoError *error) {
+/* Restricts statements to the tables of a sweep; false with `error`. */
+static bool restrict_tables(const JoxSweepStore *store, JoError *error) {
     JoxText why = {0};
     const bool good = jox_database_allow(store->db, TABLES, &why);
     if (!good)
@@ -120,11 +121,12 @@ static bool allow(const JoxSweepStore *store, JoError *error) {
     return good;
 }
 
-/* Makes the tables of a file that is empty. */
-static bool begin(const JoxSweepStore *store, JoError *error) {
-    if (tell(store, "PRAGMA schema_version") == 0 && tell(store, "PRAGMA application_id") == 0)
-        return allow(store, error) && jox_sweep_do_sql(store, SCHEMA, error);
-    return is_ours(store, error) && allow(store, error);
+/* Creates the tables in an empty file; checks the format of any other. */
+static bool prepare_tables(const JoxSweepStore *store, JoError *error) {
+    if (read_pragma(store, "PRAGMA schema_version") == 0 &&
+        read_pragma(store, "PRAGMA application_id") == 0)
+        return restrict_tables(store, error) && jox_sweep_execute(store, SCHEMA, error);
+    return check_format(store, error) && restrict_tables(store, error);
 }
 
 bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
@@ -139,18 +141,19 @@ bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
                   errno == EBUSY ? "another sweep writes it" : jox_file_why(errno));
         return false;
     }
-    return connect(store, path, JOX_DATABASE_WRITE, error) && begin(store, error);
+    return connect_database(store, path, JOX_DATABASE_WRITE, error) && prepare_tables(store, error);
 }
 
 bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *error) {
     *store = (JoxSweepStore){.path = jox_strdup(path)};
-    return connect(store, path, JOX_DATABASE_READ, error) && is_ours(store, error) &&
-           allow(store, error);
+    return connect_database(store, path, JOX_DATABASE_READ, error) && check_format(store, error) &&
+           restrict_tables(store, error);
 }
 
 void jox_sweep_close(JoxSweepStore *store) {
     jox_database_close(store->db);
-    if (store->claim) /* after the database, which it would take the locks from */
+    /* after the database: closing any descriptor of a file drops the process's locks on it */
+    if (store->claim)
         jox_file_close(store->claim);
     jox_free(store->path);
     *store = (JoxSweepStore){0};
@@ -158,10 +161,11 @@ void jox_sweep_close(JoxSweepStore *store) {
 
 /* ---- what all runs share ---- */
 
-/* The text that a statement finds for a key, to be freed; NULL: none. False with `error`. */
-static bool find(const JoxSweepStore *store, const char *sql, const char *key, char **found,
-                 JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, sql, error);
+/* Runs a query for one text by its key. *found is to be freed; NULL: no row. Returns false with
+   `error`. */
+static bool find_text(const JoxSweepStore *store, const char *sql, const char *key, char **found,
+                      JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, sql, error);
     *found = NULL;
     if (!s)
         return false;
@@ -170,15 +174,16 @@ static bool find(const JoxSweepStore *store, const char *sql, const char *key, c
     const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(s, 0) : NULL;
     if (text)
         *found = jox_strdup(text);
-    const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
-    jox_sweep_end(store, s);
+    const bool good =
+        code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_set_error(store, error);
+    jox_sweep_finalize(store, s);
     return good;
 }
 
-bool jox_sweep_note(const JoxSweepStore *store, const char *key, const char *value,
-                    JoxText *differences, JoError *error) {
+bool jox_sweep_note_value(const JoxSweepStore *store, const char *key, const char *value,
+                          JoxText *differences, JoError *error) {
     char *found;
-    if (!find(store, "SELECT value FROM sweep WHERE key = ?", key, &found, error))
+    if (!find_text(store, "SELECT value FROM sweep WHERE key = ?", key, &found, error))
         return false;
     if (found && strcmp(found, value) != 0)
         jox_text_printf(differences, "  %s: %s there, %s now\n", key, *found ? found : "none",
@@ -187,19 +192,19 @@ bool jox_sweep_note(const JoxSweepStore *store, const char *key, const char *val
     jox_free(found);
     if (there)
         return true;
-    sqlite3_stmt *s = jox_sweep_ask(store, "INSERT INTO sweep VALUES(?, ?)", error);
+    sqlite3_stmt *s = jox_sweep_prepare(store, "INSERT INTO sweep VALUES(?, ?)", error);
     if (s) {
         sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
         sqlite3_bind_text(s, 2, value, -1, SQLITE_STATIC);
     }
-    return jox_sweep_finish(store, s, error);
+    return jox_sweep_step_once(store, s, error);
 }
 
 bool jox_sweep_note_input(const JoxSweepStore *store, const char *path, const char *text,
                           size_t length, JoxText *differences, JoError *error) {
     char *found, sha256[65];
     jox_sha256_hex(text, length, sha256);
-    if (!find(store, "SELECT sha256 FROM input WHERE path = ?", path, &found, error))
+    if (!find_text(store, "SELECT sha256 FROM input WHERE path = ?", path, &found, error))
         return false;
     if (found && strcmp(found, sha256) != 0)
         jox_text_printf(differences, "  %s has changed: SHA-256 %.12s... there, %.12s... now\n",
@@ -208,34 +213,35 @@ bool jox_sweep_note_input(const JoxSweepStore *store, const char *path, const ch
     jox_free(found);
     if (there)
         return true;
-    sqlite3_stmt *s = jox_sweep_ask(store, "INSERT INTO input VALUES(?, ?, ?)", error);
+    sqlite3_stmt *s = jox_sweep_prepare(store, "INSERT INTO input VALUES(?, ?, ?)", error);
     if (s) {
         sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
         sqlite3_bind_text(s, 2, sha256, -1, SQLITE_STATIC);
         sqlite3_bind_blob(s, 3, text ? text : "", (int)length, SQLITE_STATIC);
     }
-    return jox_sweep_finish(store, s, error);
+    return jox_sweep_step_once(store, s, error);
 }
 
-bool jox_sweep_variant(const JoxSweepStore *store, const char *key, int64_t *id, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(
+bool jox_sweep_find_variant(const JoxSweepStore *store, const char *key, int64_t *id,
+                            JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(
         store, "INSERT INTO variant(settings) VALUES(?) ON CONFLICT DO NOTHING", error);
     if (s)
         sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
-    if (!jox_sweep_finish(store, s, error) ||
-        !(s = jox_sweep_ask(store, "SELECT id FROM variant WHERE settings = ?", error)))
+    if (!jox_sweep_step_once(store, s, error) ||
+        !(s = jox_sweep_prepare(store, "SELECT id FROM variant WHERE settings = ?", error)))
         return false;
     sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
-    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
+    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_set_error(store, error);
     *id = good ? sqlite3_column_int64(s, 0) : 0;
-    jox_sweep_end(store, s);
+    jox_sweep_finalize(store, s);
     return good;
 }
 
-bool jox_sweep_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
-                     JoError *error) {
+bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
+                          JoError *error) {
     sqlite3_stmt *s =
-        jox_sweep_ask(store, "SELECT state FROM run WHERE variant = ? AND seed = ?", error);
+        jox_sweep_prepare(store, "SELECT state FROM run WHERE variant = ? AND seed = ?", error);
     *state = -1;
     if (!s)
         return false;
@@ -246,7 +252,8 @@ bool jox_sweep_state(const JoxSweepStore *store, int64_t variant, uint64_t seed,
     for (int k = 0; text && k < 3; k++)
         if (strcmp(text, jox_sweep_states[k]) == 0)
             *state = k;
-    const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
-    jox_sweep_end(store, s);
+    const bool good =
+        code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_set_error(store, error);
+    jox_sweep_finalize(store, s);
     return good;
 }

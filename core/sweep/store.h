@@ -1,12 +1,14 @@
-/* The file of a sweep: SQLite, one transaction a run, so that it is whole whenever the process
-   ends. Its tables are for people, too:
+/* The file of a sweep, an SQLite database. Each run is stored in one transaction, so that the file
+   is whole whenever the process ends. sweep.c writes it, compare/ reads it, and people may query
+   it:
 
      sweep(key, value)                    what all runs share: "scene", "version", "step", ...
-     input(path, sha256, text)            every file that a run was loaded from, as it was
-     variant(id, settings, plan)          settings: "PATH=VALUE" a line; plan: JSON
+     input(path, sha256, text)            every file that the runs were loaded from, with its text
+     variant(id, settings, plan)          settings: "PATH=VALUE", one a line; plan: JSON
      run(variant, seed, state, reason, hash, steps, simulated_s, cpu_s, wall_s, summary)
-     figure(variant, seed, name, value)   of runs that ended; NULL where the run has none
-     curve(variant, seed, name, unit, time, value)   unit in curve_name
+     figure(variant, seed, name, value)   of runs that ended; NULL: the run has no value
+     curve_name(id, name, unit)           the curves that any run has
+     curve_point(variant, seed, curve, time, value)   curve: id of its name; time: s
      field(variant, seed, name, unit, low_x, low_y, cell, columns, rows, cells)  32-bit floats */
 #ifndef JOX_SWEEP_STORE_H
 #define JOX_SWEEP_STORE_H
@@ -18,51 +20,54 @@
 
 typedef struct JoxSweepStore {
     JoxDatabase *db;
-    FILE *claim; /* one sweep writes a file at a time */
-    char *path;  /* "" of one in memory */
+    FILE *claim; /* locks the file against other sweeps; NULL: opened for reading */
+    char *path;  /* "": in memory */
 } JoxSweepStore;
 
-/* Opens a sweep's file, or makes one; NULL as the path is in memory. False with JO_INPUT in `error`
-   of a file that is no sweep's or damaged, with JO_FAILED where it cannot be written or another
-   sweep writes it. */
+/* Opens a sweep's file for writing, or creates it; a NULL path means in memory. Returns false with
+   JO_INPUT in `error` if the file is damaged or no sweep's, with JO_FAILED if it cannot be written
+   or another sweep writes it. Close the store even then. */
 bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error);
-/* Opens one for reading alone. */
+/* Opens a sweep's file for reading only. */
 bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *error);
 void jox_sweep_close(JoxSweepStore *store);
 
-/* Fills `error` with what SQLite says of the file; returns false. */
-bool jox_sweep_broken(const JoxSweepStore *store, JoError *error);
-/* A statement, or NULL with `error`. */
-sqlite3_stmt *jox_sweep_ask(const JoxSweepStore *store, const char *sql, JoError *error);
-/* Ends it; NULL is fine. */
-void jox_sweep_end(const JoxSweepStore *store, sqlite3_stmt *statement);
-bool jox_sweep_do_sql(const JoxSweepStore *store, const char *sql, JoError *error);
-/* Ends a statement that returns no rows; false with `error`. */
-bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error);
+/* Describes SQLite's last error in `error`; always returns false. */
+bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error);
+/* Prepares a statement; NULL with `error` if that fails. */
+sqlite3_stmt *jox_sweep_prepare(const JoxSweepStore *store, const char *sql, JoError *error);
+/* Finalizes a statement; NULL is fine. */
+void jox_sweep_finalize(const JoxSweepStore *store, sqlite3_stmt *statement);
+/* Executes SQL that returns no rows; false with `error`. */
+bool jox_sweep_execute(const JoxSweepStore *store, const char *sql, JoError *error);
+/* Steps a statement that returns no rows, and finalizes it; false with `error`. NULL fails. */
+bool jox_sweep_step_once(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error);
 
-/* What all runs of a file share, as it was noted: the first time it is, later it has to be the
-   same. Differences are told in `differences`, a sentence each. False with `error`. */
-bool jox_sweep_note(const JoxSweepStore *store, const char *key, const char *value,
-                    JoxText *differences, JoError *error);
+/* Stores a value or an input file that all runs share. If the file has it already with another
+   value, nothing is stored, and a line about the difference is added to `differences`. Returns
+   false with `error`. */
+bool jox_sweep_note_value(const JoxSweepStore *store, const char *key, const char *value,
+                          JoxText *differences, JoError *error);
 bool jox_sweep_note_input(const JoxSweepStore *store, const char *path, const char *text,
                           size_t length, JoxText *differences, JoError *error);
-/* The number of a variant, made where there is none. */
-bool jox_sweep_variant(const JoxSweepStore *store, const char *key, int64_t *id, JoError *error);
-/* The state of a run; *state is -1 where there is none. */
-bool jox_sweep_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
-                     JoError *error);
-/* Puts what a run left, in place of what there was; `pieces` are those of jox_sweep_do. */
+/* Finds the id of a variant by its key, and adds the variant if it is missing. */
+bool jox_sweep_find_variant(const JoxSweepStore *store, const char *key, int64_t *id,
+                            JoError *error);
+/* Finds the JoxSweepState of a run; *state is -1 if the run is not stored. */
+bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
+                          JoError *error);
+/* Stores the results of a run in place of older ones; `pieces` are those of jox_sweep_simulate. */
 bool jox_sweep_put_run(const JoxSweepStore *store, int64_t variant, uint64_t seed,
                        const JoxText *pieces, JoError *error);
-/* A run of which nothing is known but why it failed. */
+/* Stores a run that failed without results, such as one whose process crashed, with the reason. */
 bool jox_sweep_put_failure(const JoxSweepStore *store, int64_t variant, uint64_t seed,
                            const char *why, JoError *error);
 
-/* Takes out all runs but those of so many seeds from `first` on. */
+/* Deletes all runs except those of the `count` seeds from `first` on. */
 bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
                           JoError *error);
 
-/* csv.c: a row for each run, with a column for each setting and figure. */
-bool jox_sweep_csv(const JoxSweepStore *store, FILE *out, JoError *error);
+/* csv.c: writes a row for each run, with a column for each setting and figure. */
+bool jox_sweep_write_csv(const JoxSweepStore *store, FILE *out, JoError *error);
 
 #endif

@@ -1,4 +1,5 @@
-/* jo_sweep: which runs are to be done, and doing them. */
+/* jo_sweep: reads the inputs, lists the runs that the file lacks, and does these in child
+   processes. A run whose process crashes is stored as failed; the others go on. */
 #include "sweep/sweep.h"
 
 #include <errno.h>
@@ -25,7 +26,7 @@ JoSweepDef jo_default_sweep_def(void) {
 
 typedef struct Job {
     uint32_t variant;
-    int64_t id; /* of the variant in the file */
+    int64_t id; /* of the variant in the file's tables */
     uint64_t seed;
 } Job;
 
@@ -33,23 +34,23 @@ typedef struct Sweep {
     const JoSweepDef *def;
     JoxSweepPlan plan;
     JoxSweepStore store;
-    JoxOverlay files; /* all that the runs read */
-    char **names;     /* of variants */
-    bool *heard;      /* of variants: what a run of it says was told */
-    char **refused;   /* of variants: why it does not load; or NULL */
-    Job *jobs;        /* to be done */
-    uint32_t count, next;
+    JoxOverlay files;     /* texts of all files that the runs read */
+    char **names;         /* by variant */
+    bool *heard;          /* by variant: messages of one of its runs were passed on */
+    char **refused;       /* by variant: why it does not load, or NULL */
+    Job *jobs;            /* runs that the file lacks */
+    uint32_t count, next; /* jobs; the first that is not started */
     size_t capacity;
     JoSweepCounts counts;
-    double begun, shown; /* s, wall time */
-    uint32_t tenth;
+    double begun, shown; /* s of wall time: start of the runs; last progress line */
+    uint32_t tenth;      /* tenths done at the last progress line */
 } Sweep;
 
 static bool is_stopped(const Sweep *s) {
     return s->def->stop && __atomic_load_n(s->def->stop, __ATOMIC_RELAXED);
 }
 
-static void say(const Sweep *s, const char *text) {
+static void pass_message(const Sweep *s, const char *text) {
     jox_run_message(s->def->message, s->def->message_context, text);
 }
 
@@ -61,27 +62,29 @@ static void name_run(const Sweep *s, uint32_t variant, uint64_t seed, JoxText *o
 
 /* ---- in the child ---- */
 
-static void work(void *context, uint64_t number, JoxText *result) {
+/* Runs in the child: simulates one job from the texts that were read. */
+static void run_job_in_child(void *context, uint64_t number, JoxText *result) {
     const Sweep *s = context;
     const Job *job = &s->jobs[number];
     char *folder = NULL;
-    JoSceneDef scene = jox_sweep_scene(s->def, &s->plan.variants[job->variant], job->seed);
+    JoSceneDef scene = jox_sweep_scene_def(s->def, &s->plan.variants[job->variant], job->seed);
     if (s->def->data) {
         JoxText text = {0};
         jox_text_printf(&text, "%s/seed-%llu", s->def->data, (unsigned long long)job->seed);
         folder = text.data;
     }
     jox_overlay_use(&s->files);
-    jox_sweep_do(&(JoxSweepRun){&scene, s->def->seconds, s->def->steps, folder}, result);
+    jox_sweep_simulate(&(JoxSweepRun){&scene, s->def->seconds, s->def->steps, folder}, result);
 }
 
-/* ---- what is to be done ---- */
+/* ---- the jobs ---- */
 
-static bool add_job(Sweep *s, uint32_t variant, uint64_t seed, JoError *error) {
+/* Counts a run and makes it a job, unless the file has it already. */
+static bool add_sweep_job(Sweep *s, uint32_t variant, uint64_t seed, JoError *error) {
     Job job = {.variant = variant, .seed = seed};
     int state;
-    if (!jox_sweep_variant(&s->store, s->plan.variants[variant].key, &job.id, error) ||
-        !jox_sweep_state(&s->store, job.id, seed, &state, error))
+    if (!jox_sweep_find_variant(&s->store, s->plan.variants[variant].key, &job.id, error) ||
+        !jox_sweep_find_state(&s->store, job.id, seed, &state, error))
         return false;
     s->counts.runs++;
     if (state < 0 || s->def->data || (state == JOX_SWEEP_FAILED && s->def->again)) {
@@ -96,23 +99,23 @@ static bool add_job(Sweep *s, uint32_t variant, uint64_t seed, JoError *error) {
     return true;
 }
 
-/* One seed of every variant first, then the next: what is there early compares all of them. */
+/* Lists the jobs seed by seed, each of all variants, so that early results compare all variants. */
 static bool list_jobs(Sweep *s, JoError *error) {
     const JoxSweepPlan *plan = &s->plan;
     const uint32_t only = s->def->only;
     for (uint32_t n = 0; n < plan->seeds; n++)
         for (uint32_t v = 0; v < plan->variant_count; v++)
             if ((!only || only == 1 + v * plan->seeds + n) &&
-                !add_job(s, v, plan->first_seed + n, error))
+                !add_sweep_job(s, v, plan->first_seed + n, error))
                 return false;
     return true;
 }
 
-/* Says what differs from the inputs of the file, and refuses it. */
-static bool refuse(const Sweep *s, const JoxText *differences, JoError *error) {
+/* Refuses a file that was begun with other inputs; the differences are sent as a message. */
+static bool refuse_file(const Sweep *s, const JoxText *differences, JoError *error) {
     JoxText text = {0};
     jox_text_printf(&text, "%s:\n%s", s->def->out, differences->data);
-    say(s, text.data);
+    pass_message(s, text.data);
     jox_text_free(&text);
     jox_error(error, JO_INPUT,
               "%s was begun with other inputs, so that its runs do not compare with these: give "
@@ -121,21 +124,22 @@ static bool refuse(const Sweep *s, const JoxText *differences, JoError *error) {
     return false;
 }
 
-/* The file, with what all runs share and are made of; of one begun with other inputs `differences`,
-   with nothing written. */
+/* Opens the file, stores what all runs share, and lists the jobs. If the file was begun with other
+   inputs, fills `differences` and writes nothing. */
 static bool try_file(Sweep *s, JoxText *differences, JoError *error) {
     JoError ignored;
     if (!jox_sweep_open(&s->store, s->def->out, error) ||
-        !jox_sweep_do_sql(&s->store, "BEGIN IMMEDIATE", error) ||
+        !jox_sweep_execute(&s->store, "BEGIN IMMEDIATE", error) ||
         !jox_sweep_note_inputs(&s->store, s->def, &s->files, differences, error))
         return false;
     if (differences->length)
-        return jox_sweep_do_sql(&s->store, "ROLLBACK", &ignored);
+        return jox_sweep_execute(&s->store, "ROLLBACK", &ignored);
     return (!s->def->renew ||
             jox_sweep_keep_seeds(&s->store, s->plan.first_seed, s->plan.seeds, error)) &&
-           list_jobs(s, error) && jox_sweep_do_sql(&s->store, "COMMIT", error);
+           list_jobs(s, error) && jox_sweep_execute(&s->store, "COMMIT", error);
 }
 
+/* Opens the file; one of other inputs is deleted and begun anew if the def says `renew`. */
 static bool open_file(Sweep *s, JoError *error) {
     JoxText differences = {0};
     bool good = try_file(s, &differences, error);
@@ -150,14 +154,14 @@ static bool open_file(Sweep *s, JoError *error) {
                       strerror(errno));
     }
     if (good && differences.length)
-        good = refuse(s, &differences, error);
+        good = refuse_file(s, &differences, error);
     jox_text_free(&differences);
     return good;
 }
 
 /* ---- the runs ---- */
 
-static void show_progress(Sweep *s, uint32_t running, bool last) {
+static void show_sweep_progress(Sweep *s, uint32_t running, bool last) {
     const uint32_t all = s->counts.runs, ended = s->counts.done + s->counts.failed;
     const uint32_t own = ended - s->counts.kept, tenth = all ? 10 * ended / all : 10;
     const bool terminal = isatty(2);
@@ -184,9 +188,10 @@ static void show_progress(Sweep *s, uint32_t running, bool last) {
         fputs("\n", stderr);
 }
 
-/* What a run said: of the first of each variant, and wherever it went wrong. */
-static void tell_run(Sweep *s, const Job *job, JoxSweepState state, const char *reason,
-                     const char *said) {
+/* Passes on the messages of the first run of each variant, and the reason of every run that went
+   wrong. */
+static void report_run(Sweep *s, const Job *job, JoxSweepState state, const char *reason,
+                       const char *said) {
     JoxText text = {0};
     if (said && *said && !s->heard[job->variant])
         jox_text_add(&text, said);
@@ -197,11 +202,11 @@ static void tell_run(Sweep *s, const Job *job, JoxSweepState state, const char *
                         reason ? reason : "it is not known why");
     }
     if (text.length)
-        say(s, text.data);
+        pass_message(s, text.data);
     jox_text_free(&text);
 }
 
-static void count(Sweep *s, JoxSweepState state) {
+static void count_state(Sweep *s, JoxSweepState state) {
     s->counts.done += state != JOX_SWEEP_FAILED;
     s->counts.troubled += state == JOX_SWEEP_TROUBLED;
     s->counts.failed += state == JOX_SWEEP_FAILED;
@@ -222,8 +227,8 @@ static bool take_result(Sweep *s, const Job *job, const JoxText *pieces, JoError
     }
     if (!jox_sweep_put_run(&s->store, job->id, job->seed, pieces, error))
         return false;
-    count(s, (JoxSweepState)state);
-    tell_run(s, job, (JoxSweepState)state, reason, said);
+    count_state(s, (JoxSweepState)state);
+    report_run(s, job, (JoxSweepState)state, reason, said);
     return true;
 }
 
@@ -233,24 +238,26 @@ static bool take_end(Sweep *s, const JoxChildEnd *end, JoError *error) {
         return take_result(s, job, &end->result, error);
     if (!jox_sweep_put_failure(&s->store, job->id, job->seed, end->why, error))
         return false;
-    count(s, JOX_SWEEP_FAILED);
-    tell_run(s, job, JOX_SWEEP_FAILED, end->why, NULL);
+    count_state(s, JOX_SWEEP_FAILED);
+    report_run(s, job, JOX_SWEEP_FAILED, end->why, NULL);
     return true;
 }
 
-/* The run of a variant that does not load fails without a process. */
+/* Stores the run of a variant that does not load as failed, without starting a process. */
 static bool take_refused(Sweep *s, const Job *job, JoError *error) {
     const char *why = s->refused[job->variant];
     if (!jox_sweep_put_failure(&s->store, job->id, job->seed, why, error))
         return false;
-    count(s, JOX_SWEEP_FAILED);
+    count_state(s, JOX_SWEEP_FAILED);
     if (!s->heard[job->variant])
-        tell_run(s, job, JOX_SWEEP_FAILED, why, NULL);
+        report_run(s, job, JOX_SWEEP_FAILED, why, NULL);
     s->heard[job->variant] = true;
     return true;
 }
 
-static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
+/* Starts jobs while there is room, and stores each result, until all are done or the def's `stop`
+   is set. */
+static bool run_jobs(Sweep *s, JoxChildren *children, JoError *error) {
     while (!is_stopped(s) && (s->next < s->count || jox_children_count(children))) {
         if (s->next < s->count && s->refused[s->jobs[s->next].variant]) {
             if (!take_refused(s, &s->jobs[s->next++], error))
@@ -258,7 +265,7 @@ static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
             continue;
         }
         if (s->next < s->count && jox_children_has_room(children)) {
-            if (jox_children_start(children, s->next, work, s)) {
+            if (jox_children_start(children, s->next, run_job_in_child, s)) {
                 s->next++;
                 continue;
             }
@@ -268,7 +275,7 @@ static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
             }
         }
         JoxChildEnd end;
-        show_progress(s, jox_children_count(children), false);
+        show_sweep_progress(s, jox_children_count(children), false);
         if (jox_children_wait(children, &end)) {
             const bool good = take_end(s, &end, error);
             jox_text_free(&end.result);
@@ -279,8 +286,9 @@ static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
     return true;
 }
 
-static char *aggregate(Sweep *s, JoError *error) {
-    sqlite3_stmt *ask = jox_sweep_ask(
+/* Returns the aggregate of all stored summaries as JSON, to be freed; NULL with `error`. */
+static char *aggregate_summaries(Sweep *s, JoError *error) {
+    sqlite3_stmt *ask = jox_sweep_prepare(
         &s->store, "SELECT summary FROM run WHERE summary NOT NULL ORDER BY variant, seed", error);
     char **texts = NULL;
     size_t texts_count = 0, capacity = 0;
@@ -293,29 +301,29 @@ static char *aggregate(Sweep *s, JoError *error) {
     if (code == SQLITE_DONE)
         all = jo_summaries_aggregate((const char *const *)texts, texts_count, error);
     else if (ask)
-        jox_sweep_broken(&s->store, error);
-    jox_sweep_end(&s->store, ask);
+        jox_sweep_set_error(&s->store, error);
+    jox_sweep_finalize(&s->store, ask);
     for (size_t t = 0; t < texts_count; t++)
         jox_free(texts[t]);
     jox_free(texts);
     return all;
 }
 
-static bool go(Sweep *s, char **summary, JoError *error) {
+static bool run_sweep(Sweep *s, char **summary, JoError *error) {
     s->refused = jox_alloc(s->plan.variant_count, sizeof *s->refused);
     if (!jox_sweep_load_inputs(s->def, &s->plan, (const char *const *)s->names, &s->files,
                                s->refused, error) ||
         !open_file(s, error))
         return false;
     const uint32_t threads = s->def->scene.threads ? s->def->scene.threads : 1;
-    const uint32_t each = jox_processors() / threads; /* processes that this makes */
+    const uint32_t each = jox_processors() / threads; /* children that this leaves room for */
     const uint32_t jobs = s->def->jobs ? s->def->jobs : each ? each : 1;
     s->heard = jox_alloc(s->plan.variant_count, sizeof *s->heard);
     s->begun = jox_clock_wall();
     JoxChildren *children = jox_children_create(jobs < s->count ? jobs : s->count ? s->count : 1);
-    const bool good = run_all(s, children, error);
+    const bool good = run_jobs(s, children, error);
     jox_children_free(children);
-    show_progress(s, 0, true);
+    show_sweep_progress(s, 0, true);
     s->counts.missing = s->counts.runs - s->counts.done - s->counts.failed;
     if (good && is_stopped(s)) {
         jox_error(error, JO_FAILED,
@@ -325,12 +333,12 @@ static bool go(Sweep *s, char **summary, JoError *error) {
                   s->counts.done + s->counts.failed, s->counts.runs, s->def->out);
         return false;
     }
-    if (good && summary && !(*summary = aggregate(s, error)))
+    if (good && summary && !(*summary = aggregate_summaries(s, error)))
         return false;
     return good;
 }
 
-static void release(Sweep *s) {
+static void free_sweep(Sweep *s) {
     jox_sweep_close(&s->store);
     for (uint32_t v = 0; s->names && v < s->plan.variant_count; v++) {
         jox_free(s->names[v]);
@@ -341,14 +349,14 @@ static void release(Sweep *s) {
     jox_free(s->heard);
     jox_free(s->jobs);
     jox_overlay_free(&s->files);
-    jox_sweep_plan_free(&s->plan);
+    jox_sweep_free_plan(&s->plan);
 }
 
-/* The plan of the def, and names for its variants. */
-static bool plan(Sweep *s, JoError *error) {
+/* Makes the plan of the def, and names its variants. */
+static bool plan_sweep(Sweep *s, JoError *error) {
     const JoSweepDef *def = s->def;
     const uint64_t first = def->scene.has_seed ? def->scene.seed : 1;
-    if (!jox_sweep_plan(&s->plan, def->sets, def->set_count, first, def->seeds, error))
+    if (!jox_sweep_make_plan(&s->plan, def->sets, def->set_count, first, def->seeds, error))
         return false;
     const uint32_t variants = s->plan.variant_count;
     if (def->only > variants * def->seeds) {
@@ -360,7 +368,7 @@ static bool plan(Sweep *s, JoError *error) {
     s->names = jox_alloc(variants, sizeof *s->names);
     for (uint32_t v = 0; v < variants; v++)
         keys[v] = s->plan.variants[v].key;
-    jox_sweep_names(keys, variants, s->names);
+    jox_sweep_name_variants(keys, variants, s->names);
     jox_free(keys);
     return true;
 }
@@ -370,8 +378,8 @@ uint32_t jo_sweep_runs(const JoSweepDef *def, JoError *error) {
     JOX_GUARD (NULL, error)
         return 0;
     Sweep s = {.def = def};
-    const uint32_t runs = plan(&s, error) ? s.plan.variant_count * s.plan.seeds : 0;
-    release(&s);
+    const uint32_t runs = plan_sweep(&s, error) ? s.plan.variant_count * s.plan.seeds : 0;
+    free_sweep(&s);
     return runs;
 }
 
@@ -384,10 +392,10 @@ bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoEr
     }
     Sweep s = {.def = def};
     *counts = (JoSweepCounts){0};
-    const bool good = plan(&s, error) && go(&s, summary, error);
+    const bool good = plan_sweep(&s, error) && run_sweep(&s, summary, error);
     *counts = s.counts;
     if (good && summary)
         jox_disown(*summary);
-    release(&s);
+    free_sweep(&s);
     return good;
 }

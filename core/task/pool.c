@@ -21,7 +21,7 @@ static const unsigned OPEN = 1u << 31; /* bit of `gate` */
    suspended. So the other choice is probed for PROBE laps: SOON laps after a change, then at
    growing intervals, at most SELDOM laps apart. */
 enum { PROBE = 2, SOON = 8, SELDOM = 512 };
-/* a probe wins if its laps take less than this share of the usual time */
+/* A probe wins if its laps take less than this share of the usual time */
 static const double BETTER = 0.95;
 typedef struct Pace {
     bool alone, probing;

@@ -1,4 +1,5 @@
-/* Which runs a sweep has, and what its variants are called; what runs hand over. */
+/* Tests of the plan of a sweep, the names of its variants, and the encoding of curves and
+   fields. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,21 +21,21 @@ static void every_combination_is_a_variant(void **state) {
                                        "groups.a.set.speed=normal(1, 2),4", "walls.0.name='x,y'"};
     JoxSweepPlan plan;
     JoError error;
-    assert_true(jox_sweep_plan(&plan, SETS, 3, 7, 5, &error));
+    assert_true(jox_sweep_make_plan(&plan, SETS, 3, 7, 5, &error));
     assert_int_equal(plan.variant_count, 6);
     assert_string_equal(plan.variants[0].key,
                         "groups.a.count=1\ngroups.a.set.speed=normal(1, 2)\nwalls.0.name='x,y'");
     assert_string_equal(plan.variants[3].sets[0], "groups.a.count=2");
     assert_string_equal(plan.variants[3].sets[1], "groups.a.set.speed=4");
     assert_int_equal(plan.first_seed, 7);
-    jox_sweep_plan_free(&plan);
-    assert_true(jox_sweep_plan(&plan, NULL, 0, 1, 1, &error));
+    jox_sweep_free_plan(&plan);
+    assert_true(jox_sweep_make_plan(&plan, NULL, 0, 1, 1, &error));
     assert_int_equal(plan.variant_count, 1);
     assert_string_equal(plan.variants[0].key, "");
-    jox_sweep_plan_free(&plan);
+    jox_sweep_free_plan(&plan);
 }
 
-static void lists_that_are_none_are_refused(void **state) {
+static void malformed_lists_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *set, *why;
@@ -46,29 +47,31 @@ static void lists_that_are_none_are_refused(void **state) {
         const char *const sets[] = {"b=1", BAD[b].set};
         JoxSweepPlan plan;
         JoError error = {0};
-        if (jox_sweep_plan(&plan, sets, 2, 1, 1, &error) || !strstr(error.text, BAD[b].why))
+        if (jox_sweep_make_plan(&plan, sets, 2, 1, 1, &error) || !strstr(error.text, BAD[b].why))
             fail_msg("'%s': %s", BAD[b].set, error.text);
         assert_int_equal(error.code, JO_USAGE);
-        jox_sweep_plan_free(&plan);
+        jox_sweep_free_plan(&plan);
     }
 }
 
 static void check_names(const char *const *keys, const char *const *wanted, uint32_t count) {
     char *names[8];
-    jox_sweep_names(keys, count, names);
+    jox_sweep_name_variants(keys, count, names);
     for (uint32_t k = 0; k < count; k++) {
         assert_string_equal(names[k], wanted[k]);
         jox_free(names[k]);
     }
 }
 
-static void names_say_what_differs(void **state) {
+static void variants_are_named_by_what_differs(void **state) {
     (void)state;
     check_names((const char *const[]){"x.a=1\nx.b=2", "x.a=1\nx.b=3"},
                 (const char *const[]){"b=2", "b=3"}, 2);
-    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"}, /* ends that are shared */
+    /* the short names would be equal */
+    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"},
                 (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
-    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"}, /* but not varied */
+    /* equal short names, but only one varies */
+    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"},
                 (const char *const[]){"n=1", "n=2"}, 2);
     check_names((const char *const[]){"walls.3.open=true", "walls.3.open=false"},
                 (const char *const[]){"walls.3.open=true", "walls.3.open=false"}, 2);
@@ -78,8 +81,8 @@ static void names_say_what_differs(void **state) {
     check_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
 }
 
-/* Each name compared with every other would take minutes. */
-static void names_of_many_take_no_longer_each(void **state) {
+/* Comparing each name with every other would take minutes. */
+static void naming_many_variants_takes_linear_time(void **state) {
     enum { MANY = 50000, BYTES = 48 };
     (void)state;
     char *bytes = jox_alloc(MANY, BYTES);
@@ -90,7 +93,7 @@ static void names_of_many_take_no_longer_each(void **state) {
         snprintf(bytes + (size_t)k * BYTES, BYTES, "a.b=5\na.c=6\na.n=%u\nc.b=7", k);
     }
     const double begun = jox_clock_cpu();
-    jox_sweep_names(keys, MANY, names);
+    jox_sweep_name_variants(keys, MANY, names);
     assert_true(jox_clock_cpu() - begun < 5.0);
     assert_string_equal(names[MANY - 1], "n=49999");
     for (uint32_t k = 0; k < MANY; k++)
@@ -100,7 +103,7 @@ static void names_of_many_take_no_longer_each(void **state) {
     jox_free(bytes);
 }
 
-static void curves_and_fields_come_back(void **state) {
+static void curves_and_fields_survive_encoding(void **state) {
     (void)state;
     char curve_name[] = "people inside", field_name[] = "density", unit[] = "1/m2", none[] = "";
     double points[] = {0, 5, 1, NAN, 2, 3};
@@ -134,9 +137,9 @@ static void curves_and_fields_come_back(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_combination_is_a_variant),
-                                       cmocka_unit_test(lists_that_are_none_are_refused),
-                                       cmocka_unit_test(names_say_what_differs),
-                                       cmocka_unit_test(names_of_many_take_no_longer_each),
-                                       cmocka_unit_test(curves_and_fields_come_back)};
+                                       cmocka_unit_test(malformed_lists_are_refused),
+                                       cmocka_unit_test(variants_are_named_by_what_differs),
+                                       cmocka_unit_test(naming_many_variants_takes_linear_time),
+                                       cmocka_unit_test(curves_and_fields_survive_encoding)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

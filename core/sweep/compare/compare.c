@@ -1,4 +1,5 @@
-/* jo_compare. */
+/* jo_compare: reads and names the sides, computes the differences, and writes text, JSON and the
+   page. */
 #include "sweep/compare/compare.h"
 
 #include <math.h>
@@ -18,19 +19,20 @@ JoCompareDef jo_default_compare_def(void) {
 
 /* ---- names ---- */
 
-static const char *file_of(const JoxSide *side, size_t *length) {
+static const char *get_file_stem(const JoxSide *side, size_t *length) {
     const char *file = jox_path_name(side->source);
     *length = jox_path_stem(file);
     return file;
 }
 
-/* Whether sides come of several files, and whether two of these have one name. */
-static void look_at_files(const JoxSides *sides, bool *several, bool *alike) {
+/* Finds whether the sides come from several files, and whether two of these have the same name. */
+static void inspect_files(const JoxSides *sides, bool *several, bool *alike) {
     *several = *alike = false;
     for (uint32_t s = 1; s < sides->count; s++)
         for (uint32_t t = 0; t < s; t++) {
             size_t n, m;
-            const char *a = file_of(&sides->items[s], &n), *b = file_of(&sides->items[t], &m);
+            const char *a = get_file_stem(&sides->items[s], &n),
+                       *b = get_file_stem(&sides->items[t], &m);
             if (strcmp(sides->items[s].source, sides->items[t].source) == 0)
                 continue;
             *several = true;
@@ -38,10 +40,10 @@ static void look_at_files(const JoxSides *sides, bool *several, bool *alike) {
         }
 }
 
-/* What tells a side from the others: its file, its settings, or both. */
+/* Names each side by what distinguishes it: its file, its settings, or both. */
 static void name_sides(JoxSides *sides) {
     bool several, alike;
-    look_at_files(sides, &several, &alike);
+    inspect_files(sides, &several, &alike);
     for (uint32_t s = 0, end; s < sides->count; s = end) {
         for (end = s + 1;
              end < sides->count && strcmp(sides->items[end].source, sides->items[s].source) == 0;)
@@ -50,12 +52,12 @@ static void name_sides(JoxSides *sides) {
         char **names = jox_alloc(end - s, sizeof *names);
         for (uint32_t k = s; k < end; k++)
             keys[k - s] = sides->items[k].settings ? sides->items[k].settings : "";
-        jox_sweep_names(keys, end - s, names);
+        jox_sweep_name_variants(keys, end - s, names);
         for (uint32_t k = s; k < end; k++) {
             JoxSide *side = &sides->items[k];
             JoxText name = {0};
             size_t n;
-            const char *file = file_of(side, &n);
+            const char *file = get_file_stem(side, &n);
             if (alike)
                 jox_text_add(&name, side->source);
             else if (several || !*names[k - s])
@@ -70,7 +72,7 @@ static void name_sides(JoxSides *sides) {
     }
 }
 
-/* Those that the def gives, in place of what tells sides apart; false with JO_USAGE. */
+/* Replaces names by the labels of the def; false with JO_USAGE. */
 static bool label_sides(JoxComparison *c, JoError *error) {
     const JoCompareDef *def = c->def;
     if (def->label_count > c->sides.count) {
@@ -85,11 +87,11 @@ static bool label_sides(JoxComparison *c, JoError *error) {
     return true;
 }
 
-/* The side that is named by its number, its name, or its file; false with JO_USAGE. */
+/* Finds the base by its number, its name, or its file; false with JO_USAGE. */
 static bool find_base(JoxComparison *c, JoError *error) {
     const char *base = c->def->base;
     char *end;
-    if (!base) { /* the first with runs */
+    if (!base) { /* default: the first side with runs */
         while (c->base + 1 < c->sides.count && c->sides.items[c->base].runs == 0)
             c->base++;
         return true;
@@ -115,7 +117,8 @@ static bool find_base(JoxComparison *c, JoError *error) {
 
 /* ---- the whole ---- */
 
-static bool load(JoxComparison *c, JoError *error) {
+/* Reads all sides: consecutive recordings of one folder make one side. */
+static bool load_sides(JoxComparison *c, JoError *error) {
     const JoCompareDef *def = c->def;
     for (size_t s = 0, end; s < def->side_count; s = end) {
         end = s + 1;
@@ -136,35 +139,35 @@ static bool load(JoxComparison *c, JoError *error) {
     name_sides(&c->sides);
     if (!runs && !(def->out && c->sides.count == 1 && c->sides.items[0].all_count)) {
         jox_error(error, JO_INPUT, "there is no run with figures as yet");
-        return false; /* but of one side, whose page says why each failed */
+        return false; /* a single side without figures still gets a page, with the reasons */
     }
     return label_sides(c, error) && find_base(c, error);
 }
 
-static bool write_page(const JoxComparison *c, JoError *error) {
+static bool write_comparison_page(const JoxComparison *c, JoError *error) {
     JoxText why = {0};
     const bool alone = c->sides.count == 1 && !c->sides.items[0].recorded;
     const bool good = jox_plot_folder(c->def->out, &why) &&
-                      (alone ? jox_seeds_page(c, &why)
-                             : jox_compare_plots(c, &why) && jox_compare_plans(c, &why) &&
-                                   jox_compare_page(c, &why));
+                      (alone ? jox_seeds_write_page(c, &why)
+                             : jox_compare_draw_plots(c, &why) && jox_compare_draw_plans(c, &why) &&
+                                   jox_compare_write_page(c, &why));
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);
     return good;
 }
 
-static char *compare(const JoCompareDef *def, char **json, JoError *error) {
+static char *compare_all_sides(const JoCompareDef *def, char **json, JoError *error) {
     JoxComparison c = {.def = def};
     JoxText text = {0}, document = {0};
-    bool good = load(&c, error);
+    bool good = load_sides(&c, error);
     if (good) {
         jox_compare_effects(&c);
-        jox_compare_text(&c, &text);
+        jox_compare_write_text(&c, &text);
     }
     if (good && json)
-        jox_compare_json(&c, &document);
-    good = good && (!def->out || write_page(&c, error));
+        jox_compare_write_json(&c, &document);
+    good = good && (!def->out || write_comparison_page(&c, error));
     for (uint32_t f = 0; f < c.count; f++)
         jox_free(c.figures[f].sides);
     jox_free(c.figures);
@@ -180,5 +183,5 @@ char *jo_compare(const JoCompareDef *def, char **json, JoError *error) {
     JOX_REQUIRE(def->percentile >= 0 && def->percentile < 100, NULL);
     JOX_GUARD (NULL, error)
         return NULL;
-    return compare(def, json, error);
+    return compare_all_sides(def, json, error);
 }

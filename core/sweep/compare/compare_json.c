@@ -1,11 +1,11 @@
-/* The comparison as JSON: every figure, with what each interval was made of. */
+/* Writes a comparison as JSON: every figure, with the data behind each interval. */
 #include <math.h>
 
 #include "base/format/json_writer.h"
 #include "base/mem.h"
 #include "sweep/compare/compare.h"
 
-static void put_side(const JoxComparison *c, uint32_t s, JoxJson *json) {
+static void put_side_json(const JoxComparison *c, uint32_t s, JoxJson *json) {
     const JoxSide *side = &c->sides.items[s];
     jox_json_object(json, NULL);
     jox_json_string(json, "name", side->name);
@@ -20,10 +20,11 @@ static void put_side(const JoxComparison *c, uint32_t s, JoxJson *json) {
     jox_json_end(json);
 }
 
-static void put_percentile(const JoxComparison *c, const char *figure, uint32_t s, JoxJson *json) {
+static void put_percentile_json(const JoxComparison *c, const char *figure, uint32_t s,
+                                JoxJson *json) {
     const double q = c->def->percentile / 100;
     size_t count;
-    double *values = jox_side_values(&c->sides.items[s], figure, &count);
+    double *values = jox_side_sorted_values(&c->sides.items[s], figure, &count);
     const size_t above = jox_rank_above(count, q), bound = jox_rank_bound(count, q, c->def->share);
     jox_json_number(json, "percentile", above ? values[above - 1] : NAN);
     jox_json_number(json, "worst", count ? values[count - 1] : NAN);
@@ -36,7 +37,7 @@ static void put_difference(const JoxComparison *c, const JoxCompared *figure, ui
     const JoxDifference *d = &figure->sides[s];
     char method[200];
     size_t count;
-    double *values = jox_side_values(&c->sides.items[s], figure->figure, &count);
+    double *values = jox_side_sorted_values(&c->sides.items[s], figure->figure, &count);
     const JoxMoments m = jox_moments(values, count);
     jox_free(values);
     jox_json_object(json, NULL);
@@ -44,9 +45,9 @@ static void put_difference(const JoxComparison *c, const JoxCompared *figure, ui
     jox_json_number(json, "deviation", m.deviation);
     jox_json_whole(json, "runs", count);
     if (c->def->percentile > 0)
-        put_percentile(c, figure->figure, s, json);
+        put_percentile_json(c, figure->figure, s, json);
     if (s != c->base) {
-        jox_compare_method(c, d, method, sizeof method);
+        jox_compare_describe_method(c, d, method, sizeof method);
         jox_json_number(json, "difference", d->effect.difference);
         jox_json_number(json, "low", d->effect.low);
         jox_json_number(json, "high", d->effect.high);
@@ -63,7 +64,7 @@ static void put_difference(const JoxComparison *c, const JoxCompared *figure, ui
     jox_json_end(json);
 }
 
-void jox_compare_json(const JoxComparison *c, JoxText *out) {
+void jox_compare_write_json(const JoxComparison *c, JoxText *out) {
     JoxJson json = jox_json_begin(out, 3);
     jox_json_object(&json, NULL);
     jox_json_string(&json, "version", jo_version());
@@ -73,7 +74,7 @@ void jox_compare_json(const JoxComparison *c, JoxText *out) {
     jox_json_whole(&json, "base", c->base + 1);
     jox_json_array(&json, "sides");
     for (uint32_t s = 0; s < c->sides.count; s++)
-        put_side(c, s, &json);
+        put_side_json(c, s, &json);
     jox_json_end(&json);
     jox_json_object(&json, "figures");
     for (uint32_t f = 0; f < c->count; f++) {

@@ -1,4 +1,5 @@
-/* Differences of figures, how sure they are, and how many runs would tell. */
+/* Computes the differences of figures between each side and the base, their intervals, and how many
+   runs would detect them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,18 +8,19 @@
 #include "base/sort.h"
 #include "sweep/compare/compare.h"
 
-static const double POWER = 0.8; /* with which so many runs find a difference */
+/* Probability of detecting the difference, from which the number of runs needed is computed. */
+static const double POWER = 0.8;
 
-/* Values of one figure on two sides, of the runs in which it is known. */
+/* The values of one figure on two sides, of the runs that have it. */
 typedef struct Samples {
     double *a, *b;
     size_t a_count, b_count;
-    size_t a_known, b_known; /* with those that have no partner */
+    size_t a_known, b_known; /* including runs without a partner */
     bool paired;
 } Samples;
 
-double *jox_side_values(const JoxSide *side, const char *name, size_t *count) {
-    const JoxSideFigure *figure = jox_side_find(side, name);
+double *jox_side_sorted_values(const JoxSide *side, const char *name, size_t *count) {
+    const JoxSideFigure *figure = jox_side_find_figure(side, name);
     double *values = jox_alloc(side->runs + 1, sizeof *values);
     *count = 0;
     for (uint32_t r = 0; figure && r < side->runs; r++)
@@ -28,14 +30,16 @@ double *jox_side_values(const JoxSide *side, const char *name, size_t *count) {
     return values;
 }
 
-/* Runs of one seed belong together where at least half of the smaller side's have a partner. */
-static Samples collect(const JoxSide *base, const JoxSide *other, const char *name) {
-    const JoxSideFigure *f = jox_side_find(base, name), *g = jox_side_find(other, name);
+/* Collects the values of both sides. Runs of the same seed are paired if at least half of the
+   smaller side's runs have a partner. */
+static Samples pair_samples(const JoxSide *base, const JoxSide *other, const char *name) {
+    const JoxSideFigure *f = jox_side_find_figure(base, name),
+                        *g = jox_side_find_figure(other, name);
     Samples s = {0};
     uint32_t i = 0, k = 0;
     size_t pairs = 0;
-    s.a = jox_side_values(base, name, &s.a_count);
-    s.b = jox_side_values(other, name, &s.b_count);
+    s.a = jox_side_sorted_values(base, name, &s.a_count);
+    s.b = jox_side_sorted_values(other, name, &s.b_count);
     s.a_known = s.a_count;
     s.b_known = s.b_count;
     if (!f || !g || base->recorded || other->recorded)
@@ -63,10 +67,11 @@ static Samples collect(const JoxSide *base, const JoxSide *other, const char *na
     return s;
 }
 
-static JoxDifference measure(const JoxComparison *c, const JoxSide *other, const char *name) {
+static JoxDifference measure_difference(const JoxComparison *c, const JoxSide *other,
+                                        const char *name) {
     const JoxSide *base = &c->sides.items[c->base];
     const double share = c->def->share;
-    Samples s = collect(base, other, name);
+    Samples s = pair_samples(base, other, name);
     JoxDifference d = {.base = jox_moments(s.a, s.a_count), .other = jox_moments(s.b, s.b_count)};
     d.effect = s.paired ? jox_effect_paired(s.a, s.b, s.a_count, share)
                         : jox_effect_apart(s.a, s.a_count, s.b, s.b_count, share);
@@ -80,11 +85,11 @@ static JoxDifference measure(const JoxComparison *c, const JoxSide *other, const
     return d;
 }
 
-static bool varies(const JoxComparison *c, const char *name) {
+static bool is_varied(const JoxComparison *c, const char *name) {
     double first = NAN;
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
-        const JoxSideFigure *figure = jox_side_find(side, name);
+        const JoxSideFigure *figure = jox_side_find_figure(side, name);
         for (uint32_t r = 0; figure && r < side->runs; r++) {
             if (isfinite(figure->values[r]) && isnan(first))
                 first = figure->values[r];
@@ -98,17 +103,17 @@ static bool varies(const JoxComparison *c, const char *name) {
 static bool same_values(const JoxComparison *c, const char *a, const char *b) {
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
-        const JoxSideFigure *f = jox_side_find(side, a), *g = jox_side_find(side, b);
+        const JoxSideFigure *f = jox_side_find_figure(side, a), *g = jox_side_find_figure(side, b);
         for (uint32_t r = 0; r < side->runs; r++)
-            if (!f || !g || f->values[r] != g->values[r]) /* nor is NAN the same */
+            if (!f || !g || f->values[r] != g->values[r]) /* two NAN count as different */
                 return false;
     }
     return true;
 }
 
-/* Of keys that are the same number in every run, as of the only exit and of all, the first is one.
- */
-static void demote_doubles(JoxComparison *c) {
+/* If two key figures have the same value in every run, as of a single exit and of all exits, the
+   later one is no key figure. */
+static void demote_duplicates(JoxComparison *c) {
     for (uint32_t f = 1; f < c->count; f++)
         for (uint32_t g = 0; g < f && c->figures[f].words.is_key; g++)
             if (c->figures[g].words.is_key &&
@@ -123,22 +128,22 @@ typedef struct Test {
     JoxDifference *of;
 } Test;
 
-static int by_p(const void *a, const void *b, const void *context) {
+static int compare_p(const void *a, const void *b, const void *context) {
     const double x = ((const Test *)a)->p, y = ((const Test *)b)->p;
     (void)context;
     return x < y ? -1 : x > y;
 }
 
-/* S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian Journal of
-   Statistics 6, 1979: the least p of m is held against alpha / m, the next against alpha / (m - 1),
-   up to the first that is not below. */
-static void adjust(JoxComparison *c, uint32_t side) {
+/* Applies Holm's correction over the figures of a side: the least of m values of p is compared with
+   alpha / m, the next with alpha / (m - 1), and so on, until one is above. S. Holm, "A simple
+   sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6, 1979. */
+static void apply_holm(JoxComparison *c, uint32_t side) {
     Test *tests = jox_alloc(c->count + 1, sizeof *tests);
     uint32_t count = 0;
     for (uint32_t f = 0; f < c->count; f++)
         if (isfinite(c->figures[f].sides[side].effect.p) && c->figures[f].varies)
             tests[count++] = (Test){c->figures[f].sides[side].effect.p, &c->figures[f].sides[side]};
-    jox_sort(tests, count, sizeof *tests, by_p, NULL, NULL);
+    jox_sort(tests, count, sizeof *tests, compare_p, NULL, NULL);
     for (uint32_t t = 0; t < count && tests[t].p <= (1 - c->def->share) / (count - t); t++)
         tests[t].of->adjusted = true;
     c->tested = count > c->tested ? count : c->tested;
@@ -147,9 +152,10 @@ static void adjust(JoxComparison *c, uint32_t side) {
 
 /* ---- the whole ---- */
 
-static int in_order(const void *a, const void *b, const void *context) {
+static int compare_figures(const void *a, const void *b, const void *context) {
     (void)context;
-    return jox_figure_order(((const JoxCompared *)a)->figure, ((const JoxCompared *)b)->figure);
+    return jox_figure_compare_paths(((const JoxCompared *)a)->figure,
+                                    ((const JoxCompared *)b)->figure);
 }
 
 void jox_compare_effects(JoxComparison *c) {
@@ -159,26 +165,26 @@ void jox_compare_effects(JoxComparison *c) {
             const char *name = c->sides.items[s].figures[f].name;
             bool there = false;
             for (uint32_t k = 0; k < s && !there; k++)
-                there = jox_side_find(&c->sides.items[k], name);
+                there = jox_side_find_figure(&c->sides.items[k], name);
             if (there)
                 continue;
             JOX_RESERVE(c->figures, capacity, c->count + 1);
             c->figures[c->count++] = (JoxCompared){.figure = name};
         }
     if (c->count)
-        jox_sort(c->figures, c->count, sizeof *c->figures, in_order, NULL, NULL);
+        jox_sort(c->figures, c->count, sizeof *c->figures, compare_figures, NULL, NULL);
     for (uint32_t f = 0; f < c->count; f++) {
         JoxCompared *figure = &c->figures[f];
         figure->words = jox_figure_words(figure->figure);
-        figure->varies = varies(c, figure->figure);
+        figure->varies = is_varied(c, figure->figure);
         figure->sides = jox_alloc(c->sides.count, sizeof *figure->sides);
         for (uint32_t s = 0; s < c->sides.count; s++)
-            figure->sides[s] = measure(c, &c->sides.items[s], figure->figure);
+            figure->sides[s] = measure_difference(c, &c->sides.items[s], figure->figure);
     }
-    demote_doubles(c);
+    demote_duplicates(c);
     for (uint32_t s = 0; s < c->sides.count; s++)
         if (s != c->base)
-            adjust(c, s);
+            apply_holm(c, s);
 }
 
 bool jox_compare_is_thin(const JoxComparison *c) {
@@ -200,7 +206,8 @@ const char *jox_compare_verdict(const JoxDifference *d) {
     return e->low > 0 || e->high < 0 ? "differs" : "not told apart";
 }
 
-void jox_compare_method(const JoxComparison *c, const JoxDifference *d, char *out, size_t size) {
+void jox_compare_describe_method(const JoxComparison *c, const JoxDifference *d, char *out,
+                                 size_t size) {
     const JoxEffect *e = &d->effect;
     if (e->pairs && c->def->resamples)
         snprintf(out, size, "bootstrap of the differences of %zu seeds, %u resamples", e->pairs,

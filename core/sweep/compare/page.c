@@ -1,4 +1,4 @@
-/* The page of a comparison. */
+/* Writes index.html of a comparison of several sides, or of recordings. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,14 +9,14 @@
 #include "record/fields/density.h"
 #include "sweep/compare/compare.h"
 
-/* Four digits are enough, and no powers of ten. */
+/* Writes a mean; from 1000 on without decimals, which would need powers of ten. */
 static void put_mean(FILE *out, double value, const char *unit) {
     jox_html_cell_number(out, fabs(value) >= 1000 ? round(value) : value, unit);
 }
 
 /* ---- in sentences ---- */
 
-static bool is_told(const JoxCompared *f) {
+static bool is_summarised(const JoxCompared *f) {
     return f->varies && f->words.is_key;
 }
 
@@ -51,7 +51,7 @@ static void put_item(FILE *out, JoxText *text) {
     jox_text_free(text);
 }
 
-/* What differs, and for what the runs are too few. */
+/* Lists the key figures in which a side differs from the base, and those that need more runs. */
 static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     enum { MOST = 8 };
     const bool has_spread = c->sides.items[s].runs > 1 && c->sides.items[c->base].runs > 1;
@@ -68,7 +68,7 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
         const JoxDifference *d = &figure->sides[s];
         const char *verdict = jox_compare_verdict(d);
         JoxText text = {0};
-        if (!is_told(figure))
+        if (!is_summarised(figure))
             continue;
         if (!strcmp(verdict, "differs") && count++ < MOST) {
             add_finding(figure, s, &text);
@@ -97,7 +97,7 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     jox_text_free(&thin);
 }
 
-static void put_summary(FILE *out, const JoxComparison *c) {
+static void put_comparison_summary(FILE *out, const JoxComparison *c) {
     JoxText text = {0};
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
@@ -115,8 +115,8 @@ static void put_summary(FILE *out, const JoxComparison *c) {
 
 /* ---- sides ---- */
 
-/* Why runs are left out, of each side the first. */
-static void put_left_out(FILE *out, const JoxComparison *c) {
+/* Says how many runs of each side are left out, and why the first one is. */
+static void put_left_out_runs(FILE *out, const JoxComparison *c) {
     bool begun = false;
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
@@ -138,7 +138,7 @@ static void put_left_out(FILE *out, const JoxComparison *c) {
     }
 }
 
-static void put_sides(FILE *out, const JoxComparison *c) {
+static void put_sides_table(FILE *out, const JoxComparison *c) {
     jox_html_heading(out, "What is compared");
     jox_html_table(out, "side|settings|>runs|seeds|>left out|from");
     for (uint32_t s = 0; s < c->sides.count; s++) {
@@ -162,12 +162,12 @@ static void put_sides(FILE *out, const JoxComparison *c) {
         jox_html_cell(out, side->source);
     }
     jox_html_table_end(out);
-    put_left_out(out, c);
+    put_left_out_runs(out, c);
 }
 
 /* ---- figures ---- */
 
-static void put_verdict(FILE *out, const JoxDifference *d) {
+static void put_verdict_cell(FILE *out, const JoxDifference *d) {
     const char *verdict = jox_compare_verdict(d);
     char text[160];
     snprintf(text, sizeof text, "%s%s", verdict, d->adjusted ? " *" : "");
@@ -179,7 +179,7 @@ static void put_verdict(FILE *out, const JoxDifference *d) {
     fputs(strcmp(verdict, "differs") == 0 ? "</b>" : "", out);
 }
 
-static void put_rows(FILE *out, const JoxComparison *c, const JoxCompared *figure) {
+static void put_figure_rows(FILE *out, const JoxComparison *c, const JoxCompared *figure) {
     bool first = true;
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxDifference *d = &figure->sides[s];
@@ -208,7 +208,7 @@ static void put_rows(FILE *out, const JoxComparison *c, const JoxCompared *figur
         }
         fputs("<td class=n>", out);
         jox_html_text(out, interval.length ? interval.data : "\xe2\x80\x93");
-        put_verdict(out, d);
+        put_verdict_cell(out, d);
         if (d->effect.a == d->effect.b)
             jox_html_cell_number(out, (double)d->effect.a, "");
         else {
@@ -220,7 +220,7 @@ static void put_rows(FILE *out, const JoxComparison *c, const JoxCompared *figur
     }
 }
 
-static void put_figures(FILE *out, const JoxComparison *c, bool keys) {
+static void put_figures_table(FILE *out, const JoxComparison *c, bool keys) {
     const JoxSide *base = &c->sides.items[c->base];
     const bool two = c->sides.count == 2;
     char heads[400];
@@ -231,11 +231,11 @@ static void put_figures(FILE *out, const JoxComparison *c, bool keys) {
     jox_html_table(out, heads);
     for (uint32_t f = 0; f < c->count; f++)
         if (c->figures[f].varies && c->figures[f].words.is_key == keys)
-            put_rows(out, c, &c->figures[f]);
+            put_figure_rows(out, c, &c->figures[f]);
     jox_html_table_end(out);
 }
 
-static void put_methods(FILE *out, const JoxComparison *c) {
+static void put_methods_paragraph(FILE *out, const JoxComparison *c) {
     char method[200];
     JoxText text = {0};
     for (uint32_t s = 0; s < c->sides.count; s++) {
@@ -245,7 +245,7 @@ static void put_methods(FILE *out, const JoxComparison *c) {
         for (uint32_t f = 0; f < c->count; f++)
             if (c->figures[f].sides[s].effect.b > c->figures[most].sides[s].effect.b)
                 most = f;
-        jox_compare_method(c, &c->figures[most].sides[s], method, sizeof method);
+        jox_compare_describe_method(c, &c->figures[most].sides[s], method, sizeof method);
         jox_text_printf(&text, "Intervals of %s: %s. ", c->sides.items[s].name, method);
     }
     jox_text_printf(
@@ -266,7 +266,7 @@ static void put_methods(FILE *out, const JoxComparison *c) {
 
 /* ---- percentiles ---- */
 
-void jox_compare_percentiles(FILE *out, const JoxComparison *c) {
+void jox_compare_put_percentiles(FILE *out, const JoxComparison *c) {
     const double q = c->def->percentile / 100;
     char heads[200];
     JoxText text = {0};
@@ -278,10 +278,10 @@ void jox_compare_percentiles(FILE *out, const JoxComparison *c) {
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
         bool first = true;
-        for (uint32_t s = 0; is_told(figure) && !figure->words.low_is_worse && s < c->sides.count;
-             s++) {
+        for (uint32_t s = 0;
+             is_summarised(figure) && !figure->words.low_is_worse && s < c->sides.count; s++) {
             size_t count;
-            double *values = jox_side_values(&c->sides.items[s], figure->figure, &count);
+            double *values = jox_side_sorted_values(&c->sides.items[s], figure->figure, &count);
             const size_t above = jox_rank_above(count, q);
             const size_t bound = jox_rank_bound(count, q, c->def->share);
             if (count) {
@@ -312,7 +312,7 @@ void jox_compare_percentiles(FILE *out, const JoxComparison *c) {
 
 /* ---- pictures ---- */
 
-static void put_pictures(FILE *out, const JoxComparison *c) {
+static void put_comparison_pictures(FILE *out, const JoxComparison *c) {
     jox_html_heading(out, "Over time");
     jox_html_paragraph(out, "Lines are means of the runs; nine runs in ten lie in the bands, from "
                             "5 to 95 %.");
@@ -327,10 +327,10 @@ static void put_pictures(FILE *out, const JoxComparison *c) {
     jox_html_paragraph(out, "The greatest density " JOX_DENSITY_BY
                             " that each place had at any time until the end, as "
                             "a mean over the runs; one scale for all.");
-    jox_compare_plan_figures(out, c);
+    jox_compare_put_plans(out, c);
 }
 
-static void put_worth(FILE *out) {
+static void put_validity_paragraph(FILE *out) {
     jox_html_heading(out, "What that is worth");
     jox_html_paragraph(
         out,
@@ -341,7 +341,7 @@ static void put_worth(FILE *out) {
         "tell smaller differences. What of the engine is validated, `jostle reproduce` shows.");
 }
 
-/* Of the scene, where all are of one. */
+/* Writes the title: that of the scene if all sides have the same one. */
 static void put_title(FILE *out, const JoxComparison *c) {
     const char *title = c->sides.items[0].title;
     JoxText text = {0};
@@ -357,35 +357,35 @@ static void put_title(FILE *out, const JoxComparison *c) {
     jox_text_free(&text);
 }
 
-bool jox_compare_page(const JoxComparison *c, JoxText *why) {
+bool jox_compare_write_page(const JoxComparison *c, JoxText *why) {
     FILE *out = jox_plot_open(c->def->out, "index.html", why);
     if (!out)
         return false;
     put_title(out, c);
     if (c->sides.count > 1)
-        put_summary(out, c);
-    put_sides(out, c);
+        put_comparison_summary(out, c);
+    put_sides_table(out, c);
     if (c->sides.count > 1) {
         jox_html_heading(out, "Figures");
-        if (jox_compare_rows(c))
+        if (jox_compare_count_effect_rows(c))
             jox_html_figure(
                 out, c->def->out, "effects",
                 "Changes of the means, with their intervals. What changes by more than its "
                 "base is told in numbers at the edge.",
                 true);
-        put_figures(out, c, true);
-        put_methods(out, c);
+        put_figures_table(out, c, true);
+        put_methods_paragraph(out, c);
     }
     if (c->def->percentile > 0)
-        jox_compare_percentiles(out, c);
-    put_pictures(out, c);
+        jox_compare_put_percentiles(out, c);
+    put_comparison_pictures(out, c);
     if (c->sides.count > 1) {
         jox_html_heading(out, "All other figures");
         fputs("<details><summary>by their names in summaries</summary>\n", out);
-        put_figures(out, c, false);
+        put_figures_table(out, c, false);
         fputs("</details>\n", out);
     }
-    put_worth(out);
+    put_validity_paragraph(out);
     char made[100];
     snprintf(made, sizeof made, "Made by Jostle %s.", jo_version());
     jox_html_paragraph(out, made);

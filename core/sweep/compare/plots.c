@@ -1,4 +1,4 @@
-/* Curves with bands, and effects with their intervals, drawn by gnuplot. */
+/* Draws curves with bands, and effects with their intervals, by gnuplot. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,26 +7,26 @@
 #include "picture/plot.h"
 #include "sweep/compare/compare.h"
 
-/* Colours that the colour-blind and printers tell apart: M. Okabe and K. Ito, 2008. */
+/* A palette for colour-blind readers and for print: M. Okabe and K. Ito, 2008. */
 static const char *const COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                       "#e69f00", "#56b4e9", "#555555", "#000000"};
 enum { COLOUR_COUNT = sizeof COLOURS / sizeof *COLOURS };
 
-static void put(FILE *out, double value) {
+static void put_data_value(FILE *out, double value) {
     if (isfinite(value))
         fprintf(out, " %.9g", value);
     else
         fputs(" NaN", out);
 }
 
-static const JoxSideCurve *curve_of(const JoxSide *side, const char *name) {
+static const JoxSideCurve *find_side_curve(const JoxSide *side, const char *name) {
     for (uint32_t k = 0; k < side->curve_count; k++)
         if (strcmp(side->curves[k].name, name) == 0)
             return &side->curves[k];
     return NULL;
 }
 
-static bool is_drawn(const JoxSideCurve *curve) {
+static bool has_line(const JoxSideCurve *curve) {
     return curve && curve->count > 1;
 }
 
@@ -36,26 +36,27 @@ const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n) {
             const JoxSideCurve *curve = &c->sides.items[s].curves[k];
             bool before = false;
             for (uint32_t t = 0; t < s && !before; t++)
-                before = is_drawn(curve_of(&c->sides.items[t], curve->name));
-            if (!before && is_drawn(curve) && n-- == 0)
+                before = has_line(find_side_curve(&c->sides.items[t], curve->name));
+            if (!before && has_line(curve) && n-- == 0)
                 return curve;
         }
     return NULL;
 }
 
-static bool write_data(const JoxComparison *c, uint32_t n, JoxText *why) {
+static bool write_curve_data(const JoxComparison *c, uint32_t n, JoxText *why) {
     char name[40];
     snprintf(name, sizeof name, "curve-%u.dat", n + 1);
     FILE *out = jox_plot_open(c->def->out, name, why);
     if (!out)
         return false;
     for (uint32_t s = 0; s < c->sides.count; s++) {
-        const JoxSideCurve *curve = curve_of(&c->sides.items[s], jox_compare_curve(c, n)->name);
+        const JoxSideCurve *curve =
+            find_side_curve(&c->sides.items[s], jox_compare_curve(c, n)->name);
         for (size_t p = 0; curve && p < curve->count; p++) {
-            put(out, curve->points[p].time);
-            put(out, curve->points[p].mean);
-            put(out, curve->points[p].low);
-            put(out, curve->points[p].high);
+            put_data_value(out, curve->points[p].time);
+            put_data_value(out, curve->points[p].mean);
+            put_data_value(out, curve->points[p].low);
+            put_data_value(out, curve->points[p].high);
             fputc('\n', out);
         }
         if (!curve || curve->count == 0)
@@ -65,7 +66,8 @@ static bool write_data(const JoxComparison *c, uint32_t n, JoxText *why) {
     return jox_plot_close(out, name, why);
 }
 
-static void part(FILE *script, bool *first, uint32_t n, uint32_t s, const char *how) {
+/* Adds one plot of a curve's data to a plot command. */
+static void add_plot_part(FILE *script, bool *first, uint32_t n, uint32_t s, const char *how) {
     fprintf(script, "%s 'curve-%u.dat' index %u %s", *first ? "plot" : ", \\\n ", n + 1, s, how);
     *first = false;
 }
@@ -90,12 +92,12 @@ static void draw_curve(const JoxComparison *c, uint32_t n, FILE *script) {
             snprintf(how, sizeof how,
                      "using 1:3:4 with filledcurves fc rgb '%s' fs transparent solid 0.16 noborder",
                      COLOURS[s % COLOUR_COUNT]);
-            part(script, &first, n, s, how);
+            add_plot_part(script, &first, n, s, how);
         }
     for (uint32_t s = 0; s < c->sides.count; s++) {
         snprintf(how, sizeof how, "using 1:2 with lines lw 2.2 dt %u lc '%s' title ",
                  1 + s / COLOUR_COUNT, COLOURS[s % COLOUR_COUNT]);
-        part(script, &first, n, s, how);
+        add_plot_part(script, &first, n, s, how);
         jox_quote_put(script, jox_quote_gnuplot, c->sides.items[s].name);
     }
     fputs("\n", script);
@@ -117,16 +119,16 @@ static bool is_row(const JoxComparison *c, uint32_t f) {
     return false;
 }
 
-uint32_t jox_compare_rows(const JoxComparison *c) {
+uint32_t jox_compare_count_effect_rows(const JoxComparison *c) {
     uint32_t rows = 0;
     for (uint32_t f = 0; f < c->count; f++)
         rows += is_row(c, f);
     return rows;
 }
 
-/* Half of the range of the plot, %: what changes by more than its base is cut, and told in numbers.
- */
-static double reach(const JoxComparison *c) {
+/* Returns half the range of the plot, %. Changes above 100 % are not plotted; they are labelled
+   with numbers instead. */
+static double get_effect_range(const JoxComparison *c) {
     double most = 0;
     for (uint32_t f = 0; f < c->count; f++)
         for (uint32_t s = 0; s < c->sides.count; s++)
@@ -138,10 +140,10 @@ static double reach(const JoxComparison *c) {
     return fmax(10, 1.4 * most);
 }
 
-/* Change in per cent of the base's mean, with its interval; rows from above. */
+/* Writes the data of effects.svg: row, change in % of the base's mean, and its interval. */
 static bool write_effects(const JoxComparison *c, JoxText *why) {
-    const double most = reach(c);
-    const uint32_t rows = jox_compare_rows(c), others = c->sides.count - 1;
+    const double most = get_effect_range(c);
+    const uint32_t rows = jox_compare_count_effect_rows(c), others = c->sides.count - 1;
     FILE *out = jox_plot_open(c->def->out, "effects.dat", why);
     if (!out)
         return false;
@@ -159,10 +161,10 @@ static bool write_effects(const JoxComparison *c, JoxText *why) {
             const double part = 100 / fabs(d->base.mean);
             if (part * fabs(d->effect.difference) > most)
                 continue;
-            put(out, rows - row + 0.3 - 0.6 * (place + 0.5) / others);
-            put(out, part * d->effect.difference);
-            put(out, part * d->effect.low);
-            put(out, part * d->effect.high);
+            put_data_value(out, rows - row + 0.3 - 0.6 * (place + 0.5) / others);
+            put_data_value(out, part * d->effect.difference);
+            put_data_value(out, part * d->effect.low);
+            put_data_value(out, part * d->effect.high);
             fputc('\n', out);
         }
         place++;
@@ -171,9 +173,9 @@ static bool write_effects(const JoxComparison *c, JoxText *why) {
     return jox_plot_close(out, "effects.dat", why);
 }
 
-/* The numbers of those that are cut, at the edge where they are. */
-static void tell_cut(const JoxComparison *c, FILE *script) {
-    const uint32_t rows = jox_compare_rows(c), others = c->sides.count - 1;
+/* Labels the changes that are outside the range with their numbers, at the edge of the plot. */
+static void label_cut_effects(const JoxComparison *c, FILE *script) {
+    const uint32_t rows = jox_compare_count_effect_rows(c), others = c->sides.count - 1;
     uint32_t row = 0;
     for (uint32_t f = 0; f < c->count; f++) {
         if (!is_row(c, f))
@@ -184,7 +186,7 @@ static void tell_cut(const JoxComparison *c, FILE *script) {
             const double change = 100 * d->effect.difference / fabs(d->base.mean);
             if (s == c->base)
                 continue;
-            if (jox_compare_is_drawn(c, f, s) && fabs(change) > reach(c))
+            if (jox_compare_is_drawn(c, f, s) && fabs(change) > get_effect_range(c))
                 fprintf(
                     script,
                     "set label '%+.0f %% (%+.0f to %+.0f)' at graph %s, first %.3f %s tc '%s'\n",
@@ -197,7 +199,7 @@ static void tell_cut(const JoxComparison *c, FILE *script) {
     }
 }
 
-/* A label of an axis, which is a format of numbers. */
+/* Writes a label of an axis; gnuplot takes labels as formats of numbers. */
 static void put_tic(FILE *script, const char *text) {
     JoxText label = {0};
     for (; *text; text++)
@@ -207,7 +209,7 @@ static void put_tic(FILE *script, const char *text) {
 }
 
 static void draw_effects(const JoxComparison *c, FILE *script) {
-    const uint32_t rows = jox_compare_rows(c);
+    const uint32_t rows = jox_compare_count_effect_rows(c);
     const uint32_t each = 22 + 9 * (c->sides.count - 2);
     jox_plot_begin(script, "effects", true, 1100, (int)(110 + rows * (each < 120 ? each : 120)));
     fputs("set xlabel ", script);
@@ -220,7 +222,7 @@ static void draw_effects(const JoxComparison *c, FILE *script) {
             "center horizontal "
             "noenhanced\nset grid xtics lc '#dddddd'\nset border 1\nset tics nomirror\n"
             "set ytics scale 0 noenhanced (",
-            -reach(c), reach(c), rows - 1);
+            -get_effect_range(c), get_effect_range(c), rows - 1);
     for (uint32_t f = 0, row = 0; f < c->count; f++)
         if (is_row(c, f)) {
             row++;
@@ -229,7 +231,7 @@ static void draw_effects(const JoxComparison *c, FILE *script) {
             fprintf(script, " %u", rows - row);
         }
     fputs(")\nset arrow from 0, graph 0 to 0, graph 1 nohead lc '#333333' lw 1 back\n", script);
-    tell_cut(c, script);
+    label_cut_effects(c, script);
     for (uint32_t s = 0, place = 0; s < c->sides.count; s++) {
         if (s == c->base)
             continue;
@@ -243,12 +245,12 @@ static void draw_effects(const JoxComparison *c, FILE *script) {
     fputs("\n", script);
 }
 
-bool jox_compare_plots(const JoxComparison *c, JoxText *why) {
+bool jox_compare_draw_plots(const JoxComparison *c, JoxText *why) {
     uint32_t n = 0;
     bool good = true;
     for (; good && n < JOX_COMPARE_CURVES && jox_compare_curve(c, n); n++)
-        good = write_data(c, n, why);
-    const bool effects = jox_compare_rows(c) > 0;
+        good = write_curve_data(c, n, why);
+    const bool effects = jox_compare_count_effect_rows(c) > 0;
     good = good && (!effects || write_effects(c, why));
     FILE *script = good && (n || effects) ? jox_plot_open(c->def->out, "compare.plt", why) : NULL;
     if (!script)

@@ -1,5 +1,5 @@
-/* A side of recordings, each of which is a run: figures are those of reports, curves and fields are
-   sampled from the frames, all at the same times and places. */
+/* Reads recordings as the runs of one side. Figures are those of their reports; curves and fields
+   are sampled from the frames, all at the same times and places. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #include "run/run.h"
 #include "sweep/compare/compare.h"
 
-static const float EDGE = 0.5f; /* m about everyone */
+static const float EDGE = 0.5f; /* m: margin of the area around all people */
 enum { SAMPLES = 240 };
 
 typedef struct Figures {
@@ -19,13 +19,14 @@ typedef struct Figures {
     uint32_t run;
 } Figures;
 
-static bool add_figure(void *context, const JoxJsonItem *item) {
+static bool add_report_figure(void *context, const JoxJsonItem *item) {
     const Figures *figures = context;
-    /* Its greatest density is that of a run's summary, and "people" who were ever there. */
+    /* "danger.density_max" of a report corresponds to "density_max" of a run. "people" counts all
+       who were ever there; only recordings have this figure. */
     const char *name = strcmp(item->path, "danger.density_max") == 0 ? "density_max" : item->path;
     if (item->kind == JOX_JSON_NUMBER &&
         (strcmp(name, "people") == 0 || jox_summary_kind(name) == JOX_SUMMARY_FIGURE))
-        jox_side_figure(figures->side, name)->values[figures->run] = item->number;
+        jox_side_add_figure(figures->side, name)->values[figures->run] = item->number;
     return true;
 }
 
@@ -35,30 +36,24 @@ enum { INSIDE, DENSITY, SPEED, CURVES };
 static const char *const CURVE_NAMES[CURVES][2] = {
     {"people inside", ""}, {"greatest density", "1/m2"}, {"mean speed", "m/s"}};
 
-/* What is sampled of all recordings of a side. */
+/* Samples of all recordings of a side. */
 typedef struct Samples {
     JoxSide *side;
-    JoxV2 low, high; /* m: everyone of all recordings, and a margin */
-    double length;   /* s: the longest */
-    double *values;  /* [curve][time][run], NAN where nothing is known */
-    JoxLocal *local; /* of one recording, as are the following */
-    float *most;     /* 1/m2: the greatest density of each cell */
+    JoxV2 low, high; /* m: bounds of all people in all recordings, with a margin */
+    double length;   /* s: of the longest recording */
+    double *values;  /* [curve][time][run]; NAN: not measured */
+    JoxLocal *local; /* this and the next two: of the recording that is being read */
+    float *most;     /* 1/m2: greatest density of each cell so far */
     size_t cells;
 } Samples;
 
-static double *value_at(const Samples *s, int curve, int time, uint32_t run) {
+static double *get_sample(const Samples *s, int curve, int time, uint32_t run) {
     return &s->values[((size_t)curve * SAMPLES + (size_t)time) * s->side->runs + run];
 }
 
-static double mean_speed(const JoxFrame *frame) {
-    double sum = 0;
-    for (uint32_t i = 0; i < frame->count; i++)
-        sum += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
-    return frame->count ? sum / frame->count : NAN;
-}
-
-/* The greatest density of a frame, which is noted for each cell; NAN where it was not measured. */
-static double measure(Samples *s, const JoxFrame *frame) {
+/* Measures a frame: updates the greatest density of each cell and returns the greatest of all,
+   1/m2; NAN if the frame was not measured. */
+static double measure_frame(Samples *s, const JoxFrame *frame) {
     double now = NAN;
     if (jox_local_frame(s->local, frame, NULL))
         for (size_t k = 0; k < s->cells; k++) {
@@ -68,26 +63,27 @@ static double measure(Samples *s, const JoxFrame *frame) {
     return now;
 }
 
-/* Of each interval of time the greatest density of its frames, and else the first frame. */
-static void sample(Samples *s, const JoxTrajectories *t, uint32_t run) {
+/* Samples one recording: the greatest density of each interval of time; people and speed of the
+   first frame in it. */
+static void sample_recording(Samples *s, const JoxTrajectories *t, uint32_t run) {
     const double every = s->length > 0 ? s->length / (SAMPLES - 1) : 1;
     JoxFrame frame;
     int last = -1;
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         const double since = frame.time - (double)t->number[0] / t->fps;
         const int time = (int)fmin(fmax(since / every, 0), SAMPLES - 1);
-        double *density = value_at(s, DENSITY, time, run);
-        *density = fmax(*density, measure(s, &frame));
+        double *density = get_sample(s, DENSITY, time, run);
+        *density = fmax(*density, measure_frame(s, &frame));
         if (time == last)
             continue;
         last = time;
-        *value_at(s, INSIDE, time, run) = frame.count;
-        *value_at(s, SPEED, time, run) = mean_speed(&frame);
+        *get_sample(s, INSIDE, time, run) = frame.count;
+        *get_sample(s, SPEED, time, run) = jox_sweep_mean_speed(&frame);
     }
 }
 
-/* The grid that fields of all recordings are on. */
-static void put_fields(Samples *s) {
+/* Adds the field of one recording to the side. */
+static void add_recording_field(Samples *s) {
     const JoxDensity *grid = s->local->grid;
     const JoxSweepField field = {.low_x = (double)grid->low.x,
                                  .low_y = (double)grid->low.y,
@@ -100,24 +96,24 @@ static void put_fields(Samples *s) {
     jox_side_add_field(s->side, true, &field, s->most);
 }
 
-static void put_curves(Samples *s) {
+static void add_recording_curves(Samples *s) {
     const double every = s->length > 0 ? s->length / (SAMPLES - 1) : 1;
     for (int curve = 0; curve < CURVES; curve++) {
-        JoxSideCurve *c = jox_side_curve(s->side, CURVE_NAMES[curve][0], CURVE_NAMES[curve][1]);
+        JoxSideCurve *c = jox_side_add_curve(s->side, CURVE_NAMES[curve][0], CURVE_NAMES[curve][1]);
         for (int time = 0; time < SAMPLES; time++) {
-            double *values = value_at(s, curve, time, 0);
+            double *values = get_sample(s, curve, time, 0);
             size_t known = 0;
             for (uint32_t run = 0; run < s->side->runs; run++)
                 if (isfinite(values[run]))
                     values[known++] = values[run];
             if (known && 2 * known >= s->side->runs)
-                jox_side_point(c, time * every, values, known);
+                jox_side_add_point(c, time * every, values, known);
         }
     }
 }
 
-/* The outlines of a recording, in an area. */
-static char *plan_of(const JoxWalls *walls, JoxV2 low, JoxV2 high) {
+/* Returns the walls of a recording and the area as JSON that side_plan.c reads; to be freed. */
+static char *write_recording_plan(const JoxWalls *walls, JoxV2 low, JoxV2 high) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
@@ -139,7 +135,7 @@ static JoxTrajectories *open_recording(const char *path, const JoCompareDef *def
     return t;
 }
 
-/* Where and how long people are in any of them. */
+/* Finds the area and the longest duration over all recordings. */
 static bool measure_extent(Samples *s, const char *const *paths, const JoCompareDef *def,
                            JoError *error) {
     for (uint32_t run = 0; run < s->side->runs; run++) {
@@ -165,23 +161,23 @@ static bool sample_all(Samples *s, const char *const *paths, const JoCompareDef 
         s->local = jox_local_create(s->low, s->high);
         s->cells = (size_t)s->local->grid->columns * s->local->grid->rows;
         s->most = jox_alloc(s->cells, sizeof *s->most);
-        sample(s, t, run);
-        put_fields(s);
+        sample_recording(s, t, run);
+        add_recording_field(s);
         if (run == 0)
-            s->side->plan = plan_of(&t->walls, s->low, s->high);
+            s->side->plan = write_recording_plan(&t->walls, s->low, s->high);
         jox_free(s->most);
         jox_local_free(s->local);
         jox_trajectories_free(t);
     }
-    jox_side_end_fields(s->side, true, s->side->runs);
+    jox_side_average_fields(s->side, true, s->side->runs);
     return true;
 }
 
-static bool read_figures(JoxSide *side, const char *const *paths, const char *const *summaries,
-                         JoError *error) {
+static bool read_report_figures(JoxSide *side, const char *const *paths,
+                                const char *const *summaries, JoError *error) {
     for (uint32_t run = 0; run < side->runs; run++) {
         Figures figures = {side, run};
-        if (!jox_json_read(summaries[run], jox_json_own_files, add_figure, &figures)) {
+        if (!jox_json_read(summaries[run], jox_json_own_files, add_report_figure, &figures)) {
             jox_error(error, JO_INPUT, "the figures of %.300s cannot be read", paths[run]);
             return false;
         }
@@ -203,7 +199,7 @@ bool jox_sides_add_recordings(JoxSides *sides, const char *source, const char *c
         s.values[v] = NAN;
     good = good && sample_all(&s, paths, def, error);
     if (good)
-        put_curves(&s);
+        add_recording_curves(&s);
     jox_free(s.values);
-    return good && read_figures(side, paths, summaries, error);
+    return good && read_report_figures(side, paths, summaries, error);
 }

@@ -1,5 +1,5 @@
-/* The page of runs that differ by their seeds alone: what all have in common, how far they differ.
- */
+/* Writes index.html of a sweep of one variant: the results that its runs have in common, and how
+   far they differ. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 /* ---- figures of all runs ---- */
 
-static void put_row(FILE *out, const char *title, const JoxSpread *s, const char *unit) {
+static void put_spread_row(FILE *out, const char *title, const JoxSpread *s, const char *unit) {
     const double values[] = {s->mean, s->least, s->p5, s->median, s->p95, s->most};
     JoxText name = {0};
     jox_text_printf(&name, "%s%s%s", title, *unit ? ", " : "", jox_figure_unit(unit));
@@ -26,7 +26,7 @@ static void put_row(FILE *out, const char *title, const JoxSpread *s, const char
     jox_html_cell_number(out, s->runs, "");
 }
 
-static void put_figures(FILE *out, const JoxSide *side) {
+static void put_spread_table(FILE *out, const JoxSide *side) {
     static const struct {
         const char *path, *title, *unit;
     } ROWS[] = {{"danger.leaving_s.first", "the first left", "s"},
@@ -47,7 +47,7 @@ static void put_figures(FILE *out, const JoxSide *side) {
     for (size_t r = 0; r < sizeof ROWS / sizeof *ROWS; r++) {
         const JoxSpread s = jox_spread_of(side, ROWS[r].path);
         if (s.runs)
-            put_row(out, ROWS[r].title, &s, ROWS[r].unit);
+            put_spread_row(out, ROWS[r].title, &s, ROWS[r].unit);
     }
     jox_html_table_end(out);
 }
@@ -60,13 +60,13 @@ static void put_exits(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn)
                    "exit|>people (5 to 95 %)|>most|>the last left, s (5 to 95 %)|>latest, s|>runs");
     for (uint32_t e = 0; e < drawn->exits.count; e++) {
         const char *name = drawn->exits.items[e].name;
-        const JoxSpread people = jox_spread_at(side, "danger.exits.%s.people", name);
-        const JoxSpread last = jox_spread_at(side, "danger.exits.%s.last_s", name);
+        const JoxSpread people = jox_spread_of_path(side, "danger.exits.%s.people", name);
+        const JoxSpread last = jox_spread_of_path(side, "danger.exits.%s.last_s", name);
         jox_html_row(out);
         jox_html_cell(out, name);
-        jox_spread_cell(out, &people);
+        jox_spread_put_cell(out, &people);
         jox_html_cell_number(out, people.most, "");
-        jox_spread_cell(out, &last);
+        jox_spread_put_cell(out, &last);
         jox_html_cell_number(out, last.most, "");
         jox_html_cell_number(out, last.runs, "");
     }
@@ -75,7 +75,7 @@ static void put_exits(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn)
 
 /* ---- danger ---- */
 
-static void put_limits(FILE *out, const JoxSide *side) {
+static void put_limits_table(FILE *out, const JoxSide *side) {
     jox_html_subheading(out, "Published limits");
     jox_html_table(
         out, "limit|what is known of it|>runs with anybody over it|>people (5 to 95 %)|>longest "
@@ -85,8 +85,8 @@ static void put_limits(FILE *out, const JoxSide *side) {
         char name[100];
         snprintf(name, sizeof name, "danger.limits.%s.people", limit->key);
         const JoxSpread people = jox_spread_of(side, name);
-        const JoxSpread time = jox_spread_at(side, "danger.limits.%s.longest_s", limit->key);
-        const JoxSpread first = jox_spread_at(side, "danger.limits.%s.first_s", limit->key);
+        const JoxSpread time = jox_spread_of_path(side, "danger.limits.%s.longest_s", limit->key);
+        const JoxSpread first = jox_spread_of_path(side, "danger.limits.%s.first_s", limit->key);
         jox_html_row(out);
         jox_html_cell(out, limit->title);
         fputs("<td>", out);
@@ -95,21 +95,21 @@ static void put_limits(FILE *out, const JoxSide *side) {
         jox_html_text(out, limit->source);
         fputs(")</small>", out);
         if (people.runs)
-            fprintf(out, "<td class=n>%u of %u", jox_spread_runs_over(side, name), side->runs);
+            fprintf(out, "<td class=n>%u of %u", jox_spread_count_positive(side, name), side->runs);
         else
             fputs("<td class=n>not measured", out);
-        jox_spread_cell(out, &people);
-        jox_spread_cell(out, &time);
-        jox_spread_cell(out, &first);
+        jox_spread_put_cell(out, &people);
+        jox_spread_put_cell(out, &time);
+        jox_spread_put_cell(out, &first);
     }
     jox_html_table_end(out);
 }
 
-static void put_levels(FILE *out, const JoxSide *side) {
+static void put_levels_table(FILE *out, const JoxSide *side) {
     JoxSpread levels[JOX_LEVELS];
     double all = 0;
     for (int k = 0; k < JOX_LEVELS; k++) {
-        levels[k] = jox_spread_at(side, "danger.level_person_s.%s", jox_levels[k].name);
+        levels[k] = jox_spread_of_path(side, "danger.level_person_s.%s", jox_levels[k].name);
         all += levels[k].runs ? levels[k].mean : 0;
     }
     if (!(all > 0))
@@ -124,7 +124,7 @@ static void put_levels(FILE *out, const JoxSide *side) {
         jox_html_row(out);
         jox_html_cell(out, jox_levels[k].name);
         jox_html_cell_number(out, jox_levels[k].queue_area, "m2");
-        jox_spread_cell(out, &levels[k]);
+        jox_spread_put_cell(out, &levels[k]);
         jox_html_cell_number(out, 100.0 * levels[k].mean / all, "%");
         jox_html_cell(out, jox_levels[k].what);
     }
@@ -132,11 +132,11 @@ static void put_levels(FILE *out, const JoxSide *side) {
     jox_html_paragraph(out, jox_levels_source);
 }
 
-static void put_probes(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+static void put_probe_tables(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     bool begun = false;
     for (uint32_t p = 0; p < drawn->plan.probe_count; p++) {
         const JoxProbe *probe = drawn->plan.probes[p];
-        const JoxFigures figures = jox_probe_figures(probe); /* their names alone */
+        const JoxFigures figures = jox_probe_figures(probe); /* only their names are used */
         const char *name = jox_probe_def(probe)->name;
         if (!begun)
             jox_html_heading(out, "What probes measured");
@@ -144,8 +144,9 @@ static void put_probes(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn
         jox_html_subheading(out, name);
         jox_html_table(out, "figure|>mean|>least|>5 %|>median|>95 %|>greatest|>runs");
         for (uint32_t i = 0; i < figures.count; i++) {
-            const JoxSpread s = jox_spread_at(side, "probes.%s.%s", name, figures.items[i].name);
-            put_row(out, figures.items[i].title, &s, figures.items[i].unit);
+            const JoxSpread s =
+                jox_spread_of_path(side, "probes.%s.%s", name, figures.items[i].name);
+            put_spread_row(out, figures.items[i].title, &s, figures.items[i].unit);
         }
         jox_html_table_end(out);
     }
@@ -153,7 +154,7 @@ static void put_probes(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn
 
 /* ---- runs and inputs ---- */
 
-static void put_runs(FILE *out, const JoxSide *side) {
+static void put_runs_table(FILE *out, const JoxSide *side) {
     static const char *const COLUMNS[] = {
         "danger.left",        "danger.inside", "danger.leaving_s.p50",
         "danger.last_left_s", "density_max",   "danger.limits.density_5.person_s"};
@@ -172,7 +173,7 @@ static void put_runs(FILE *out, const JoxSide *side) {
         }
         for (size_t k = 0; run->state == JOX_SWEEP_DONE && k < sizeof COLUMNS / sizeof *COLUMNS;
              k++) {
-            const JoxSideFigure *figure = jox_side_find(side, COLUMNS[k]);
+            const JoxSideFigure *figure = jox_side_find_figure(side, COLUMNS[k]);
             jox_html_cell_number(out, figure ? figure->values[r] : NAN, "");
         }
         r += run->state == JOX_SWEEP_DONE;
@@ -183,7 +184,7 @@ static void put_runs(FILE *out, const JoxSide *side) {
     jox_html_table_end(out);
 }
 
-static void put_option(FILE *out, const char *name, const char *value, size_t length) {
+static void put_command_option(FILE *out, const char *name, const char *value, size_t length) {
     JoxText text = {0};
     jox_text_append(&text, value, length);
     if (length) {
@@ -193,35 +194,37 @@ static void put_option(FILE *out, const char *name, const char *value, size_t le
     jox_text_free(&text);
 }
 
-/* A line each. */
+/* Writes "--set PATH=VALUE" for each line of settings. */
 static void put_sets(FILE *out, const char *lines) {
     for (const char *at = lines; *at; at += strspn(at, "\n")) {
-        put_option(out, "set", at, strcspn(at, "\n"));
+        put_command_option(out, "set", at, strcspn(at, "\n"));
         at += strcspn(at, "\n");
     }
 }
 
-static void put_command(FILE *out, const JoxSide *side) {
-    const char *duration = jox_side_note(side, "duration"), *step = jox_side_note(side, "step");
+static void put_repeat_command(FILE *out, const JoxSide *side) {
+    const char *duration = jox_side_find_note(side, "duration"),
+               *step = jox_side_find_note(side, "step");
     fputs("<p><code>jostle run ", out);
-    jox_html_argument(out, jox_side_note(side, "scene"));
+    jox_html_argument(out, jox_side_find_note(side, "scene"));
     fprintf(out, " --seed %llu --seeds %llu", (unsigned long long)side->all[0].seed,
             (unsigned long long)(side->all[side->all_count - 1].seed - side->all[0].seed + 1));
-    put_option(out, "dt", step, strcspn(step, " "));
-    put_option(out, strstr(duration, "steps") ? "steps" : "for", duration, strcspn(duration, " "));
-    put_sets(out, jox_side_note(side, "settings of all"));
+    put_command_option(out, "dt", step, strcspn(step, " "));
+    put_command_option(out, strstr(duration, "steps") ? "steps" : "for", duration,
+                       strcspn(duration, " "));
+    put_sets(out, jox_side_find_note(side, "settings of all"));
     put_sets(out, side->settings ? side->settings : "");
-    put_option(out, "input", jox_side_note(side, "input log"),
-               strlen(jox_side_note(side, "input log")));
+    put_command_option(out, "input", jox_side_find_note(side, "input log"),
+                       strlen(jox_side_find_note(side, "input log")));
     fputs(" --report DIR</code></p>\n", out);
 }
 
-static void put_inputs(FILE *out, const JoxSide *side) {
+static void put_inputs_table(FILE *out, const JoxSide *side) {
     jox_html_heading(out, "How to repeat it");
-    put_command(out, side);
-    if (*jox_side_note(side, "mods")) {
+    put_repeat_command(out, side);
+    if (*jox_side_find_note(side, "mods")) {
         JoxText text = {0};
-        jox_text_printf(&text, "With the mods %s.", jox_side_note(side, "mods"));
+        jox_text_printf(&text, "With the mods %s.", jox_side_find_note(side, "mods"));
         jox_html_paragraph(out, text.data);
         jox_text_free(&text);
     }
@@ -245,8 +248,8 @@ static void put_inputs(FILE *out, const JoxSide *side) {
 
 /* ---- the page ---- */
 
-static bool write_page(const JoxComparison *c, const JoxSide *side, const JoxSideDrawn *drawn,
-                       JoxText *why) {
+static bool write_seeds_page(const JoxComparison *c, const JoxSide *side, const JoxSideDrawn *drawn,
+                             JoxText *why) {
     FILE *out = jox_plot_open(drawn->subject.folder, "index.html", why);
     JoxText title = {0};
     char runs[JOX_NOUN];
@@ -256,36 +259,37 @@ static bool write_page(const JoxComparison *c, const JoxSide *side, const JoxSid
                     jox_noun(runs, side->all_count, "run"));
     jox_html_begin(out, title.data);
     jox_text_free(&title);
-    jox_seeds_summary(out, side, drawn);
+    jox_seeds_put_summary(out, side, drawn);
     jox_html_heading(out, "Plan");
     jox_maps_plan(out, &drawn->subject);
     if (side->runs) {
         jox_html_heading(out, "How far the runs differ");
-        jox_seeds_curves(out, drawn);
-        put_figures(out, side);
+        jox_seeds_put_curves(out, drawn);
+        put_spread_table(out, side);
         if (c->def->percentile > 0)
-            jox_compare_percentiles(out, c);
+            jox_compare_put_percentiles(out, c);
         put_exits(out, side, drawn);
         jox_html_heading(out, "Where it is dense");
-        jox_seeds_maps(out, side, drawn);
-        put_limits(out, side);
-        put_levels(out, side);
-        put_probes(out, side, drawn);
+        jox_seeds_put_maps(out, side, drawn);
+        put_limits_table(out, side);
+        put_levels_table(out, side);
+        put_probe_tables(out, side, drawn);
     }
-    put_runs(out, side);
-    put_inputs(out, side);
+    put_runs_table(out, side);
+    put_inputs_table(out, side);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", why);
 }
 
-bool jox_seeds_page(const JoxComparison *c, JoxText *why) {
+bool jox_seeds_write_page(const JoxComparison *c, JoxText *why) {
     const JoxSide *side = &c->sides.items[0];
     JoxSideDrawn drawn;
     const bool planned = jox_side_draw_begin(&drawn, side, c->def->out);
-    if (!planned) /* no run came to its plan: a page of reasons */
-        drawn.subject = (JoxSubject){.title = jox_side_note(side, "scene"), .folder = c->def->out};
+    if (!planned) /* no run reached its plan: the page gives the reasons */
+        drawn.subject =
+            (JoxSubject){.title = jox_side_find_note(side, "scene"), .folder = c->def->out};
     const bool good =
-        (!planned || jox_seeds_draw(side, &drawn, why)) && write_page(c, side, &drawn, why);
+        (!planned || jox_seeds_draw(side, &drawn, why)) && write_seeds_page(c, side, &drawn, why);
     jox_side_draw_end(&drawn);
     return good;
 }

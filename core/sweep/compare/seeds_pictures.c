@@ -1,4 +1,4 @@
-/* Pictures of many seeds: curves over time with bands, and maps. */
+/* Draws the pictures of a sweep of one variant: curves over time with bands, and maps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 /* ---- curves ---- */
 
 enum { WIDE = 1300, STRIP = 270 };
-/* What is drawn first, if it is there; those of exits follow. */
+/* Curves that get a strip of their own if the runs have them. All exits share one strip below. */
 static const struct {
     const char *curve, *title, *unit;
 } STRIPS[] = {
@@ -23,7 +23,7 @@ static const struct {
 enum { STRIP_COUNT = sizeof STRIPS / sizeof *STRIPS };
 static const char EXIT[] = "left by ";
 
-static const JoxSideCurve *curve_of(const JoxSide *side, const char *name) {
+static const JoxSideCurve *find_drawn_curve(const JoxSide *side, const char *name) {
     for (uint32_t k = 0; k < side->curve_count; k++)
         if (strcmp(side->curves[k].name, name) == 0 && side->curves[k].count > 1)
             return &side->curves[k];
@@ -34,8 +34,9 @@ static bool is_exit(const JoxSideCurve *curve) {
     return strncmp(curve->name, EXIT, sizeof EXIT - 1) == 0 && curve->count > 1;
 }
 
-/* A block for each curve: time, least, 5 %, median, 95 % and greatest of the runs. */
-static bool write_curves(const JoxSide *side, const char *folder, JoxText *why) {
+/* Writes the data of spread.svg, a block for each curve: time, s, then least, 5 %, median, 95 % and
+   greatest value over the runs. */
+static bool write_spread_data(const JoxSide *side, const char *folder, JoxText *why) {
     FILE *out = jox_plot_open(folder, "spread.dat", why);
     if (!out)
         return false;
@@ -43,7 +44,7 @@ static bool write_curves(const JoxSide *side, const char *folder, JoxText *why) 
         const JoxSideCurve *c = &side->curves[k];
         JoxText name = {0};
         jox_text_printf(&name, "%s%s%s", c->name, *c->unit ? ", " : "", c->unit);
-        fputs("# ", out); /* a comment: nothing but letters goes into it */
+        fputs("# ", out); /* a comment: control characters would end it */
         for (const char *at = name.data; *at; at++)
             fputc(*at < ' ' ? ' ' : *at, out);
         fputs(": time, least, 5 %, median, 95 %, greatest\n", out);
@@ -58,7 +59,7 @@ static bool write_curves(const JoxSide *side, const char *folder, JoxText *why) 
     return jox_plot_close(out, "spread.dat", why);
 }
 
-static void bands(FILE *script, const JoxSide *side, const JoxSideCurve *curve) {
+static void plot_bands(FILE *script, const JoxSide *side, const JoxSideCurve *curve) {
     const unsigned at = (unsigned)(curve - side->curves);
     fprintf(script,
             "plot 'spread.dat' index %u using 1:2:6 with filledcurves lc '#fde3c0' title 'all "
@@ -67,7 +68,7 @@ static void bands(FILE *script, const JoxSide *side, const JoxSideCurve *curve) 
             at, at, at);
 }
 
-static void exits(FILE *script, const JoxSide *side) {
+static void plot_exits(FILE *script, const JoxSide *side) {
     static const char *const COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                           "#e69f00", "#56b4e9", "#555555", "#000000"};
     uint32_t n = 0;
@@ -88,12 +89,12 @@ static void exits(FILE *script, const JoxSide *side) {
     fputc('\n', script);
 }
 
-static bool draw_curves(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
+static bool draw_spread(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
     const char *folder = drawn->subject.folder;
     int strips = 0;
     bool left = false;
     for (int k = 0; k < STRIP_COUNT; k++)
-        strips += curve_of(side, STRIPS[k].curve) != NULL;
+        strips += find_drawn_curve(side, STRIPS[k].curve) != NULL;
     for (uint32_t k = 0; k < side->curve_count; k++)
         left |= is_exit(&side->curves[k]);
     strips += left;
@@ -111,20 +112,20 @@ static bool draw_curves(const JoxSide *side, const JoxSideDrawn *drawn, JoxText 
             "Left reverse\nset style fill solid 1 noborder\n",
             strips, fmax(drawn->subject.until, 1.0));
         for (int k = 0; k < STRIP_COUNT; k++) {
-            const JoxSideCurve *curve = curve_of(side, STRIPS[k].curve);
+            const JoxSideCurve *curve = find_drawn_curve(side, STRIPS[k].curve);
             if (!curve)
                 continue;
             fprintf(script, "set title '%s'\nset ylabel '%s'\n", STRIPS[k].title, STRIPS[k].unit);
-            bands(script, side, curve);
+            plot_bands(script, side, curve);
         }
         if (left)
-            exits(script, side);
+            plot_exits(script, side);
         fputs("unset multiplot\nset output\n", script);
     }
     return jox_plot_close(script, "spread.plt", why) && jox_plot_draw(folder, "spread.plt", why);
 }
 
-void jox_seeds_curves(FILE *out, const JoxSideDrawn *drawn) {
+void jox_seeds_put_curves(FILE *out, const JoxSideDrawn *drawn) {
     jox_html_figure(out, drawn->subject.folder, "spread",
                     "Over time: the median of the runs, what nine in ten lie between, and all. At "
                     "each moment for itself: no run needs to be the median all the time.",
@@ -150,12 +151,13 @@ enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
 static bool has_map(const JoxSide *side, int map) {
     return side->fields[MAPS[map].kind].values &&
-           (MAPS[map].density || jox_side_field_most(side, MAPS[map].kind) > 0);
+           (MAPS[map].density || jox_side_field_max(side, MAPS[map].kind) > 0);
 }
 
 bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
     bool good = jox_maps_draw_plan(&drawn->subject, why) &&
-                write_curves(side, drawn->subject.folder, why) && draw_curves(side, drawn, why);
+                write_spread_data(side, drawn->subject.folder, why) &&
+                draw_spread(side, drawn, why);
     char when[48];
     snprintf(when, sizeof when, "0 to %.4g s", drawn->subject.until);
     for (int m = 0; good && m < MAP_COUNT; m++)
@@ -168,13 +170,13 @@ bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why
                                .legend = MAPS[m].legend,
                                .show = MAPS[m].density ? JOX_SHOW_DENSITY : JOX_SHOW_LOAD,
                                .values = side->fields[MAPS[m].kind].values,
-                               .most = MAPS[m].density ? jox_side_field_most(side, JOX_FIELD_WORST)
+                               .most = MAPS[m].density ? jox_side_field_max(side, JOX_FIELD_WORST)
                                                        : 100.0},
                 why);
     return good;
 }
 
-void jox_seeds_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+void jox_seeds_put_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     jox_maps_panels(out, &drawn->subject);
     for (int m = 0; m < MAP_COUNT; m++)
         if (has_map(side, m))

@@ -1,4 +1,4 @@
-/* How figures spread over the runs of a side. */
+/* Computes how the figures of a side spread over its runs, and writes spreads as text and cells. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "sweep/compare/compare.h"
 
 JoxSpread jox_spread_of(const JoxSide *side, const char *name) {
-    const JoxSideFigure *figure = jox_side_find(side, name);
+    const JoxSideFigure *figure = jox_side_find_figure(side, name);
     JoxSpread s = {NAN, NAN, NAN, NAN, NAN, NAN, 0, 0, 0};
     double *values = jox_alloc(side->runs + 1, sizeof *values);
     for (uint32_t r = 0; figure && r < side->runs; r++) {
@@ -35,7 +35,7 @@ JoxSpread jox_spread_of(const JoxSide *side, const char *name) {
     return s;
 }
 
-JoxSpread jox_spread_at(const JoxSide *side, const char *format, ...) {
+JoxSpread jox_spread_of_path(const JoxSide *side, const char *format, ...) {
     char name[300];
     va_list arguments;
     va_start(arguments, format);
@@ -44,16 +44,16 @@ JoxSpread jox_spread_at(const JoxSide *side, const char *format, ...) {
     return jox_spread_of(side, name);
 }
 
-uint32_t jox_spread_runs_over(const JoxSide *side, const char *name) {
-    const JoxSideFigure *figure = jox_side_find(side, name);
+uint32_t jox_spread_count_positive(const JoxSide *side, const char *name) {
+    const JoxSideFigure *figure = jox_side_find_figure(side, name);
     uint32_t count = 0;
     for (uint32_t r = 0; figure && r < side->runs; r++)
         count += figure->values[r] > 0;
     return count;
 }
 
-/* A number as one says it: three digits, or all before the point. */
-static void say(JoxText *out, double value) {
+/* Appends a number: three digits, or four from 100 on and all digits from 1000 on. */
+static void add_short_number(JoxText *out, double value) {
     jox_text_printf(out,
                     value == floor(value) || fabs(value) >= 1000 ? "%.0f"
                     : fabs(value) >= 100                         ? "%.1f"
@@ -61,30 +61,30 @@ static void say(JoxText *out, double value) {
                     value);
 }
 
-void jox_spread_say(const JoxSpread *s, const char *unit, bool low, JoxText *out) {
+void jox_spread_add_text(const JoxSpread *s, const char *unit, bool low, JoxText *out) {
     const char *words = jox_figure_unit(unit), *blank = *words ? " " : "";
-    say(out, s->median);
+    add_short_number(out, s->median);
     jox_text_printf(out, "%s%s", blank, words);
     if (s->runs < 2 || s->least == s->most)
         return;
     jox_text_add(out, " (");
-    say(out, s->p5);
+    add_short_number(out, s->p5);
     jox_text_add(out, " to ");
-    say(out, s->p95);
+    add_short_number(out, s->p95);
     jox_text_add(out, low ? "; at least " : "; at most ");
-    say(out, low ? s->least : s->most);
+    add_short_number(out, low ? s->least : s->most);
     jox_text_printf(out, ", seed %llu)", (unsigned long long)(low ? s->least_seed : s->most_seed));
 }
 
-void jox_spread_cell(FILE *out, const JoxSpread *s) {
+void jox_spread_put_cell(FILE *out, const JoxSpread *s) {
     JoxText text = {0};
     if (s->runs) {
-        say(&text, s->median);
+        add_short_number(&text, s->median);
         if (s->least != s->most) {
             jox_text_add(&text, " (");
-            say(&text, s->p5);
+            add_short_number(&text, s->p5);
             jox_text_add(&text, " to ");
-            say(&text, s->p95);
+            add_short_number(&text, s->p95);
             jox_text_add(&text, ")");
         }
     }

@@ -1,4 +1,4 @@
-/* The first section of the page of many seeds: what all runs come to, in sentences. */
+/* Writes the summary of a sweep of one variant in sentences: the first section of its page. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,17 +8,18 @@
 #include "record/danger/danger.h"
 #include "sweep/compare/compare.h"
 
-static void put(FILE *out, const char *lead, JoxText *text) {
+static void put_statement(FILE *out, const char *lead, JoxText *text) {
     jox_html_statement(out, lead, text->data ? text->data : "");
     jox_text_free(text);
 }
 
-static void put_run(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+static void put_run_statement(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     const char *settings = side->settings ? side->settings : "";
     const JoxSpread people = jox_spread_of(side, "events.spawned");
     JoxText text = {0};
     char runs[JOX_NOUN];
-    jox_text_printf(&text, "The scene %s (%s)", drawn->subject.title, jox_side_note(side, "scene"));
+    jox_text_printf(&text, "The scene %s (%s)", drawn->subject.title,
+                    jox_side_find_note(side, "scene"));
     if (people.runs) {
         jox_text_add(&text, ", in which ");
         if (people.least == people.most)
@@ -31,7 +32,7 @@ static void put_run(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
                     (unsigned long long)side->all[side->all_count - 1].seed);
     if (drawn->subject.until > 0)
         jox_text_printf(&text, ", of %.4g s each", drawn->subject.until);
-    jox_text_printf(&text, ", by Jostle %s.", jox_side_note(side, "version"));
+    jox_text_printf(&text, ", by Jostle %s.", jox_side_find_note(side, "version"));
     if (*settings) {
         jox_text_add(&text, " Settings: ");
         for (const char *at = settings; *at; at++)
@@ -42,10 +43,10 @@ static void put_run(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
                                          "nine in ten lie between (5 to 95 %), and the greatest "
                                          "with its seed."
                                        : "");
-    put(out, "What was run.", &text);
+    put_statement(out, "What was run.", &text);
 }
 
-static void put_left_out(FILE *out, const JoxSide *side) {
+static void put_failures_statement(FILE *out, const JoxSide *side) {
     enum { MOST = 5 };
     JoxText text = {0};
     uint32_t told = 0;
@@ -59,10 +60,10 @@ static void put_left_out(FILE *out, const JoxSide *side) {
         if (side->all[r].state != JOX_SWEEP_DONE)
             jox_text_printf(&text, "%s seed %llu: %.300s", told++ ? ";" : "",
                             (unsigned long long)side->all[r].seed, side->all[r].reason);
-    put(out, "What went wrong.", &text);
+    put_statement(out, "What went wrong.", &text);
 }
 
-static void put_leaving(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     const JoxSpread half = jox_spread_of(side, "danger.leaving_s.p50");
     const JoxSpread most = jox_spread_of(side, "danger.leaving_s.p95");
     const JoxSpread last = jox_spread_of(side, "danger.last_left_s");
@@ -71,46 +72,46 @@ static void put_leaving(FILE *out, const JoxSide *side, const JoxSideDrawn *draw
     JoxText text = {0};
     if (last.runs == 0) {
         jox_text_printf(&text, "In no run did anybody leave within %.4g s.", drawn->subject.until);
-        put(out, "Who got out when.", &text);
+        put_statement(out, "Who got out when.", &text);
         return;
     }
     jox_text_add(&text, "Half of those who left had done so by ");
-    jox_spread_say(&half, "s", false, &text);
+    jox_spread_add_text(&half, "s", false, &text);
     jox_text_add(&text, ", 95 % by ");
-    jox_spread_say(&most, "s", false, &text);
+    jox_spread_add_text(&most, "s", false, &text);
     jox_text_add(&text, ", the last by ");
-    jox_spread_say(&last, "s", false, &text);
+    jox_spread_add_text(&last, "s", false, &text);
     jox_text_add(&text, ".");
     for (uint32_t e = 0; e < drawn->exits.count; e++) {
         const char *name = drawn->exits.items[e].name;
-        const JoxSpread people = jox_spread_at(side, "danger.exits.%s.people", name);
-        const JoxSpread then = jox_spread_at(side, "danger.exits.%s.last_s", name);
+        const JoxSpread people = jox_spread_of_path(side, "danger.exits.%s.people", name);
+        const JoxSpread then = jox_spread_of_path(side, "danger.exits.%s.last_s", name);
         if (!people.runs)
             continue;
         jox_text_printf(&text, "%s%.60s ", e ? "; " : " By exits: ", name);
-        jox_spread_say(&people, people.median == 1 ? "person" : "people", false, &text);
+        jox_spread_add_text(&people, people.median == 1 ? "person" : "people", false, &text);
         if (then.runs)
             jox_text_printf(&text, ", the last at %.1f s", then.median);
     }
     jox_text_add(&text, drawn->exits.count ? "." : "");
-    put(out, "Who got out when.", &text);
+    put_statement(out, "Who got out when.", &text);
     if (inside.most > 0) {
         jox_text_printf(&text, "%s in %u of %u runs. At the end, %.4g s, ",
                         clear.runs ? "Not always:" : "No:", clear.runs, side->runs,
                         drawn->subject.until);
-        jox_spread_say(&inside, inside.median == 1 ? "person" : "people", false, &text);
+        jox_spread_add_text(&inside, inside.median == 1 ? "person" : "people", false, &text);
         jox_text_add(&text, inside.median == 1 ? " was still inside." : " were still inside.");
     } else {
         jox_text_printf(&text, "Yes, in %s: nobody is inside from ",
                         side->runs == 1 ? "the run" : "all runs");
-        jox_spread_say(&clear, "s", false, &text);
+        jox_spread_add_text(&clear, "s", false, &text);
         jox_text_add(&text, " on.");
     }
-    put(out, "Cleared?", &text);
+    put_statement(out, "Cleared?", &text);
 }
 
-/* Where the mean over runs of the greatest density is greatest. */
-static void say_where(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *out) {
+/* Appends the place at which the greatest density, as a mean over runs, is greatest. */
+static void add_densest_place(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *out) {
     const JoxSweepField *f = &side->fields[JOX_FIELD_GREATEST];
     size_t most = SIZE_MAX;
     for (size_t k = 0; f->values && k < (size_t)f->columns * f->rows; k++)
@@ -125,13 +126,14 @@ static void say_where(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *o
     jox_text_add(out, ".");
 }
 
-/* In how many runs anybody was over each limit of a measure, up to the first that nobody passed. */
-static void say_limits(const JoxSide *side, JoxDangerMeasure measure, JoxText *out) {
+/* Appends, for each limit of a measure, in how many runs anybody exceeded it; stops at the first
+   limit that no run exceeded. */
+static void add_exceeded_limits(const JoxSide *side, JoxDangerMeasure measure, JoxText *out) {
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         char name[100];
         snprintf(name, sizeof name, "danger.limits.%s.people", limit->key);
-        const uint32_t runs = jox_spread_runs_over(side, name);
+        const uint32_t runs = jox_spread_count_positive(side, name);
         const JoxSpread people = jox_spread_of(side, name);
         if (limit->measure != measure || people.runs == 0)
             continue;
@@ -139,54 +141,54 @@ static void say_limits(const JoxSide *side, JoxDangerMeasure measure, JoxText *o
             jox_text_printf(out, " In no run was anybody over a %s.", limit->title);
             return;
         }
-        const JoxSpread time = jox_spread_at(side, "danger.limits.%s.longest_s", limit->key);
+        const JoxSpread time = jox_spread_of_path(side, "danger.limits.%s.longest_s", limit->key);
         jox_text_printf(out, " In %u of %u runs somebody was over a %s (%s): ", runs, side->runs,
                         limit->title, limit->what);
-        jox_spread_say(&people, people.median == 1 ? "person" : "people", false, out);
+        jox_spread_add_text(&people, people.median == 1 ? "person" : "people", false, out);
         if (time.runs) {
             jox_text_add(out, ", one of them for ");
-            jox_spread_say(&time, "s", false, out);
+            jox_spread_add_text(&time, "s", false, out);
         }
         jox_text_add(out, ".");
     }
 }
 
-static void put_measures(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+static void put_danger_statements(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     const JoxSpread density = jox_spread_of(side, "density_max");
     const JoxSpread load = jox_spread_of(side, "danger.load_max");
     const JoxSpread pressure = jox_spread_of(side, "danger.pressure_max");
     JoxText text = {0};
     if (density.runs) {
         jox_text_add(&text, "The greatest density " JOX_DENSITY_BY " of any place and time was ");
-        jox_spread_say(&density, "1/m2", false, &text);
+        jox_spread_add_text(&density, "1/m2", false, &text);
         jox_text_add(&text, ".");
-        say_where(side, drawn, &text);
-        say_limits(side, JOX_DANGER_DENSITY, &text);
-        say_limits(side, JOX_DANGER_VORONOI, &text);
-        put(out, "Where it was dense.", &text);
+        add_densest_place(side, drawn, &text);
+        add_exceeded_limits(side, JOX_DANGER_DENSITY, &text);
+        add_exceeded_limits(side, JOX_DANGER_VORONOI, &text);
+        put_statement(out, "Where it was dense.", &text);
     }
     if (load.runs) {
         jox_text_add(&text, "The greatest load from one side was ");
-        jox_spread_say(&load, "N", false, &text);
+        jox_spread_add_text(&load, "N", false, &text);
         jox_text_add(&text, ".");
-        say_limits(side, JOX_DANGER_LOAD, &text);
-        put(out, "What people bore.", &text);
+        add_exceeded_limits(side, JOX_DANGER_LOAD, &text);
+        put_statement(out, "What people bore.", &text);
     }
     if (pressure.runs) {
         jox_text_printf(&text, "Crowd pressure was measured in %u of %u runs; the greatest was ",
                         pressure.runs, side->runs);
-        jox_spread_say(&pressure, "1/s2", false, &text);
+        jox_spread_add_text(&pressure, "1/s2", false, &text);
         jox_text_add(&text, ".");
-        say_limits(side, JOX_DANGER_PRESSURE, &text);
+        add_exceeded_limits(side, JOX_DANGER_PRESSURE, &text);
     } else {
         jox_text_add(&text, "Not measured: in no run was the crowd dense enough for long enough (5 "
                             "per m\xc2\xb2 or more on 12 m\xc2\xb2 for 20 s).");
     }
-    put(out, "Crowd turbulence.", &text);
+    put_statement(out, "Crowd turbulence.", &text);
 }
 
-/* What the spread is, and what it is not. */
-static void put_worth(FILE *out, const JoxSide *side) {
+/* Writes what is validated, and what the spread of the runs does not cover. */
+static void put_validity_statement(FILE *out, const JoxSide *side) {
     enum { ENOUGH = 20 };
     const size_t many = jox_rank_runs(0.95, 0.95);
     JoxText text = {0};
@@ -207,18 +209,18 @@ static void put_worth(FILE *out, const JoxSide *side) {
             " It takes %zu runs until the worst of them lies above the true 95 %% value "
             "with a probability of 95 %% (Wilks 1941).",
             many);
-    put(out, "What is validated, and what is not.", &text);
+    put_statement(out, "What is validated, and what is not.", &text);
 }
 
-void jox_seeds_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+void jox_seeds_put_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    put_run(out, side, drawn);
-    put_left_out(out, side);
+    put_run_statement(out, side, drawn);
+    put_failures_statement(out, side);
     if (side->runs) {
-        put_leaving(out, side, drawn);
-        put_measures(out, side, drawn);
+        put_leaving_statements(out, side, drawn);
+        put_danger_statements(out, side, drawn);
     }
-    put_worth(out, side);
+    put_validity_statement(out, side);
     fputs("</div>\n", out);
 }

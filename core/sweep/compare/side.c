@@ -1,4 +1,4 @@
-/* Sides: runs with their figures and curves. */
+/* Builds and frees sides: lists of figures, curves and notes. */
 #include <math.h>
 #include <string.h>
 
@@ -54,23 +54,22 @@ void jox_sides_free(JoxSides *sides) {
     *sides = (JoxSides){0};
 }
 
-const char *jox_side_note(const JoxSide *side, const char *key) {
+const char *jox_side_find_note(const JoxSide *side, const char *key) {
     for (uint32_t n = 0; n < side->notes.count; n++)
         if (strcmp(side->notes.items[n].key, key) == 0)
             return side->notes.items[n].value;
     return "";
 }
 
-const JoxSideFigure *jox_side_find(const JoxSide *side, const char *name) {
+const JoxSideFigure *jox_side_find_figure(const JoxSide *side, const char *name) {
     for (uint32_t f = 0; f < side->figure_count; f++)
         if (strcmp(side->figures[f].name, name) == 0)
             return &side->figures[f];
     return NULL;
 }
 
-JoxSideFigure *jox_side_figure(JoxSide *side, const char *name) {
-    /* They come in one order for each run: the one behind the last is often it. */
-    JoxSideFigure *figure = (JoxSideFigure *)(uintptr_t)jox_side_find(side, name);
+JoxSideFigure *jox_side_add_figure(JoxSide *side, const char *name) {
+    JoxSideFigure *figure = (JoxSideFigure *)(uintptr_t)jox_side_find_figure(side, name);
     if (figure)
         return figure;
     JOX_RESERVE(side->figures, side->figure_capacity, side->figure_count + 1);
@@ -81,14 +80,14 @@ JoxSideFigure *jox_side_figure(JoxSide *side, const char *name) {
     return figure;
 }
 
-JoxSideCurve *jox_side_curve(JoxSide *side, const char *name, const char *unit) {
+JoxSideCurve *jox_side_add_curve(JoxSide *side, const char *name, const char *unit) {
     JOX_RESERVE(side->curves, side->curve_capacity, side->curve_count + 1);
     side->curves[side->curve_count] =
         (JoxSideCurve){.name = jox_strdup(name ? name : ""), .unit = jox_strdup(unit ? unit : "")};
     return &side->curves[side->curve_count++];
 }
 
-void jox_side_point(JoxSideCurve *curve, double time, double *values, size_t count) {
+void jox_side_add_point(JoxSideCurve *curve, double time, double *values, size_t count) {
     const JoxMoments m = jox_moments(values, count);
     JOX_RESERVE(curve->points, curve->capacity, curve->count + 1);
     curve->points[curve->count++] =

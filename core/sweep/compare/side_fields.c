@@ -1,4 +1,4 @@
-/* Fields over the floor, of all runs of a variant. */
+/* Reduces the density fields of all runs of a side to means, worst cases and shares of runs. */
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +7,8 @@
 
 enum { MOST_CELLS = 1 << 22 };
 
-/* The grid of a row, with no values. False where it makes no sense, or its cells are not as many.
- */
+/* Reads the grid of a row, without values. Returns false if it makes no sense or does not match the
+   number of cells. */
 static bool read_grid(sqlite3_stmt *s, JoxSweepField *grid) {
     const int64_t columns = sqlite3_column_int64(s, 3), rows = sqlite3_column_int64(s, 4);
     *grid = (JoxSweepField){.low_x = sqlite3_column_double(s, 0),
@@ -23,8 +23,9 @@ static bool read_grid(sqlite3_stmt *s, JoxSweepField *grid) {
     return true;
 }
 
-/* The side's field of a kind on that grid, made where there is none; NULL where it has another. */
-static float *values_on(JoxSide *side, JoxSideFieldKind kind, const JoxSweepField *grid) {
+/* Returns the values of the side's field of a kind, created on first use; NULL if the field has
+   another grid. */
+static float *get_field_values(JoxSide *side, JoxSideFieldKind kind, const JoxSweepField *grid) {
     JoxSweepField *f = &side->fields[kind];
     if (!f->values) {
         *f = *grid;
@@ -40,15 +41,15 @@ static float *values_on(JoxSide *side, JoxSideFieldKind kind, const JoxSweepFiel
 
 bool jox_side_add_field(JoxSide *side, bool greatest, const JoxSweepField *grid,
                         const void *cells) {
-    float *sum = values_on(side, greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN, grid);
+    float *sum = get_field_values(side, greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN, grid);
     if (!sum)
         return false;
-    float *worst = greatest ? values_on(side, JOX_FIELD_WORST, grid) : NULL;
-    float *often = greatest ? values_on(side, JOX_FIELD_OFTEN, grid) : NULL;
+    float *worst = greatest ? get_field_values(side, JOX_FIELD_WORST, grid) : NULL;
+    float *often = greatest ? get_field_values(side, JOX_FIELD_OFTEN, grid) : NULL;
     for (size_t k = 0; k < (size_t)grid->columns * grid->rows; k++) {
         float value;
         memcpy(&value, (const char *)cells + sizeof value * k, sizeof value);
-        sum[k] += value; /* NAN where nobody can walk */
+        sum[k] += value; /* NAN: no floor */
         if (!greatest)
             continue;
         worst[k] = value > worst[k] || isnan(value) ? value : worst[k];
@@ -57,34 +58,34 @@ bool jox_side_add_field(JoxSide *side, bool greatest, const JoxSweepField *grid,
     return true;
 }
 
-/* Adds the run of the present row; false where it has no such field. */
-static bool add_run(JoxSide *side, sqlite3_stmt *s, bool greatest) {
+/* Adds the field of the present row; false if its data make no sense. */
+static bool add_run_field(JoxSide *side, sqlite3_stmt *s, bool greatest) {
     JoxSweepField grid;
     const void *cells = sqlite3_column_blob(s, 5);
     return cells && read_grid(s, &grid) && jox_side_add_field(side, greatest, &grid, cells);
 }
 
-static void scale(JoxSweepField *f, float by) {
+static void scale_field(JoxSweepField *f, float by) {
     for (size_t k = 0; f->values && k < (size_t)f->columns * f->rows; k++)
         f->values[k] *= by;
 }
 
-void jox_side_end_fields(JoxSide *side, bool greatest, uint32_t count) {
+void jox_side_average_fields(JoxSide *side, bool greatest, uint32_t count) {
     if (!count)
         return;
-    scale(&side->fields[greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN], 1.0f / (float)count);
+    scale_field(&side->fields[greatest ? JOX_FIELD_GREATEST : JOX_FIELD_MEAN], 1.0f / (float)count);
     if (greatest)
-        scale(&side->fields[JOX_FIELD_OFTEN], 100.0f / (float)count);
+        scale_field(&side->fields[JOX_FIELD_OFTEN], 100.0f / (float)count);
 }
 
-static bool read(const JoxSweepStore *store, int64_t variant, JoxSide *side, bool greatest,
-                 JoError *error) {
+static bool read_variant_field(const JoxSweepStore *store, int64_t variant, JoxSide *side,
+                               bool greatest, JoError *error) {
     sqlite3_stmt *s =
-        jox_sweep_ask(store,
-                      "SELECT f.low_x, f.low_y, f.cell, f.columns, f.rows, f.cells"
-                      " FROM field f JOIN run r ON r.variant = f.variant AND r.seed = f.seed"
-                      " WHERE f.variant = ? AND f.name = ? AND r.state = 'done'",
-                      error);
+        jox_sweep_prepare(store,
+                          "SELECT f.low_x, f.low_y, f.cell, f.columns, f.rows, f.cells"
+                          " FROM field f JOIN run r ON r.variant = f.variant AND r.seed = f.seed"
+                          " WHERE f.variant = ? AND f.name = ? AND r.state = 'done'",
+                          error);
     uint32_t count = 0;
     int code;
     if (!s)
@@ -92,14 +93,15 @@ static bool read(const JoxSweepStore *store, int64_t variant, JoxSide *side, boo
     sqlite3_bind_int64(s, 1, variant);
     sqlite3_bind_text(s, 2, greatest ? "greatest density" : "mean density", -1, SQLITE_STATIC);
     while ((code = sqlite3_step(s)) == SQLITE_ROW)
-        count += add_run(side, s, greatest);
-    jox_side_end_fields(side, greatest, count);
-    const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
-    jox_sweep_end(store, s);
+        count += add_run_field(side, s, greatest);
+    jox_side_average_fields(side, greatest, count);
+    const bool good = code == SQLITE_DONE || jox_sweep_set_error(store, error);
+    jox_sweep_finalize(store, s);
     return good;
 }
 
 bool jox_side_read_fields(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                           JoError *error) {
-    return read(store, variant, side, true, error) && read(store, variant, side, false, error);
+    return read_variant_field(store, variant, side, true, error) &&
+           read_variant_field(store, variant, side, false, error);
 }

@@ -1,4 +1,5 @@
-/* The variants of a sweep, read from its file as sides. */
+/* Reads the variants of a sweep's file as sides. Files may come from elsewhere, so numbers of rows
+   are bounded. */
 #include <math.h>
 #include <string.h>
 
@@ -9,41 +10,44 @@
 
 enum { MOST_RUNS = JOX_SWEEP_RUNS, MOST_FIGURES = 20000, MOST_SIDES = 1000, MOST_NOTES = 1000 };
 
-static char *text_of(sqlite3_stmt *s, int column) {
+static char *copy_column_text(sqlite3_stmt *s, int column) {
     const char *text = (const char *)sqlite3_column_text(s, column);
     return jox_strdup(text ? text : "");
 }
 
-static bool ended(const JoxSweepStore *store, sqlite3_stmt *s, int code, JoError *error) {
-    const bool good = code == SQLITE_DONE || jox_sweep_broken(store, error);
-    jox_sweep_end(store, s);
+/* Finalizes a statement whose last step returned `code`; false with `error` unless it was done. */
+static bool finish_statement(const JoxSweepStore *store, sqlite3_stmt *s, int code,
+                             JoError *error) {
+    const bool good = code == SQLITE_DONE || jox_sweep_set_error(store, error);
+    jox_sweep_finalize(store, s);
     return good;
 }
 
-static sqlite3_stmt *ask(const JoxSweepStore *store, const char *sql, int64_t variant,
-                         JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, sql, error);
+static sqlite3_stmt *prepare_for_variant(const JoxSweepStore *store, const char *sql,
+                                         int64_t variant, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, sql, error);
     if (s)
         sqlite3_bind_int64(s, 1, variant);
     return s;
 }
 
-static bool read_runs(const JoxSweepStore *store, int64_t variant, JoxSide *side, JoError *error) {
-    sqlite3_stmt *s =
-        ask(store, "SELECT seed, state, reason, hash FROM run WHERE variant = ? ORDER BY seed",
-            variant, error);
+static bool read_side_runs(const JoxSweepStore *store, int64_t variant, JoxSide *side,
+                           JoError *error) {
+    sqlite3_stmt *s = prepare_for_variant(
+        store, "SELECT seed, state, reason, hash FROM run WHERE variant = ? ORDER BY seed", variant,
+        error);
     int code = SQLITE_DONE;
     if (!s)
         return false;
     while ((code = sqlite3_step(s)) == SQLITE_ROW && side->runs < MOST_RUNS) {
-        char *name = text_of(s, 1);
+        char *name = copy_column_text(s, 1);
         JoxSweepState state = JOX_SWEEP_DONE;
         while (state < JOX_SWEEP_FAILED && strcmp(name, jox_sweep_states[state]) != 0)
             state++;
         jox_free(name);
         JOX_RESERVE(side->all, side->all_capacity, side->all_count + 1);
-        side->all[side->all_count++] =
-            (JoxSideRun){(uint64_t)sqlite3_column_int64(s, 0), state, text_of(s, 2), text_of(s, 3)};
+        side->all[side->all_count++] = (JoxSideRun){(uint64_t)sqlite3_column_int64(s, 0), state,
+                                                    copy_column_text(s, 2), copy_column_text(s, 3)};
         if (state == JOX_SWEEP_DONE) {
             JOX_RESERVE(side->seeds, side->run_capacity, side->runs + 1);
             side->seeds[side->runs++] = (uint64_t)sqlite3_column_int64(s, 0);
@@ -51,11 +55,11 @@ static bool read_runs(const JoxSweepStore *store, int64_t variant, JoxSide *side
             side->left_out++;
         }
     }
-    return ended(store, s, code, error);
+    return finish_statement(store, s, code, error);
 }
 
-/* The number of a run by its seed; `runs` where there is none. */
-static uint32_t run_of(const JoxSide *side, uint64_t seed) {
+/* Returns the index of the run with a seed, by bisection; `runs` if there is none. */
+static uint32_t find_run_by_seed(const JoxSide *side, uint64_t seed) {
     uint32_t low = 0, high = side->runs;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -67,33 +71,33 @@ static uint32_t run_of(const JoxSide *side, uint64_t seed) {
     return low < side->runs && side->seeds[low] == seed ? low : side->runs;
 }
 
-static bool read_figures(const JoxSweepStore *store, int64_t variant, JoxSide *side,
-                         JoError *error) {
-    sqlite3_stmt *s =
-        ask(store, "SELECT name, seed, value FROM figure WHERE variant = ? ORDER BY name", variant,
-            error);
+static bool read_side_figures(const JoxSweepStore *store, int64_t variant, JoxSide *side,
+                              JoError *error) {
+    sqlite3_stmt *s = prepare_for_variant(
+        store, "SELECT name, seed, value FROM figure WHERE variant = ? ORDER BY name", variant,
+        error);
     JoxSideFigure *figure = NULL;
     int code = SQLITE_DONE;
     if (!s)
         return false;
     while ((code = sqlite3_step(s)) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(s, 0);
-        const uint32_t run = run_of(side, (uint64_t)sqlite3_column_int64(s, 1));
+        const uint32_t run = find_run_by_seed(side, (uint64_t)sqlite3_column_int64(s, 1));
         if (!name || run == side->runs)
             continue;
         if (!figure || strcmp(figure->name, name) != 0) {
             if (side->figure_count == MOST_FIGURES)
                 continue;
-            figure = jox_side_figure(side, name);
+            figure = jox_side_add_figure(side, name);
         }
         if (sqlite3_column_type(s, 2) != SQLITE_NULL)
             figure->values[run] = sqlite3_column_double(s, 2);
     }
-    return ended(store, s, code, error);
+    return finish_statement(store, s, code, error);
 }
 
-/* Mean and spread of the values of one moment, where at least half of the runs have one. A run that
-   has not the curve of an exit is one in which nobody left by it. */
+/* Appends mean and spread of the runs' values at one time, if at least half of the runs have one. A
+   run without the curve of an exit counts as 0: nobody left by it. */
 static void add_moment(JoxSide *side, JoxSideCurve *curve, double time, double *values,
                        size_t count) {
     static const char EXIT[] = "left by ";
@@ -101,17 +105,18 @@ static void add_moment(JoxSide *side, JoxSideCurve *curve, double time, double *
         values[count++] = 0;
     if (count == 0 || 2 * count < side->runs)
         return;
-    jox_side_point(curve, time, values, count);
+    jox_side_add_point(curve, time, values, count);
 }
 
 static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                         JoError *error) {
-    sqlite3_stmt *s = ask(store,
-                          "SELECT p.curve, p.time, p.value, c.name, c.unit FROM curve_point p"
-                          " JOIN curve_name c ON c.id = p.curve"
-                          " JOIN run r ON r.variant = p.variant AND r.seed = p.seed"
-                          " WHERE p.variant = ? AND r.state = 'done' ORDER BY p.curve, p.time",
-                          variant, error);
+    sqlite3_stmt *s =
+        prepare_for_variant(store,
+                            "SELECT p.curve, p.time, p.value, c.name, c.unit FROM curve_point p"
+                            " JOIN curve_name c ON c.id = p.curve"
+                            " JOIN run r ON r.variant = p.variant AND r.seed = p.seed"
+                            " WHERE p.variant = ? AND r.state = 'done' ORDER BY p.curve, p.time",
+                            variant, error);
     double *values = jox_alloc(side->runs + 1, sizeof *values), time = NAN;
     JoxSideCurve *curve = NULL;
     int64_t last = -1;
@@ -127,8 +132,8 @@ static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *si
             time = now;
         }
         if (number != last)
-            curve = jox_side_curve(side, (const char *)sqlite3_column_text(s, 3),
-                                   (const char *)sqlite3_column_text(s, 4));
+            curve = jox_side_add_curve(side, (const char *)sqlite3_column_text(s, 3),
+                                       (const char *)sqlite3_column_text(s, 4));
         last = number;
         if (sqlite3_column_type(s, 2) != SQLITE_NULL && count < side->runs)
             values[count++] = sqlite3_column_double(s, 2);
@@ -136,21 +141,22 @@ static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *si
     if (curve)
         add_moment(side, curve, time, values, count);
     jox_free(values);
-    return s && ended(store, s, code, error);
+    return s && finish_statement(store, s, code, error);
 }
 
-/* Rows of two texts. */
+/* Reads rows of two texts, key and value. */
 static bool read_notes(const JoxSweepStore *store, const char *sql, JoxSideNotes *notes,
                        JoError *error) {
-    sqlite3_stmt *s = jox_sweep_ask(store, sql, error);
+    sqlite3_stmt *s = jox_sweep_prepare(store, sql, error);
     int code;
     if (!s)
         return false;
     while ((code = sqlite3_step(s)) == SQLITE_ROW && notes->count < MOST_NOTES) {
         JOX_RESERVE(notes->items, notes->capacity, notes->count + 1);
-        notes->items[notes->count++] = (JoxSideNote){text_of(s, 0), text_of(s, 1)};
+        notes->items[notes->count++] =
+            (JoxSideNote){copy_column_text(s, 0), copy_column_text(s, 1)};
     }
-    return ended(store, s, code == SQLITE_ROW ? SQLITE_DONE : code, error);
+    return finish_statement(store, s, code == SQLITE_ROW ? SQLITE_DONE : code, error);
 }
 
 static bool find_title(void *context, const JoxJsonItem *item) {
@@ -166,29 +172,30 @@ bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error) {
     if (good)
         jox_database_bound(store.db, true);
     sqlite3_stmt *s =
-        good ? jox_sweep_ask(&store, "SELECT id, settings, plan FROM variant ORDER BY id", error)
-             : NULL;
+        good
+            ? jox_sweep_prepare(&store, "SELECT id, settings, plan FROM variant ORDER BY id", error)
+            : NULL;
     const uint32_t before = sides->count;
     int code = SQLITE_DONE;
     good = s != NULL;
     while (good && (code = sqlite3_step(s)) == SQLITE_ROW && sides->count < MOST_SIDES) {
         const int64_t id = sqlite3_column_int64(s, 0);
         JoxSide *side = jox_sides_add(sides, path);
-        side->settings = text_of(s, 1);
-        side->plan = sqlite3_column_type(s, 2) == SQLITE_NULL ? NULL : text_of(s, 2);
+        side->settings = copy_column_text(s, 1);
+        side->plan = sqlite3_column_type(s, 2) == SQLITE_NULL ? NULL : copy_column_text(s, 2);
         if (side->plan)
             jox_json_read(side->plan, jox_json_own_files, find_title, side);
         good = read_notes(&store, "SELECT key, value FROM sweep", &side->notes, error) &&
                read_notes(&store, "SELECT path, sha256 FROM input ORDER BY path", &side->inputs,
                           error) &&
-               read_runs(&store, id, side, error) && read_figures(&store, id, side, error) &&
-               read_curves(&store, id, side, error) &&
+               read_side_runs(&store, id, side, error) &&
+               read_side_figures(&store, id, side, error) && read_curves(&store, id, side, error) &&
                jox_side_read_fields(&store, id, side, error);
     }
     if (s && good && code != SQLITE_DONE && code != SQLITE_ROW)
-        good = jox_sweep_broken(&store, error);
+        good = jox_sweep_set_error(&store, error);
     if (store.db) {
-        jox_sweep_end(&store, s);
+        jox_sweep_finalize(&store, s);
         jox_database_bound(store.db, false);
     }
     jox_sweep_close(&store);

@@ -1,4 +1,4 @@
-/* The comparison as text for a terminal. */
+/* Writes a comparison as text for a terminal. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 enum { WORDS = 46, NUMBER = 11 };
 
-static void put_number(JoxText *out, double value, int width, bool sign) {
+static void add_number_column(JoxText *out, double value, int width, bool sign) {
     char text[40];
     if (!isfinite(value))
         snprintf(text, sizeof text, "-");
@@ -19,7 +19,7 @@ static void put_number(JoxText *out, double value, int width, bool sign) {
     jox_text_printf(out, "%*s", width, text);
 }
 
-static void put_sides(const JoxComparison *c, JoxText *out) {
+static void add_sides(const JoxComparison *c, JoxText *out) {
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
         jox_text_printf(out, "%2u  %s: ", s + 1, side->name);
@@ -40,8 +40,8 @@ static void put_sides(const JoxComparison *c, JoxText *out) {
     }
 }
 
-/* "30 more seeds would tell", where it is not told. */
-static void put_advice(const JoxDifference *d, JoxText *out) {
+/* Appends how many runs would detect the difference, if the present ones do not. */
+static void add_runs_needed(const JoxDifference *d, JoxText *out) {
     const JoxEffect *e = &d->effect;
     const size_t have = e->a < e->b ? e->a : e->b;
     if (!isfinite(e->low) || e->low > 0 || e->high < 0 || (e->low == 0 && e->high == 0))
@@ -53,8 +53,9 @@ static void put_advice(const JoxDifference *d, JoxText *out) {
         jox_text_add(out, "; more than a million runs would have to tell it");
 }
 
-/* What a figure is, with its unit; what is longer than its column has a line of its own. */
-static void put_words(const JoxCompared *figure, JoxText *out) {
+/* Appends the words of a figure and its unit as the first column; if they are longer than the
+   column, the rest of the row goes on the next line. */
+static void add_figure_column(const JoxCompared *figure, JoxText *out) {
     char words[240];
     snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
              figure->words.unit);
@@ -63,11 +64,11 @@ static void put_words(const JoxCompared *figure, JoxText *out) {
         jox_text_printf(out, "\n%*s", WORDS, "");
 }
 
-static bool is_told(const JoxComparison *c, const JoxCompared *f) {
+static bool is_figure_listed(const JoxComparison *c, const JoxCompared *f) {
     return f->varies && (c->def->all || f->words.is_key);
 }
 
-static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
+static void add_differences(const JoxComparison *c, uint32_t s, JoxText *out) {
     uint32_t differ = 0, told = 0, thin = 0;
     jox_text_printf(out, "\n%s, less %s:\n%-*s%*s%*s%*s  %.0f %% interval\n",
                     c->sides.items[s].name, c->sides.items[c->base].name, WORDS, "mean of the runs",
@@ -75,20 +76,20 @@ static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
         const JoxDifference *d = &figure->sides[s];
-        if (!is_told(c, figure) || (!d->base.count && !d->other.count))
+        if (!is_figure_listed(c, figure) || (!d->base.count && !d->other.count))
             continue;
-        put_words(figure, out);
-        put_number(out, d->base.mean, NUMBER, false);
-        put_number(out, d->other.mean, NUMBER, false);
-        put_number(out, d->effect.difference, NUMBER, true);
+        add_figure_column(figure, out);
+        add_number_column(out, d->base.mean, NUMBER, false);
+        add_number_column(out, d->other.mean, NUMBER, false);
+        add_number_column(out, d->effect.difference, NUMBER, true);
         if (isfinite(d->effect.low)) {
             jox_text_add(out, "  ");
-            put_number(out, d->effect.low, 0, true);
+            add_number_column(out, d->effect.low, 0, true);
             jox_text_add(out, " to ");
-            put_number(out, d->effect.high, 0, true);
+            add_number_column(out, d->effect.high, 0, true);
         }
         jox_text_printf(out, "  %s%s", jox_compare_verdict(d), d->adjusted ? " *" : "");
-        put_advice(d, out);
+        add_runs_needed(d, out);
         if (d->base_known < c->sides.items[c->base].runs || d->other_known < c->sides.items[s].runs)
             jox_text_printf(out, " (%zu of %u and %zu of %u runs have one)", d->base_known,
                             c->sides.items[c->base].runs, d->other_known, c->sides.items[s].runs);
@@ -106,16 +107,16 @@ static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
     jox_text_add(out, "\n");
 }
 
-static void put_methods(const JoxComparison *c, JoxText *out) {
+static void add_methods(const JoxComparison *c, JoxText *out) {
     char method[200];
     for (uint32_t s = 0; s < c->sides.count; s++) {
         if (s == c->base || c->count == 0)
             continue;
-        uint32_t most = 0; /* the figure that most runs have */
+        uint32_t most = 0; /* index of the figure that most runs have */
         for (uint32_t f = 0; f < c->count; f++)
             if (c->figures[f].sides[s].effect.b > c->figures[most].sides[s].effect.b)
                 most = f;
-        jox_compare_method(c, &c->figures[most].sides[s], method, sizeof method);
+        jox_compare_describe_method(c, &c->figures[most].sides[s], method, sizeof method);
         jox_text_printf(out, "Intervals of %s: %s.\n", c->sides.items[s].name, method);
     }
     jox_text_printf(out,
@@ -130,8 +131,8 @@ static void put_methods(const JoxComparison *c, JoxText *out) {
 
 /* ---- one side alone ---- */
 
-/* How its figures spread over its runs. */
-static void put_alone(const JoxComparison *c, JoxText *out) {
+/* Appends how the figures of a single side spread over its runs. */
+static void add_spread_table(const JoxComparison *c, JoxText *out) {
     const JoxSide *side = &c->sides.items[0];
     jox_text_printf(out, "\n%-*s%*s%*s%*s%*s  of\n", WORDS, "over the runs", NUMBER, "median",
                     NUMBER, "5 %", NUMBER, "95 %", NUMBER, "greatest");
@@ -141,26 +142,26 @@ static void put_alone(const JoxComparison *c, JoxText *out) {
         const double values[] = {s.median, s.p5, s.p95, s.most};
         if (!s.runs || !(c->def->all || (figure->words.is_key && (figure->varies || s.most != 0))))
             continue;
-        put_words(figure, out);
+        add_figure_column(figure, out);
         for (size_t v = 0; v < sizeof values / sizeof *values; v++)
-            put_number(out, values[v], NUMBER, false);
+            add_number_column(out, values[v], NUMBER, false);
         jox_text_printf(out, "  %u run%s\n", s.runs, s.runs == 1 ? "" : "s");
     }
 }
 
 /* ---- percentiles ---- */
 
-static void put_percentile(const JoxComparison *c, const JoxCompared *figure, uint32_t s,
-                           JoxText *out) {
+static void add_percentile_row(const JoxComparison *c, const JoxCompared *figure, uint32_t s,
+                               JoxText *out) {
     const double q = c->def->percentile / 100;
     size_t count;
-    double *values = jox_side_values(&c->sides.items[s], figure->figure, &count);
+    double *values = jox_side_sorted_values(&c->sides.items[s], figure->figure, &count);
     const size_t above = jox_rank_above(count, q), bound = jox_rank_bound(count, q, c->def->share);
     if (count) {
         jox_text_printf(out, "  %-28s", c->sides.items[s].name);
-        put_number(out, above ? values[above - 1] : NAN, NUMBER, false);
-        put_number(out, values[count - 1], NUMBER, false);
-        put_number(out, bound ? values[bound - 1] : NAN, NUMBER, false);
+        add_number_column(out, above ? values[above - 1] : NAN, NUMBER, false);
+        add_number_column(out, values[count - 1], NUMBER, false);
+        add_number_column(out, bound ? values[bound - 1] : NAN, NUMBER, false);
         jox_text_printf(out, "  of %zu run%s", count, count == 1 ? "" : "s");
         if (count < c->sides.items[s].runs)
             jox_text_printf(out, ", %zu have none", c->sides.items[s].runs - count);
@@ -169,18 +170,18 @@ static void put_percentile(const JoxComparison *c, const JoxCompared *figure, ui
     jox_free(values);
 }
 
-static void put_percentiles(const JoxComparison *c, JoxText *out) {
+static void add_percentiles(const JoxComparison *c, JoxText *out) {
     const double q = c->def->percentile / 100;
     jox_text_printf(out, "\n%-30s%*.4g %%%*s%*s\n", "The value above so many of all", NUMBER - 2,
                     c->def->percentile, NUMBER, "worst", NUMBER, "bound");
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
-        if (!is_told(c, figure) || figure->words.low_is_worse)
+        if (!is_figure_listed(c, figure) || figure->words.low_is_worse)
             continue;
         jox_text_printf(out, "%s%s%s\n", figure->words.text, *figure->words.unit ? ", " : "",
                         figure->words.unit);
         for (uint32_t s = 0; s < c->sides.count; s++)
-            put_percentile(c, figure, s, out);
+            add_percentile_row(c, figure, s, out);
     }
     jox_text_printf(
         out,
@@ -194,15 +195,15 @@ static void put_percentiles(const JoxComparison *c, JoxText *out) {
         100 * c->def->share, jox_rank_runs(q, c->def->share));
 }
 
-void jox_compare_text(const JoxComparison *c, JoxText *out) {
-    put_sides(c, out);
+void jox_compare_write_text(const JoxComparison *c, JoxText *out) {
+    add_sides(c, out);
     for (uint32_t s = 0; s < c->sides.count; s++)
         if (s != c->base)
-            put_side(c, s, out);
+            add_differences(c, s, out);
     if (c->sides.count > 1)
-        put_methods(c, out);
+        add_methods(c, out);
     else
-        put_alone(c, out);
+        add_spread_table(c, out);
     if (c->def->percentile > 0)
-        put_percentiles(c, out);
+        add_percentiles(c, out);
 }

@@ -1,4 +1,4 @@
-/* Figures of summaries in words. */
+/* Words and units for the figures of summaries, and the order in which they are shown. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "record/danger/danger.h"
 #include "sweep/compare/compare.h"
 
-/* The first row that fits holds; `*` stands for any characters but dots, and its n-th is %s. Keys
-   come first, in this order. */
+/* The first row whose path matches applies. `*` matches any characters but dots; the first one is
+   %s in the words. Key figures come first, in the order of display. */
 static const struct {
     const char *path, *words, *unit;
     bool is_key;
@@ -121,7 +121,7 @@ static const struct {
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 
-/* Of these, less is worse. */
+/* Figures of which less is worse. */
 static const char *const LOW[] = {"danger.left",   "danger.exits.*.people",
                                   "probes.*.flow", "probes.*.specific_flow",
                                   "regions.*",     "danger.lines.*.flow_max"};
@@ -137,8 +137,8 @@ const char *jox_figure_unit(const char *unit) {
     return unit;
 }
 
-/* Whether a path fits, and what the first `*` stands for. */
-static bool fits(const char *row, const char *path, char first[100]) {
+/* Returns whether a path matches a pattern; `first` is then what the first `*` matched. */
+static bool match_path(const char *row, const char *path, char first[100]) {
     bool any = false;
     for (; *row; row++) {
         if (*row != '*') {
@@ -155,16 +155,18 @@ static bool fits(const char *row, const char *path, char first[100]) {
     return *path == 0;
 }
 
-static int row_of(const char *path, char first[100]) {
+/* Returns the first row that matches a path; ROW_COUNT if none does. */
+static int find_words_row(const char *path, char first[100]) {
     *first = 0;
     for (int r = 0; r < ROW_COUNT; r++)
-        if (fits(ROWS[r].path, path, first))
+        if (match_path(ROWS[r].path, path, first))
             return r;
     return ROW_COUNT;
 }
 
-/* "danger.limits.density_5.person_s": of published limits. */
-static bool limit_words(const char *path, JoxFigureWords *out) {
+/* Fills the words of a figure about a published limit, such as "danger.limits.density_5.person_s";
+   false for any other figure. */
+static bool fill_limit_words(const char *path, JoxFigureWords *out) {
     static const char PREFIX[] = "danger.limits.";
     static const struct {
         const char *end, *words;
@@ -200,19 +202,19 @@ JoxFigureWords jox_figure_words(const char *path) {
     JoxFigureWords out = {.unit = ""};
     char first[100];
     for (size_t l = 0; l < sizeof LOW / sizeof *LOW; l++)
-        out.low_is_worse |= fits(LOW[l], path, first);
-    const int r = row_of(path, first);
-    if (limit_words(path, &out))
+        out.low_is_worse |= match_path(LOW[l], path, first);
+    const int r = find_words_row(path, first);
+    if (fill_limit_words(path, &out))
         return out;
-    if (r == ROW_COUNT) { /* as it is called, but for its last part: its unit */
+    if (r == ROW_COUNT) { /* unknown: shown as its path, with a unit guessed from the ending */
         const size_t n = strlen(path);
         out.unit = n > 2 && !strcmp(path + n - 2, "_s") ? "s" : "";
         snprintf(out.text, sizeof out.text, "%.180s", path);
         return out;
     }
     const char *words = ROWS[r].words, *at = strstr(words, "%s"), *last = strrchr(path, '.');
-    const bool of_level = strstr(path, ".level_s.") != NULL; /* of lines and areas */
-    if (of_level)                                            /* two names */
+    const bool of_level = strstr(path, ".level_s.") != NULL;
+    if (of_level)
         snprintf(out.text, sizeof out.text, "time at level of service %.8s of %s", last + 1, first);
     else if (!strncmp(path, "states.", 7))
         snprintf(out.text, sizeof out.text, "people of %s at the end in the state %.60s", first,
@@ -226,12 +228,12 @@ JoxFigureWords jox_figure_words(const char *path) {
     return out;
 }
 
-int jox_figure_order(const char *a, const char *b) {
+int jox_figure_compare_paths(const char *a, const char *b) {
     static const char LIMITS[] = "danger.limits.";
     char first[100];
     const JoxFigureWords x = jox_figure_words(a), y = jox_figure_words(b);
-    int r = row_of(a, first), s = row_of(b, first);
-    const int density = row_of("density_max", first); /* limits stand behind it */
+    int r = find_words_row(a, first), s = find_words_row(b, first);
+    const int density = find_words_row("density_max", first); /* figures of limits follow it */
     r = strncmp(a, LIMITS, sizeof LIMITS - 1) == 0 ? density : r;
     s = strncmp(b, LIMITS, sizeof LIMITS - 1) == 0 ? density : s;
     if (x.is_key != y.is_key)

@@ -1,14 +1,15 @@
-/* Layouts of the curves and fields that a run leaves: a head, numbers, then the texts. */
+/* Encodes the curves and fields of a run as pieces, and decodes them: a head of fixed size, the
+   numbers, then name and unit. */
 #include <string.h>
 
 #include "base/format/pieces.h"
 #include "base/mem.h"
 #include "sweep/sweep.h"
 
-enum { MOST_CURVE = 1 << 20, MOST_FIELD = 1 << 22 }; /* points, cells */
+enum { MOST_CURVE = 1 << 20, MOST_FIELD = 1 << 22 }; /* larger counts are taken for damage */
 
 typedef struct CurveHead {
-    uint64_t count, name, unit; /* pairs; bytes with a zero behind them */
+    uint64_t count, name, unit; /* count: pairs; name, unit: bytes of the text with its zero */
 } CurveHead;
 typedef struct FieldHead {
     double low_x, low_y, cell;
@@ -41,9 +42,10 @@ void jox_sweep_put_field(JoxText *pieces, const JoxSweepField *field) {
     jox_text_free(&out);
 }
 
-/* Copies the two texts at the end. */
-static bool get_texts(const char *data, size_t length, uint64_t first, uint64_t second, char **name,
-                      char **unit) {
+/* Copies the two texts at the end, of `first` and `second` bytes; false if their sizes are
+   wrong. */
+static bool copy_texts(const char *data, size_t length, uint64_t first, uint64_t second,
+                       char **name, char **unit) {
     if (first == 0 || second == 0 || first > length || second != length - first ||
         data[first - 1] || data[length - 1])
         return false;
@@ -62,8 +64,8 @@ bool jox_sweep_get_curve(const char *data, size_t length, JoxSweepCurve *out) {
     if (head.count > MOST_CURVE || left / (2 * sizeof(double)) < head.count)
         return false;
     const size_t numbers = 2 * sizeof(double) * head.count;
-    if (!get_texts(data + sizeof head + numbers, left - numbers, head.name, head.unit, &out->name,
-                   &out->unit))
+    if (!copy_texts(data + sizeof head + numbers, left - numbers, head.name, head.unit, &out->name,
+                    &out->unit))
         return false;
     out->count = out->capacity = head.count;
     out->points = jox_alloc(2 * head.count + 1, sizeof(double));
@@ -82,8 +84,8 @@ bool jox_sweep_get_field(const char *data, size_t length, JoxSweepField *out) {
     if (cells == 0 || cells > MOST_FIELD || left / sizeof(float) < cells || !(head.cell > 0))
         return false;
     const size_t numbers = sizeof(float) * cells;
-    if (!get_texts(data + sizeof head + numbers, left - numbers, head.name, head.unit, &out->name,
-                   &out->unit))
+    if (!copy_texts(data + sizeof head + numbers, left - numbers, head.name, head.unit, &out->name,
+                    &out->unit))
         return false;
     out->low_x = head.low_x;
     out->low_y = head.low_y;

@@ -1,4 +1,5 @@
-/* Plans side by side: the greatest density of each place, mean over the runs of a side. */
+/* Draws the plan of each side, with the greatest density at each place as a mean over the side's
+   runs. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +8,7 @@
 #include "report/maps.h"
 #include "sweep/compare/compare.h"
 
-/* The time until which the curves go on, s. */
-double jox_side_until(const JoxSide *side) {
+double jox_side_end_time(const JoxSide *side) {
     double end = 0;
     for (uint32_t k = 0; k < side->curve_count; k++)
         if (side->curves[k].count)
@@ -16,7 +16,7 @@ double jox_side_until(const JoxSide *side) {
     return end;
 }
 
-/* Names of those by which anybody left in any run. */
+/* Collects the names of exits from the paths of figures: "danger.exits.NAME.people". */
 static void list_exits(const JoxSide *side, JoxExits *exits) {
     static const char FROM[] = "danger.exits.", TO[] = ".people";
     for (uint32_t f = 0; f < side->figure_count; f++) {
@@ -56,7 +56,7 @@ bool jox_side_draw_begin(JoxSideDrawn *drawn, const JoxSide *side, const char *f
                                   .probes = (const JoxProbe *const *)p->probes,
                                   .probe_count = p->probe_count,
                                   .bodies = &p->bodies,
-                                  .until = jox_side_until(side),
+                                  .until = jox_side_end_time(side),
                                   .simulated = !side->recorded};
     return true;
 }
@@ -66,7 +66,7 @@ void jox_side_draw_end(JoxSideDrawn *drawn) {
     jox_side_plan_free(&drawn->plan);
 }
 
-double jox_side_field_most(const JoxSide *side, JoxSideFieldKind kind) {
+double jox_side_field_max(const JoxSide *side, JoxSideFieldKind kind) {
     const JoxSweepField *f = &side->fields[kind];
     double most = 0;
     for (size_t k = 0; f->values && k < (size_t)f->columns * f->rows; k++)
@@ -75,7 +75,7 @@ double jox_side_field_most(const JoxSide *side, JoxSideFieldKind kind) {
     return most;
 }
 
-static bool draw(const JoxComparison *c, uint32_t s, double most, JoxText *why) {
+static bool draw_side_plan(const JoxComparison *c, uint32_t s, double most, JoxText *why) {
     const JoxSide *side = &c->sides.items[s];
     JoxSideDrawn drawn;
     char file[40], when[48];
@@ -101,17 +101,17 @@ static bool draw(const JoxComparison *c, uint32_t s, double most, JoxText *why) 
     return good;
 }
 
-bool jox_compare_plans(const JoxComparison *c, JoxText *why) {
-    double most = 0; /* one scale for all */
+bool jox_compare_draw_plans(const JoxComparison *c, JoxText *why) {
+    double most = 0; /* the same scale for all sides */
     bool good = true;
     for (uint32_t s = 0; s < c->sides.count; s++)
-        most = fmax(most, jox_side_field_most(&c->sides.items[s], JOX_FIELD_GREATEST));
+        most = fmax(most, jox_side_field_max(&c->sides.items[s], JOX_FIELD_GREATEST));
     for (uint32_t s = 0; good && s < c->sides.count; s++)
-        good = draw(c, s, most, why);
+        good = draw_side_plan(c, s, most, why);
     return good;
 }
 
-void jox_compare_plan_figures(FILE *out, const JoxComparison *c) {
+void jox_compare_put_plans(FILE *out, const JoxComparison *c) {
     JoxSideDrawn drawn;
     if (jox_side_draw_begin(&drawn, &c->sides.items[0], c->def->out)) {
         jox_maps_panels(out, &drawn.subject);

@@ -1,5 +1,6 @@
-/* The plan of a side, read from its JSON. */
-#include "sweep/compare/plan.h"
+/* Reads the plan of a side from JSON, item by item. Files may come from elsewhere, so numbers are
+   bounded and parts that make no sense are left out. */
+#include "sweep/compare/side_plan.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,13 +13,13 @@ enum { MOST_POINTS = 100000 };
 typedef enum PartOf { WALLS, PLACES, PROBES, BODIES, NOTHING } PartOf;
 static const char *const LISTS[NOTHING] = {"walls.", "places.", "probes.", "bodies."};
 
-/* A wall, place, probe or body that is being read. */
+/* The wall, place, probe or body that is being read. */
 typedef struct Part {
     PartOf of;
     char *name, *kind;
     bool solid, closed, open, high;
     float radius;
-    float *numbers; /* x, y, ... */
+    float *numbers; /* coordinates, m: x, y, x, y, ... */
     size_t count, capacity;
 } Part;
 
@@ -26,11 +27,11 @@ typedef struct Reading {
     JoxSidePlan *plan;
     float area[4];
     uint32_t corners;
-    size_t place_capacity, probe_capacity, points; /* points of all */
+    size_t place_capacity, probe_capacity, points; /* points: read so far, of all parts */
     Part part;
 } Reading;
 
-static void add_wall(Reading *r, const JoxV2 *points, uint32_t count) {
+static void add_plan_wall(Reading *r, const JoxV2 *points, uint32_t count) {
     const Part *part = &r->part;
     JoxSidePlan *plan = r->plan;
     const uint32_t first = plan->walls.ring_count;
@@ -42,7 +43,7 @@ static void add_wall(Reading *r, const JoxV2 *points, uint32_t count) {
         jox_walls_name(&plan->walls, first, part->name, part->open);
 }
 
-static void add_place(Reading *r, const JoxV2 *points, uint32_t count) {
+static void add_plan_place(Reading *r, const JoxV2 *points, uint32_t count) {
     const Part *part = &r->part;
     JoxSidePlan *plan = r->plan;
     int kind = 0;
@@ -64,11 +65,11 @@ static void add_place(Reading *r, const JoxV2 *points, uint32_t count) {
     jox_place_finish(place);
 }
 
-static void add_probe(Reading *r, const JoxV2 *points, uint32_t count) {
+static void add_plan_probe(Reading *r, const JoxV2 *points, uint32_t count) {
     static const struct {
         const char *name;
         JoxProbeKind kind;
-        uint32_t least, most; /* points */
+        uint32_t least, most; /* allowed numbers of points */
     } KINDS[] = {{"flow", JOX_PROBE_FLOW, 2, 2},
                  {"measure", JOX_PROBE_MEASURE, 3, MOST_POINTS},
                  {"transit", JOX_PROBE_TRANSIT, 4, 4}};
@@ -89,7 +90,7 @@ static void add_probe(Reading *r, const JoxV2 *points, uint32_t count) {
     }
 }
 
-static void add_body(Reading *r, const JoxV2 *points, uint32_t count) {
+static void add_plan_body(Reading *r, const JoxV2 *points, uint32_t count) {
     const Part *part = &r->part;
     JoxDrawnBodies *bodies = &r->plan->bodies;
     if (count == 2 || count > JOX_OUTLINE_POINTS)
@@ -102,10 +103,10 @@ static void add_body(Reading *r, const JoxV2 *points, uint32_t count) {
     body->count = count > 1 ? count : 0;
 }
 
-/* What was read of a wall, place, probe or body becomes one. */
-static void end_part(Reading *r) {
-    static void (*const ADD[NOTHING])(Reading *, const JoxV2 *, uint32_t) = {add_wall, add_place,
-                                                                             add_probe, add_body};
+/* Adds the part that was read to the plan, and begins an empty one. */
+static void finish_part(Reading *r) {
+    static void (*const ADD[NOTHING])(Reading *, const JoxV2 *, uint32_t) = {
+        add_plan_wall, add_plan_place, add_plan_probe, add_plan_body};
     Part *part = &r->part;
     const uint32_t count = (uint32_t)(part->count / 2);
     JoxV2 *points = jox_alloc(count + 1, sizeof *points);
@@ -148,7 +149,7 @@ static bool read_item(void *context, const JoxJsonItem *item) {
         strncmp(item->path, "area.", 5) == 0)
         r->area[r->corners++] = (float)item->number;
     if (item->depth == 2 && item->kind == JOX_JSON_OBJECT) {
-        end_part(r);
+        finish_part(r);
         for (int of = 0; of < NOTHING; of++)
             if (strncmp(item->path, LISTS[of], strlen(LISTS[of])) == 0)
                 r->part.of = (PartOf)of;
@@ -162,7 +163,7 @@ bool jox_side_plan_read(JoxSidePlan *plan, const char *json) {
     Reading r = {.plan = plan, .part = {.of = NOTHING}};
     *plan = (JoxSidePlan){0};
     const bool good = jox_json_read(json, jox_json_own_files, read_item, &r);
-    end_part(&r);
+    finish_part(&r);
     plan->low = (JoxV2){r.area[0], r.area[1]};
     plan->high = (JoxV2){r.area[2], r.area[3]};
     return good && r.corners == 4 && plan->high.x > plan->low.x && plan->high.y > plan->low.y &&
