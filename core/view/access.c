@@ -10,7 +10,7 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 
-bool jox_access_token(char token[33]) {
+bool jox_access_make_token(char token[33]) {
     unsigned char bits[16];
     if (getrandom(bits, sizeof bits, 0) != (ssize_t)sizeof bits)
         return false;
@@ -19,7 +19,7 @@ bool jox_access_token(char token[33]) {
     return true;
 }
 
-bool jox_access_same(const char *given, const char *token) {
+bool jox_access_is_token(const char *given, const char *token) {
     size_t n = strlen(token), length = strlen(given);
     volatile unsigned char difference = length != n;
     for (size_t i = 0; i < n; i++)
@@ -27,7 +27,7 @@ bool jox_access_same(const char *given, const char *token) {
     return difference == 0;
 }
 
-bool jox_access_cookie(const char *header, const char *name, char *value, size_t capacity) {
+bool jox_access_find_cookie(const char *header, const char *name, char *value, size_t capacity) {
     size_t n = strlen(name);
     while (*header) {
         header += strspn(header, " ;");
@@ -45,7 +45,7 @@ bool jox_access_cookie(const char *header, const char *name, char *value, size_t
     return false;
 }
 
-bool jox_access_host(const char *host, int port) {
+bool jox_access_is_local_host(const char *host, int port) {
     static const char *const NAMES[] = {"127.0.0.1", "localhost", "[::1]"};
     char full[64];
     for (int i = 0; i < 3; i++) {
@@ -61,13 +61,13 @@ bool jox_access_host_is_clean(const char *host) {
     return n > 0 && n < 200 && host[n] == 0;
 }
 
-bool jox_access_origin(const char *origin, const char *host) {
+bool jox_access_is_same_origin(const char *origin, const char *host) {
     static const char SCHEME[] = "http://";
     size_t n = sizeof SCHEME - 1;
     return strncasecmp(origin, SCHEME, n) == 0 && strcasecmp(origin + n, host) == 0;
 }
 
-bool jox_access_file(const char *folder, const char *path, char file[4096]) {
+bool jox_access_find_file(const char *folder, const char *path, char file[4096]) {
     char whole[PATH_MAX];
     struct stat info;
     if (*path != '/' || strstr(path, "/.") || strchr(path, '\\') ||
@@ -81,7 +81,7 @@ bool jox_access_file(const char *folder, const char *path, char file[4096]) {
     return inside;
 }
 
-const char *jox_access_type(const char *path) {
+const char *jox_access_content_type(const char *path) {
     static const char *const TYPES[][2] = {
         {".html", "text/html; charset=utf-8"},
         {".css", "text/css; charset=utf-8"},

@@ -1,5 +1,5 @@
-/* Commands of the page: a flat JSON object with "do" and values that are numbers, texts, true,
-   false or null. */
+/* Reads the commands that the page sends: a flat JSON object with "do" and values that are numbers,
+   texts, true, false or null. */
 #ifndef JOX_VIEW_COMMAND_H
 #define JOX_VIEW_COMMAND_H
 
@@ -22,13 +22,13 @@ typedef struct JoxCommand {
     } values[JOX_COMMAND_MOST_KEYS];
     int count;
     char *verb;       /* the text of "do" */
-    char store[4200]; /* where keys and texts lie */
+    char store[4200]; /* memory of keys and texts */
 } JoxCommand;
 
-/* False if it is no such object, or a text of it has control characters or is not UTF-8: what is
-   read may be shown on a terminal and written into a log of lines. */
+/* Reads a command. Returns false if it is no such object, or if a text has control characters or is
+   not UTF-8, as texts may be shown on a terminal and written into a log of lines. */
 bool jox_command_read(const char *json, JoxCommand *command);
-/* The value of a key, or `otherwise` where there is none of this kind. */
+/* Return the value of a key; `otherwise` if it is missing or of another kind. */
 const char *jox_command_text(const JoxCommand *command, const char *key, const char *otherwise);
 double jox_command_number(const JoxCommand *command, const char *key, double otherwise);
 bool jox_command_bool(const JoxCommand *command, const char *key, bool otherwise);

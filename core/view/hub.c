@@ -1,4 +1,5 @@
-/* The stepping thread's side of the server. */
+/* The stepping thread's side of the server: publishing, sending, and taking what browsers sent.
+   Also the queues between the two threads, and creation of the view. */
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +46,7 @@ JoxView *jox_view_create(void) {
     return view;
 }
 
-static void free_all(JoxMessage *message) {
+static void free_messages(JoxMessage *message) {
     while (message) {
         JoxMessage *next = message->next;
         jox_free(message);
@@ -53,18 +54,18 @@ static void free_all(JoxMessage *message) {
     }
 }
 
-/* After the serving thread has ended. */
+/* Frees the view; the serving thread must have ended. */
 void jox_view_free(JoxView *view) {
     for (uint32_t c = 0; c < JOX_VIEW_CHANNELS; c++) {
         JoxChannel *channel = &view->channels[c];
-        free_all(jox_post_take(&channel->used));
-        free_all(channel->spare);
+        free_messages(jox_post_take(&channel->used));
+        free_messages(channel->spare);
         jox_free(channel->newest);
         jox_free(atomic_load(&channel->fresh));
     }
-    free_all(jox_post_take(&view->out));
-    free_all(jox_post_take(&view->in));
-    free_all(view->taken);
+    free_messages(jox_post_take(&view->out));
+    free_messages(jox_post_take(&view->in));
+    free_messages(view->taken);
     if (view->wake >= 0)
         close(view->wake);
     jox_free(view);
@@ -86,8 +87,9 @@ void jox_view_drop(JoxView *view) {
     atomic_fetch_add(&view->dropped, 1);
 }
 
-/* A message of the channel with room for `length` bytes: steady streams reuse three. */
-static JoxMessage *find_room(const JoxView *view, JoxChannel *channel, size_t length) {
+/* Returns a message with room for `length` bytes, reusing one of the channel if it is large enough:
+   a steady stream needs three. */
+static JoxMessage *get_message(const JoxView *view, JoxChannel *channel, size_t length) {
     JoxMessage *back = jox_post_take(&channel->used);
     while (back) {
         JoxMessage *next = back->next;
@@ -114,7 +116,7 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
     if (channel >= JOX_VIEW_CHANNELS || !jox_view_clients(view))
         return;
     JoxChannel *to = &view->channels[channel];
-    JoxMessage *message = find_room(view, to, length);
+    JoxMessage *message = get_message(view, to, length);
     memcpy(message->data, bytes, length);
     message->epoch = view->epoch;
     JoxMessage *unseen = atomic_exchange(&to->fresh, message);
@@ -125,8 +127,8 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
     view->wake_transport(view);
 }
 
-static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask,
-                 const void *data, size_t length) {
+static void post_request(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask,
+                         const void *data, size_t length) {
     JoxMessage *message = jox_message_create(view, length);
     if (length)
         memcpy(message->data, data, length);
@@ -140,12 +142,12 @@ static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t ma
 
 void jox_view_send(JoxView *view, uint32_t client, const char *text) {
     if (jox_view_clients(view))
-        post(view, JOX_REQUEST_TEXT, client, 0, text, strlen(text));
+        post_request(view, JOX_REQUEST_TEXT, client, 0, text, strlen(text));
 }
 
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels) {
     JOX_ASSERT(client != JOX_VIEW_ALL && channels >> JOX_VIEW_CHANNELS == 0);
-    post(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);
+    post_request(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);
 }
 
 void jox_view_forget(JoxView *view) {
@@ -157,12 +159,11 @@ void jox_view_forget(JoxView *view) {
             view->channels[c].spare = unseen;
         }
     }
-    post(view, JOX_REQUEST_FORGET, JOX_VIEW_ALL, 0, NULL, 0);
+    post_request(view, JOX_REQUEST_FORGET, JOX_VIEW_ALL, 0, NULL, 0);
 }
 
-/* The serving thread calls this. */
-void jox_view_tell(JoxView *view, uint32_t client, JoxViewTaken what, const char *text,
-                   size_t length) {
+void jox_view_post_event(JoxView *view, uint32_t client, JoxViewTaken what, const char *text,
+                         size_t length) {
     JoxMessage *message = jox_message_create(view, length);
     if (length)
         memcpy(message->data, text, length);
@@ -171,7 +172,7 @@ void jox_view_tell(JoxView *view, uint32_t client, JoxViewTaken what, const char
     jox_post_put(&view->in, message);
     uint64_t one = 1;
     if (write(view->wake, &one, sizeof one) < 0)
-        return; /* full: it is awake */
+        return; /* the counter is full, so the reader is awake */
 }
 
 JoxViewTaken jox_view_take(JoxView *view, uint32_t *client, char *text, size_t capacity) {
@@ -183,8 +184,7 @@ JoxViewTaken jox_view_take(JoxView *view, uint32_t *client, char *text, size_t c
     view->taken = message->next;
     JoxViewTaken what = (JoxViewTaken)message->what;
     *client = message->client;
-    JOX_ASSERT(capacity > message->length &&
-               *client > 0); /* commands are as long as a client may send */
+    JOX_ASSERT(capacity > message->length && *client > 0);
     size_t n = message->length < capacity ? message->length : capacity - 1;
     memcpy(text, message->data, n);
     text[n] = 0;
@@ -203,5 +203,5 @@ void jox_view_wait(JoxView *view, double seconds) {
                             .tv_nsec = (long)((seconds - (double)(time_t)seconds) * 1e9)};
     if (seconds > 0.0 && ppoll(&fd, 1, &wait, NULL) > 0 &&
         read(view->wake, &count, sizeof count) < 0)
-        return; /* somebody else read it: nobody does */
+        return; /* cannot happen: no other thread reads it */
 }

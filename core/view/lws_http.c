@@ -1,4 +1,4 @@
-/* Requests: who asks, for what, and the page's files. */
+/* Checks HTTP requests and answers them with the page's files, or with the reason of a refusal. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,8 +7,8 @@
 
 enum { REFUSED = 403, NOT_FOUND = 404, NO_METHOD = 405, FULL = 503 };
 
-/* Answers with a line of text. */
-static int refuse(struct lws *wsi, int status, const char *text) {
+/* Answers with a status and a line of text; returns what libwebsockets expects. */
+static int answer_text(struct lws *wsi, int status, const char *text) {
     unsigned char block[LWS_PRE + 1024], *begin = block + LWS_PRE, *p = begin;
     unsigned char *end = block + sizeof block;
     static const char MORE[] = "x-content-type-options: nosniff\r\ncache-control: no-store\r\n";
@@ -24,36 +24,36 @@ static int refuse(struct lws *wsi, int status, const char *text) {
     return lws_write(wsi, begin, length, LWS_WRITE_HTTP_FINAL) < (int)length ? -1 : 1;
 }
 
-/* A header's text; false where it is missing, too long or has been sent more than once. */
-static bool header(struct lws *wsi, enum lws_token_indexes token, char *out, size_t size) {
+/* Copies the text of a header; false if it is missing, too long or sent more than once. */
+static bool copy_header(struct lws *wsi, enum lws_token_indexes token, char *out, size_t size) {
     int n = lws_hdr_total_length(wsi, token);
     return n > 0 && (size_t)n < size && lws_hdr_copy(wsi, out, (int)size, token) == n;
 }
 
-/* Whether the request has the token in its query or, for a file, the pass in the page's cookie
-   (*remembered). Browsers send cookies of 127.0.0.1 to whatever serves there, so that the cookie
-   opens no socket. */
+/* Returns whether the request has the token in its query or, for a file, the pass in the page's
+   cookie (*remembered). The cookie opens no socket, because browsers send cookies of 127.0.0.1 to
+   any server on that host. */
 static bool has_token(const JoxView *view, struct lws *wsi, bool socket, bool *remembered) {
     char given[80], name[32], cookies[2048];
     *remembered = false;
     const char *asked = lws_get_urlarg_by_name(wsi, "token=", given, sizeof given);
     if (asked)
-        return jox_access_same(asked, view->token);
+        return jox_access_is_token(asked, view->token);
     if (socket)
         return false;
     snprintf(name, sizeof name, "jostle_%d", view->port);
-    *remembered = header(wsi, WSI_TOKEN_HTTP_COOKIE, cookies, sizeof cookies) &&
-                  jox_access_cookie(cookies, name, given, sizeof given) &&
-                  jox_access_same(given, view->pass);
+    *remembered = copy_header(wsi, WSI_TOKEN_HTTP_COOKIE, cookies, sizeof cookies) &&
+                  jox_access_find_cookie(cookies, name, given, sizeof given) &&
+                  jox_access_is_token(given, view->pass);
     return *remembered;
 }
 
-/* Why a request is refused, or NULL. */
+/* Returns why a request is refused, or NULL. */
 static const char *find_fault(const JoxView *view, struct lws *wsi, bool socket, char host[256],
                               bool *remembered) {
-    if (!header(wsi, WSI_TOKEN_HOST, host, 256) || !jox_access_host_is_clean(host))
+    if (!copy_header(wsi, WSI_TOKEN_HOST, host, 256) || !jox_access_host_is_clean(host))
         return "This request does not say which host it asks.\n";
-    if (!view->any_host && !jox_access_host(host, view->port))
+    if (!view->any_host && !jox_access_is_local_host(host, view->port))
         return "Jostle answers at 127.0.0.1 and localhost only; --view-address ADDRESS changes "
                "that.\n";
     if (!has_token(view, wsi, socket, remembered))
@@ -62,7 +62,7 @@ static const char *find_fault(const JoxView *view, struct lws *wsi, bool socket,
     return NULL;
 }
 
-void jox_http_is_known(JoxView *view, const struct lws *wsi) {
+void jox_http_drop_from_unknown(JoxView *view, const struct lws *wsi) {
     JoxTransport *t = view->transport;
     unsigned kept = 0;
     for (unsigned u = 0; u < t->unknown_count; u++)
@@ -71,26 +71,26 @@ void jox_http_is_known(JoxView *view, const struct lws *wsi) {
     t->unknown_count = kept;
 }
 
-int jox_http_upgrade(JoxView *view, struct lws *wsi, const char *to) {
+int jox_http_check_upgrade(JoxView *view, struct lws *wsi, const char *to) {
     char host[256], origin[256];
     bool remembered;
     if (strcasecmp(to, "websocket") != 0)
         return -1;
     const char *fault = find_fault(view, wsi, true, host, &remembered);
-    if (!fault &&
-        (!header(wsi, WSI_TOKEN_ORIGIN, origin, sizeof origin) || !jox_access_origin(origin, host)))
+    if (!fault && (!copy_header(wsi, WSI_TOKEN_ORIGIN, origin, sizeof origin) ||
+                   !jox_access_is_same_origin(origin, host)))
         fault = "This socket is for the page of the same address.\n";
     if (fault)
-        return refuse(wsi, REFUSED, fault);
-    jox_http_is_known(view, wsi);
+        return answer_text(wsi, REFUSED, fault);
+    jox_http_drop_from_unknown(view, wsi);
     if (atomic_load(&view->clients) >= JOX_VIEW_CLIENTS)
-        return refuse(wsi, FULL, "Too many pages are connected.\n");
+        return answer_text(wsi, FULL, "Too many pages are connected.\n");
     return 0;
 }
 
-/* Headers of a file, and the cookie by which the page's own files are asked for. */
-static int more_headers(const JoxView *view, const char *host, bool cookie, char *out,
-                        size_t size) {
+/* Formats the headers of a file and, if `cookie`, the cookie that opens the page's other files. */
+static int format_headers(const JoxView *view, const char *host, bool cookie, char *out,
+                          size_t size) {
     int n = snprintf(
         out, size,
         "content-security-policy: default-src 'none'; script-src 'self'; style-src 'self'; "
@@ -107,29 +107,29 @@ static int more_headers(const JoxView *view, const char *host, bool cookie, char
     return n;
 }
 
-int jox_http_answer(JoxView *view, struct lws *wsi, const char *path) {
+int jox_http_serve_file(JoxView *view, struct lws *wsi, const char *path) {
     char host[256], file[4096], headers[2048];
     bool remembered;
     int done;
     if (!lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI)) {
-        refuse(wsi, NO_METHOD, "Only GET is answered.\n");
-        return -1; /* with whatever else it sends */
+        answer_text(wsi, NO_METHOD, "Only GET is answered.\n");
+        return -1; /* closes the connection, and ignores a body */
     }
     const char *fault = find_fault(view, wsi, false, host, &remembered);
     if (!fault)
-        jox_http_is_known(view, wsi);
+        jox_http_drop_from_unknown(view, wsi);
     const char *name = strcmp(path, "/") == 0 ? "/index.html" : path;
     bool three = strncmp(name, "/three/", 7) == 0;
-    const char *type = jox_access_type(name);
+    const char *type = jox_access_content_type(name);
     if (fault) {
-        done = refuse(wsi, REFUSED, fault);
-    } else if (!type ||
-               !jox_access_file(three ? view->three : view->page, name + (three ? 6 : 0), file)) {
-        done = refuse(wsi, NOT_FOUND, "There is no such file.\n");
+        done = answer_text(wsi, REFUSED, fault);
+    } else if (!type || !jox_access_find_file(three ? view->three : view->page,
+                                              name + (three ? 6 : 0), file)) {
+        done = answer_text(wsi, NOT_FOUND, "There is no such file.\n");
     } else {
-        int n = more_headers(view, host, !remembered, headers, sizeof headers);
+        int n = format_headers(view, host, !remembered, headers, sizeof headers);
         done = lws_serve_http_file(wsi, file, type, headers, n);
-        if (done == 0) /* it is under way */
+        if (done == 0) /* libwebsockets is still sending it */
             return 0;
     }
     if (done < 0 || lws_http_transaction_completed(wsi))

@@ -1,4 +1,5 @@
-/* The serving thread: connections by libwebsockets. */
+/* Opens the server and runs the serving thread: ports, connections and web sockets, by
+   libwebsockets. */
 #include <errno.h>
 #include <netinet/in.h>
 #include <signal.h>
@@ -18,10 +19,11 @@
 #include "view/access.h"
 #include "view/lws_server.h"
 
-enum { PATIENCE = 5, PING = 15, HANG_UP = 30, SEND_BUFFER = 128 << 10, MOST_CONNECTIONS = 512 };
+enum { PATIENCE = 5, PING = 15, HANG_UP = 30 }; /* s */
+enum { SEND_BUFFER = 128 << 10, MOST_CONNECTIONS = 512 };
 
-/* Sends what there is for a client until the socket is full; at most a few fragments at a time, so
-   that each client has its turn. */
+/* Sends queued data to a client until the socket is full, at most 8 fragments, so that each client
+   gets its turn. */
 static int write_socket(JoxView *view, JoxClient *client) {
     unsigned char *to = view->transport->scratch + LWS_PRE;
     for (int i = 0; i < 8; i++) {
@@ -29,7 +31,7 @@ static int write_socket(JoxView *view, JoxClient *client) {
             return -1;
         if (lws_send_pipe_choked(client->wsi))
             break;
-        if (!jox_serving_choose(view, client))
+        if (!jox_serving_choose_message(view, client))
             return 0;
         const JoxMessage *message = client->sending;
         size_t n = message->length - client->sent;
@@ -42,67 +44,69 @@ static int write_socket(JoxView *view, JoxClient *client) {
             return -1;
         client->sent += n;
         if (last)
-            jox_serving_sent(view, client);
+            jox_serving_finish_message(view, client);
     }
     if (jox_serving_has_work(view, client))
         lws_callback_on_writable(client->wsi);
     return 0;
 }
 
-static void serve_news(JoxView *view) {
-    jox_serving_gather(view);
+/* Fetches new messages, asks to write to clients that need them, and disconnects bad ones. */
+static void schedule_writes(JoxView *view) {
+    jox_serving_fetch(view);
     for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++) {
         JoxClient *client = view->connected[c];
-        if (client && client->bad) /* it may never be writable again */
+        if (client && client->bad) /* not left to a write: it may never be writable */
             lws_set_timeout(client->wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
         else if (client && jox_serving_has_work(view, client))
             lws_callback_on_writable(client->wsi);
     }
 }
 
-static int join(JoxView *view, struct lws *wsi, JoxSession *session) {
-    int size = SEND_BUFFER; /* frames should not age in the kernel */
+static int join_client(JoxView *view, struct lws *wsi, JoxSession *session) {
+    int size = SEND_BUFFER; /* small, so that old frames do not queue in the kernel */
     setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_SNDBUF, &size, sizeof size);
     session->client = jox_serving_join(view, wsi);
     return session->client ? 0 : -1;
 }
 
-/* Who connects is unknown until its request shows the token; where there are too many of them, who
-   has been longest makes room. */
-static void meet(JoxView *view, struct lws *wsi) {
+/* Registers a new connection as unknown until its request shows a token. If there are too many, the
+   oldest one is closed. */
+static void add_unknown(JoxView *view, struct lws *wsi) {
     JoxTransport *t = view->transport;
     if (t->unknown_count == JOX_VIEW_UNKNOWN) {
         lws_set_timeout(t->unknown[0], PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
-        jox_http_is_known(view, t->unknown[0]);
+        jox_http_drop_from_unknown(view, t->unknown[0]);
     }
     t->unknown[t->unknown_count++] = wsi;
 }
 
-static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
-                  size_t length) {
+/* Handles an event of libwebsockets. */
+static int handle_event(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                        size_t length) {
     JoxSession *session = user;
     JoxView *view = wsi ? lws_context_user(lws_get_context(wsi)) : NULL;
     JoxClient *client = session ? session->client : NULL;
     switch (reason) {
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
-        serve_news(view);
+        schedule_writes(view);
         return 0;
     case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
-        meet(view, wsi);
+        add_unknown(view, wsi);
         return 0;
     case LWS_CALLBACK_WSI_DESTROY:
-        jox_http_is_known(view, wsi);
+        jox_http_drop_from_unknown(view, wsi);
         return 0;
     case LWS_CALLBACK_HTTP:
-        return jox_http_answer(view, wsi, in);
-    case LWS_CALLBACK_RAW_ADOPT: /* what CONNECT leads to */
+        return jox_http_serve_file(view, wsi, in);
+    case LWS_CALLBACK_RAW_ADOPT: /* reached by the method CONNECT */
     case LWS_CALLBACK_RAW_RX:
-    case LWS_CALLBACK_HTTP_BODY: /* nobody is asked for one */
+    case LWS_CALLBACK_HTTP_BODY: /* no request here may have a body */
         return -1;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-        return jox_http_upgrade(view, wsi, in);
+        return jox_http_check_upgrade(view, wsi, in);
     case LWS_CALLBACK_ESTABLISHED:
-        return join(view, wsi, session);
+        return join_client(view, wsi, session);
     case LWS_CALLBACK_SERVER_WRITEABLE:
         return client ? write_socket(view, client) : 0;
     case LWS_CALLBACK_RECEIVE:
@@ -122,29 +126,29 @@ static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user,
     }
 }
 
-/* Where memory is out, the connection ends; the others go on. */
-static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
-                    size_t length) {
+/* Handles an event; if memory runs out, closes only the connection concerned. */
+static int guard_event(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                       size_t length) {
     JoxRecovery recovery;
     jox_recovery_push(&recovery);
     if (setjmp(recovery.jump) != 0)
         return -1;
-    int result = answer(wsi, reason, user, in, length);
+    int result = handle_event(wsi, reason, user, in, length);
     jox_recovery_pop(&recovery);
     return result;
 }
 
 static const struct lws_protocols PROTOCOLS[] = {{.name = "jostle",
-                                                  .callback = callback,
+                                                  .callback = guard_event,
                                                   .per_session_data_size = sizeof(JoxSession),
                                                   .rx_buffer_size = 4096},
                                                  {0}};
 
-/* Browsers answer pings by themselves; what does not is gone. */
+/* Browsers answer pings by themselves; a connection that does not is dead. */
 static const lws_retry_bo_t LIVENESS = {.secs_since_valid_ping = PING,
                                         .secs_since_valid_hangup = HANG_UP};
 
-static void *serve(void *argument) {
+static void *run_server(void *argument) {
     JoxView *view = argument;
     jox_heap_use(view->heap);
     while (!atomic_load(&view->stop) && lws_service(view->transport->context, 0) >= 0)
@@ -152,12 +156,12 @@ static void *serve(void *argument) {
     return NULL;
 }
 
-static void wake(JoxView *view) {
+static void wake_server(JoxView *view) {
     if (view->transport && view->transport->running)
         lws_cancel_service(view->transport->context);
 }
 
-/* 0 where the port can be had, else errno. */
+/* Tests whether the port can be bound: 0 or errno. */
 static int try_port(const char *address, int port) {
     struct sockaddr_storage to = {0};
     struct sockaddr_in *four = (struct sockaddr_in *)&to;
@@ -188,7 +192,8 @@ static bool has_file(const char *folder, const char *name) {
     return access(path, R_OK) == 0;
 }
 
-static bool check(const JoxViewOptions *options, const char *address, JoxText *why) {
+/* Checks the options; appends the fault to `why`. */
+static bool check_options(const JoxViewOptions *options, const char *address, JoxText *why) {
     if (!options->page || !has_file(options->page, "index.html"))
         jox_text_printf(why,
                         "the live page is not in '%s' (no index.html there): install Jostle, or "
@@ -209,11 +214,11 @@ static bool check(const JoxViewOptions *options, const char *address, JoxText *w
     return false;
 }
 
-/* Whether memory was refused to libwebsockets on this thread. */
+/* Set when an allocation of libwebsockets fails on this thread. */
 static _Thread_local bool is_out_of_memory;
 
-/* The allocator of libwebsockets: allocates, grows or, of size 0, frees. */
-static void *reallocate(void *memory, size_t size, const char *reason) {
+/* The allocator of libwebsockets: allocates, grows, or frees if `size` is 0. */
+static void *reallocate_lws(void *memory, size_t size, const char *reason) {
     (void)reason;
     if (size == 0) {
         free(memory);
@@ -224,13 +229,13 @@ static void *reallocate(void *memory, size_t size, const char *reason) {
     return made;
 }
 
-/* A context of libwebsockets that listens at view->port; none where it cannot, or where memory ran
-   out on the way: libwebsockets goes on without some of its tables, and crashes at the first
-   request. */
+/* Creates a context of libwebsockets that listens at view->port. Returns false if that fails, also
+   if memory ran out on the way: libwebsockets would go on without some of its tables, and crash at
+   the first request. */
 static bool listen_at_port(JoxView *view, const char *address, double patience) {
     JoxTransport *transport = view->transport;
     struct rlimit files;
-    rlim_t most = MOST_CONNECTIONS; /* and the program's own files need room too */
+    rlim_t most = MOST_CONNECTIONS; /* and at most half of the allowed descriptors */
     if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur / 2 < most)
         most = files.rlim_cur / 2;
     unsigned seconds = patience >= 1.0 ? (unsigned)patience : PATIENCE;
@@ -250,9 +255,10 @@ static bool listen_at_port(JoxView *view, const char *address, double patience) 
         .options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
                    LWS_SERVER_OPTION_VALIDATE_UTF8 | (six ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)};
     lws_set_log_level(0, NULL);
-    lws_set_allocator(reallocate);
+    lws_set_allocator(reallocate_lws);
     is_out_of_memory = false;
-    struct sigaction before; /* creating a context ignores SIGPIPE; lws sends with MSG_NOSIGNAL */
+    struct sigaction before; /* lws_create_context sets SIGPIPE to be ignored; it is restored, as
+                                lws sends with MSG_NOSIGNAL */
     sigaction(SIGPIPE, NULL, &before);
     transport->context = lws_create_context(&info);
     sigaction(SIGPIPE, &before, NULL);
@@ -266,10 +272,10 @@ static bool listen_at_port(JoxView *view, const char *address, double patience) 
     return false;
 }
 
-/* Listens at the first port that can be had. A port that was free may be another's by the time
-   libwebsockets listens; then it is taken as one in use. */
-static bool listen_anywhere(JoxView *view, const JoxViewOptions *options, const char *address,
-                            JoxText *why) {
+/* Listens at the first free port. If another program takes it between the test and libwebsockets'
+   own bind, it counts as in use. */
+static bool listen_at_free_port(JoxView *view, const JoxViewOptions *options, const char *address,
+                                JoxText *why) {
     int first = options->port ? options->port : JOX_VIEW_PORT;
     int count = options->port ? 1 : JOX_VIEW_PORTS, failed = 0;
     for (int p = first; p < first + count; p++) {
@@ -288,8 +294,8 @@ static bool listen_anywhere(JoxView *view, const JoxViewOptions *options, const 
     return false;
 }
 
-/* Ends the serving thread and its connections. */
-static void stop(void *opened) {
+/* Ends the serving thread and closes its connections. */
+static void stop_server(void *opened) {
     JoxView *view = opened;
     JoxTransport *transport = view->transport;
     if (transport && transport->running) {
@@ -306,21 +312,22 @@ static void stop(void *opened) {
 
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     const char *address = options->address ? options->address : "127.0.0.1";
-    if (!check(options, address, why))
+    if (!check_options(options, address, why))
         return NULL;
-    JoxView *view = jox_hold(jox_view_create(), stop);
+    JoxView *view = jox_hold(jox_view_create(), stop_server);
     view->transport = jox_alloc(1, sizeof *view->transport);
-    view->wake_transport = wake;
+    view->wake_transport = wake_server;
     view->any_host = options->address != NULL;
     snprintf(view->page, sizeof view->page, "%s", options->page);
     snprintf(view->three, sizeof view->three, "%s", options->three);
-    bool good = jox_access_token(view->token) && jox_access_token(view->pass) && view->wake >= 0;
+    bool good =
+        jox_access_make_token(view->token) && jox_access_make_token(view->pass) && view->wake >= 0;
     if (!good)
         jox_text_add(why, "the system has no random numbers or no file descriptors left");
-    good = good && listen_anywhere(view, options, address, why);
+    good = good && listen_at_free_port(view, options, address, why);
     if (good) {
         JoxTransport *transport = view->transport;
-        good = transport->running = jox_thread_start(&transport->thread, serve, view);
+        good = transport->running = jox_thread_start(&transport->thread, run_server, view);
         if (!good)
             jox_text_add(why, "cannot start a thread that serves the live page");
     }
@@ -328,8 +335,8 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
         jox_view_close(view);
         return NULL;
     }
-    bool any =
-        !strcmp(address, "0.0.0.0") || !strcmp(address, "::"); /* this machine is one of all */
+    /* If it listens at all addresses, the page is opened by a local one. */
+    bool any = !strcmp(address, "0.0.0.0") || !strcmp(address, "::");
     bool six = strchr(address, ':') && !any;
     snprintf(view->address, sizeof view->address, "http://%s%s%s:%d/?token=%s", six ? "[" : "",
              any ? "127.0.0.1" : address, six ? "]" : "", view->port, view->token);
@@ -340,7 +347,7 @@ void jox_view_close(JoxView *view) {
     if (!view)
         return;
     jox_let_go(view);
-    stop(view);
+    stop_server(view);
     jox_free(view->transport);
     view->transport = NULL;
     jox_view_free(view);

@@ -1,4 +1,5 @@
-/* What the files that know the transport share. */
+/* What the files share that call libwebsockets: lws_server.c runs the serving thread and its
+   connections, lws_http.c answers requests. */
 #ifndef JOX_VIEW_LWS_SERVER_H
 #define JOX_VIEW_LWS_SERVER_H
 
@@ -6,29 +7,32 @@
 
 #include "view/internal.h"
 
-enum { JOX_VIEW_UNKNOWN = 48 }; /* connections at most that have not shown the token */
+enum { JOX_VIEW_UNKNOWN = 48 }; /* most connections without a valid token */
 
 typedef struct JoxTransport {
     struct lws_context *context;
     struct lws_vhost *vhost;
     pthread_t thread;
     bool running;
-    struct lws *unknown[JOX_VIEW_UNKNOWN]; /* the oldest first */
+    struct lws *unknown[JOX_VIEW_UNKNOWN]; /* connections that have not shown a token yet, the
+                                              oldest first */
     unsigned unknown_count;
     unsigned char scratch[LWS_PRE + JOX_VIEW_FRAGMENT];
 } JoxTransport;
 
-/* What is kept of a connection. */
+/* Data of a connection, kept by libwebsockets. */
 typedef struct JoxSession {
-    JoxClient *client; /* of a socket */
+    JoxClient *client; /* of a web socket, else NULL */
 } JoxSession;
 
-/* lws_http.c: answers a request for a file. As the transport wants: nonzero closes. */
-int jox_http_answer(JoxView *view, struct lws *wsi, const char *path);
-/* Whether a socket may be opened: 0, or what the transport is to be told after a refusal. */
-int jox_http_upgrade(JoxView *view, struct lws *wsi, const char *to);
+/* lws_http.c: answers a request for a file. Returns what libwebsockets expects: nonzero closes the
+   connection. */
+int jox_http_serve_file(JoxView *view, struct lws *wsi, const char *path);
+/* Returns 0 if a web socket may be opened; otherwise answers with the reason and returns the value
+   for libwebsockets. */
+int jox_http_check_upgrade(JoxView *view, struct lws *wsi, const char *to);
 
-/* It has shown the token or the pass, or is gone: it is no longer among the unknown. */
-void jox_http_is_known(JoxView *view, const struct lws *wsi);
+/* Removes a connection from `unknown`: it has shown a token, or is closed. */
+void jox_http_drop_from_unknown(JoxView *view, const struct lws *wsi);
 
 #endif

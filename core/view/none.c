@@ -1,4 +1,5 @@
-/* Without libwebsockets there is no live page; it is said when one is asked for. */
+/* Replaces the server in builds without libwebsockets (VIEW=0): opening it fails with the
+   reason. */
 #include "view/internal.h"
 
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
@@ -8,5 +9,5 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
 }
 
 void jox_view_close(JoxView *view) {
-    (void)view; /* there is none */
+    (void)view;
 }

@@ -1,4 +1,5 @@
-/* The serving thread's side: who is connected, what each is sent next, what each may say. */
+/* The serving thread's side of the server: the clients, what each is sent next, and what each may
+   send. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -6,15 +7,16 @@
 #include "view/command.h"
 #include "view/internal.h"
 
-static JoxClient *find(JoxView *view, uint32_t id) {
+static JoxClient *find_client(JoxView *view, uint32_t id) {
     for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++)
         if (view->connected[c] && view->connected[c]->id == id)
             return view->connected[c];
     return NULL;
 }
 
-/* One holder fewer; what nobody holds goes back to who makes it, or is freed. */
-static void release(JoxMessage *message) {
+/* Drops one use of a message. Without uses, a published one goes back to the stepping thread, any
+   other is freed. */
+static void release_message(JoxMessage *message) {
     JOX_ASSERT(!message || message->refs > 0);
     if (!message || --message->refs > 0)
         return;
@@ -24,13 +26,14 @@ static void release(JoxMessage *message) {
         jox_free(message);
 }
 
-/* Puts a copy, or the message itself, at the end of what a client is sent. */
-static void queue(JoxClient *client, JoxMessage *message) {
+/* Appends a message to the queue of a client, which then owns it. Too long a queue makes the client
+   bad. */
+static void queue_message(JoxClient *client, JoxMessage *message) {
     if (client->bad) {
         jox_free(message);
         return;
     }
-    JOX_ASSERT(!message->channel); /* what is published is shared, not queued */
+    JOX_ASSERT(!message->channel); /* published messages are shared by clients, not queued */
     message->next = NULL;
     message->refs = 1;
     if (client->last)
@@ -42,32 +45,32 @@ static void queue(JoxClient *client, JoxMessage *message) {
     client->bad |= client->unread > JOX_VIEW_MOST_UNREAD;
 }
 
-static JoxMessage *copy(const JoxView *view, const JoxMessage *message) {
+static JoxMessage *copy_message(const JoxView *view, const JoxMessage *message) {
     JoxMessage *other = jox_message_create(view, message->length);
     memcpy(other->data, message->data, message->length);
     other->what = message->what;
     return other;
 }
 
-static void forget(JoxView *view, uint32_t epoch) {
+static void drop_older_epochs(JoxView *view, uint32_t epoch) {
     for (uint32_t c = 0; c < JOX_VIEW_CHANNELS; c++) {
         JoxMessage *newest = view->channels[c].newest;
         if (newest && newest->epoch < epoch) {
-            release(newest);
+            release_message(newest);
             view->channels[c].newest = NULL;
         }
     }
 }
 
 static void do_request(JoxView *view, JoxMessage *message) {
-    JoxClient *client = find(view, message->client);
+    JoxClient *client = find_client(view, message->client);
     switch ((JoxRequest)message->what) {
     case JOX_REQUEST_TEXT:
         for (uint32_t c = 0; c < JOX_VIEW_CLIENTS && message->client == JOX_VIEW_ALL; c++)
             if (view->connected[c])
-                queue(view->connected[c], copy(view, message));
+                queue_message(view->connected[c], copy_message(view, message));
         if (client) {
-            queue(client, message);
+            queue_message(client, message);
             return;
         }
         break;
@@ -76,20 +79,21 @@ static void do_request(JoxView *view, JoxMessage *message) {
             client->mask = message->mask;
         break;
     case JOX_REQUEST_FORGET:
-        forget(view, message->epoch);
+        drop_older_epochs(view, message->epoch);
         break;
     }
     jox_free(message);
 }
 
-/* Channels first: what was sent before a frame is then there when the frame is. */
-void jox_serving_gather(JoxView *view) {
+/* Channels are read before the queue: a text that was sent before a frame was published is then in
+   the queue when the frame is seen. */
+void jox_serving_fetch(JoxView *view) {
     for (uint32_t c = 0; c < JOX_VIEW_CHANNELS; c++) {
         JoxChannel *channel = &view->channels[c];
         JoxMessage *fresh = atomic_exchange(&channel->fresh, NULL);
         if (!fresh)
             continue;
-        release(channel->newest);
+        release_message(channel->newest);
         fresh->refs = 1;
         channel->newest = fresh;
         channel->number++;
@@ -102,8 +106,9 @@ void jox_serving_gather(JoxView *view) {
     }
 }
 
-/* The channel that has something new for a client, from its turn on; or JOX_VIEW_CHANNELS. */
-static uint32_t find_news(const JoxView *view, const JoxClient *client) {
+/* Returns the next channel, from client->turn on, that has something new for a client;
+   JOX_VIEW_CHANNELS if none. */
+static uint32_t find_new_channel(const JoxView *view, const JoxClient *client) {
     for (uint32_t i = 0; i < JOX_VIEW_CHANNELS; i++) {
         uint32_t c = (client->turn + i) % JOX_VIEW_CHANNELS;
         const JoxChannel *channel = &view->channels[c];
@@ -115,10 +120,10 @@ static uint32_t find_news(const JoxView *view, const JoxClient *client) {
 
 bool jox_serving_has_work(const JoxView *view, const JoxClient *client) {
     return client->bad || client->sending || client->first ||
-           find_news(view, client) < JOX_VIEW_CHANNELS;
+           find_new_channel(view, client) < JOX_VIEW_CHANNELS;
 }
 
-bool jox_serving_choose(JoxView *view, JoxClient *client) {
+bool jox_serving_choose_message(JoxView *view, JoxClient *client) {
     if (client->sending)
         return true;
     client->sent = 0;
@@ -129,7 +134,7 @@ bool jox_serving_choose(JoxView *view, JoxClient *client) {
         client->text = client->sending->what == JOX_REQUEST_TEXT;
         return true;
     }
-    uint32_t c = find_news(view, client);
+    uint32_t c = find_new_channel(view, client);
     if (c == JOX_VIEW_CHANNELS)
         return false;
     client->sending = view->channels[c].newest;
@@ -140,13 +145,13 @@ bool jox_serving_choose(JoxView *view, JoxClient *client) {
     return true;
 }
 
-void jox_serving_sent(JoxView *view, JoxClient *client) {
+void jox_serving_finish_message(JoxView *view, JoxClient *client) {
     (void)view;
     JOX_ASSERT(client->sending && client->sent <= client->sending->length);
     JOX_ASSERT(client->sending->channel || client->unread >= client->sending->length);
     if (!client->sending->channel)
         client->unread -= client->sending->length;
-    release(client->sending);
+    release_message(client->sending);
     client->sending = NULL;
 }
 
@@ -160,7 +165,7 @@ JoxClient *jox_serving_join(JoxView *view, struct lws *wsi) {
         client->allowance = JOX_VIEW_RATE;
         view->connected[c] = client;
         atomic_fetch_add(&view->clients, 1);
-        jox_view_tell(view, client->id, JOX_VIEW_JOINED, NULL, 0);
+        jox_view_post_event(view, client->id, JOX_VIEW_JOINED, NULL, 0);
         return client;
     }
     return NULL;
@@ -175,14 +180,15 @@ void jox_serving_leave(JoxView *view, JoxClient *client) {
         jox_free(client->first);
         client->first = next;
     }
-    release(client->sending);
+    release_message(client->sending);
     atomic_fetch_sub(&view->clients, 1);
-    jox_view_tell(view, client->id, JOX_VIEW_LEFT, NULL, 0);
+    jox_view_post_event(view, client->id, JOX_VIEW_LEFT, NULL, 0);
     jox_free(client);
 }
 
-/* Whether the client may say one more now: so many a second, and as many at once. */
-static bool may_speak(JoxClient *client, double now) {
+/* Returns whether the client may send one more command now: JOX_VIEW_RATE a second, and as many in
+   a burst. */
+static bool may_send_command(JoxClient *client, double now) {
     if (client->since > 0.0)
         client->allowance += (now - client->since) * JOX_VIEW_RATE;
     client->since = now;
@@ -199,7 +205,7 @@ void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, siz
     if (client->length + length <= JOX_VIEW_MOST_COMMAND)
         memcpy(client->command + client->length, data, length);
     client->length += length;
-    if (client->length > 1 << 20) { /* nobody who means well sends a mebibyte */
+    if (client->length > 1 << 20) { /* no page sends a mebibyte */
         client->bad = true;
         jox_view_drop(view);
     }
@@ -211,7 +217,7 @@ void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, siz
     client->length = 0;
     client->command[n] = 0;
     JoxCommand command = {0};
-    bool good = may_speak(client, now) && fits && text && strlen(client->command) == n &&
+    bool good = may_send_command(client, now) && fits && text && strlen(client->command) == n &&
                 atomic_load(&view->waiting) < JOX_VIEW_MOST_WAITING &&
                 jox_command_read(client->command, &command);
     if (!good) {
@@ -219,5 +225,5 @@ void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, siz
         return;
     }
     atomic_fetch_add(&view->waiting, 1);
-    jox_view_tell(view, client->id, JOX_VIEW_COMMAND, client->command, n);
+    jox_view_post_event(view, client->id, JOX_VIEW_COMMAND, client->command, n);
 }
