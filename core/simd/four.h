@@ -1,6 +1,6 @@
-/* Four floats, by the compiler, on any machine and in any instruction set; each element and each
-   sum in the order of plain C, to the bit. Mostly of one thing, in place of one of four things as
-   in vectors.h: x, y, z and 0. */
+/* A vector of four floats, by the compiler's vector types, on any machine. Each element and each
+   sum is computed as in plain C, bit for bit. Holds mostly one thing (x, y, z and 0), whereas
+   vectors.h holds one value of several things. */
 #ifndef JOX_SIMD_FOUR_H
 #define JOX_SIMD_FOUR_H
 
@@ -9,10 +9,10 @@
 
 typedef float JoxFour __attribute__((vector_size(16)));
 
-/* What comparisons give: all bits where they hold, else none. */
+/* The result of a comparison: all bits of an element set where it holds, else none. */
 typedef int JoxFourMask __attribute__((vector_size(16)));
 
-/* The elements that are marked, 0 for the others. */
+/* Returns the elements that the mask marks, and 0 for the others. */
 static inline JoxFour jox_keep_four(JoxFourMask marks, JoxFour a) {
     return (JoxFour)(marks & (JoxFourMask)a);
 }
@@ -23,20 +23,20 @@ static inline JoxFour jox_load_four(const float *from) {
     return a;
 }
 
-/* Element by element the greater, which is `b` where they are equal. */
+/* Returns the greater of each pair of elements; `b` if they are equal. */
 static inline JoxFour jox_greater_four(JoxFour a, JoxFour b) {
     const JoxFourMask greater = a > b;
     return (JoxFour)((greater & (JoxFourMask)a) | (~greater & (JoxFourMask)b));
 }
 
-/* The greatest element, or `least` where that is greater. */
+/* Returns the greatest of the elements and `least`. */
 static inline float jox_greatest_of_four(JoxFour a, float least) {
     for (int k = 0; k < 4; k++)
         least = a[k] > least ? a[k] : least;
     return least;
 }
 
-/* The greatest of `count` floats, or 0 where that is greater. */
+/* Returns the greatest of `count` floats and 0. */
 static inline float jox_greatest(const float *of, size_t count) {
     JoxFour most = {0.0f};
     size_t i = 0;
@@ -48,14 +48,14 @@ static inline float jox_greatest(const float *of, size_t count) {
     return greatest;
 }
 
-/* Elements of two: 0 to 3 of the first, 4 to 7 of the second. */
+/* Selects four elements of two vectors: 0 to 3 are those of `a`, 4 to 7 those of `b`. */
 #if defined __clang__
 #define JOX_SHUFFLE_FOURS(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
 #else
 #define JOX_SHUFFLE_FOURS(a, b, i, j, k, l) __builtin_shuffle(a, b, (JoxFourMask){i, j, k, l})
 #endif
 
-/* Four rows of four, of four columns. */
+/* Transposes a 4 x 4 matrix in place. */
 static inline void jox_transpose_four(JoxFour r[4]) {
     const JoxFour xy_low = JOX_SHUFFLE_FOURS(r[0], r[1], 0, 4, 1, 5);
     const JoxFour xy_high = JOX_SHUFFLE_FOURS(r[0], r[1], 2, 6, 3, 7);
@@ -67,7 +67,7 @@ static inline void jox_transpose_four(JoxFour r[4]) {
     r[3] = JOX_SHUFFLE_FOURS(xy_high, zw_high, 2, 3, 6, 7);
 }
 
-/* `count` records of four words each, one of each column. */
+/* Writes `count` records of four 32-bit words, one from each column. */
 static inline void jox_interleave(void *records, const void *x, const void *y, const void *z,
                                   const void *w, size_t count) {
     const char *columns[4] = {x, y, z, w};
@@ -85,6 +85,7 @@ static inline void jox_interleave(void *records, const void *x, const void *y, c
             memcpy(to, columns[c] + i * sizeof(float), sizeof(float));
 }
 
+/* Returns the dot product of the first three elements. */
 static inline float jox_dot_four(JoxFour a, JoxFour b) {
     const JoxFour p = a * b;
     return p[0] + p[1] + p[2];

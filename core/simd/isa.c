@@ -17,8 +17,7 @@ bool jox_isa_runs(JoIsa isa) {
     switch (isa) {
     case JO_ISA_SCALAR:
         return true;
-#if defined __x86_64__ /* the compiler's test asks for the system's support of the registers, too  \
-                        */
+#if defined __x86_64__ /* also tests whether the system saves the registers */
     case JO_ISA_SSE2:
         return true;
     case JO_ISA_AVX2:

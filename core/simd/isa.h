@@ -1,4 +1,5 @@
-/* The instruction sets that kernels are compiled for, and which of them this machine can run. */
+/* The instruction sets that kernels are compiled for, and which of them this machine runs. A world
+   chooses one when it is created. */
 #ifndef JOX_SIMD_ISA_H
 #define JOX_SIMD_ISA_H
 
@@ -7,7 +8,7 @@
 
 #include "jostle.h"
 
-/* X(name, public name): of this build, narrowest first. */
+/* Lists the instruction sets of this build as X(name, JoIsa), the narrowest first. */
 #if defined __x86_64__
 #define JOX_ISAS(X)                                                                                \
     X(scalar, JO_ISA_SCALAR)                                                                       \
@@ -18,17 +19,17 @@
 #define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR)
 #endif
 
-/* For a table with an entry for each public name; those that the build lacks stay NULL. */
+/* Size of a table with an entry for each JoIsa; entries of sets that the build lacks stay NULL. */
 enum { JOX_ISA_ROOM = JO_ISA_NEON + 1 };
 
-/* Whether the build has kernels for it, and processor and system run them. */
+/* Returns whether the build has kernels for it, and processor and system support it. */
 bool jox_isa_runs(JoIsa isa);
-/* The set itself; for JO_ISA_WIDEST the widest that runs. */
+/* Returns `isa`; for JO_ISA_WIDEST, the widest that runs. */
 JoIsa jox_isa_resolve(JoIsa isa);
 const char *jox_isa_name(JoIsa isa);
-/* JO_ISA_WIDEST where no instruction set has the name. */
+/* Returns the instruction set with a name; JO_ISA_WIDEST if there is none. */
 JoIsa jox_isa_named(const char *name);
-/* Writes the names of those that run, as "scalar, sse2". */
+/* Writes the names of the instruction sets that run here, as "scalar, sse2". */
 void jox_isa_list(char *text, size_t size);
 
 #endif

@@ -1,9 +1,9 @@
-/* The lanes of the instruction set that a kernel is being compiled for. The build defines one of
-   JOX_ISA_scalar, JOX_ISA_sse2, ... for each of its objects (see README.md). */
+/* Includes the lanes of the instruction set that a kernel is being compiled for. The build compiles
+   each kernel once per set, with JOX_ISA_scalar, JOX_ISA_sse2, ... defined (see README.md). */
 #ifndef JOX_SIMD_LANES_H
 #define JOX_SIMD_LANES_H
 
-/* Before a loop of few turns over an array of lanes: the array then lives in registers. */
+/* Unrolls a short loop over an array of lanes, so that the array lives in registers. */
 #if defined __clang__
 #define JOX_UNROLL _Pragma("unroll")
 #else
@@ -22,15 +22,16 @@
 #include "simd/lanes_scalar.h"
 #endif
 
-/* The bits of all lanes. */
+/* A bit for each lane. */
 #define JOX_ALL_LANES ((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1))
 
-/* Those of the first lanes, as many as there are agents left; of a whole packet and more, all. */
+/* Returns the bits of the first `count` lanes, for a packet with fewer agents than lanes; of all
+   lanes if `count` is larger. */
 static inline uint32_t jox_first_lanes(uint32_t count) {
     return count < JOX_WIDTH ? (1u << count) - 1 : JOX_ALL_LANES;
 }
 
-/* Lane by lane the four numbers of record `at`. */
+/* Loads the record of four floats at index at[l] for each lane l: out[c][l] is number c. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[JOX_WIDTH];
     ji_store(k, at);

@@ -113,7 +113,7 @@ static inline JoxInts jf_bits(JoxFloats a) {
 static inline JoxFloats ji_as_floats(JoxInts a) {
     return _mm256_castsi256_ps(a);
 }
-/* One by one: where gathers are microcode, as on AMD's, they take longer. */
+/* Without gather instructions: where these are microcode, as on AMD processors, they are slower. */
 static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     uint32_t k[8];
     ji_store(k, at);
@@ -141,7 +141,8 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     _mm256_storeu_si256((__m256i *)to, _mm256_permutevar8x32_epi32(a, ji_packed_order_(bits)));
 }
 
-/* Fours l and l + 4 share a register; each of its halves is transposed by itself. */
+/* Loads the fours of lanes l and l + 4 into one register; its two halves are then transposed
+   separately. */
 static inline __m256 jf_two_fours_(const float *low, const float *high) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
 }

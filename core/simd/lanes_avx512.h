@@ -127,7 +127,8 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, a));
 }
 
-/* Fours l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
+/* Loads the fours of lanes l, l + 4, l + 8 and l + 12 into one register; its quarters are then
+   transposed separately. */
 static inline __m512 jf_four_fours_(const float *a, const float *b, const float *c,
                                     const float *d) {
     const __m512 ab =

@@ -56,7 +56,7 @@ static inline JoxFloats jf_abs(JoxFloats a) {
 static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return vbslq_f32(m, a, b);
 }
-/* Not vminq and vmaxq, which give neither b for equal zeros nor b where one is not a number. */
+/* Not by vminq and vmaxq, which do not return `b` for equal zeros or if one is NaN. */
 static inline JoxFloats jf_min(JoxFloats a, JoxFloats b) {
     return vbslq_f32(vcltq_f32(a, b), a, b);
 }
@@ -103,7 +103,7 @@ static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
     return vbslq_s32(m, a, b);
 }
 
-/* The conversion itself gives the nearest integer there is, and 0 for what is not a number. */
+/* The instruction saturates and gives 0 for NaN, so these cases are replaced. */
 static inline JoxInts jf_to_ints(JoxFloats a) {
     JoxMask in_range = vcltq_f32(a, vdupq_n_f32(2147483648.0f));
     return vbslq_s32(in_range, vcvtq_s32_f32(a), vdupq_n_s32(INT32_MIN));

@@ -1,4 +1,5 @@
-/* One lane, in plain C: what every operation of lanes is to do. */
+/* One lane, in plain C: the definition of every operation on lanes. The other lanes_*.h implement
+   the same operations with the same results, bit for bit. */
 #ifndef JOX_SIMD_LANES_SCALAR_H
 #define JOX_SIMD_LANES_SCALAR_H
 
@@ -15,7 +16,7 @@ typedef float JoxFloats;
 typedef int32_t JoxInts;
 typedef bool JoxMask;
 
-/* The same in all lanes; from and to JOX_WIDTH consecutive numbers, aligned or not. */
+/* set: the same number in all lanes. load, store: JOX_WIDTH consecutive numbers, aligned or not. */
 static inline JoxFloats jf_set(float x) {
     return x;
 }
@@ -34,14 +35,14 @@ static inline JoxInts ji_load(const uint32_t *from) {
 static inline void ji_store(uint32_t *to, JoxInts a) {
     *to = (uint32_t)a;
 }
-/* From and to JOX_WIDTH consecutive bytes; of what is stored, the low ones. */
+/* Load and store JOX_WIDTH consecutive bytes; a store writes the low byte of each lane. */
 static inline JoxInts ji_load_bytes(const uint8_t *from) {
     return *from;
 }
 static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
     *to = (uint8_t)a;
 }
-/* The number of the lane. */
+/* Returns the index of each lane. */
 static inline JoxInts ji_lane(void) {
     return 0;
 }
@@ -52,24 +53,24 @@ static inline JoxFloats jf_sqrt(JoxFloats a) {
 static inline JoxFloats jf_abs(JoxFloats a) {
     return fabsf(a);
 }
-/* b where the two are equal or one is not a number. */
+/* Return `b` where the two are equal or one is NaN. */
 static inline JoxFloats jf_min(JoxFloats a, JoxFloats b) {
     return a < b ? a : b;
 }
 static inline JoxFloats jf_max(JoxFloats a, JoxFloats b) {
     return a > b ? a : b;
 }
-/* a where the mask is set, else b. */
+/* Returns `a` where the mask is set, else `b`. */
 static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
     return m ? a : b;
 }
 
-/* Each lane gets the next one's, and the last keeps its own. */
+/* Shifts down by one lane: lane l gets lane l + 1; the last keeps its own. */
 static inline JoxFloats jf_next(JoxFloats a) {
     return a;
 }
 
-/* False where one is not a number. */
+/* Less, less or equal; false where one is NaN. */
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return a < b;
 }
@@ -77,7 +78,7 @@ static inline JoxMask jf_le(JoxFloats a, JoxFloats b) {
     return a <= b;
 }
 
-/* Sums wrap. */
+/* Overflow wraps. */
 static inline JoxInts ji_add(JoxInts a, JoxInts b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);
 }
@@ -91,10 +92,10 @@ static inline JoxInts ji_or(JoxInts a, JoxInts b) {
     return a | b;
 }
 #define ji_shift_left(a, bits) ((int32_t)((uint32_t)(a) << (bits)))
-/* Zeros come in. */
+/* Shifts in zeros. */
 #define ji_shift_right(a, bits) ((int32_t)((uint32_t)(a) >> (bits)))
-/* The same, but the compiler does not know it: what is counted on from there is not turned into a
-   constant for each turn of a loop. */
+/* Returns `a` but hides its value from the compiler, which would otherwise make a constant of every
+   index that is counted on from it. */
 static inline JoxInts ji_opaque(JoxInts a) {
     __asm__("" : "+r"(a));
     return a;
@@ -109,14 +110,14 @@ static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
     return m ? a : b;
 }
 
-/* Towards zero; INT32_MIN where that is no 32-bit integer. */
+/* Rounds towards zero; INT32_MIN if out of range or NaN. */
 static inline JoxInts jf_to_ints(JoxFloats a) {
     return a >= -2147483648.0f && a < 2147483648.0f ? (int32_t)a : INT32_MIN;
 }
 static inline JoxFloats ji_to_floats(JoxInts a) {
     return (float)a;
 }
-/* The same bits. */
+/* Reinterpret the bits. */
 static inline JoxInts jf_bits(JoxFloats a) {
     JoxInts bits;
     memcpy(&bits, &a, sizeof bits);
@@ -127,7 +128,7 @@ static inline JoxFloats ji_as_floats(JoxInts a) {
     memcpy(&floats, &a, sizeof floats);
     return floats;
 }
-/* Lane by lane table[at]; jf_pick_at: from where the places lie in memory, which is faster than
+/* Gather table[at] for each lane. jf_pick_at reads the indices from memory, which is faster than
    from registers. */
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     return table[at];
@@ -139,8 +140,8 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     return (int32_t)table[at];
 }
 
-/* Stores the lanes of which `bits` are set, one after the other; writes JOX_WIDTH numbers, of which
-   those after the last such lane are of no meaning. */
+/* Store the lanes whose bit is set one after the other. JOX_WIDTH numbers are written; those after
+   the last such lane are undefined. */
 static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
     (void)bits;
     *to = a;
@@ -150,12 +151,12 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     *to = (uint32_t)a;
 }
 
-/* The records of four floats at the places `at` of the lanes: out[c] is number c of each. */
+/* Loads the record of four floats at index at[l] for each lane l: out[c][l] is number c. */
 static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     for (size_t c = 0; c < 4; c++)
         out[c] = records[(size_t)4 * *at + c];
 }
-/* Four floats of each lane, `stride` floats on from lane to lane. */
+/* Loads four floats for each lane, from addresses `stride` floats apart: out[c][l] is number c. */
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
     (void)stride;
     for (size_t c = 0; c < 4; c++)
@@ -168,18 +169,18 @@ static inline JoxMask jm_and(JoxMask a, JoxMask b) {
 static inline JoxMask jm_or(JoxMask a, JoxMask b) {
     return a || b;
 }
-/* a, but not b. */
+/* Returns `a` and not `b`. */
 static inline JoxMask jm_without(JoxMask a, JoxMask b) {
     return a && !b;
 }
-/* Bit l is lane l. */
+/* Convert a mask to bits and back: bit l is lane l. */
 static inline uint32_t jm_bits(JoxMask m) {
     return m;
 }
 static inline JoxMask jm_of_bits(uint32_t bits) {
     return bits & 1;
 }
-/* How many of the bits of a mask are set. */
+/* Counts the set bits of a mask. */
 static inline uint32_t jm_count(uint32_t bits) {
     return bits & 1;
 }

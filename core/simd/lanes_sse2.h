@@ -41,7 +41,8 @@ static inline JoxInts ji_load_bytes(const uint8_t *from) {
     return _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128(four), zero), zero);
 }
 static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
-    const __m128i low = _mm_and_si128(a, _mm_set1_epi32(255)); /* packing keeps these as they are */
+    /* 0 to 255: not saturated by packing */
+    const __m128i low = _mm_and_si128(a, _mm_set1_epi32(255));
     const __m128i pairs = _mm_packs_epi32(low, low);
     const int32_t four = _mm_cvtsi128_si32(_mm_packus_epi16(pairs, pairs));
     memcpy(to, &four, sizeof four);

@@ -1,10 +1,10 @@
-/* Sixteen numbers of each lane in ascending order, or four. For kernels: part of those that include
-   it. */
+/* Sorts sixteen or four numbers within each lane in ascending order. Included by kernels only. */
 #ifndef JOX_SIMD_ORDER_H
 #define JOX_SIMD_ORDER_H
 
 #include "simd/lanes.h"
 
+/* Swaps k[i] and k[j] in the lanes where they are out of order. */
 #define ORDER(i, j)                                                                                \
     do {                                                                                           \
         const JoxFloats less = jf_min(k[i], k[j]);                                                 \
@@ -20,8 +20,8 @@ static inline void jox_order_4(JoxFloats *k) {
     ORDER(1, 2);
 }
 
-/* The network of 60 comparisons found by Green (Knuth, The Art of Computer Programming, volume 3,
-   section 5.3.4): it does the same whatever the numbers are. */
+/* Green's sorting network of 60 comparisons (Knuth, The Art of Computer Programming, volume 3,
+   section 5.3.4); the comparisons do not depend on the numbers. */
 static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
     // cppcheck-suppress ctuArrayIndex
     ORDER(0, 1);

@@ -1,7 +1,9 @@
-/* The order of eight lanes that puts those of a mask first. */
+/* Computes at compile time, for each mask of eight lanes, the order that puts the lanes of the mask
+   first. Used by AVX2, SSE2 and NEON lanes. */
 #include "simd/packed.h"
 
 #define BIT(mask, lane) ((uint64_t)((mask) >> (lane)&1))
+/* Counts the lanes of the mask below `lane`: its place in the packed order. */
 #define BELOW(mask, lane)                                                                          \
     (((lane) > 0) * BIT(mask, 0) + ((lane) > 1) * BIT(mask, 1) + ((lane) > 2) * BIT(mask, 2) +     \
      ((lane) > 3) * BIT(mask, 3) + ((lane) > 4) * BIT(mask, 4) + ((lane) > 5) * BIT(mask, 5) +     \

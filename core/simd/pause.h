@@ -1,5 +1,5 @@
-/* What a thread does in each turn of a loop that waits for another: it leaves the processor's other
-   thread more room. */
+/* Pauses a thread for one turn of a loop that waits for another thread, so that the processor
+   core's other thread runs faster. */
 #ifndef JOX_SIMD_PAUSE_H
 #define JOX_SIMD_PAUSE_H
 
@@ -7,7 +7,7 @@
 #include <emmintrin.h>
 #endif
 
-/* AArch64's own hint for it costs no time at all on most processors; `isb` costs about as much as
+/* On AArch64 the hint `yield` takes no time on most processors; `isb` takes about as long as
    x86-64's pause. */
 static inline void jox_pause(void) {
 #if defined __x86_64__

@@ -1,5 +1,4 @@
-/* Plane vectors of lanes (base/vec.h has them of numbers). For kernels: part of those that include
-   it. */
+/* Plane vectors of lanes; base/vec.h has those of plain numbers. Included by kernels only. */
 #ifndef JOX_SIMD_VECTORS_H
 #define JOX_SIMD_VECTORS_H
 
@@ -9,7 +8,7 @@ typedef struct JoxVector {
     JoxFloats x, y;
 } JoxVector;
 
-/* From and to two columns, of JOX_WIDTH from `i` on. */
+/* Load and store JOX_WIDTH vectors from index `i` of two columns. */
 static inline JoxVector jv_load(const float *x, const float *y, size_t i) {
     return (JoxVector){jf_load(x + i), jf_load(y + i)};
 }
@@ -32,7 +31,8 @@ static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
 static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
     return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
 }
-/* The shortest way along one axis where edges are periodic: jox_wrap of agents/agents.h. */
+/* Returns the shortest difference along one axis with periodic edges; as jox_wrap of
+   agents/agents.h. */
 static inline JoxFloats jf_wrap(JoxFloats d, float period) {
     JoxFloats shift = jf_select(jf_lt(jf_set(0.0f), d), jf_set(period), jf_set(-period));
     return jf_select(jf_lt(jf_set(0.5f * period), jf_abs(d)), d - shift, d);
