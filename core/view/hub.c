@@ -89,7 +89,7 @@ void jox_view_drop(JoxView *view) {
 
 /* Returns a message with room for `length` bytes, reusing one of the channel if it is large enough:
    a steady stream needs three. */
-static JoxMessage *get_message(const JoxView *view, JoxChannel *channel, size_t length) {
+static JoxMessage *reuse_message(const JoxView *view, JoxChannel *channel, size_t length) {
     JoxMessage *back = jox_post_take(&channel->used);
     while (back) {
         JoxMessage *next = back->next;
@@ -116,7 +116,7 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
     if (channel >= JOX_VIEW_CHANNELS || !jox_view_clients(view))
         return;
     JoxChannel *to = &view->channels[channel];
-    JoxMessage *message = get_message(view, to, length);
+    JoxMessage *message = reuse_message(view, to, length);
     memcpy(message->data, bytes, length);
     message->epoch = view->epoch;
     JoxMessage *unseen = atomic_exchange(&to->fresh, message);

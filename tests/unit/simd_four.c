@@ -1,4 +1,4 @@
-/* Four floats at once: of columns, the greatest number, and records made of four of them. */
+/* Tests of four floats at once: the greatest of many numbers, and records made of four columns. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,8 +11,9 @@
 
 enum { MOST = 37 };
 
-/* Wherever it stands, in whole fours and behind them; all below 0: 0. */
-static void the_greatest_is_found(void **state) {
+/* The greatest number is found at any index, in whole fours and after them; 0 if all are below
+   0. */
+static void greatest_is_found_at_any_index(void **state) {
     (void)state;
     float numbers[MOST];
     for (size_t count = 0; count <= MOST; count++)
@@ -25,9 +26,9 @@ static void the_greatest_is_found(void **state) {
         }
 }
 
-/* A record has its word of each column, to the bit, whatever that says as a float; what stands
-   behind the last stays. */
-static void columns_become_records(void **state) {
+/* Records get the words of the columns bit for bit, whatever they are as floats; nothing is written
+   after the last record. */
+static void columns_are_interleaved_bit_for_bit(void **state) {
     (void)state;
     uint32_t columns[4][MOST], records[MOST + 1][4];
     for (uint32_t c = 0; c < 4; c++)
@@ -46,8 +47,8 @@ static void columns_become_records(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_greatest_is_found),
-        cmocka_unit_test(columns_become_records),
+        cmocka_unit_test(greatest_is_found_at_any_index),
+        cmocka_unit_test(columns_are_interleaved_bit_for_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

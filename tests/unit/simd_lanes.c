@@ -1,6 +1,6 @@
-/* Every operation of the four lanes that each x86-64 or AArch64 has, on the numbers at which
-   instruction sets differ, against what lanes_scalar.h says of it. Those of wider sets are compared
-   through the kernels. */
+/* Tests every operation on lanes against plain C, on the numbers at which instruction sets differ.
+   Covers the four lanes of SSE2 and NEON, which each x86-64 and AArch64 has; wider sets are
+   compared through the kernels. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -31,7 +31,7 @@ static const float FLOATS[] = {0.0f,
                                -FLT_MAX,
                                3.5f,
                                -2.75f,
-                               2147483520.0f, /* the last before 2^31 */
+                               2147483520.0f, /* the last float below 2^31 */
                                2147483648.0f,
                                -2147483648.0f,
                                -2147483904.0f,
@@ -48,22 +48,22 @@ static uint32_t bits_of(float x) {
     return bits;
 }
 
-/* The same bits; of two that are not numbers, any. */
-static void same(JoxFloats lanes, const float *expected) {
+/* Asserts that lanes have the expected bits; any NaN equals any other. */
+static void assert_floats(JoxFloats lanes, const float *expected) {
     float is[JOX_WIDTH];
     jf_store(is, lanes);
     for (int l = 0; l < JOX_WIDTH; l++)
         if (!isnan(is[l]) || !isnan(expected[l]))
             assert_int_equal(bits_of(is[l]), bits_of(expected[l]));
 }
-static void same_ints(JoxInts lanes, const int32_t *expected) {
+static void assert_ints(JoxInts lanes, const int32_t *expected) {
     uint32_t is[JOX_WIDTH];
     ji_store(is, lanes);
     for (int l = 0; l < JOX_WIDTH; l++)
         assert_int_equal((int32_t)is[l], expected[l]);
 }
 
-/* Expects of lanes a and b what `plain` gives of each pair. */
+/* Assert that an operation on lanes equals the scalar expression `plain` in each lane. */
 #define FLOATS_GIVE(lanes, plain)                                                                  \
     do {                                                                                           \
         float expected[JOX_WIDTH];                                                                 \
@@ -72,7 +72,7 @@ static void same_ints(JoxInts lanes, const int32_t *expected) {
             (void)a, (void)b;                                                                      \
             expected[l] = plain;                                                                   \
         }                                                                                          \
-        same(lanes, expected);                                                                     \
+        assert_floats(lanes, expected);                                                            \
     } while (0)
 #define INTS_GIVE(lanes, plain)                                                                    \
     do {                                                                                           \
@@ -83,7 +83,7 @@ static void same_ints(JoxInts lanes, const int32_t *expected) {
             (void)a, (void)b, (void)i, (void)j;                                                    \
             expected[l] = (int32_t)(plain);                                                        \
         }                                                                                          \
-        same_ints(lanes, expected);                                                                \
+        assert_ints(lanes, expected);                                                              \
     } while (0)
 #define MASK_IS(mask, plain)                                                                       \
     do {                                                                                           \
@@ -97,7 +97,7 @@ static void same_ints(JoxInts lanes, const int32_t *expected) {
         assert_int_equal(jm_bits(mask), set);                                                      \
     } while (0)
 
-static void of_floats(const float *fa, const float *fb) {
+static void check_float_operations(const float *fa, const float *fb) {
     const int32_t ia[JOX_WIDTH] = {0}, ib[JOX_WIDTH] = {0};
     JoxFloats a_ = jf_load(fa), b_ = jf_load(fb);
     FLOATS_GIVE(a_ + b_, a + b);
@@ -121,7 +121,7 @@ static void of_floats(const float *fa, const float *fb) {
     INTS_GIVE(jf_bits(a_), bits_of(a));
 }
 
-static void of_ints(const int32_t *ia, const int32_t *ib) {
+static void check_int_operations(const int32_t *ia, const int32_t *ib) {
     const float fa[JOX_WIDTH] = {0}, fb[JOX_WIDTH] = {0};
     JoxInts i_ = ji_load((const uint32_t *)ia), j_ = ji_load((const uint32_t *)ib);
     INTS_GIVE(ji_add(i_, j_), (uint32_t)i + (uint32_t)j);
@@ -137,19 +137,19 @@ static void of_ints(const int32_t *ia, const int32_t *ib) {
     float expected[JOX_WIDTH];
     for (int l = 0; l < JOX_WIDTH; l++)
         expected[l] = (float)ia[l];
-    same(ji_to_floats(i_), expected);
+    assert_floats(ji_to_floats(i_), expected);
 }
 
-static void arithmetic_is_that_of_one_lane(void **state) {
+static void lanes_compute_as_plain_c(void **state) {
     (void)state;
     for (int k = 0; k < FLOAT_COUNT * FLOAT_COUNT; k++) {
-        float a[JOX_WIDTH], b[JOX_WIDTH]; /* each pair comes in each lane */
+        float a[JOX_WIDTH], b[JOX_WIDTH]; /* each pair is tested in each lane */
         for (int l = 0; l < JOX_WIDTH; l++) {
             int pair = (k + 7 * l) % (FLOAT_COUNT * FLOAT_COUNT);
             a[l] = FLOATS[pair / FLOAT_COUNT];
             b[l] = FLOATS[pair % FLOAT_COUNT];
         }
-        of_floats(a, b);
+        check_float_operations(a, b);
     }
     for (int k = 0; k < INT_COUNT * INT_COUNT; k++) {
         int32_t a[JOX_WIDTH], b[JOX_WIDTH];
@@ -158,11 +158,11 @@ static void arithmetic_is_that_of_one_lane(void **state) {
             a[l] = INTS[pair / INT_COUNT];
             b[l] = INTS[pair % INT_COUNT];
         }
-        of_ints(a, b);
+        check_int_operations(a, b);
     }
 }
 
-static void lanes_are_taken_in_their_order(void **state) {
+static void loads_and_picks_keep_lane_order(void **state) {
     (void)state;
     float records[40], expected[JOX_WIDTH];
     int32_t lane[JOX_WIDTH], table[10];
@@ -175,15 +175,15 @@ static void lanes_are_taken_in_their_order(void **state) {
         lane[l] = l;
         at[l] = (uint32_t)((3 * l + 1) % 10);
     }
-    same_ints(ji_lane(), lane);
+    assert_ints(ji_lane(), lane);
     JoxFloats out[4], out_at[4];
     jf_records(records, ji_load(at), out);
     jf_records_at(records, at, out_at);
     for (int c = 0; c < 4; c++) {
         for (int l = 0; l < JOX_WIDTH; l++)
             expected[l] = records[4 * at[l] + (uint32_t)c];
-        same(out[c], expected);
-        same(out_at[c], expected);
+        assert_floats(out[c], expected);
+        assert_floats(out_at[c], expected);
     }
     float lists[JOX_WIDTH * 7 + 4];
     for (int k = 0; k < JOX_WIDTH * 7 + 4; k++)
@@ -192,32 +192,32 @@ static void lanes_are_taken_in_their_order(void **state) {
     for (int c = 0; c < 4; c++) {
         for (int l = 0; l < JOX_WIDTH; l++)
             expected[l] = lists[2 + 7 * l + c];
-        same(out[c], expected);
+        assert_floats(out[c], expected);
     }
     for (int l = 0; l < JOX_WIDTH; l++) {
         expected[l] = records[at[l]];
         lane[l] = table[at[l]];
     }
-    same(jf_pick(records, ji_load(at)), expected);
-    same(jf_pick_at(records, at), expected);
-    same_ints(ji_pick((const uint32_t *)table, ji_load(at)), lane);
+    assert_floats(jf_pick(records, ji_load(at)), expected);
+    assert_floats(jf_pick_at(records, at), expected);
+    assert_ints(ji_pick((const uint32_t *)table, ji_load(at)), lane);
     for (int l = 0; l < JOX_WIDTH; l++)
         expected[l] = 2.5f;
-    same(jf_set(2.5f), expected);
+    assert_floats(jf_set(2.5f), expected);
     for (uint32_t bits = 0; bits < 1u << JOX_WIDTH; bits++)
         assert_int_equal(jm_bits(jm_of_bits(bits)), bits);
 }
 
-static void bytes_come_and_go_in_their_order(void **state) {
+static void bytes_keep_lane_order(void **state) {
     (void)state;
     uint8_t bytes[256], out[JOX_WIDTH];
     int32_t expected[JOX_WIDTH];
     for (int k = 0; k < 256; k++)
-        bytes[k] = (uint8_t)(167 * k + 3); /* each value once */
+        bytes[k] = (uint8_t)(167 * k + 3); /* a permutation of all values */
     for (int k = 0; k + JOX_WIDTH <= 256; k++) {
         for (int l = 0; l < JOX_WIDTH; l++)
             expected[l] = bytes[k + l];
-        same_ints(ji_load_bytes(bytes + k), expected);
+        assert_ints(ji_load_bytes(bytes + k), expected);
         const JoxInts high = ji_set((int32_t)0x8a7b0500); /* only the low byte is stored */
         ji_store_bytes(out, ji_or(ji_load_bytes(bytes + k), high));
         assert_memory_equal(out, bytes + k, JOX_WIDTH);
@@ -226,9 +226,9 @@ static void bytes_come_and_go_in_their_order(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arithmetic_is_that_of_one_lane),
-        cmocka_unit_test(lanes_are_taken_in_their_order),
-        cmocka_unit_test(bytes_come_and_go_in_their_order),
+        cmocka_unit_test(lanes_compute_as_plain_c),
+        cmocka_unit_test(loads_and_picks_keep_lane_order),
+        cmocka_unit_test(bytes_keep_lane_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Work in child processes: results of any size, failures, and nothing left behind. */
+/* Tests of child processes: results of any size, failures, and children that are killed with their
+   set. */
 #include <errno.h>
 #include <setjmp.h>
 #include <signal.h>
@@ -17,7 +18,7 @@
 
 enum { JOBS = 7, LONG = 3 << 20 };
 
-static void work(void *context, uint64_t job, JoxText *result) {
+static void run_test_job(void *context, uint64_t job, JoxText *result) {
     static const char LINE[] = "spoken\n";
     switch (job) {
     case 1:
@@ -39,7 +40,7 @@ static void work(void *context, uint64_t job, JoxText *result) {
     }
 }
 
-static void each_ends_in_its_own_way(void **state) {
+static void child_ends_are_reported(void **state) {
     (void)state;
     char word[] = "job";
     JoxChildren *children = jox_children_create(3);
@@ -47,7 +48,7 @@ static void each_ends_in_its_own_way(void **state) {
     uint64_t next = 0;
     for (uint32_t ended = 0; ended < JOBS;) {
         if (next < JOBS && jox_children_has_room(children)) {
-            assert_true(jox_children_start(children, next++, work, word));
+            assert_true(jox_children_start(children, next++, run_test_job, word));
             continue;
         }
         assert_in_range(jox_children_count(children), 1, 3);
@@ -71,39 +72,39 @@ static void each_ends_in_its_own_way(void **state) {
     jox_children_free(children);
 }
 
-static void sleep_on(void *context, uint64_t job, JoxText *result) {
+static void sleep_forever(void *context, uint64_t job, JoxText *result) {
     (void)context, (void)job, (void)result;
     for (;;)
         pause();
 }
 
-static void those_that_run_are_ended(void **state) {
+static void running_children_are_killed_with_their_set(void **state) {
     (void)state;
     JoxChildren *children = jox_children_create(2);
     JoxChildEnd end;
-    assert_true(jox_children_start(children, 0, sleep_on, NULL));
-    assert_true(jox_children_start(children, 1, sleep_on, NULL));
+    assert_true(jox_children_start(children, 0, sleep_forever, NULL));
+    assert_true(jox_children_start(children, 1, sleep_forever, NULL));
     assert_false(jox_children_has_room(children));
     assert_false(jox_children_wait(children, &end));
     jox_children_free(children);
     assert_true(waitpid(-1, NULL, WNOHANG) < 0 && errno == ECHILD);
 }
 
-static void say_or_end(void *context, uint64_t job, JoxText *result) {
+static void write_or_abort(void *context, uint64_t job, JoxText *result) {
     (void)job;
     if (!context)
         abort();
     jox_text_add(result, context);
 }
 
-static void one_is_waited_for(void **state) {
+static void single_child_is_waited_for(void **state) {
     (void)state;
     JoxText result = {0}, why = {0};
     char word[] = "done";
-    assert_true(jox_children_do(say_or_end, word, &result, &why));
+    assert_true(jox_children_do(write_or_abort, word, &result, &why));
     assert_string_equal(result.data, "done");
     assert_int_equal(why.length, 0);
-    assert_false(jox_children_do(say_or_end, NULL, &result, &why));
+    assert_false(jox_children_do(write_or_abort, NULL, &result, &why));
     assert_string_equal(result.data, "done");
     assert_non_null(strstr(why.data, "signal 6"));
     jox_text_free(&result);
@@ -111,8 +112,8 @@ static void one_is_waited_for(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_ends_in_its_own_way),
-                                       cmocka_unit_test(those_that_run_are_ended),
-                                       cmocka_unit_test(one_is_waited_for)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(child_ends_are_reported),
+                                       cmocka_unit_test(running_children_are_killed_with_their_set),
+                                       cmocka_unit_test(single_child_is_waited_for)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* The worker beside the steps: order, waiting, and work that nobody waits for. */
+/* Tests of the worker thread: the order of items, waiting, and items that nobody waits for. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -13,75 +13,75 @@
 enum { COUNT = 200 };
 
 typedef struct Work {
-    JoxWorkItem item; /* first */
+    JoxWorkItem item; /* must be first: the item is cast to its Work */
     int number;
-    int turn; /* as which it was run, from 1 */
+    int turn; /* 1 + number of items that ran before it */
 } Work;
 
 static atomic_int turns, held;
 
-static void nap(void) {
+static void sleep_1_ms(void) {
     nanosleep(&(struct timespec){0, 1000000}, NULL);
 }
 
-static void run(JoxWorkItem *item) {
+static void record_turn(JoxWorkItem *item) {
     ((Work *)item)->turn = atomic_fetch_add(&turns, 1) + 1;
 }
 
-/* Keeps the thread until it is let go. */
-static void hold(JoxWorkItem *item) {
+/* Occupies the worker's thread until `held` changes. */
+static void occupy_thread(JoxWorkItem *item) {
     ((Work *)item)->turn = atomic_fetch_add(&turns, 1) + 1;
     atomic_store(&held, 1);
     while (atomic_load(&held) == 1)
-        nap();
+        sleep_1_ms();
 }
 
-static void each_is_done_once_and_in_order(void **state) {
+static void items_run_once_and_in_order(void **state) {
     (void)state;
     static Work work[COUNT];
     JoxWorker *worker = jox_worker_create();
     atomic_store(&turns, 0);
     for (int i = 0; i < COUNT; i++) {
-        work[i] = (Work){.item.run = run, .number = i};
+        work[i] = (Work){.item.run = record_turn, .number = i};
         jox_worker_give(worker, &work[i].item);
     }
-    while (atomic_load(&turns) < COUNT) /* who waits would take part in it */
-        nap();
+    while (atomic_load(&turns) < COUNT) /* not jox_worker_wait: it would run items itself */
+        sleep_1_ms();
     for (int i = 0; i < COUNT; i++) {
         jox_worker_wait(worker, &work[i].item);
-        jox_worker_wait(worker, &work[i].item); /* once more returns at once */
+        jox_worker_wait(worker, &work[i].item); /* a second wait returns at once */
         assert_int_equal(work[i].turn, i + 1);
     }
     jox_worker_free(worker);
 }
 
-static void who_waits_does_what_has_not_begun(void **state) {
+static void waiting_caller_runs_item_that_has_not_begun(void **state) {
     (void)state;
-    Work first = {.item.run = hold}, second = {.item.run = run};
+    Work first = {.item.run = occupy_thread}, second = {.item.run = record_turn};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
     jox_worker_give(worker, &first.item);
     while (atomic_load(&held) == 0)
-        nap();
+        sleep_1_ms();
     jox_worker_give(worker, &second.item);
-    jox_worker_wait(worker, &second.item); /* the thread is held: this returns all the same */
+    jox_worker_wait(worker, &second.item); /* returns although the thread is occupied */
     assert_true(second.turn > 0);
     atomic_store(&held, 2);
     jox_worker_wait(worker, &first.item);
     jox_worker_free(worker);
 }
 
-static void what_nobody_waits_for_is_dropped(void **state) {
+static void freeing_worker_drops_items_that_have_not_begun(void **state) {
     (void)state;
-    Work first = {.item.run = hold}, second = {.item.run = run};
+    Work first = {.item.run = occupy_thread}, second = {.item.run = record_turn};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
     jox_worker_give(worker, &first.item);
     while (atomic_load(&held) == 0)
-        nap();
+        sleep_1_ms();
     jox_worker_give(worker, &second.item);
     atomic_store(&held, 2);
-    jox_worker_free(worker); /* ends the first, which is under way */
+    jox_worker_free(worker); /* waits for the first item, which runs */
     assert_true(first.turn > 0);
     jox_worker_free(jox_worker_create());
     jox_worker_free(NULL);
@@ -89,9 +89,9 @@ static void what_nobody_waits_for_is_dropped(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_is_done_once_and_in_order),
-        cmocka_unit_test(who_waits_does_what_has_not_begun),
-        cmocka_unit_test(what_nobody_waits_for_is_dropped),
+        cmocka_unit_test(items_run_once_and_in_order),
+        cmocka_unit_test(waiting_caller_runs_item_that_has_not_begun),
+        cmocka_unit_test(freeing_worker_drops_items_that_have_not_begun),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* A browser as small as can be, on raw sockets: requests, the handshake, frames of the web socket.
- */
+/* A minimal browser for tests of the server, on raw sockets: HTTP requests, the handshake and the
+   frames of a web socket. */
 #ifndef JOX_TESTS_VIEW_CLIENT_H
 #define JOX_TESTS_VIEW_CLIENT_H
 
@@ -25,8 +25,8 @@ static inline double clock_now(void) {
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-/* A connection to a port of this machine, or -1. */
-static inline int dial(int port) {
+/* Connects to a port of this machine; returns the socket, or -1. */
+static inline int connect_to(int port) {
     int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0), one = 1;
     struct sockaddr_in to = {.sin_family = AF_INET,
                              .sin_port = htons((uint16_t)port),
@@ -39,8 +39,8 @@ static inline int dial(int port) {
     return fd;
 }
 
-/* All bytes; false if the other side has gone. */
-static inline bool put(int fd, const void *data, size_t length) {
+/* Sends all bytes; false if the connection is closed. */
+static inline bool send_bytes(int fd, const void *data, size_t length) {
     const char *at = data;
     while (length > 0) {
         ssize_t n = send(fd, at, length, MSG_NOSIGNAL);
@@ -52,20 +52,21 @@ static inline bool put(int fd, const void *data, size_t length) {
     return true;
 }
 
-/* Up to `length` bytes within some seconds: 0 at the end, -1 where nothing came. */
-static inline ssize_t get(int fd, void *data, size_t length, double seconds) {
+/* Receives up to `length` bytes within `seconds`. Returns how many; 0 if the connection is closed,
+   -1 if nothing came in time. */
+static inline ssize_t receive_bytes(int fd, void *data, size_t length, double seconds) {
     struct pollfd wait = {.fd = fd, .events = POLLIN};
     if (poll(&wait, 1, (int)(seconds * 1e3)) <= 0)
         return -1;
     ssize_t n = recv(fd, data, length, 0);
-    return n < 0 ? 0 : n; /* a reset is an end */
+    return n < 0 ? 0 : n; /* a reset counts as closed */
 }
 
-static inline bool get_all(int fd, void *data, size_t length, double seconds) {
+static inline bool receive_all(int fd, void *data, size_t length, double seconds) {
     char *at = data;
     double until = clock_now() + seconds;
     while (length > 0) {
-        ssize_t n = get(fd, at, length, until - clock_now());
+        ssize_t n = receive_bytes(fd, at, length, until - clock_now());
         if (n <= 0)
             return false;
         at += n;
@@ -74,16 +75,16 @@ static inline bool get_all(int fd, void *data, size_t length, double seconds) {
     return true;
 }
 
-/* Sends a request and reads to the end of its connection (say "Connection: close"), or to the end
-   of the headers of an upgrade. Returns the status; 0 where no answer came. */
-static inline int ask(int fd, const char *request, char *answer, size_t size) {
+/* Sends a request and reads the answer until the connection is closed (send "Connection: close"),
+   or the headers of an upgrade. Returns the status; 0 if no answer came. */
+static inline int send_request(int fd, const char *request, char *answer, size_t size) {
     size_t n = 0;
     answer[0] = 0;
-    if (!put(fd, request, strlen(request)))
+    if (!send_bytes(fd, request, strlen(request)))
         return 0;
     while (n + 1 < size) {
-        ssize_t got =
-            get(fd, answer + n, strstr(request, "Upgrade: websocket") ? 1 : size - n - 1, 20.0);
+        ssize_t got = receive_bytes(fd, answer + n,
+                                    strstr(request, "Upgrade: websocket") ? 1 : size - n - 1, 20.0);
         if (got <= 0)
             break;
         n += (size_t)got;
@@ -95,11 +96,11 @@ static inline int ask(int fd, const char *request, char *answer, size_t size) {
     return sscanf(answer, "HTTP/1.%*d %d", &status) == 1 ? status : 0;
 }
 
-/* A socket of the page with a token, or -1 (with the status, if any). */
+/* Opens a web socket with a token; -1 with the HTTP status if it is refused. */
 static inline int open_socket_as(int port, const char *host, const char *origin, const char *token,
                                  int *status) {
     char request[1024], answer[2048];
-    int fd = dial(port);
+    int fd = connect_to(port);
     if (fd < 0)
         return -1;
     snprintf(request, sizeof request,
@@ -108,7 +109,7 @@ static inline int open_socket_as(int port, const char *host, const char *origin,
              "Sec-WebSocket-Protocol: jostle\r\n%s%s%s\r\n",
              token ? "?token=" : "", token ? token : "", host, origin ? "Origin: " : "",
              origin ? origin : "", origin ? "\r\n" : "");
-    *status = ask(fd, request, answer, sizeof answer);
+    *status = send_request(fd, request, answer, sizeof answer);
     if (*status == 101 && strstr(answer, "s3pPLMBiTxaQ9kYGzzhZRbK+xOo="))
         return fd;
     close(fd);
@@ -125,10 +126,10 @@ static inline int open_socket(int port, const char *token) {
 
 enum { FRAME_TEXT = 1, FRAME_BINARY = 2, FRAME_CLOSE = 8, FRAME_PING = 9, FRAME_PONG = 10 };
 
-/* A masked frame, as browsers send them; the first part of a message is `first`, the last `last`.
- */
-static inline bool put_frame(int fd, int kind, bool first, bool last, const void *data,
-                             size_t length) {
+/* Sends a masked frame, as browsers do; `first` and `last` mark the first and last frame of a
+   message. */
+static inline bool send_frame(int fd, int kind, bool first, bool last, const void *data,
+                              size_t length) {
     static const uint8_t mask[4] = {0x12, 0x34, 0x56, 0x78};
     uint8_t head[14];
     size_t n = 2;
@@ -150,30 +151,29 @@ static inline bool put_frame(int fd, int kind, bool first, bool last, const void
     memcpy(masked, head, n);
     for (size_t i = 0; i < length; i++)
         masked[n + i] = ((const uint8_t *)data)[i] ^ mask[i & 3];
-    bool good = put(fd, masked, n + length);
+    bool good = send_bytes(fd, masked, n + length);
     free(masked);
     return good;
 }
 
 static inline bool put_text(int fd, const char *text) {
-    return put_frame(fd, FRAME_TEXT, true, true, text, strlen(text));
+    return send_frame(fd, FRAME_TEXT, true, true, text, strlen(text));
 }
 
-/* The next message, put together, or NULL; *kind 0 where nothing came in time. Pings are answered.
- */
+/* Receives a whole message, to be freed; NULL with *kind 0 if none came in time. Answers pings. */
 static inline char *get_message(int fd, int *kind, size_t *length, double seconds) {
     char *message = NULL;
     size_t n = 0;
     *kind = 0;
     for (;;) {
         uint8_t head[8];
-        if (!get_all(fd, head, 2, seconds))
+        if (!receive_all(fd, head, 2, seconds))
             break;
         int opcode = head[0] & 15;
         bool last = head[0] & 0x80;
         uint64_t size = head[1] & 127;
         int more = size == 126 ? 2 : size == 127 ? 8 : 0;
-        if (more && !get_all(fd, head, (size_t)more, seconds))
+        if (more && !receive_all(fd, head, (size_t)more, seconds))
             break;
         if (more)
             size = 0;
@@ -182,10 +182,10 @@ static inline char *get_message(int fd, int *kind, size_t *length, double second
         if (size > 64 << 20)
             break;
         message = realloc(message, n + size + 1);
-        if (!get_all(fd, message + n, size, seconds))
+        if (!receive_all(fd, message + n, size, seconds))
             break;
         if (opcode == FRAME_PING) {
-            put_frame(fd, FRAME_PONG, true, true, message + n, size);
+            send_frame(fd, FRAME_PONG, true, true, message + n, size);
             continue;
         }
         n += size;

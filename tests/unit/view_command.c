@@ -1,4 +1,4 @@
-/* What pages say: flat JSON, and nothing else. */
+/* Tests of reading the page's commands: flat JSON objects are read, anything else is refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 
 #include "view/command.h"
 
-static void commands_are_read(void **state) {
+static void flat_json_commands_are_read(void **state) {
     (void)state;
     JoxCommand command;
     assert_true(
@@ -22,7 +22,7 @@ static void commands_are_read(void **state) {
     assert_true(jox_command_number(&command, "n", 0) == -150.0);
     assert_true(jox_command_bool(&command, "on", false));
     assert_false(jox_command_bool(&command, "off", true));
-    assert_string_equal(jox_command_text(&command, "n", "?"), "?"); /* of another kind */
+    assert_string_equal(jox_command_text(&command, "n", "?"), "?"); /* a number, not a text */
     assert_true(jox_command_number(&command, "slot", 7) == 7);
     assert_true(jox_command_read("{\"do\": \"\\ud83d\\ude00\"}", &command));
     assert_string_equal(command.verb, "\xf0\x9f\x98\x80");
@@ -52,6 +52,6 @@ static void commands_are_read(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(commands_are_read)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(flat_json_commands_are_read)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

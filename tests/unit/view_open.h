@@ -1,4 +1,5 @@
-/* A server of the live page over a folder of its own, shared by its tests. */
+/* Opens and closes a server of the live page over a temporary folder with a few files, for the
+   tests of the server. */
 #ifndef JOX_TESTS_VIEW_OPEN_H
 #define JOX_TESTS_VIEW_OPEN_H
 
@@ -19,7 +20,7 @@ static char token[64];
 static int port;
 static const char HELLO[] = "<!doctype html>the page";
 
-static inline void write_page(const char *name, const char *text) {
+static inline void write_page_file(const char *name, const char *text) {
     char path[300];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
@@ -28,48 +29,48 @@ static inline void write_page(const char *name, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
-static inline const char *in_folder(const char *name) {
+static inline const char *get_folder_path(const char *name) {
     static char path[300];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
 
-static inline int make_pages(void **state) {
+static inline int make_page_folder(void **state) {
     (void)state;
     char secret[300];
     if (!mkdtemp(folder))
         return -1;
-    mkdir(in_folder("page"), 0700);
-    mkdir(in_folder("page/parts"), 0700);
-    mkdir(in_folder("three"), 0700);
-    mkdir(in_folder("three/build"), 0700);
-    write_page("page/index.html", HELLO);
-    write_page("page/parts/one.js", "export default 1");
-    write_page("page/.hidden.js", "hidden");
-    write_page("page/notes.txt", "notes");
-    write_page("secret.js", "secret");
-    write_page("three/three.js", "three");
-    snprintf(secret, sizeof secret, "%s", in_folder("secret.js"));
-    if (symlink("../three.js", in_folder("three/build/three.module.js")) ||
-        symlink(secret, in_folder("page/out.js")))
+    mkdir(get_folder_path("page"), 0700);
+    mkdir(get_folder_path("page/parts"), 0700);
+    mkdir(get_folder_path("three"), 0700);
+    mkdir(get_folder_path("three/build"), 0700);
+    write_page_file("page/index.html", HELLO);
+    write_page_file("page/parts/one.js", "export default 1");
+    write_page_file("page/.hidden.js", "hidden");
+    write_page_file("page/notes.txt", "notes");
+    write_page_file("secret.js", "secret");
+    write_page_file("three/three.js", "three");
+    snprintf(secret, sizeof secret, "%s", get_folder_path("secret.js"));
+    if (symlink("../three.js", get_folder_path("three/build/three.module.js")) ||
+        symlink(secret, get_folder_path("page/out.js")))
         return -1;
     return 0;
 }
 
-static inline int remove_pages(void **state) {
+static inline int remove_page_folder(void **state) {
     (void)state;
     static const char *const FILES[] = {
         "page/index.html", "page/parts/one.js", "page/.hidden.js", "page/notes.txt",
         "page/out.js",     "secret.js",         "three/three.js",  "three/build/three.module.js"};
     static const char *const FOLDERS[] = {"page/parts", "page", "three/build", "three", ""};
     for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++)
-        unlink(in_folder(FILES[i]));
+        unlink(get_folder_path(FILES[i]));
     for (size_t i = 0; i < sizeof FOLDERS / sizeof *FOLDERS; i++)
-        rmdir(in_folder(FOLDERS[i]));
+        rmdir(get_folder_path(FOLDERS[i]));
     return 0;
 }
 
-static inline JoxView *open_with(int at, const char *address, double patience) {
+static inline JoxView *open_view_at(int at, const char *address, double patience) {
     char page[300], three[300];
     snprintf(page, sizeof page, "%s/page", folder);
     snprintf(three, sizeof three, "%s/three", folder);
@@ -84,7 +85,7 @@ static inline JoxView *open_with(int at, const char *address, double patience) {
 
 static inline int open_view(void **state) {
     (void)state;
-    view = open_with(0, NULL, 3.0);
+    view = open_view_at(0, NULL, 3.0);
     return sscanf(jox_view_address(view), "http://127.0.0.1:%d/?token=%63s", &port, token) == 2
                ? 0
                : -1;
@@ -96,37 +97,38 @@ static inline int close_view(void **state) {
     return 0;
 }
 
-/* ---- what the tests do ---- */
+/* ---- requests and events ---- */
 
 static char answer[16384];
 
-/* The status of a request of the page's own address, with more headers. */
-static inline int fetch_with(const char *method, const char *path, const char *more) {
+/* Sends a request to the server with more header lines; returns the status, and leaves the answer
+   in `answer`. */
+static inline int fetch_with_headers(const char *method, const char *path, const char *more) {
     char request[8192];
-    int fd = dial(port);
+    int fd = connect_to(port);
     assert_true(fd >= 0);
     snprintf(request, sizeof request,
              "%s %s HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nConnection: close\r\n%s\r\n", method, path,
              port, more);
-    int status = ask(fd, request, answer, sizeof answer);
+    int status = send_request(fd, request, answer, sizeof answer);
     close(fd);
     return status;
 }
 
-/* With the token in the query. */
-static inline int fetch(const char *path) {
+/* Fetches a path with the token in the query. */
+static inline int fetch_page(const char *path) {
     char whole[512];
     snprintf(whole, sizeof whole, "%s?token=%s", path, token);
-    return fetch_with("GET", whole, "");
+    return fetch_with_headers("GET", whole, "");
 }
 
-static inline const char *body(void) {
+static inline const char *get_body(void) {
     const char *end = strstr(answer, "\r\n\r\n");
     return end ? end + 4 : "";
 }
 
-/* The next that the stepping thread is told, within ten seconds. */
-static inline JoxViewTaken take(uint32_t *client, char text[JOX_VIEW_MOST_COMMAND + 1]) {
+/* Takes the next event of the server within 10 s. */
+static inline JoxViewTaken take_event(uint32_t *client, char text[JOX_VIEW_MOST_COMMAND + 1]) {
     for (double until = clock_now() + 10.0; clock_now() < until;) {
         JoxViewTaken taken = jox_view_take(view, client, text, JOX_VIEW_MOST_COMMAND + 1);
         if (taken != JOX_VIEW_NOTHING)
@@ -136,26 +138,26 @@ static inline JoxViewTaken take(uint32_t *client, char text[JOX_VIEW_MOST_COMMAN
     return JOX_VIEW_NOTHING;
 }
 
-/* A page that is connected, and what the server calls it. */
-static inline int join(uint32_t *client) {
+/* Connects a page; returns its socket, and its id at the server. */
+static inline int join_page(uint32_t *client) {
     char text[JOX_VIEW_MOST_COMMAND + 1];
     int fd = open_socket(port, token);
     assert_true(fd >= 0);
-    assert_int_equal(take(client, text), JOX_VIEW_JOINED);
+    assert_int_equal(take_event(client, text), JOX_VIEW_JOINED);
     return fd;
 }
 
-static inline void leave(int fd) {
+static inline void leave_page(int fd) {
     char text[JOX_VIEW_MOST_COMMAND + 1];
     uint32_t client;
     close(fd);
     JoxViewTaken taken;
-    while ((taken = take(&client, text)) == JOX_VIEW_COMMAND)
+    while ((taken = take_event(&client, text)) == JOX_VIEW_COMMAND)
         ;
     assert_int_equal(taken, JOX_VIEW_LEFT);
 }
 
-static inline bool wait_for(uint64_t (*count)(const JoxView *), uint64_t least) {
+static inline bool wait_for_count(uint64_t (*count)(const JoxView *), uint64_t least) {
     for (double until = clock_now() + 10.0; clock_now() < until;) {
         if (count(view) >= least)
             return true;

@@ -1,14 +1,14 @@
-/* The live page's server: who is served, and what is refused. */
+/* Tests of the live page's server: which requests are served, and which are refused. */
 #include "unit/view_open.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-static void the_page_is_served_with_its_headers(void **state) {
+static void page_is_served_with_security_headers(void **state) {
     (void)state;
     char expected[64];
-    assert_int_equal(fetch("/"), 200);
-    assert_string_equal(body(), HELLO);
+    assert_int_equal(fetch_page("/"), 200);
+    assert_string_equal(get_body(), HELLO);
     static const char *const HEADERS[] = {
         "content-type: text/html; charset=utf-8\r\n",
         "x-content-type-options: nosniff\r\n",
@@ -21,13 +21,14 @@ static void the_page_is_served_with_its_headers(void **state) {
             fail_msg("no '%s' in\n%s", HEADERS[i], answer);
     snprintf(expected, sizeof expected, "connect-src 'self' ws://127.0.0.1:%d;", port);
     assert_non_null(strstr(answer, expected));
-    assert_int_equal(fetch("/parts/one.js"), 200);
+    assert_int_equal(fetch_page("/parts/one.js"), 200);
     assert_non_null(strstr(answer, "content-type: text/javascript"));
-    assert_int_equal(fetch("/three/build/three.module.js"), 200); /* a link inside its folder */
-    assert_string_equal(body(), "three");
+    /* a link to a file in the same folder */
+    assert_int_equal(fetch_page("/three/build/three.module.js"), 200);
+    assert_string_equal(get_body(), "three");
 }
 
-static void other_files_are_not(void **state) {
+static void files_outside_the_folders_are_refused(void **state) {
     (void)state;
     static const char *const PATHS[] = {"/parts",
                                         "/nothing.js",
@@ -50,57 +51,58 @@ static void other_files_are_not(void **state) {
                                         "/three/build/../../x",
                                         "/three/%2e%2e/secret.js"};
     for (size_t i = 0; i < sizeof PATHS / sizeof *PATHS; i++) {
-        int status = fetch(PATHS[i]);
+        int status = fetch_page(PATHS[i]);
         if (status != 404 && status != 403 && status != 0)
             fail_msg("%s: %d", PATHS[i], status);
         assert_null(strstr(answer, "secret"));
     }
 }
 
-static void who_has_no_token_is_refused(void **state) {
+static void requests_without_token_are_refused(void **state) {
     (void)state;
     char path[256], cookie[256], wrong[64];
     snprintf(wrong, sizeof wrong, "%s", token);
     wrong[31] = wrong[31] == '0' ? '1' : '0';
-    assert_int_equal(fetch_with("GET", "/", ""), 403);
-    assert_int_equal(fetch_with("GET", "/?token=", ""), 403);
-    assert_int_equal(fetch_with("GET", "/?nottoken=1", ""), 403);
+    assert_int_equal(fetch_with_headers("GET", "/", ""), 403);
+    assert_int_equal(fetch_with_headers("GET", "/?token=", ""), 403);
+    assert_int_equal(fetch_with_headers("GET", "/?nottoken=1", ""), 403);
     snprintf(path, sizeof path, "/?token=%s", wrong);
-    assert_int_equal(fetch_with("GET", path, ""), 403);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
     snprintf(path, sizeof path, "/?token=%s0", token);
-    assert_int_equal(fetch_with("GET", path, ""), 403);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
     snprintf(path, sizeof path, "/?token=%.31s", token);
-    assert_int_equal(fetch_with("GET", path, ""), 403);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
     assert_null(strstr(answer, "the page"));
     snprintf(cookie, sizeof cookie, "Cookie: a=b; jostle_%d=%s\r\n", port, wrong);
-    assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
+    assert_int_equal(fetch_with_headers("GET", "/parts/one.js", cookie), 403);
     snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port, token);
-    assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
+    assert_int_equal(fetch_with_headers("GET", "/parts/one.js", cookie), 403);
 }
 
-/* Other servers of 127.0.0.1 are sent the page's cookie: it is worth the page's files alone. */
-static void the_cookie_opens_files_and_no_socket(void **state) {
+/* Browsers send the page's cookie to all servers on 127.0.0.1, so it must open the page's files
+   only. */
+static void cookie_opens_files_but_no_socket(void **state) {
     (void)state;
     char path[256], cookie[512], pass[64] = "";
     snprintf(path, sizeof path, "/?token=%s", token);
-    assert_int_equal(fetch_with("GET", path, ""), 200);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 200);
     const char *set = strstr(answer, "set-cookie: ");
     assert_non_null(set);
     assert_int_equal(sscanf(strchr(set, '='), "=%32[0-9a-f]", pass), 1);
     assert_string_not_equal(pass, token);
     snprintf(cookie, sizeof cookie, "Cookie: a=b; jostle_%d=%s; c=d\r\n", port, pass);
-    assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 200);
-    assert_null(strstr(answer, "set-cookie")); /* it has it */
+    assert_int_equal(fetch_with_headers("GET", "/parts/one.js", cookie), 200);
+    assert_null(strstr(answer, "set-cookie")); /* the client has the cookie already */
     snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port + 1, pass);
-    assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
+    assert_int_equal(fetch_with_headers("GET", "/parts/one.js", cookie), 403);
     snprintf(cookie, sizeof cookie,
              "Cookie: jostle_%d=%s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
              "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
              "Sec-WebSocket-Protocol: jostle\r\nOrigin: http://127.0.0.1:%d\r\n",
              port, pass, port);
-    assert_int_equal(fetch_with("GET", "/socket", cookie), 403);
+    assert_int_equal(fetch_with_headers("GET", "/socket", cookie), 403);
     snprintf(path, sizeof path, "/socket?token=%s", pass);
-    assert_int_equal(fetch_with("GET", path, cookie), 403);
+    assert_int_equal(fetch_with_headers("GET", path, cookie), 403);
 }
 
 static void other_hosts_and_methods_are_refused(void **state) {
@@ -113,7 +115,7 @@ static void other_hosts_and_methods_are_refused(void **state) {
         snprintf(host, sizeof host, HOSTS[i], port);
         snprintf(request, sizeof request,
                  "GET /?token=%s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n", token, host);
-        int fd = dial(port), status = ask(fd, request, answer, sizeof answer);
+        int fd = connect_to(port), status = send_request(fd, request, answer, sizeof answer);
         close(fd);
         if (status != 403 && status != 0)
             fail_msg("%s: %d", host, status);
@@ -123,8 +125,8 @@ static void other_hosts_and_methods_are_refused(void **state) {
         snprintf(host, sizeof host, NAMES[i], port);
         snprintf(request, sizeof request,
                  "GET /?token=%s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n\r\n", token, host);
-        int fd = dial(port);
-        assert_int_equal(ask(fd, request, answer, sizeof answer), 200);
+        int fd = connect_to(port);
+        assert_int_equal(send_request(fd, request, answer, sizeof answer), 200);
         close(fd);
     }
     static const char *const METHODS[] = {"POST",    "PUT",     "DELETE", "HEAD",
@@ -133,8 +135,8 @@ static void other_hosts_and_methods_are_refused(void **state) {
     snprintf(path, sizeof path, "/?token=%s", token);
     for (size_t i = 0; i < sizeof METHODS / sizeof *METHODS; i++) {
         double begun = clock_now();
-        int status = fetch_with(METHODS[i], path, "Content-Length: 0\r\n");
-        assert_true(clock_now() - begun < 15.0); /* which ends the connection */
+        int status = fetch_with_headers(METHODS[i], path, "Content-Length: 0\r\n");
+        assert_true(clock_now() - begun < 15.0); /* the server closes the connection */
         if (status != 405 && status != 403 && status != 0)
             fail_msg("%s: %d", METHODS[i], status);
         assert_null(strstr(answer, "the page"));
@@ -164,16 +166,17 @@ static void sockets_of_other_pages_are_refused(void **state) {
     assert_int_equal(open_socket_as(port, "evil.example", "http://evil.example", token, &status),
                      -1);
     snprintf(other, sizeof other, "h2c");
-    assert_int_not_equal(fetch_with("GET", "/", "Upgrade: h2c\r\nHTTP2-Settings: AAMAAABkAAQ\r\n"),
-                         101);
+    assert_int_not_equal(
+        fetch_with_headers("GET", "/", "Upgrade: h2c\r\nHTTP2-Settings: AAMAAABkAAQ\r\n"), 101);
     uint32_t client;
     char text[JOX_VIEW_MOST_COMMAND + 1];
-    assert_int_equal(take(&client, text), JOX_VIEW_JOINED); /* one alone came in */
-    assert_int_equal(take(&client, text), JOX_VIEW_LEFT);
+    /* only the first socket was accepted */
+    assert_int_equal(take_event(&client, text), JOX_VIEW_JOINED);
+    assert_int_equal(take_event(&client, text), JOX_VIEW_LEFT);
     assert_int_equal(jox_view_take(view, &client, text, sizeof text), JOX_VIEW_NOTHING);
 }
 
-static uint64_t dropped_of(const JoxView *v) {
+static uint64_t count_dropped(const JoxView *v) {
     return jox_view_dropped(v);
 }
 
@@ -195,49 +198,49 @@ static void commands_arrive_and_garbage_is_dropped(void **state) {
     enum { COUNT = sizeof GARBAGE / sizeof *GARBAGE };
     uint32_t client, from;
     char text[JOX_VIEW_MOST_COMMAND + 1];
-    int fd = join(&client);
+    int fd = join_page(&client);
     for (size_t i = 0; i < COUNT; i++)
         assert_true(put_text(fd, GARBAGE[i]));
-    assert_true(put_frame(fd, FRAME_BINARY, true, true, "{\"do\": \"pause\"}", 15));
-    assert_true(put_frame(fd, FRAME_TEXT, true, false, "{\"do\": \"pa", 10)); /* in two parts */
-    assert_true(put_frame(fd, FRAME_TEXT, false, true, "use\"}", 5));
-    assert_int_equal(take(&from, text), JOX_VIEW_COMMAND);
+    assert_true(send_frame(fd, FRAME_BINARY, true, true, "{\"do\": \"pause\"}", 15));
+    assert_true(send_frame(fd, FRAME_TEXT, true, false, "{\"do\": \"pa", 10)); /* in two frames */
+    assert_true(send_frame(fd, FRAME_TEXT, false, true, "use\"}", 5));
+    assert_int_equal(take_event(&from, text), JOX_VIEW_COMMAND);
     assert_string_equal(text, "{\"do\": \"pause\"}");
     assert_int_equal(from, client);
     assert_int_equal(jox_view_dropped(view), COUNT + 1);
-    /* as long as may be, and one byte longer */
+    /* A command of the greatest length is accepted; one byte more is not. */
     char *longest = malloc(JOX_VIEW_MOST_COMMAND + 2);
     int n = snprintf(longest, 32, "{\"do\": \"input\", \"line\": \"");
     memset(longest + n, 'x', JOX_VIEW_MOST_COMMAND + 1 - (size_t)n);
     strcpy(longest + JOX_VIEW_MOST_COMMAND - 2, "\"}");
     assert_true(put_text(fd, longest));
-    assert_int_equal(take(&from, text), JOX_VIEW_COMMAND);
+    assert_int_equal(take_event(&from, text), JOX_VIEW_COMMAND);
     assert_string_equal(text, longest);
     strcpy(longest + JOX_VIEW_MOST_COMMAND - 2, "x\"}");
     assert_true(put_text(fd, longest));
-    assert_true(wait_for(dropped_of, COUNT + 2));
+    assert_true(wait_for_count(count_dropped, COUNT + 2));
     free(longest);
-    leave(fd);
+    leave_page(fd);
 }
 
-static void a_huge_message_ends_the_connection(void **state) {
+static void huge_message_closes_the_connection(void **state) {
     (void)state;
     uint32_t client;
-    int fd = join(&client), kind;
+    int fd = join_page(&client), kind;
     size_t size = 8 << 20, length;
     char *huge = calloc(size, 1), *message;
     memset(huge, 'x', size);
-    put_frame(fd, FRAME_TEXT, true, true, huge, size); /* not to its end, as it seems */
+    send_frame(fd, FRAME_TEXT, true, true, huge, size); /* the server closes before all is sent */
     free(huge);
     while ((message = get_message(fd, &kind, &length, 10.0)) != NULL)
         free(message);
-    leave(fd);
+    leave_page(fd);
     assert_true(jox_view_dropped(view) >= 1);
-    assert_int_equal(fetch("/"), 200);
+    assert_int_equal(fetch_page("/"), 200);
 }
 
-/* What no browser sends: first byte, second byte, and what follows the mask. */
-static void malformed_frames_end_the_connection(void **state) {
+/* Frames that no browser sends, as the bytes of header, mask and payload. */
+static void malformed_frames_close_the_connection(void **state) {
     (void)state;
     static const struct {
         const char *what;
@@ -260,22 +263,23 @@ static void malformed_frames_end_the_connection(void **state) {
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
         uint32_t client;
         char text[JOX_VIEW_MOST_COMMAND + 1];
-        int fd = join(&client), kind;
+        int fd = join_page(&client), kind;
         size_t length;
-        assert_true(put(fd, CASES[c].bytes, CASES[c].length));
+        assert_true(send_bytes(fd, CASES[c].bytes, CASES[c].length));
         char *said = get_message(fd, &kind, &length, 10.0), more;
-        if (said ? kind != FRAME_CLOSE : get(fd, &more, 1, 0.0) != 0)
+        if (said ? kind != FRAME_CLOSE : receive_bytes(fd, &more, 1, 0.0) != 0)
             fail_msg("%s does not end the connection", CASES[c].what);
         free(said);
-        put_text(fd, "{\"do\": \"pause\"}"); /* nobody hears it */
+        put_text(fd, "{\"do\": \"pause\"}"); /* must not arrive */
         close(fd);
-        assert_int_equal(take(&client, text), JOX_VIEW_LEFT);
+        assert_int_equal(take_event(&client, text), JOX_VIEW_LEFT);
     }
-    assert_int_equal(fetch("/"), 200);
+    assert_int_equal(fetch_page("/"), 200);
 }
 
-/* More than the server has room for, none of whom says who it is, for as long as it may. */
-static void who_says_nothing_delays_nobody(void **state) {
+/* Opens more silent connections than the server keeps unknown, while its patience is longer than
+   the test. */
+static void silent_connections_do_not_block_others(void **state) {
     (void)state;
     enum { COUNT = 600 };
     int idle[COUNT];
@@ -290,20 +294,21 @@ static void who_says_nothing_delays_nobody(void **state) {
     const int old = port;
     char other[64], kept[64];
     snprintf(kept, sizeof kept, "%s", token);
-    view = open_with(0, NULL, 600.0); /* a patience that the test has not */
+    view = open_view_at(0, NULL, 600.0); /* longer than the test */
     assert_int_equal(
         sscanf(jox_view_address(view), "http://127.0.0.1:%d/?token=%63s", &port, other), 2);
     snprintf(token, sizeof token, "%s", other);
     uint32_t client;
-    const int page = join(&client);
+    const int page = join_page(&client);
     for (int i = 0; i < COUNT; i++)
-        assert_true((idle[i] = dial(port)) >= 0);
-    assert_int_equal(fetch("/"), 200);
-    leave(join(&client));
-    assert_true(put_text(page, "{\"do\": \"pause\"}")); /* and who was there is not sent away */
+        assert_true((idle[i] = connect_to(port)) >= 0);
+    assert_int_equal(fetch_page("/"), 200);
+    leave_page(join_page(&client));
+    /* the page that was connected before stays */
+    assert_true(put_text(page, "{\"do\": \"pause\"}"));
     char text[JOX_VIEW_MOST_COMMAND + 1];
-    assert_int_equal(take(&client, text), JOX_VIEW_COMMAND);
-    leave(page);
+    assert_int_equal(take_event(&client, text), JOX_VIEW_COMMAND);
+    leave_page(page);
     for (int i = 0; i < COUNT; i++)
         close(idle[i]);
     jox_view_close(view);
@@ -314,15 +319,15 @@ static void who_says_nothing_delays_nobody(void **state) {
     setrlimit(RLIMIT_NOFILE, &files);
 }
 
-static void ports_and_folders(void **state) {
+static void bad_ports_and_folders_are_reported(void **state) {
     (void)state;
-    JoxView *second = open_with(0, NULL, 0);
+    JoxView *second = open_view_at(0, NULL, 0);
     int next;
     assert_int_equal(sscanf(jox_view_address(second), "http://127.0.0.1:%d/", &next), 1);
-    assert_true(next > port); /* the first is taken */
+    assert_true(next > port); /* the first port is in use */
     jox_view_close(second);
     JoxText why = {0};
-    JoxViewOptions options = {.page = in_folder("page"), .three = "/nowhere", .port = port};
+    JoxViewOptions options = {.page = get_folder_path("page"), .three = "/nowhere", .port = port};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "libjs-three"));
     jox_text_free(&why);
@@ -341,8 +346,8 @@ static void ports_and_folders(void **state) {
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "no address"));
     jox_text_free(&why);
-    /* an address of one's own: hosts may be named as they are, tokens are still wanted */
-    JoxView *open_to_all = open_with(0, "0.0.0.0", 0);
+    /* With an address given, any Host header is accepted; tokens are still required. */
+    JoxView *open_to_all = open_view_at(0, "0.0.0.0", 0);
     char other[64], request[512];
     assert_int_equal(
         sscanf(jox_view_address(open_to_all), "http://127.0.0.1:%d/?token=%63s", &next, other), 2);
@@ -350,15 +355,15 @@ static void ports_and_folders(void **state) {
         snprintf(request, sizeof request,
                  "GET /?token=%s HTTP/1.1\r\nHost: box.example:%d\r\nConnection: close\r\n\r\n",
                  good ? other : token, next);
-        int fd = dial(next);
-        assert_int_equal(ask(fd, request, answer, sizeof answer), good ? 200 : 403);
+        int fd = connect_to(next);
+        assert_int_equal(send_request(fd, request, answer, sizeof answer), good ? 200 : 403);
         close(fd);
     }
     jox_view_close(open_to_all);
 }
 
-/* Each finds a port though all look for one in the same moment. */
-static void many_that_begin_at_once(void **state) {
+/* Servers that start at the same moment each find a port. */
+static void servers_started_at_once_find_different_ports(void **state) {
     (void)state;
     enum { COUNT = 12, ROUNDS = 5 };
     for (int r = 0; r < ROUNDS; r++) {
@@ -372,13 +377,15 @@ static void many_that_begin_at_once(void **state) {
                 char c;
                 close(begin[1]);
                 close(done[1]);
-                bool waited = read(begin[0], &c, 1) == 0; /* its end is what they wait for */
+                /* waits until the parent closes the pipe */
+                bool waited = read(begin[0], &c, 1) == 0;
                 JoxText why = {0};
                 JoxViewOptions options = {.page = "page", .three = "three"};
                 JoxView *opened = waited && !chdir(folder) ? jox_view_open(&options, &why) : NULL;
                 if (!opened)
                     fprintf(stderr, "%s\n", why.data ? why.data : "no view");
-                bool kept = opened && read(done[0], &c, 1) == 0; /* till all have theirs */
+                /* keeps the port until all children have theirs */
+                bool kept = opened && read(done[0], &c, 1) == 0;
                 _exit(kept ? 0 : 1);
             }
         }
@@ -398,18 +405,18 @@ static void many_that_begin_at_once(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WITH_VIEW(the_page_is_served_with_its_headers),
-        WITH_VIEW(other_files_are_not),
-        WITH_VIEW(who_has_no_token_is_refused),
-        WITH_VIEW(the_cookie_opens_files_and_no_socket),
+        WITH_VIEW(page_is_served_with_security_headers),
+        WITH_VIEW(files_outside_the_folders_are_refused),
+        WITH_VIEW(requests_without_token_are_refused),
+        WITH_VIEW(cookie_opens_files_but_no_socket),
         WITH_VIEW(other_hosts_and_methods_are_refused),
         WITH_VIEW(sockets_of_other_pages_are_refused),
         WITH_VIEW(commands_arrive_and_garbage_is_dropped),
-        WITH_VIEW(a_huge_message_ends_the_connection),
-        WITH_VIEW(malformed_frames_end_the_connection),
-        WITH_VIEW(who_says_nothing_delays_nobody),
-        WITH_VIEW(ports_and_folders),
-        cmocka_unit_test(many_that_begin_at_once),
+        WITH_VIEW(huge_message_closes_the_connection),
+        WITH_VIEW(malformed_frames_close_the_connection),
+        WITH_VIEW(silent_connections_do_not_block_others),
+        WITH_VIEW(bad_ports_and_folders_are_reported),
+        cmocka_unit_test(servers_started_at_once_find_different_ports),
     };
-    return cmocka_run_group_tests(tests, make_pages, remove_pages);
+    return cmocka_run_group_tests(tests, make_page_folder, remove_page_folder);
 }
