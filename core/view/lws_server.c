@@ -193,7 +193,7 @@ static bool has_file(const char *folder, const char *name) {
 }
 
 /* Checks the options; appends the fault to `why`. */
-static bool check_options(const JoxViewOptions *options, const char *address, JoxText *why) {
+static bool check_view_options(const JoxViewOptions *options, const char *address, JoxText *why) {
     if (!options->page || !has_file(options->page, "index.html"))
         jox_text_printf(why,
                         "the live page is not in '%s' (no index.html there): install Jostle, or "
@@ -312,7 +312,7 @@ static void stop_server(void *opened) {
 
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     const char *address = options->address ? options->address : "127.0.0.1";
-    if (!check_options(options, address, why))
+    if (!check_view_options(options, address, why))
         return NULL;
     JoxView *view = jox_hold(jox_view_create(), stop_server);
     view->transport = jox_alloc(1, sizeof *view->transport);
