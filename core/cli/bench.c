@@ -1,6 +1,6 @@
-/* `jostle bench`: how long steps take, by stage. Each measurement loads a scene anew; rounds go
-   over all scenes and instruction sets in turn, so that what else the machine does falls on all
-   alike. */
+/* The command `bench`: times the steps of scenes, by stage. Each measurement loads the scene anew.
+   Rounds alternate between all scenes and instruction sets, so that other load on the machine
+   affects all alike. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,15 +12,15 @@
 
 enum { MOST_SETS = 5, MOST_ISAS = 4 };
 
-/* A field of one-way.yaml for so many people. */
+/* Sets the number of people of one-way.yaml, and the width of its field. */
 #define FIELD(people, width)                                                                       \
     "groups.people.count=" people, "bounds.1.0=" width, "places.field.polygon.1.0=" width,         \
         "places.field.polygon.2.0=" width, "places.eastward.line.1.0=" width
 #define ONE_WAY "scenes/one-way.yaml"
 #define COUNTERFLOW "scenes/counterflow.yaml"
 
-/* What has a name: a mark where it is timed if nothing is named, the name, a scene, and values set
-   in it. The help lists the first three. */
+/* The named cases: a mark "*" if it is timed by default, the name, a scene, and values set in it.
+   The help lists the first three. */
 #define NAMES(X)                                                                                   \
     X("*", "tawaf", "scenes/tawaf.yaml", 0)                                                        \
     X(" ", "two-bottlenecks", "scenes/two-bottlenecks.yaml", 0)                                    \
@@ -40,14 +40,14 @@ enum { MOST_SETS = 5, MOST_ISAS = 4 };
     X(" ", "scale-100k", ONE_WAY, FIELD("100000", "980"))                                          \
     X(" ", "scale-1m", ONE_WAY, FIELD("1000000", "9800"))
 
-/* Likewise of many worlds, with how many there are and the people of each. */
+/* Named cases of many worlds: mark, name, number of worlds, people in each. */
 #define WORLDS(X)                                                                                  \
     X(" ", "worlds-of-2", 500, 2)                                                                  \
     X(" ", "worlds-of-20", 200, 20)
 
 typedef struct Named {
     const char *mark, *name, *path, *sets[MOST_SETS];
-    BenchWorlds worlds; /* without a path */
+    BenchWorlds worlds; /* used if path is NULL */
 } Named;
 #define X(mark, name, path, ...) {mark, name, path, {__VA_ARGS__}, {0, 0}},
 #define Y(mark, name, count, people) {mark, name, NULL, {NULL}, {count, people}},
@@ -57,14 +57,14 @@ static const Named NAMED[] = {NAMES(X) WORLDS(Y)};
 enum { NAMED_COUNT = sizeof NAMED / sizeof *NAMED };
 
 typedef struct Bench {
-    BenchGiven given; /* first: what the results name */
+    BenchGiven given; /* must be first; the results name it */
     JoIsa isas[MOST_ISAS];
     size_t isa_count;
     bool json, trusted;
     const char *csv, *plot;
 } Bench;
 
-/* One or more instruction sets, with commas between. */
+/* Reads one or more instruction sets, separated by commas. */
 static bool read_isas(void *options, const char *text, char why[160]) {
     Bench *bench = options;
     bench->isa_count = 0;
@@ -75,7 +75,7 @@ static bool read_isas(void *options, const char *text, char why[160]) {
         }
         char name[16];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        if (!cli_isa(&bench->isas[bench->isa_count++], name, why))
+        if (!cli_read_isa(&bench->isas[bench->isa_count++], name, why))
             return false;
     }
     return true;
@@ -106,7 +106,8 @@ static const CliOption OPTIONS[] = {
 
 /* ---- measuring ---- */
 
-static int measure(const Bench *bench, const Named *named, BenchCase *c) {
+/* Measures one round of a case; returns an exit status. */
+static int measure_case(const Bench *bench, const Named *named, BenchCase *c) {
     JoError error = {0};
     if (named && !named->path) {
         const int status = bench_worlds(&named->worlds, &bench->given, c, &error);
@@ -140,25 +141,26 @@ static int measure(const Bench *bench, const Named *named, BenchCase *c) {
 
 /* ---- the command ---- */
 
-static const Named *find(const char *name) {
+static const Named *find_named_case(const char *name) {
     for (size_t k = 0; k < NAMED_COUNT; k++)
         if (strcmp(NAMED[k].name, name) == 0)
             return &NAMED[k];
     return NULL;
 }
 
-/* The file of each name, or NULL of many worlds; false with a message where there is none. */
+/* Finds the file of each name; NULL for cases of many worlds. Returns false with a message if there
+   is none. */
 static bool find_paths(const char *const *names, size_t count, const char **paths) {
     const char *all[NAMED_COUNT];
     char hint[JOX_HINT];
     for (size_t k = 0; k < NAMED_COUNT; k++)
         all[k] = NAMED[k].name;
     for (size_t n = 0; n < count; n++) {
-        const Named *named = find(names[n]);
+        const Named *named = find_named_case(names[n]);
         paths[n] = named ? named->path : names[n];
         if (named && !named->path)
             continue;
-        if (named && access(paths[n], F_OK) != 0) { /* away from the sources: what came with it */
+        if (named && access(paths[n], F_OK) != 0) { /* not in a checkout: use the installed scene */
             char stem[64];
             const char *file = jox_path_name(paths[n]);
             snprintf(stem, sizeof stem, "%.*s", (int)jox_path_stem(file), file);
@@ -175,8 +177,8 @@ static bool find_paths(const char *const *names, size_t count, const char **path
     return true;
 }
 
-/* The cases as they were asked for, once they are all measured. */
-static int finish(const Bench *bench, const BenchCase *cases, size_t count) {
+/* Writes the results in the formats asked for, after all rounds. */
+static int write_bench_results(const Bench *bench, const BenchCase *cases, size_t count) {
     if (bench->json) {
         cli_output_is_data();
         bench_json(&bench->given, cases, count);
@@ -191,7 +193,7 @@ static int finish(const Bench *bench, const BenchCase *cases, size_t count) {
     return JO_OK;
 }
 
-/* All cases, round by round; the table shows each when its last round is over. */
+/* Measures all cases, round by round; the table shows each case after its last round. */
 static int bench_all(Bench *bench, const char *const *names, const char *const *paths,
                      size_t count) {
     const size_t total = count * bench->isa_count;
@@ -205,29 +207,29 @@ static int bench_all(Bench *bench, const char *const *names, const char *const *
         bench_header();
     for (uint64_t round = 0; round < bench->given.rounds; round++)
         for (size_t k = 0; status == JO_OK && k < total; k++) {
-            status = measure(bench, find(cases[k].name), &cases[k]);
+            status = measure_case(bench, find_named_case(cases[k].name), &cases[k]);
             if (status == JO_OK && !bench->json && round + 1 == bench->given.rounds)
                 bench_line(&cases[k]);
         }
     if (status == JO_OK && !bench->json)
         bench_ratios(cases, total, bench->isa_count);
     if (status == JO_OK)
-        status = finish(bench, cases, total);
+        status = write_bench_results(bench, cases, total);
     jox_free(cases);
     return status;
 }
 
-static void confine(const Bench *bench, const char *const *paths, size_t count) {
-    CliReach reach = {.programs = bench->plot != NULL}; /* gnuplot draws */
+static void confine_bench(const Bench *bench, const char *const *paths, size_t count) {
+    CliReach reach = {.programs = bench->plot != NULL}; /* gnuplot draws the plot */
     for (size_t n = 0; n < count; n++)
         cli_reach_scene(&reach, paths[n]);
     cli_reach_output(&reach, bench->csv);
     cli_reach_output(&reach, bench->plot);
-    cli_reach_folder(&reach, "/proc/cpuinfo"); /* names the processor */
+    cli_reach_folder(&reach, "/proc/cpuinfo"); /* has the processor's name */
     cli_confine_work(&reach, bench->trusted);
 }
 
-static int run(int argc, char **argv) {
+static int run_bench(int argc, char **argv) {
     Bench bench = {.given = {200, 100, 1, 1, jo_version()}};
     CliList names = {0};
     const char *marked[NAMED_COUNT];
@@ -244,7 +246,7 @@ static int run(int argc, char **argv) {
         const char **paths = jox_alloc(count, sizeof *paths);
         status = JO_INPUT;
         if (find_paths(asked, count, paths)) {
-            confine(&bench, paths, count);
+            confine_bench(&bench, paths, count);
             status = bench_all(&bench, asked, paths, count);
         }
         jox_free(paths);
@@ -266,7 +268,7 @@ const CliCommand cli_bench = {
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",
-    .run = run,
+    .run = run_bench,
 };
 #undef X
 #undef Y

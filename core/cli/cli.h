@@ -1,5 +1,6 @@
 /* Commands and their options. A command is one file, which defines a CliCommand, and one row of
-   CLI_COMMANDS. Parsing, `--help` and the manual page are made of the same rows. */
+   CLI_COMMANDS. Parsing, `--help` and the manual page are made from the same rows. main.c calls a
+   command's `run`; the calls below are what commands share. */
 #ifndef JOX_CLI_CLI_H
 #define JOX_CLI_CLI_H
 
@@ -13,7 +14,7 @@
 #include "base/text.h"
 #include "jostle_tools.h"
 
-/* In the order of `jostle --help`. */
+/* All commands, in the order of `jostle --help`. */
 #define CLI_COMMANDS(X)                                                                            \
     X(run)                                                                                         \
     X(resume)                                                                                      \
@@ -31,40 +32,42 @@
     X(reproduce)                                                                                   \
     X(bench)
 
-/* What an option is stored as: chosen by CLI_TO from the type of its member. */
+/* The type that an option is stored as; CLI_TO derives it from the type of the member. */
 typedef enum {
-    CLI_HEADING, /* a line between options, no option */
+    CLI_HEADING, /* no option: a heading between options in the help */
     CLI_FLAG,    /* bool */
     CLI_TEXT,    /* const char * */
-    CLI_LIST,    /* CliList: may be given several times */
+    CLI_LIST,    /* CliList: the option may be given several times */
     CLI_DOUBLE,
     CLI_INT,
     CLI_U32,
     CLI_U64,
-    CLI_READ /* read by a function of the command */
+    CLI_READ /* any type: stored by a function of the command */
 } CliKind;
 
-/* Texts in the order given; `items` is made by cli_parse, freed by cli_free. */
+/* Texts in the order given. cli_parse allocates `items`, cli_free frees it. */
 typedef struct CliList {
     const char **items;
     size_t count;
 } CliList;
 
 typedef struct CliOption {
-    const char *name;     /* without dashes; of a heading: the line */
-    const char *argument; /* its name in the help; NULL of a flag */
-    const char *help;     /* NULL: another spelling, which the help leaves out */
-    const char *standard; /* default, as the help says it; NULL: none is said */
+    const char *name;     /* without dashes; of CLI_HEADING: the heading */
+    const char *argument; /* name of its value in the help; NULL: a flag */
+    const char *help;     /* NULL: an alternative spelling, not listed */
+    const char *standard; /* default, as the help shows it; NULL: not shown */
     CliKind kind;
-    const char *writes; /* "folder", or endings of the file that it names, the usual one first */
-    bool only_equals;   /* a value is given by '=' or not at all, as in --view=8730 */
-    size_t at, given;   /* of the member, and 1 + that of a bool: whether it was given; 0: none */
-    double least, greatest; /* of numbers; both 0: any */
-    /* Of CLI_READ: stores a value in the command's options; false with what is wrong in `why`. */
+    const char
+        *writes; /* of an output: "folder", or allowed endings of a file, the usual one first */
+    bool only_equals; /* a value is optional and follows '=', as in --view=8730 */
+    size_t at, given; /* offset of the member; 1 + offset of a bool that is set if the option is
+                         given, 0: none */
+    double least, greatest; /* bounds of a number; both 0: none */
+    /* Of CLI_READ: parses `text` into the command's options; false with the fault in `why`. */
     bool (*read)(void *options, const char *text, char why[160]);
 } CliOption;
 
-/* Destination of a row: a member of the command's options. */
+/* Sets kind and destination of a row: a member of the command's options. */
 #define CLI_TO(type, member)                                                                       \
     .kind = _Generic(((type *)0)->member, bool                                                     \
                      : CLI_FLAG, const char *                                                      \
@@ -80,17 +83,17 @@ typedef struct CliOption {
 
 typedef struct CliCommand {
     const char *name;
-    const char *what;  /* one line of `jostle --help` */
-    const char *usage; /* what follows "jostle NAME", a line each way to call it */
-    /* Paragraphs before and after the options, a line each; lines that begin with a blank are
+    const char *what;  /* its line in `jostle --help` */
+    const char *usage; /* arguments after "jostle NAME"; one line per form of the command */
+    /* Paragraphs before and after the options, one a line; lines that begin with a blank are
        printed as they are. May be NULL. */
     const char *about, *notes;
     const CliOption *options;
     size_t option_count;
-    const char *takes;     /* name of its plain arguments in messages; NULL: it takes none */
-    size_t least, most;    /* how many of them; most 0: any number */
-    const char *none_said; /* what is said where none is given; NULL: "no TAKES given" */
-    int (*run)(int argc, char **argv); /* returns an exit status, a JoCode */
+    const char *takes;     /* name of its plain arguments in messages; NULL: takes none */
+    size_t least, most;    /* number of plain arguments; most 0: any */
+    const char *none_said; /* message if too few are given; NULL: "no TAKES given" */
+    int (*run)(int argc, char **argv); /* returns an exit status, mostly a JoCode */
 } CliCommand;
 
 #define X(name) extern const CliCommand cli_##name;
@@ -101,106 +104,117 @@ extern const size_t cli_command_count;
 
 enum { CLI_GO_ON = -1 };
 
-/* Reads arguments: options into `options`, the rest into `plain`. Returns CLI_GO_ON, or the exit
-   status: the help was printed, or what is wrong. cli_free is due in any case. */
+/* Parses arguments: options into `options`, plain ones into `plain`. Returns CLI_GO_ON, or the exit
+   status if the help was printed or the arguments are wrong. Call cli_free in any case. */
 int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain);
 void cli_free(const CliCommand *command, void *options, CliList *plain);
 
-/* From here on SIGINT, SIGTERM and SIGHUP end the process at once, or, once it has files to finish,
-   leave their number in cli_signal the first time. SIGHUP stays ignored where it is (nohup). */
+/* Installs handlers of SIGINT, SIGTERM and SIGHUP. Without files to finish, they end the process at
+   once. With files, the first one stores its number in cli_signal, which the command polls; the
+   second one ends the process. SIGHUP stays ignored if it is ignored (nohup). */
 void cli_catch_signals(bool has_files);
 extern volatile int cli_signal;
-/* As the first of them, by another one; false where the command has no files to finish. */
-bool cli_end_soon(int number);
-/* The exit status of a command that a signal ended: 128 and its number, as shells have it;
-   JO_FAILED where it took all of its processor time, or its address could not be printed. */
-int cli_interrupted(int status);
+/* Sets cli_signal as the first signal does, for other reasons to end; returns false if the command
+   has no files to finish. */
+bool cli_request_end(int number);
+/* Returns the exit status of a command that may have been ended by a signal: 128 + its number, as
+   shells have it; JO_FAILED if it was out of processor time or could not print its address;
+   `status` if that is an error or no signal came. */
+int cli_add_signal_status(int status);
 
-/* Whether all that was printed has been written to standard output, or it is text to read and its
-   reader closed the pipe, as `head` does. If not, the program ends with JO_FAILED and a message,
-   for which the first errno is kept. */
+/* Flushes standard output. Returns true if all was written, or if text for people goes to a pipe
+   whose reader closed it, as `head` does. On false the program ends with JO_FAILED and a message
+   about the first errno, kept in cli_output_errno. */
 bool cli_flush(void);
-/* What is printed is data, such as a summary: a closed pipe is an error, too. */
+/* Declares the output as data, such as a summary: a closed pipe is then an error, too. */
 void cli_output_is_data(void);
 extern int cli_output_errno;
-/* Prints the address of a page that can be opened now (a JoMessage). Where it cannot be written,
-   serving ends, by cli_signal. */
+/* Prints the address of a page that can be opened now (a JoMessage). If that fails, sets
+   cli_signal, as nobody could open or end the page. */
 void cli_print_address(void *context, const char *address);
 
-/* Files and folders that a run wrote, and its last lines name; NULL: none such. */
+/* Files and folders that a run wrote, for its last lines; NULL: not written. */
 typedef struct CliRunFiles {
     const char *report, *data, *record, *log, *checkpoints, *summary;
 } CliRunFiles;
-/* Finishes a run whose steps went well (`ok`) or ended with an error, which it prints; takes out of
-   its files what could not be finished; returns the exit status. */
-int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error, CliRunFiles *files);
-/* What each plain Lua function of the run's behaviours cost, to stderr. */
-void cli_profile(const JoScene *scene);
-/* The last lines of a run: what it comes to, and where its files are. */
-void cli_closing(const JoScene *scene, const CliRunFiles *files);
+/* Finishes the files of a run whose steps went well (`ok`) or ended with `error`, and prints the
+   error. Removes from `files` what could not be finished; returns the exit status. */
+int cli_finish_run(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
+                   CliRunFiles *files);
+/* Prints the cost of each plain Lua function of the run's behaviours to stderr. */
+void cli_print_lua_costs(const JoScene *scene);
+/* Prints the last lines of a run to stderr: its results in sentences, its files, and hints on
+   behaviours. */
+void cli_print_closing(const JoScene *scene, const CliRunFiles *files);
 
-/* The page of a run that ended, in the folder of its report. */
+/* The arguments of cli_write_report_page, which writes the page of a run that ended into the folder
+   of its report, after a second run at half the time step. */
 typedef struct CliReportPage {
     const char *folder;
     const JoSceneDef *def;
-    const JoxOverlay *files; /* that were vetted; NULL: those of the scene */
+    const JoxOverlay *files; /* vetted files; NULL: read those of the scene again */
     JoScene *scene;
-    uint64_t steps; /* in all */
+    uint64_t steps; /* of the whole run */
     bool no_half, quiet;
 } CliReportPage;
-int cli_report_page(const CliCommand *command, const CliReportPage *page);
+int cli_write_report_page(const CliCommand *command, const CliReportPage *page);
 
-/* The page of a sweep's file of one variant: of runs with many seeds. */
-int cli_runs_page(const CliCommand *command, const char *runs, const char *folder, bool quiet);
-/* Whether a file is one of `jostle sweep`. */
+/* Writes the page of runs with many seeds from a sweep's file of one variant; returns the exit
+   status. */
+int cli_write_runs_page(const CliCommand *command, const char *runs, const char *folder,
+                        bool quiet);
+/* Returns whether a file was written by `jostle sweep`. */
 bool cli_is_sweep(const char *path);
-/* Makes a folder, and those above it; false with a message. */
+/* Makes a folder and its parents; false with a message. */
 bool cli_make_folder(const CliCommand *command, const char *path);
 
-/* Whether functions of behaviours failed, people were lost, or walls keep some from their goal,
-   which it says. */
-bool cli_troubled(const CliCommand *command, const JoScene *scene);
+/* Prints the troubles of a run: failed functions of behaviours, lost people, people whom walls keep
+   from their goal. Returns whether there are any. */
+bool cli_print_troubles(const CliCommand *command, const JoScene *scene);
 
-/* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */
+/* Prints "jostle COMMAND: why" and how to get help; returns JO_USAGE. */
 int cli_misused(const CliCommand *command, const char *why);
-/* Says that there is no such thing, as "page 'behavior'", and which of the names may be meant;
+/* Prints that there is no such thing, as "page 'behavior'", with the most similar of `names`;
    returns JO_USAGE. */
 int cli_unknown(const CliCommand *command, const char *what, const char *given,
                 const char *const *names, size_t count);
-/* Whether a path that an option names to be written does not end as another kind of file does, as
-   x.html for a folder or x.csv for JSON; what is there already is judged later. */
+/* Returns whether the ending of an output's path fits what the option writes: not x.html for a
+   folder, nor x.csv for JSON. Accepts files that exist and may be sources; cli_check_apart refuses
+   those that are read. */
 bool cli_ending_fits(const CliOption *option, const char *path, char why[200]);
-/* Whether a file can be written, found out before an hour of simulation; JO_FAILED with a message.
- */
-int cli_writable(const CliCommand *command, const char *path);
-/* Whether no two outputs are one file, and none is one that is read: of `inputs`, or `files`, which
-   may be NULL. JO_USAGE with a message. Of outputs NULL and "-" are none, of inputs NULL. */
-int cli_apart(const CliCommand *command, const char *const *outputs, size_t output_count,
-              const char *const *inputs, size_t input_count, const JoxOverlay *files);
+/* Checks before a long simulation that a file can be written at its end; JO_FAILED with a
+   message. */
+int cli_check_writable(const CliCommand *command, const char *path);
+/* Checks that no two outputs are the same file, and that no output is one of `inputs` or `files`
+   (may be NULL); JO_USAGE with a message. Outputs NULL and "-" and inputs NULL are skipped. */
+int cli_check_apart(const CliCommand *command, const char *const *outputs, size_t output_count,
+                    const char *const *inputs, size_t input_count, const JoxOverlay *files);
 /* Writes text to a file, or to standard output for "-"; JO_FAILED with a message. */
 int cli_write(const CliCommand *command, const char *path, const char *text);
-/* Prints text to the FILE that `context` is: where jo_check and jo_test send theirs. */
+/* Prints text to the FILE `context`; a JoMessage for jo_check and jo_test. */
 void cli_print(void *context, const char *text);
-/* Prints an error unless it was sent as a message before; returns the exit status. */
+/* Prints an error, unless it was already sent as a message; returns the exit status. */
 int cli_failed(const CliCommand *command, const JoError *error, bool sent);
 
-/* Has a scene read by a child process that may do nothing else; `files` are then what it read, and
-   sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
+/* Reads a scene in a confined child process, and seals the files that it read in `files`; the
+   caller then loads the scene from these (jox_overlay_use). Returns JO_OK, or the exit status with
+   a message. */
 int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files, JoError *error);
 
 /* ---- files of others, read in a confined child ---- */
 
-/* What goes through pipes: a head, then so many bytes of a name and of a text. */
+/* The kinds of messages between a process and a confined child or the keeper: a CliHead, then the
+   bytes of a name and of a text. */
 typedef enum CliSent {
-    CLI_FILE,    /* its path, and its text */
-    CLI_MESSAGE, /* for people */
-    CLI_LOADED,  /* the end, and the two below: */
+    CLI_FILE,    /* a file that was read: its path and its text */
+    CLI_MESSAGE, /* a message for people */
+    CLI_LOADED,  /* the last message of a child: one of these three */
     CLI_REFUSED,
     CLI_OUT_OF_MEMORY,
-    CLI_ENDED, /* of the keeper: at which file, and why */
-    CLI_WHOLE, /* to the keeper: the scene is to be read; behaviours by their paths, in the text; */
+    CLI_ENDED, /* from the keeper: the child was ended, at which file and why */
+    CLI_WHOLE, /* to the keeper: read the whole scene */
     CLI_EDITED,
-    CLI_STOP, /* what is under way is no longer wanted */
+    CLI_STOP, /* to the keeper: give up the present request */
     CLI_SENT_COUNT
 } CliSent;
 typedef struct CliHead {
@@ -208,118 +222,126 @@ typedef struct CliHead {
     uint64_t name, text;
 } CliHead;
 
-/* False where nobody reads any more. */
+/* Sends a message; false if the other end is closed. */
 bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t length);
 
-/* Where it comes from; zero-initialise but for `stop`. */
+/* The receiving end of such messages; zero-initialise all but `stop`. */
 typedef struct CliSource {
-    int from, stop;    /* reading ends, too, once `stop` can be read; -1: it never can */
-    double until;      /* s of the monotonic clock, when it ends, too; 0: never */
-    size_t taken;      /* bytes; there is a limit */
-    const char *fault; /* why it was given up before its end; NULL: it was not */
+    int from, stop;    /* descriptors: messages come from `from`; reading is given up once `stop` is
+                          readable, -1: never */
+    double until;      /* s of wall time at which reading is given up; 0: never */
+    size_t taken;      /* bytes received so far; limited */
+    const char *fault; /* why reading was given up; NULL: it was not */
 } CliSource;
-typedef struct CliGot {
+typedef struct CliReceived {
     char name[JOX_LONGEST_PATH];
-    char *text; /* with a zero byte behind it */
+    char *text; /* zero-terminated */
     size_t length;
-} CliGot;
-/* A CliSent, with what came; -1 at the end, and for what is none. */
-int cli_get(CliSource *source, CliGot *got);
-void cli_got_free(CliGot *got);
+} CliReceived;
+/* Receives a message, to be freed by cli_free_received. Returns its CliSent; -1 at the end, or if
+   the message is malformed or too large. */
+int cli_receive(CliSource *source, CliReceived *got);
+void cli_free_received(CliReceived *got);
 
-/* What a child is to read, and what it did. */
+/* A request to read files in a confined child, and its result. */
 typedef struct CliVetted {
-    const JoSceneDef *def;       /* the scene, unless */
-    const JoVetting *edited;     /* files of it were edited, or NULL; then */
-    JoScene *scene;              /* it is there as it was, dry */
-    int stop;                    /* as of CliSource */
-    JoxOverlay *files;           /* that it read, sealed at the end */
-    JoxText said, why;           /* messages; why it was ended, */
-    char file[JOX_LONGEST_PATH]; /* and where */
+    const JoSceneDef *def;       /* the scene to read, unless `edited` */
+    const JoVetting *edited;     /* its edited files, or NULL */
+    JoScene *scene;              /* with `edited`: the scene before, loaded dry */
+    int stop;                    /* as in CliSource */
+    JoxOverlay *files;           /* result: files that the child read, sealed */
+    JoxText said, why;           /* result: messages; why the child was ended, */
+    char file[JOX_LONGEST_PATH]; /* and at which file */
 } CliVetted;
-/* CLI_LOADED, CLI_REFUSED, -1 where the child was ended, or -2 where there is no process for it. */
+/* Reads in a child. Returns CLI_LOADED or CLI_REFUSED; -1 if the child was ended; -2 if no process
+   could be started. */
 int cli_read_confined(CliVetted *what);
 
-/* Another process, begun while this one has a single thread, that has files read in children of its
-   own while the scene runs: at first of the scene that was loaded from `files`. NULL: it could not
-   begin, which was said. */
+/* Starts the keeper: a process forked while this one has a single thread. While the scene runs with
+   threads, the keeper forks the children that read edited files. It begins with the scene that was
+   loaded from `files`. NULL, with a message, if it cannot be started. */
 typedef struct CliKeeper CliKeeper;
 CliKeeper *cli_keeper_begin(const CliCommand *command, const JoSceneDef *def,
                             const JoxOverlay *files);
-/* NULL of NULL. */
+/* Returns the JoVetter that asks the keeper; NULL for a NULL keeper. */
 const JoVetter *cli_keeper_vetter(const CliKeeper *keeper);
 void cli_keeper_end(CliKeeper *keeper);
 
-/* The file of a scene: what is given, or, of a name alone such as "office", the first there is of
-   NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle; or scenes/NAME.yaml of
-   one of the `mods` named, which may be NULL. Holds until cli_free. NULL with a message, and what
-   may be meant, where there is no such file or there are several. */
+/* Finds the file of a scene. `given` is a path, or a name alone such as "office": then the first of
+   NAME.yaml, scenes/NAME.yaml and the scenes that came with Jostle, or scenes/NAME.yaml of one of
+   `mods` (may be NULL). The result is valid until cli_free. NULL, with a message that suggests
+   similar names, if there is none or there are several. */
 const char *cli_scene(const CliCommand *command, const char *given, const CliList *mods);
-/* The same of each in the list that is no file and no folder. */
+/* Replaces each name in the list that is no file or folder by the file of the scene; false with a
+   message. */
 bool cli_scenes(const CliCommand *command, CliList *list);
 void cli_scenes_free(void);
-/* Whether there is such a scene by its name alone. */
+/* Returns whether there is a scene with this name. */
 bool cli_is_scene(const char *name);
-/* The folder of a mod that is named by it, or by its name where it lies in mods/, scenes/mods/ or
-   the user's data directory. Holds until cli_free; NULL where there is none. */
+/* Finds the folder of a mod, given as a folder or by its name in mods/, scenes/mods/ or the user's
+   data directory. The result is valid until cli_free; NULL if there is none. */
 const char *cli_mod_folder(const char *mod);
-/* Whether there is such a file or folder, or recording; else says what may be meant. */
-bool cli_is_there(const CliCommand *command, const char *given);
-bool cli_recording(const CliCommand *command, const char *given);
-/* Some of those that came with Jostle, a line each. */
+/* Check that a file or folder, or a recording exists; false with a message that suggests similar
+   names. */
+bool cli_check_exists(const CliCommand *command, const char *given);
+bool cli_check_recording(const CliCommand *command, const char *given);
+/* Prints some scenes that came with Jostle, one a line. */
 void cli_list_scenes(FILE *out);
 
-/* What a command may do once it reads files of others. Zero-initialise. */
+/* Lists of paths, and what a command may still do when it reads files of unknown origin.
+   Zero-initialise. The command fills it by cli_reach_*, then calls cli_confine or
+   cli_confine_work. */
 typedef struct CliPaths {
     char **items;
     size_t count, capacity;
 } CliPaths;
 typedef struct CliReach {
-    CliPaths reads, writes;   /* besides what libraries of the system and mods need */
-    size_t memory, file_size; /* bytes, and below seconds of processor time; 0: any */
-    unsigned seconds, files;
-    bool works, programs, serves; /* as of JoxConfines */
-    const char *program;          /* the same; or NULL */
+    CliPaths reads, writes;       /* besides those that system libraries and mods need */
+    size_t memory, file_size;     /* bytes; 0: no limit, as below */
+    unsigned seconds, files;      /* s of processor time; open files */
+    bool works, programs, serves; /* as in JoxConfines */
+    const char *program;          /* as in JoxConfines; or NULL */
 } CliReach;
 
-/* A path may be read: a recording, with what SQLite keeps beside it; a folder or a file; a scene or
-   behaviour, or folder of them, with what lies in its folder and in ../behaviours; a scene with its
-   mods and input log. Of NULL, nothing. */
+/* Allow reading. file: a recording, with the files that SQLite keeps beside it. folder: a folder or
+   a file. scene: a scene or behaviour, or a folder of them, with their folder, ../behaviours and
+   ../scripts. def: a scene with its mods and input log. NULL is ignored. */
 void cli_reach_file(CliReach *reach, const char *path);
 void cli_reach_folder(CliReach *reach, const char *path);
 void cli_reach_scene(CliReach *reach, const char *path);
 void cli_reach_def(CliReach *reach, const JoSceneDef *def);
-/* A folder, or the folder of a file, may be written. Of NULL and "-", nothing. */
+/* Allows writing a folder, or a file and its folder. NULL and "-" are ignored. */
 void cli_reach_output(CliReach *reach, const char *path);
-/* The list of mods that are on may be written. */
+/* Allows writing the user's list of mods that are turned on. */
 void cli_reach_settings(CliReach *reach);
-/* From here on the process, which is to have one thread, can do no more; the paths are freed. Where
-   the system cannot hold it to that, that is said. */
+/* Confines the process, which must have a single thread, to what `reach` allows, and frees its
+   paths. Prints a message and returns false if the system supports no confinement. */
 bool cli_confine(CliReach *reach);
-/* Of commands that read and do not simulate for long: what they may take. */
+/* Limits of memory and time for commands that read and do not simulate for long. */
 #define CLI_READING .memory = (size_t)4 << 30, .seconds = 300
-/* As cli_confine, of a whole command; nothing where the user trusts the files. Without limits of
-   its own it may take three quarters of the machine's memory, a day of each of its processors,
-   files of 256 GB, and 1,024 of them at a time. */
+/* Confines a whole command as cli_confine does, or not at all if the user trusts the files. Limits
+   that `reach` leaves open become three quarters of the machine's memory, a day of each of its
+   processors, files of 256 GB, and 1,024 open files. */
 void cli_confine_work(CliReach *reach, bool trusted);
-/* Those limits alone, of commands that have scenes read by children; what these read is limited
-   further, and the processes that a command starts have its limits each. */
+/* Sets only these limits, for commands whose scenes are read by confined children. Processes that
+   the command starts have the same limits each. */
 void cli_limit_work(bool trusted);
 
-/* Appends `length` bytes as lines of 80 columns; the first begins at column `at`, the others with
-   `indent` blanks. */
-void cli_wrap(JoxText *out, const char *text, size_t length, int at, int indent);
-/* The help of a command, and the manual page of all. Freed by jo_free. */
-char *cli_help(const CliCommand *command);
-char *cli_manual(void);
+/* Appends `length` bytes, broken into lines of 80 columns; the first line begins at column `at`,
+   the others are indented by `indent` blanks. */
+void cli_wrap_text(JoxText *out, const char *text, size_t length, int at, int indent);
+/* Format the help of a command, and the manual page of all commands; to be freed by jo_free. */
+char *cli_format_help(const CliCommand *command);
+char *cli_format_manual(void);
 
-/* ---- options that several commands have ---- */
+/* ---- options that several commands share ---- */
 
-/* "m" or "cm": metres of a unit. For a row of CLI_READ. */
-bool cli_unit(double *metres, const char *text, char why[160]);
+/* Parses "m" or "cm" into metres, for a row of CLI_READ; false with the fault in `why`. */
+bool cli_read_unit(double *metres, const char *text, char why[160]);
 
-/* An instruction set that this machine runs; and its row, whose function calls this. */
-bool cli_isa(JoIsa *isa, const char *text, char why[160]);
+/* Parses an instruction set that this machine runs, for the row CLI_ISA_OPTION; false with the
+   fault in `why`. */
+bool cli_read_isa(JoIsa *isa, const char *text, char why[160]);
 #define CLI_ISA_OPTION(function)                                                                   \
     {                                                                                              \
         "isa", "NAME",                                                                             \
@@ -328,7 +350,7 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]);
             "the widest that the machine runs", .kind = CLI_READ, .read = function                 \
     }
 
-/* Of commands that cli_confine_work confines. */
+/* The option of commands that call cli_confine_work. */
 #define CLI_TRUSTED_OPTION(type)                                                                   \
     {                                                                                              \
         "trusted", NULL,                                                                           \
@@ -338,8 +360,9 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]);
             CLI_TO(type, trusted)                                                                  \
     }
 
-/* Of a scene: `def` is a member JoSceneDef; the options have CliLists `sets` and `mods`, and a bool
-   `of_scene`: whether one of these rows was given (seed and dt: see def.has_seed, def.has_dt). */
+/* The options of a scene: `def` is a member JoSceneDef. The options also have CliLists `sets` and
+   `mods`, and a bool `of_scene` that is set if one of these rows is given (except seed and dt: see
+   def.has_seed, def.has_dt). */
 #define CLI_SCENE_OPTIONS(type, def)                                                               \
     {"dt",                                                                                         \
      "S",                                                                                          \

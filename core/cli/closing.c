@@ -1,4 +1,4 @@
-/* The last lines of a run. */
+/* Prints the last lines of a run, and the costs of Lua functions. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include "base/format/noun.h"
 #include "cli/cli.h"
 
-/* What of the behaviours came to nothing, a line each. */
+/* Prints hints on parts of behaviours that had no effect, one a line. */
 static void print_hints(const JoScene *scene) {
     JoHints *hints = jo_scene_hints(scene);
     if (hints && hints->count)
@@ -18,7 +18,7 @@ static void print_hints(const JoScene *scene) {
     jo_free(hints);
 }
 
-void cli_closing(const JoScene *scene, const CliRunFiles *files) {
+void cli_print_closing(const JoScene *scene, const CliRunFiles *files) {
     const struct {
         const char *what, *path, *more;
     } all[] = {{"report", files->report, "/index.html"}, {"tables", files->data, ""},
@@ -38,7 +38,7 @@ void cli_closing(const JoScene *scene, const CliRunFiles *files) {
     }
     if (*before == ',')
         jox_text_add(&text, ".");
-    cli_wrap(&lines, text.data, text.length, 0, 0);
+    cli_wrap_text(&lines, text.data, text.length, 0, 0);
     fputs(lines.data, stderr);
     print_hints(scene);
     jox_text_free(&text);
@@ -46,7 +46,7 @@ void cli_closing(const JoScene *scene, const CliRunFiles *files) {
     jo_free(closing);
 }
 
-static void print_cost(const JoLuaCost *cost, double stepping) {
+static void print_lua_cost(const JoLuaCost *cost, double stepping) {
     fprintf(stderr, "  %-52.100s %10llu calls %8.0f ns each %9.2f ms %6.2f %%%s\n", cost->where,
             (unsigned long long)cost->calls,
             cost->calls ? cost->seconds * 1e9 / (double)cost->calls : 0.0, cost->seconds * 1e3,
@@ -56,7 +56,7 @@ static void print_cost(const JoLuaCost *cost, double stepping) {
                              : "");
 }
 
-void cli_profile(const JoScene *scene) {
+void cli_print_lua_costs(const JoScene *scene) {
     JoLuaCosts *costs = jo_scene_lua_costs(scene);
     if (costs && costs->count)
         fprintf(stderr,
@@ -78,7 +78,7 @@ void cli_profile(const JoScene *scene) {
                 jox_noun(told, calls, "call"), seconds * 1e3,
                 costs->stepping > 0.0 ? 100.0 * seconds / costs->stepping : 0.0);
         for (uint32_t k = first; k < last; k++)
-            print_cost(&items[k], costs->stepping);
+            print_lua_cost(&items[k], costs->stepping);
     }
     if (costs && costs->count == 0)
         fputs("no behaviour has a plain function\n", stderr);

@@ -1,3 +1,5 @@
+/* The command `compare`: runs the scenes among its arguments, measures the recordings, and compares
+   all sides by jo_compare. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,21 +18,21 @@ typedef enum Kind { SCENE, SWEEP, RECORDING, FOLDER } Kind;
 typedef struct Compare {
     JoCompareDef def;
     CliList labels;
-    const char *json, *scene; /* the scene's probes measure recordings */
+    const char *json, *scene; /* scene: its probes measure recordings */
     double confidence, seconds;
     uint64_t seeds, resamples;
     uint32_t jobs;
-    JoxOverlay files; /* of the scene that is run */
+    JoxOverlay files; /* vetted files of the scene that is run */
     bool has_seconds, quiet, trusted;
-    char **sides;   /* files, of scenes those that keep their runs */
-    char **folders; /* of recordings that are runs of one side, or NULL */
+    char **sides;   /* paths: recordings, and files of sweeps */
+    char **folders; /* by side: folder whose recordings form one side, or NULL */
     Kind *kinds;
     char **summaries;
     size_t count, capacity, folder_capacity, kind_capacity;
 } Compare;
 
-static bool read_unit(void *options, const char *text, char why[160]) {
-    return cli_unit(&((Compare *)options)->def.unit, text, why);
+static bool read_compare_unit(void *options, const char *text, char why[160]) {
+    return cli_read_unit(&((Compare *)options)->def.unit, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -66,14 +68,14 @@ static const CliOption OPTIONS[] = {
     {"fps", "N", "of recordings: frames a second, where they do not say", CLI_TO(Compare, def.fps),
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "of recordings: unit of lengths, where they do not say", .kind = CLI_READ,
-     .read = read_unit},
+     .read = read_compare_unit},
     CLI_TRUSTED_OPTION(Compare),
     {"quiet", NULL, "no progress", CLI_TO(Compare, quiet)},
 };
 
-/* ---- what a side is ---- */
+/* ---- finding the sides ---- */
 
-static Kind kind_of(const char *path) {
+static Kind find_side_kind(const char *path) {
     const char *dot = strrchr(path, '.');
     struct stat status;
     if (stat(path, &status) == 0 && S_ISDIR(status.st_mode))
@@ -102,8 +104,8 @@ static bool is_named_as_recording(const char *name) {
     return false;
 }
 
-/* The recordings in a folder are the runs of one side. */
-static int add_folder(Compare *compare, const char *given) {
+/* Adds the recordings of a folder as the runs of one side. */
+static int add_recordings_of_folder(Compare *compare, const char *given) {
     JoxText folder = {0};
     size_t length = strlen(given);
     while (length > 1 && given[length - 1] == '/')
@@ -114,7 +116,7 @@ static int add_folder(Compare *compare, const char *given) {
     for (char **name = names; name && *name; name++) {
         JoxText path = {0};
         jox_text_printf(&path, "%s/%s", folder.data, *name);
-        if (is_named_as_recording(*name) && kind_of(path.data) == RECORDING)
+        if (is_named_as_recording(*name) && find_side_kind(path.data) == RECORDING)
             add_side(compare, RECORDING, path.data, folder.data);
         else
             jox_text_free(&path);
@@ -132,13 +134,14 @@ static int add_folder(Compare *compare, const char *given) {
     return cli_failed(&cli_compare, &error, false);
 }
 
-static bool vet(void *context, const JoSceneDef *scene, JoError *error) {
+static bool vet_compared_scene(void *context, const JoSceneDef *scene, JoError *error) {
     Compare *compare = context;
     return cli_vet(&cli_compare, scene, &compare->files, error) == JO_OK;
 }
 
-/* Runs what of a scene is not there yet, in a file of the folder, whose path is returned. */
-static int run_scene(Compare *compare, const char *given, char **out) {
+/* Runs the missing seeds of a scene, kept in a file of the output folder. Returns an exit status;
+ *out is the file's path, to be freed. */
+static int sweep_scene(Compare *compare, const char *given, char **out) {
     JoSweepDef sweep = jo_default_sweep_def();
     JoSweepCounts counts;
     JoError error = {0};
@@ -154,7 +157,7 @@ static int run_scene(Compare *compare, const char *given, char **out) {
     sweep.out = keeps.data;
     sweep.quiet = compare->quiet;
     sweep.stop = &cli_signal;
-    sweep.vet = compare->trusted ? NULL : vet;
+    sweep.vet = compare->trusted ? NULL : vet_compared_scene;
     sweep.vet_context = compare;
     if (compare->has_seconds)
         sweep.seconds = compare->seconds;
@@ -169,22 +172,22 @@ static int run_scene(Compare *compare, const char *given, char **out) {
     return good ? JO_OK : cli_failed(&cli_compare, &error, false);
 }
 
-/* Scenes are run first, each in files that keep its runs. */
-static int find_sides(Compare *compare, const CliList *plain) {
+/* Adds all sides; runs the scenes among them first. */
+static int add_sides_of_arguments(Compare *compare, const CliList *plain) {
     int status = JO_OK;
     for (size_t s = 0; s < plain->count && status == JO_OK && !cli_signal; s++) {
         const char *given = plain->items[s];
-        const Kind kind = kind_of(given);
+        const Kind kind = find_side_kind(given);
         char *path = NULL;
         if (kind == FOLDER)
-            status = add_folder(compare, given);
+            status = add_recordings_of_folder(compare, given);
         else if (kind != SCENE)
             add_side(compare, kind, jox_strdup(given), NULL);
         else if (!compare->def.out)
             status = cli_misused(&cli_compare, "--out DIR says where the runs of scenes are kept");
         else if (!cli_make_folder(&cli_compare, compare->def.out))
             status = JO_FAILED;
-        else if ((status = run_scene(compare, given, &path)) == JO_OK)
+        else if ((status = sweep_scene(compare, given, &path)) == JO_OK)
             add_side(compare, kind, path, NULL);
         else
             jox_free(path);
@@ -194,8 +197,8 @@ static int find_sides(Compare *compare, const CliList *plain) {
 
 /* ---- the comparison ---- */
 
-static void confine(const Compare *compare) {
-    CliReach reach = {.programs = true}; /* pictures are drawn by gnuplot */
+static void confine_compare(const Compare *compare) {
+    CliReach reach = {.programs = true}; /* gnuplot draws pictures */
     for (size_t s = 0; s < compare->count; s++)
         cli_reach_file(&reach, compare->sides[s]);
     cli_reach_scene(&reach, compare->scene);
@@ -222,7 +225,7 @@ static int measure_recordings(Compare *compare) {
     return JO_OK;
 }
 
-static int compare_sides(Compare *compare) {
+static int print_comparison(Compare *compare) {
     JoError error = {0};
     char *json = NULL;
     compare->def.sides = (const char *const *)compare->sides;
@@ -243,26 +246,26 @@ static int compare_sides(Compare *compare) {
     return status;
 }
 
-static int compare(Compare *c, const CliList *plain) {
+static int compare_arguments(Compare *c, const CliList *plain) {
     cli_limit_work(c->trusted);
     cli_catch_signals(true);
-    int status = find_sides(c, plain);
+    int status = add_sides_of_arguments(c, plain);
     cli_catch_signals(false);
     if (status == JO_OK && !cli_signal) {
-        confine(c);
+        confine_compare(c);
         status = measure_recordings(c);
         if (status == JO_OK)
-            status = compare_sides(c);
+            status = print_comparison(c);
     }
-    return cli_signal ? cli_interrupted(JO_OK) : status;
+    return cli_signal ? cli_add_signal_status(JO_OK) : status;
 }
 
-/* The scene whose probes measure recordings. */
-static bool find_plan(Compare *c) {
+/* Finds the scene whose probes measure recordings. */
+static bool find_measuring_scene(Compare *c) {
     return !c->scene || (c->scene = cli_scene(&cli_compare, c->scene, NULL));
 }
 
-static int run(int argc, char **argv) {
+static int run_compare(int argc, char **argv) {
     Compare c = {.def = jo_default_compare_def(), .confidence = 95, .seeds = 10};
     CliList plain = {0};
     int status = cli_parse(&cli_compare, argc, argv, &c, &plain);
@@ -271,7 +274,7 @@ static int run(int argc, char **argv) {
         c.def.resamples = (uint32_t)c.resamples;
         c.def.labels = (const char *const *)c.labels.items;
         c.def.label_count = c.labels.count;
-        status = find_plan(&c) ? compare(&c, &plain) : JO_INPUT;
+        status = find_measuring_scene(&c) ? compare_arguments(&c, &plain) : JO_INPUT;
     }
     for (size_t s = 0; s < c.count; s++) {
         jox_free(c.sides[s]);
@@ -306,5 +309,5 @@ const CliCommand cli_compare = {
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "side",
     .least = 1,
-    .run = run,
+    .run = run_compare,
 };

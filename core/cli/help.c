@@ -1,4 +1,4 @@
-/* Help of the commands and the manual page, made of their rows. */
+/* Formats the help of commands and the manual page from the rows of their options. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ const CliCommand *const cli_commands[] = {CLI_COMMANDS(X)};
 #undef X
 const size_t cli_command_count = sizeof cli_commands / sizeof *cli_commands;
 
-void cli_wrap(JoxText *out, const char *text, size_t length, int at, int indent) {
+void cli_wrap_text(JoxText *out, const char *text, size_t length, int at, int indent) {
     const char *end = text + length;
     bool first = true;
     while (text < end) {
@@ -33,7 +33,7 @@ void cli_wrap(JoxText *out, const char *text, size_t length, int at, int indent)
     jox_text_append(out, "\n", 1);
 }
 
-/* Paragraphs, a line each; those that begin with a blank stay as they are. */
+/* Appends paragraphs, one a line, wrapped; those that begin with a blank stay as they are. */
 static void add_paragraphs(JoxText *out, const char *text) {
     while (text && *text) {
         size_t n = strcspn(text, "\n");
@@ -41,20 +41,20 @@ static void add_paragraphs(JoxText *out, const char *text) {
             jox_text_append(out, text, n);
             jox_text_append(out, "\n", 1);
         } else {
-            cli_wrap(out, text, n, 0, 0);
+            cli_wrap_text(out, text, n, 0, 0);
         }
         text += n + (text[n] == '\n');
     }
 }
 
-/* "--seed N", "--view[=PORT]" */
-static void add_name(JoxText *out, const CliOption *o) {
+/* Appends "--seed N" or "--view[=PORT]". */
+static void add_option_name(JoxText *out, const CliOption *o) {
     jox_text_printf(out, "--%s", o->name);
     if (o->argument)
         jox_text_printf(out, o->only_equals ? "[=%s]" : " %s", o->argument);
 }
 
-static void add_meaning(JoxText *out, const CliOption *o) {
+static void add_option_meaning(JoxText *out, const CliOption *o) {
     jox_text_add(out, o->help);
     if (o->standard)
         jox_text_printf(out, " (default: %s)", o->standard);
@@ -68,17 +68,17 @@ static void add_option(JoxText *out, const CliOption *o) {
     }
     if (!o->help)
         return;
-    add_name(&name, o);
-    add_meaning(&meaning, o);
+    add_option_name(&name, o);
+    add_option_meaning(&meaning, o);
     jox_text_printf(out, "  %-*s", HELP_COLUMN - 2, name.data);
     if (name.length + 2 >= HELP_COLUMN)
         jox_text_printf(out, "\n%*s", HELP_COLUMN, "");
-    cli_wrap(out, meaning.data, meaning.length, HELP_COLUMN, HELP_COLUMN);
+    cli_wrap_text(out, meaning.data, meaning.length, HELP_COLUMN, HELP_COLUMN);
     jox_text_free(&name);
     jox_text_free(&meaning);
 }
 
-char *cli_help(const CliCommand *command) {
+char *cli_format_help(const CliCommand *command) {
     JoxText out = {0};
     const char *line = command->usage;
     for (bool first = true; first || *line; first = false) {
@@ -104,7 +104,7 @@ char *cli_help(const CliCommand *command) {
 
 /* ---- the manual page ---- */
 
-/* Text as roff prints it. */
+/* Appends text escaped for roff. */
 static void add_roff(JoxText *out, const char *text, size_t length) {
     for (size_t i = 0; i < length; i++) {
         if (i == 0 && (text[i] == '.' || text[i] == '\''))
@@ -143,12 +143,12 @@ static void add_roff_option(JoxText *out, const CliOption *o) {
         add_roff(out, o->name, strlen(o->name));
         jox_text_add(out, "\n");
     } else if (o->help) {
-        add_name(&text, o);
+        add_option_name(&text, o);
         jox_text_add(out, ".TP\n.B ");
         add_roff(out, text.data, text.length);
         jox_text_add(out, "\n");
         text.length = 0;
-        add_meaning(&text, o);
+        add_option_meaning(&text, o);
         add_roff(out, text.data, text.length);
         jox_text_add(out, "\n");
     }
@@ -165,7 +165,7 @@ static void add_synopsis(JoxText *out, const CliCommand *command) {
     }
 }
 
-char *cli_manual(void) {
+char *cli_format_manual(void) {
     JoxText out = {0};
     jox_text_printf(&out,
                     ".\\\" Made by `jostle reference manual`.\n"

@@ -1,5 +1,6 @@
-/* While a scene runs, with threads, files of others are read by children of another process, which
-   was begun before. It keeps the scene as it was vetted last, for its children to read files of. */
+/* The keeper: a process that reads edited files while a scene runs. A process with threads must not
+   fork, so the keeper is forked before they start, and forks the confined children that read files.
+   It keeps the scene as it was vetted last, as edited files are read on top of it. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -18,37 +19,37 @@
 
 struct CliKeeper {
     JoVetter vetter;
-    pthread_mutex_t lock; /* one question at a time */
+    pthread_mutex_t lock; /* one request at a time */
     pid_t process;
     int socket;
 };
 
-/* ---- the other process ---- */
+/* ---- in the keeper's process ---- */
 
 typedef struct Kept {
     int socket;
     const JoSceneDef *def;
-    JoxOverlay files; /* the scene was vetted with these; */
-    JoScene *scene;   /* of them; NULL until it is needed */
+    JoxOverlay files; /* files with which the scene was vetted last */
+    JoScene *scene;   /* loaded dry from these; NULL until needed */
 } Kept;
 
-static void to_nobody(void *context, const char *text) {
+static void ignore_message(void *context, const char *text) {
     (void)context;
     (void)text;
 }
 
-static void load(Kept *kept) {
+static void load_kept_scene(Kept *kept) {
     JoSceneDef def = *kept->def;
     def.threads = 1;
     def.dry = true;
-    def.message = to_nobody;
+    def.message = ignore_message;
     const JoxOverlay *before = jox_overlay_use(&kept->files);
     kept->scene = jo_scene_load(&def, NULL);
     jox_overlay_use(before);
 }
 
-/* What was read, and how that ended. */
-static void answer(const Kept *kept, int end, const CliVetted *what) {
+/* Answers a request: the files that the child read, and how it ended. */
+static void send_answer(const Kept *kept, int end, const CliVetted *what) {
     const JoxText *why = &what->why;
     for (size_t f = 0; end >= 0 && f < what->files->count; f++)
         cli_send(kept->socket, CLI_FILE, what->files->files[f].path, what->files->files[f].text,
@@ -57,17 +58,18 @@ static void answer(const Kept *kept, int end, const CliVetted *what) {
              end >= 0 ? "" : why->data, end >= 0 ? 0 : why->length);
 }
 
-static void end_vetted(CliVetted *what) {
+static void free_vetted(CliVetted *what) {
     jox_overlay_free(what->files);
     jox_text_free(&what->said);
     jox_text_free(&what->why);
 }
 
-static void read_whole(Kept *kept) {
+/* Reads the whole scene in a child; if it loads, its files replace the kept ones. */
+static void read_whole_scene(Kept *kept) {
     JoxOverlay fresh = {0};
     CliVetted what = {.def = kept->def, .stop = kept->socket, .files = &fresh};
     const int end = cli_read_confined(&what);
-    answer(kept, end, &what);
+    send_answer(kept, end, &what);
     if (end == CLI_LOADED) {
         const JoxOverlay before = kept->files;
         kept->files = fresh;
@@ -75,12 +77,12 @@ static void read_whole(Kept *kept) {
         jo_scene_free(kept->scene);
         kept->scene = NULL;
     }
-    end_vetted(&what);
+    free_vetted(&what);
 }
 
-/* `text`: the behaviours' paths, each with a zero byte; `name`: whether the scene was edited, too.
- */
-static void read_edited(Kept *kept, const CliGot *asked) {
+/* Reads edited files in a child. The request's text has the paths of behaviours, each
+   zero-terminated; its name is not empty if the scene's file was edited, too. */
+static void read_edited_files(Kept *kept, const CliReceived *asked) {
     const char *paths[1000];
     JoxOverlay fresh = {0};
     JoVetting edited = {.behaviours = paths, .scene = *asked->name, .stop = -1};
@@ -88,7 +90,7 @@ static void read_edited(Kept *kept, const CliGot *asked) {
          at += strlen(asked->text + at) + 1)
         paths[edited.behaviour_count++] = asked->text + at;
     if (!kept->scene)
-        load(kept);
+        load_kept_scene(kept);
     CliVetted what = {.def = kept->def,
                       .edited = &edited,
                       .scene = kept->scene,
@@ -96,18 +98,18 @@ static void read_edited(Kept *kept, const CliGot *asked) {
                       .files = &fresh};
     if (!kept->scene)
         jox_text_add(&what.why, "the scene as it was cannot be read once more");
-    answer(kept, kept->scene ? cli_read_confined(&what) : -1, &what);
-    end_vetted(&what);
+    send_answer(kept, kept->scene ? cli_read_confined(&what) : -1, &what);
+    free_vetted(&what);
 }
 
-/* Does what it is asked for until nobody asks any more; does not return. */
-static void keep(int socket, const JoSceneDef *def, const JoxOverlay *files) {
+/* Serves requests until the socket is closed; does not return. */
+static void serve_requests(int socket, const JoSceneDef *def, const JoxOverlay *files) {
     Kept kept = {.socket = socket, .def = def, .files = *files};
     JoxRecovery recovery;
-    CliGot asked;
+    CliReceived asked;
     int kind;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    signal(SIGINT, SIG_IGN); /* Ctrl-C is for the other, which ends this one */
+    signal(SIGINT, SIG_IGN); /* Ctrl-C also reaches the parent, which kills the keeper */
     signal(SIGHUP, SIG_IGN);
     signal(SIGTERM, SIG_DFL);
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -119,20 +121,20 @@ static void keep(int socket, const JoSceneDef *def, const JoxOverlay *files) {
         _exit(JO_FAILED);
     for (;;) {
         CliSource source = {.from = socket, .stop = -1};
-        kind = cli_get(&source, &asked);
+        kind = cli_receive(&source, &asked);
         if (kind < 0)
             _exit(JO_OK);
         if (kind == CLI_WHOLE)
-            read_whole(&kept);
+            read_whole_scene(&kept);
         else if (kind == CLI_EDITED)
-            read_edited(&kept, &asked);
-        cli_got_free(&asked); /* CLI_STOP comes too late */
+            read_edited_files(&kept, &asked);
+        cli_free_received(&asked); /* CLI_STOP here is too late, and ignored */
     }
 }
 
-/* ---- this one ---- */
+/* ---- in the parent ---- */
 
-static bool ask(const CliKeeper *keeper, const JoVetting *what) {
+static bool send_vetting_request(const CliKeeper *keeper, const JoVetting *what) {
     JoxText paths = {0};
     for (size_t b = 0; b < what->behaviour_count; b++)
         jox_text_append(&paths, what->behaviours[b], strlen(what->behaviours[b]) + 1);
@@ -143,8 +145,9 @@ static bool ask(const CliKeeper *keeper, const JoVetting *what) {
     return sent;
 }
 
-/* Waits for an answer; false, and it is told so, once it is no longer wanted. */
-static bool is_wanted(const CliKeeper *keeper, const JoVetting *what) {
+/* Waits for an answer. Returns false, after telling the keeper, once the answer is no longer
+   wanted. */
+static bool wait_for_answer(const CliKeeper *keeper, const JoVetting *what) {
     struct pollfd fds[2] = {{.fd = keeper->socket, .events = POLLIN},
                             {.fd = what->stop, .events = POLLIN}};
     while (poll(fds, what->stop >= 0 ? 2 : 1, -1) < 0 && errno == EINTR)
@@ -154,14 +157,14 @@ static bool is_wanted(const CliKeeper *keeper, const JoVetting *what) {
     return true;
 }
 
-/* As JoVetter.vet: what comes is whole, or was given up. */
-static bool hear(const CliKeeper *keeper, JoVetting *what) {
+/* Receives the answer to a request; returns as JoVetter.vet does. */
+static bool receive_answer(const CliKeeper *keeper, JoVetting *what) {
     CliSource source = {.from = keeper->socket, .stop = -1};
     bool wanted = true;
     for (;;) {
-        CliGot got;
-        wanted = wanted && is_wanted(keeper, what);
-        const int kind = cli_get(&source, &got);
+        CliReceived got;
+        wanted = wanted && wait_for_answer(keeper, what);
+        const int kind = cli_receive(&source, &got);
         if (kind == CLI_FILE)
             what->read(what->read_context, got.name, got.text, got.length);
         else if (kind == CLI_ENDED) {
@@ -171,16 +174,17 @@ static bool hear(const CliKeeper *keeper, JoVetting *what) {
             snprintf(what->why, sizeof what->why,
                      "the process that has edited files read is gone; begin the run anew");
         }
-        cli_got_free(&got);
+        cli_free_received(&got);
         if (kind != CLI_FILE)
             return kind == CLI_LOADED || kind == CLI_REFUSED;
     }
 }
 
-static bool vet(void *context, JoVetting *what) {
+static bool ask_keeper(void *context, JoVetting *what) {
     CliKeeper *keeper = context;
     pthread_mutex_lock(&keeper->lock);
-    const bool asked = ask(keeper, what), heard = asked && hear(keeper, what);
+    const bool asked = send_vetting_request(keeper, what),
+               heard = asked && receive_answer(keeper, what);
     pthread_mutex_unlock(&keeper->lock);
     if (!asked)
         snprintf(what->why, sizeof what->why,
@@ -198,7 +202,7 @@ CliKeeper *cli_keeper_begin(const CliCommand *command, const JoSceneDef *def,
     const pid_t process = good ? fork() : -1;
     if (process == 0) {
         close(ends[0]);
-        keep(ends[1], def, files);
+        serve_requests(ends[1], def, files);
     }
     const int why = errno;
     if (good)
@@ -212,7 +216,7 @@ CliKeeper *cli_keeper_begin(const CliCommand *command, const JoSceneDef *def,
         return NULL;
     }
     CliKeeper *keeper = jox_alloc(1, sizeof *keeper);
-    keeper->vetter = (JoVetter){.vet = vet,
+    keeper->vetter = (JoVetter){.vet = ask_keeper,
                                 .context = keeper,
                                 .trust = "With --trusted it would be read by the run itself"};
     pthread_mutex_init(&keeper->lock, NULL);

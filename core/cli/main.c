@@ -1,3 +1,4 @@
+/* The program `jostle`: prints the help, or runs the command that the first argument names. */
 #include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
@@ -20,16 +21,18 @@ static void print_help(FILE *out) {
     cli_list_scenes(out);
 }
 
-/* The status of a command, unless what it printed went nowhere. */
-static int end(int status) {
+/* Returns the status of a command, or JO_FAILED with a message if its output could not be
+   written. */
+static int finish_output(int status) {
     if (cli_flush())
         return status;
     fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(cli_output_errno));
     return status == JO_OK ? JO_FAILED : status;
 }
 
-/* What the commands themselves have no memory for; calls of the library end by their own guards. */
-static int run(const CliCommand *command, int argc, char **argv) {
+/* Runs a command, and ends it with a message if an allocation of its own fails; library calls
+   handle theirs. */
+static int guard_command(const CliCommand *command, int argc, char **argv) {
     JoxRecovery recovery;
     jox_recovery_push(&recovery);
     if (setjmp(recovery.jump) != 0) {
@@ -41,8 +44,8 @@ static int run(const CliCommand *command, int argc, char **argv) {
     return status;
 }
 
-/* Of a word that is no command. */
-static int say_unknown(const char *word) {
+/* Prints that a word is no command, and what may be meant. */
+static int print_unknown_command(const char *word) {
     const char *names[64];
     char hint[JOX_HINT];
     size_t count = 0;
@@ -59,10 +62,10 @@ static int say_unknown(const char *word) {
 }
 
 int main(int argc, char **argv) {
-    /* What commands compute themselves, they compute as the library does. */
+    /* Commands compute with the same floating-point settings and locale as the library. */
     jox_numeric_use(jox_numeric_plain());
-    /* A pipe that was closed, or a file that became too large, is an error of one write, and no end
-       of a run whose other files are good. */
+    /* A closed pipe or a file that is too large is an error of one write; it must not end a run
+       whose other files are good. */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
@@ -72,7 +75,7 @@ int main(int argc, char **argv) {
     const char *word = argv[1];
     if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
         print_help(stdout);
-        return end(JO_OK);
+        return finish_output(JO_OK);
     }
     if (!strcmp(word, "--version")) {
         const JoxConfining can = jox_confine_can();
@@ -80,10 +83,10 @@ int main(int argc, char **argv) {
         printf("scenes are read by a process with %s and %s\n",
                can.files ? "Landlock" : "no Landlock in this kernel",
                can.calls ? "seccomp" : "no seccomp");
-        return end(JO_OK);
+        return finish_output(JO_OK);
     }
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))
-            return end(run(cli_commands[c], argc - 1, argv + 1));
-    return say_unknown(word);
+            return finish_output(guard_command(cli_commands[c], argc - 1, argv + 1));
+    return print_unknown_command(word);
 }

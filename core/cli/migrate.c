@@ -1,3 +1,4 @@
+/* The command `migrate`: rewrites renamed words in scenes and behaviours by jo_migrate. */
 #include <stdio.h>
 
 #include "base/format/noun.h"
@@ -12,7 +13,7 @@ static const CliOption OPTIONS[] = {
     CLI_TRUSTED_OPTION(Migrate),
 };
 
-static int migrate(const CliList *paths, const Migrate *options) {
+static int migrate_paths(const CliList *paths, const Migrate *options) {
     CliReach reach = {CLI_READING};
     for (size_t p = 0; p < paths->count; p++) {
         cli_reach_scene(&reach, paths->items[p]);
@@ -33,12 +34,12 @@ static int migrate(const CliList *paths, const Migrate *options) {
     return errors > 0 ? JO_INPUT : options->check && names > 0 ? JO_FAILED : JO_OK;
 }
 
-static int run(int argc, char **argv) {
+static int run_migrate(int argc, char **argv) {
     Migrate options = {0};
     CliList paths = {0};
     int status = cli_parse(&cli_migrate, argc, argv, &options, &paths);
     if (status == CLI_GO_ON)
-        status = cli_scenes(&cli_migrate, &paths) ? migrate(&paths, &options) : JO_INPUT;
+        status = cli_scenes(&cli_migrate, &paths) ? migrate_paths(&paths, &options) : JO_INPUT;
     cli_free(&cli_migrate, &options, &paths);
     return status;
 }
@@ -59,5 +60,5 @@ const CliCommand cli_migrate = {
     .takes = "path",
     .least = 1,
     .none_said = "no path given",
-    .run = run,
+    .run = run_migrate,
 };

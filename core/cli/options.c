@@ -1,4 +1,5 @@
-/* Reading a command's arguments by its rows. */
+/* Parses a command's arguments by the rows of its options; also messages and exit statuses that
+   commands share. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,12 +9,12 @@
 #include "base/text.h"
 #include "cli/cli.h"
 
-/* Arguments of one call, and how far they are read. */
+/* The arguments of one call, and the next one to be read. */
 typedef struct Reading {
     const CliCommand *command;
     int argc, next;
     char **argv;
-    char *options; /* the command's struct */
+    char *options; /* the struct that CLI_TO refers to */
 } Reading;
 
 int cli_misused(const CliCommand *command, const char *why) {
@@ -36,14 +37,15 @@ int cli_unknown(const CliCommand *command, const char *what, const char *given,
     return cli_misused(command, why);
 }
 
-static int misused(const CliCommand *command, const CliOption *option, const char *why) {
+static int refuse_option(const CliCommand *command, const CliOption *option, const char *why) {
     char text[320];
     snprintf(text, sizeof text, "--%s %s", option->name, why);
     return cli_misused(command, text);
 }
 
-/* CLI_GO_ON, or JO_FAILED with a message where memory is out. */
-static int add(const CliCommand *command, CliList *list, int room, const char *text) {
+/* Appends a text to a list, allocated on first use for `room` texts; JO_FAILED with a message if
+   memory is out. */
+static int append_text(const CliCommand *command, CliList *list, int room, const char *text) {
     if (!list->items)
         list->items = calloc((size_t)room, sizeof *list->items);
     if (!list->items) {
@@ -54,14 +56,14 @@ static int add(const CliCommand *command, CliList *list, int room, const char *t
     return CLI_GO_ON;
 }
 
-static const CliOption *find(const CliCommand *command, const char *name) {
+static const CliOption *find_option(const CliCommand *command, const char *name) {
     for (size_t o = 0; o < command->option_count; o++)
         if (command->options[o].kind != CLI_HEADING && !strcmp(command->options[o].name, name))
             return &command->options[o];
     return NULL;
 }
 
-static int unknown(const CliCommand *command, const char *name) {
+static int refuse_unknown_option(const CliCommand *command, const char *name) {
     const char *names[64];
     char text[200];
     size_t count = 0;
@@ -89,10 +91,10 @@ static int read_double(const Reading *r, const CliOption *o, const char *text) {
     else
         snprintf(why, sizeof why, "takes a number from %g to %g, not '%.60s'", o->least,
                  o->greatest, text);
-    return misused(r->command, o, why);
+    return refuse_option(r->command, o, why);
 }
 
-static int read_whole(const Reading *r, const CliOption *o, const char *text) {
+static int read_whole_number(const Reading *r, const CliOption *o, const char *text) {
     char *end, why[200];
     const bool any = o->least >= o->greatest;
     const uint64_t least = any ? 0 : (uint64_t)o->least;
@@ -105,10 +107,11 @@ static int read_whole(const Reading *r, const CliOption *o, const char *text) {
     if (end == text || *end || strchr(text, '-') || errno || value < least || value > most) {
         snprintf(why, sizeof why, "takes a whole number from %llu to %llu, not '%.60s'",
                  (unsigned long long)least, (unsigned long long)most, text);
-        return misused(r->command, o, why);
+        return refuse_option(r->command, o, why);
     }
     const uint64_t wide = value;
-    const uint32_t narrow = (uint32_t)value; /* an int of these ranges has the same bits */
+    /* also for int: its allowed values have the same bits */
+    const uint32_t narrow = (uint32_t)value;
     if (o->kind == CLI_U64)
         memcpy(r->options + o->at, &wide, sizeof wide);
     else
@@ -116,7 +119,7 @@ static int read_whole(const Reading *r, const CliOption *o, const char *text) {
     return CLI_GO_ON;
 }
 
-static int store(const Reading *r, const CliOption *o, const char *text) {
+static int store_value(const Reading *r, const CliOption *o, const char *text) {
     char why[200];
     bool yes = true;
     switch (o->kind) {
@@ -125,23 +128,23 @@ static int store(const Reading *r, const CliOption *o, const char *text) {
         return CLI_GO_ON;
     case CLI_TEXT:
         if (!*text)
-            return misused(r->command, o, "needs a value, not ''");
+            return refuse_option(r->command, o, "needs a value, not ''");
         if (o->writes && !cli_ending_fits(o, text, why))
-            return misused(r->command, o, why);
+            return refuse_option(r->command, o, why);
         memcpy(r->options + o->at, &text, sizeof text);
         return CLI_GO_ON;
     case CLI_LIST:
-        return add(r->command, (CliList *)(void *)(r->options + o->at), r->argc, text);
+        return append_text(r->command, (CliList *)(void *)(r->options + o->at), r->argc, text);
     case CLI_DOUBLE:
         return read_double(r, o, text);
     case CLI_READ:
-        return o->read(r->options, text, why) ? CLI_GO_ON : misused(r->command, o, why);
+        return o->read(r->options, text, why) ? CLI_GO_ON : refuse_option(r->command, o, why);
     default:
-        return read_whole(r, o, text);
+        return read_whole_number(r, o, text);
     }
 }
 
-/* Reads one option, `word` without its dashes, and the value that follows it. */
+/* Reads one option, `word` without dashes, and the value that follows it. */
 static int read_option(Reading *r, const char *word) {
     char name[64];
     const bool yes = true;
@@ -149,30 +152,30 @@ static int read_option(Reading *r, const char *word) {
     const char *value = equals ? equals + 1 : NULL;
     snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - word) : 63, word);
     if (!strcmp(name, "help") || !strcmp(name, "h")) {
-        char *help = cli_help(r->command);
+        char *help = cli_format_help(r->command);
         fputs(help ? help : "", stdout);
         jo_free(help);
         return JO_OK;
     }
-    const CliOption *o = find(r->command, name);
+    const CliOption *o = find_option(r->command, name);
     if (!o)
-        return unknown(r->command, name);
+        return refuse_unknown_option(r->command, name);
     if (!o->argument && value)
-        return misused(r->command, o, "takes no value");
+        return refuse_option(r->command, o, "takes no value");
     if (o->argument && !o->only_equals && !value && r->next < r->argc)
         value = r->argv[r->next++];
     if (o->argument && !o->only_equals && !value)
-        return misused(r->command, o, "needs a value");
+        return refuse_option(r->command, o, "needs a value");
     if (o->given)
         memcpy(r->options + o->given - 1, &yes, sizeof yes);
-    return value || !o->argument ? store(r, o, value) : CLI_GO_ON;
+    return value || !o->argument ? store_value(r, o, value) : CLI_GO_ON;
 }
 
-static int read_plain(const Reading *r, CliList *plain, const char *text) {
+static int read_plain_argument(const Reading *r, CliList *plain, const char *text) {
     char why[200];
     const CliCommand *command = r->command;
     if (command->takes && (command->most == 0 || plain->count < command->most))
-        return add(command, plain, r->argc, text);
+        return append_text(command, plain, r->argc, text);
     if (command->takes && command->most == 1)
         snprintf(why, sizeof why, "one %s at a time; what is '%.60s'?", command->takes, text);
     else
@@ -188,7 +191,7 @@ int cli_parse(const CliCommand *command, int argc, char **argv, void *options, C
         if (word[0] == '-' && word[1])
             status = read_option(&r, word + (word[1] == '-' ? 2 : 1));
         else
-            status = read_plain(&r, plain, word);
+            status = read_plain_argument(&r, plain, word);
     }
     if (status == CLI_GO_ON && plain->count < command->least) {
         char why[200];
@@ -210,7 +213,7 @@ void cli_free(const CliCommand *command, void *options, CliList *plain) {
     cli_scenes_free();
 }
 
-bool cli_unit(double *metres, const char *text, char why[160]) {
+bool cli_read_unit(double *metres, const char *text, char why[160]) {
     bool known = !strcmp(text, "m") || !strcmp(text, "cm");
     *metres = !strcmp(text, "cm") ? 0.01 : 1.0;
     if (!known)
@@ -218,7 +221,7 @@ bool cli_unit(double *metres, const char *text, char why[160]) {
     return known;
 }
 
-bool cli_isa(JoIsa *isa, const char *text, char why[160]) {
+bool cli_read_isa(JoIsa *isa, const char *text, char why[160]) {
     JoError error;
     bool known = jo_isa_find(text, isa, &error);
     if (!known)
@@ -226,10 +229,11 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]) {
     return known;
 }
 
-int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
-            CliRunFiles *files) {
+int cli_finish_run(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
+                   CliRunFiles *files) {
     JoError ending = {0};
-    const bool ended = jo_scene_finish(scene, &ending); /* what was recorded until then is kept */
+    /* also after an error: what was recorded is kept */
+    const bool ended = jo_scene_finish(scene, &ending);
     if (!ended)
         files->data = NULL;
     if (ok && !ended)
@@ -237,7 +241,7 @@ int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
     return ok && ended ? JO_OK : cli_failed(command, error, false);
 }
 
-bool cli_troubled(const CliCommand *command, const JoScene *scene) {
+bool cli_print_troubles(const CliCommand *command, const JoScene *scene) {
     JoTroubles *troubles = jo_scene_troubles(scene);
     const bool any = troubles && troubles->count > 0;
     for (uint32_t t = 0; any && t < troubles->count; t++)
@@ -249,7 +253,7 @@ bool cli_troubled(const CliCommand *command, const JoScene *scene) {
 void cli_print(void *context, const char *text) {
     fputs(text, context);
     if (context == stdout)
-        cli_flush(); /* main says where that fails */
+        cli_flush(); /* main reports a failure */
     else
         fflush(context);
 }

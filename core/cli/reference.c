@@ -1,3 +1,4 @@
+/* The command `reference`: prints reference pages, the schemas and the manual page. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,15 +17,15 @@ static const char *const PAGES[] = {"behaviours", "scenes",       "lua-ls",     
                                     "inputs",     "scene-schema", "mod-schema", "manual"};
 enum { PAGE_COUNT = sizeof PAGES / sizeof *PAGES };
 
-static bool is_page(const char *what) {
+static bool is_page_name(const char *what) {
     for (size_t p = 0; p < PAGE_COUNT; p++)
         if (!strcmp(PAGES[p], what))
             return true;
     return false;
 }
 
-/* Of mods; other pages read no file. */
-static char *mods_page(Reference *options, const char *scene) {
+/* Makes the page of mods, the only one that reads files, which is confined first. */
+static char *make_mods_page(Reference *options, const char *scene) {
     options->def.path = scene;
     options->def.mods = options->mods.items;
     options->def.mod_count = options->mods.count;
@@ -34,12 +35,12 @@ static char *mods_page(Reference *options, const char *scene) {
     return jo_mods_reference(&options->def);
 }
 
-static int print_reference(Reference *options, const char *what, const char *scene) {
-    char *text = !strcmp(what, "manual") ? cli_manual()
-                 : !strcmp(what, "mods") ? mods_page(options, scene)
+static int print_page(Reference *options, const char *what, const char *scene) {
+    char *text = !strcmp(what, "manual") ? cli_format_manual()
+                 : !strcmp(what, "mods") ? make_mods_page(options, scene)
                                          : jo_reference(what);
     JoError error;
-    if (!text && is_page(what)) {
+    if (!text && is_page_name(what)) {
         jox_memory_error(&error);
         return cli_failed(&cli_reference, &error, false);
     }
@@ -50,7 +51,7 @@ static int print_reference(Reference *options, const char *what, const char *sce
     return JO_OK;
 }
 
-static int run(int argc, char **argv) {
+static int run_reference(int argc, char **argv) {
     Reference options = {.def = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_reference, argc, argv, &options, &plain);
@@ -61,7 +62,7 @@ static int run(int argc, char **argv) {
         status = given && !scene ? JO_INPUT
                  : strcmp(what, "mods") != 0 && (scene || options.mods.count)
                      ? cli_misused(&cli_reference, "a scene and --mod go with 'mods' alone")
-                     : print_reference(&options, what, scene);
+                     : print_page(&options, what, scene);
     }
     cli_free(&cli_reference, &options, &plain);
     return status;
@@ -88,5 +89,5 @@ const CliCommand cli_reference = {
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "page",
     .most = 2,
-    .run = run,
+    .run = run_reference,
 };

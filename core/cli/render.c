@@ -1,3 +1,4 @@
+/* The command `render`: draws a scene or a recording by jo_render. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +15,10 @@ typedef struct Wanted {
     CliList sets, mods;
     double area[4];
     const char *path;
-    bool quiet, trusted, from, until, fps, of_scene, of_recording; /* options that were given */
+    bool quiet, trusted, from, until, fps, of_scene, of_recording; /* which options are given */
 } Wanted;
 
-/* "1280x720" */
+/* Reads "1280x720" into the size of the picture. */
 static bool read_size(void *options, const char *text, char why[160]) {
     Wanted *w = options;
     char rest;
@@ -34,7 +35,7 @@ static bool read_size(void *options, const char *text, char why[160]) {
     return true;
 }
 
-/* "0,0,10,5" */
+/* Reads "0,0,10,5" into the area that is shown, m. */
 static bool read_area(void *options, const char *text, char why[160]) {
     Wanted *w = options;
     const char *at = text;
@@ -52,8 +53,8 @@ static bool read_area(void *options, const char *text, char why[160]) {
     return good;
 }
 
-static bool read_unit(void *options, const char *text, char why[160]) {
-    return cli_unit(&((Wanted *)options)->def.unit, text, why);
+static bool read_render_unit(void *options, const char *text, char why[160]) {
+    return cli_read_unit(&((Wanted *)options)->def.unit, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -94,16 +95,17 @@ static const CliOption OPTIONS[] = {
     {"recorded-fps", "N", "frames a second, where the recording does not say",
      CLI_TO(Wanted, def.recorded_fps), CLI_GIVEN(Wanted, of_recording), CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
-     .read = read_unit, CLI_GIVEN(Wanted, of_recording)},
+     .read = read_render_unit, CLI_GIVEN(Wanted, of_recording)},
 };
 
-static bool ends(const char *text, const char *end) {
+static bool has_text_ending(const char *text, const char *end) {
     size_t n = strlen(text), m = strlen(end);
     return n > m && strcmp(text + n - m, end) == 0;
 }
 
-/* NAME.png, or NAME-frames, in the present folder. */
-static void usual_out(const Wanted *w, char out[512]) {
+/* Makes the default output, NAME.png or NAME-frames in the present folder; NAME.svg if the program
+   draws no images. */
+static void make_default_output(const Wanted *w, char out[512]) {
     const char *name = jox_path_name(w->path);
     const char *dot = strrchr(name, '.');
     int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
@@ -113,8 +115,8 @@ static void usual_out(const Wanted *w, char out[512]) {
                                            : ".svg");
 }
 
-/* What of the options does not go together; NULL: nothing. */
-static const char *misuse(const Wanted *w, bool scene) {
+/* Returns which options exclude each other; NULL: none. */
+static const char *find_render_misuse(const Wanted *w, bool scene) {
     const bool of_scene = w->of_scene || w->scene.has_seed || w->scene.has_dt;
     const bool of_recording = w->of_recording || w->def.plan;
     return scene && of_recording
@@ -127,8 +129,8 @@ static const char *misuse(const Wanted *w, bool scene) {
                : NULL;
 }
 
-/* Gives up all that is not needed to draw into the folder of the output. */
-static void confine(const Wanted *w, bool scene) {
+/* Confines the process to what drawing into the output's folder needs. */
+static void confine_render(const Wanted *w, bool scene) {
     CliReach reach = {.programs = true};
     if (scene)
         cli_reach_def(&reach, &w->scene);
@@ -139,14 +141,14 @@ static void confine(const Wanted *w, bool scene) {
     cli_confine_work(&reach, w->trusted);
 }
 
-static int draw(Wanted *w) {
+static int render_crowd(Wanted *w) {
     JoError error = {0};
     char out[512];
-    const bool scene = ends(w->path, ".yaml") || ends(w->path, ".yml");
-    const char *why = misuse(w, scene);
+    const bool scene = has_text_ending(w->path, ".yaml") || has_text_ending(w->path, ".yml");
+    const char *why = find_render_misuse(w, scene);
     if (why)
         return cli_misused(&cli_render, why);
-    usual_out(w, out);
+    make_default_output(w, out);
     if (!w->def.out)
         w->def.out = out;
     w->def.progress = !w->quiet;
@@ -159,23 +161,23 @@ static int draw(Wanted *w) {
         w->def.scene = &w->scene;
     else
         w->def.recording = w->path;
-    confine(w, scene);
+    confine_render(w, scene);
     if (jo_render(&w->def, &error))
-        return JO_OK; /* an error with a file's name was sent as a message */
+        return JO_OK;
     return cli_failed(&cli_render, &error, *error.file != 0);
 }
 
-static bool find_plan(Wanted *w) {
+static bool find_plan_scene(Wanted *w) {
     return !w->def.plan || (w->def.plan = cli_scene(&cli_render, w->def.plan, NULL));
 }
 
-static int run(int argc, char **argv) {
+static int run_render(int argc, char **argv) {
     Wanted wanted = {.def = jo_default_render_def(), .scene = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_render, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
         wanted.path = cli_scene(&cli_render, plain.items[0], &wanted.mods);
-        status = wanted.path && find_plan(&wanted) ? draw(&wanted) : JO_INPUT;
+        status = wanted.path && find_plan_scene(&wanted) ? render_crowd(&wanted) : JO_INPUT;
     }
     cli_free(&cli_render, &wanted, &plain);
     return status;
@@ -200,5 +202,5 @@ const CliCommand cli_render = {
     .least = 1,
     .most = 1,
     .none_said = "no scene and no recording given",
-    .run = run,
+    .run = run_render,
 };

@@ -1,3 +1,4 @@
+/* The command `report`: measures a recording by jo_report, or writes the page of a sweep's runs. */
 #include "cli/cli.h"
 
 typedef struct Wanted {
@@ -6,8 +7,8 @@ typedef struct Wanted {
     bool trusted;
 } Wanted;
 
-static bool read_unit(void *options, const char *text, char why[160]) {
-    return cli_unit(&((Wanted *)options)->def.unit, text, why);
+static bool read_report_unit(void *options, const char *text, char why[160]) {
+    return cli_read_unit(&((Wanted *)options)->def.unit, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -24,11 +25,11 @@ static const CliOption OPTIONS[] = {
     {"fps", "N", "frames a second, where the recording does not say", CLI_TO(Wanted, def.fps),
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
-     .read = read_unit},
+     .read = read_report_unit},
     CLI_TRUSTED_OPTION(Wanted),
 };
 
-static void confine(const Wanted *wanted) {
+static void confine_report(const Wanted *wanted) {
     CliReach reach = {.programs = true};
     cli_reach_file(&reach, wanted->def.recording);
     cli_reach_scene(&reach, wanted->def.scene);
@@ -37,39 +38,40 @@ static void confine(const Wanted *wanted) {
     cli_confine_work(&reach, wanted->trusted);
 }
 
-static int measure(const Wanted *wanted) {
+static int report_recording(const Wanted *wanted) {
     JoError error = {0};
     if (!wanted->def.directory && !wanted->summary)
         return cli_misused(&cli_report, "nothing is asked for: give --out DIR, or --summary FILE");
     const char *inputs[] = {wanted->def.recording, wanted->def.scene};
-    if (cli_apart(&cli_report, &wanted->summary, 1, inputs, 2, NULL) != JO_OK)
+    if (cli_check_apart(&cli_report, &wanted->summary, 1, inputs, 2, NULL) != JO_OK)
         return JO_USAGE;
-    confine(wanted);
+    confine_report(wanted);
     if (cli_is_sweep(wanted->def.recording)) {
         if (wanted->summary || wanted->def.scene || !wanted->def.directory)
             return cli_misused(&cli_report, "the runs of a sweep go with --out DIR alone");
-        return cli_runs_page(&cli_report, wanted->def.recording, wanted->def.directory, false);
+        return cli_write_runs_page(&cli_report, wanted->def.recording, wanted->def.directory,
+                                   false);
     }
     char *summary = jo_report(&wanted->def, &error);
-    if (!summary) /* what is wrong with a file was sent as a message */
+    if (!summary) /* faults of files were sent as messages */
         return cli_failed(&cli_report, &error, error.code != JO_FAILED);
     int status = wanted->summary ? cli_write(&cli_report, wanted->summary, summary) : JO_OK;
     jo_free(summary);
     return status;
 }
 
-static bool find_inputs(Wanted *w) {
-    return cli_recording(&cli_report, w->def.recording) &&
+static bool find_report_inputs(Wanted *w) {
+    return cli_check_recording(&cli_report, w->def.recording) &&
            (!w->def.scene || (w->def.scene = cli_scene(&cli_report, w->def.scene, NULL)));
 }
 
-static int run(int argc, char **argv) {
+static int run_report(int argc, char **argv) {
     Wanted wanted = {.def = jo_default_report_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_report, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
         wanted.def.recording = plain.items[0];
-        status = find_inputs(&wanted) ? measure(&wanted) : JO_INPUT;
+        status = find_report_inputs(&wanted) ? report_recording(&wanted) : JO_INPUT;
     }
     cli_free(&cli_report, &wanted, &plain);
     return status;
@@ -90,5 +92,5 @@ const CliCommand cli_report = {
     .takes = "recording",
     .least = 1,
     .most = 1,
-    .run = run,
+    .run = run_report,
 };

@@ -1,5 +1,5 @@
-/* The page of a run's report, with the same run at half the step beside it; and that of runs with
-   many seeds, which a sweep's file keeps. */
+/* Writes the page of a run's report, after the same run at half the time step, and the page of runs
+   with many seeds from a sweep's file. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 
 static const double LEAST_DT = 0.001; /* s */
 
-static JoScene *load_half(const CliReportPage *page, JoError *error) {
+static JoScene *load_half_step(const CliReportPage *page, JoError *error) {
     const bool vetted = page->files && page->files->sealed;
     const JoxOverlay *before = vetted ? jox_overlay_use(page->files) : NULL;
     JoScene *half = jo_scene_half_step(page->def, page->scene, error);
@@ -21,8 +21,8 @@ static JoScene *load_half(const CliReportPage *page, JoError *error) {
     return half;
 }
 
-/* All its steps; false where it was interrupted, or with `error`. */
-static bool run_half(const CliReportPage *page, JoScene *half, JoError *error) {
+/* Steps the run at half the time step to its end; false if interrupted, or with `error`. */
+static bool run_half_step(const CliReportPage *page, JoScene *half, JoError *error) {
     const double dt = jo_scene_stats(half).dt;
     bool ok = true;
     if (!page->quiet) {
@@ -34,16 +34,16 @@ static bool run_half(const CliReportPage *page, JoScene *half, JoError *error) {
     return ok && !cli_signal && jo_scene_finish(half, error);
 }
 
-int cli_report_page(const CliCommand *command, const CliReportPage *page) {
+int cli_write_report_page(const CliCommand *command, const CliReportPage *page) {
     JoError error = {0}, written = {0};
     const char *why = cli_signal                                      ? "the run was interrupted"
                       : page->no_half                                 ? "--no-half-step was given"
                       : jo_scene_stats(page->scene).dt / 2 < LEAST_DT ? "it would be below 0.001 s"
                                                                       : NULL;
-    JoScene *half = why ? NULL : load_half(page, &error);
+    JoScene *half = why ? NULL : load_half_step(page, &error);
     if (!why && !half)
         why = error.text;
-    if (half && !run_half(page, half, &error)) {
+    if (half && !run_half_step(page, half, &error)) {
         why = cli_signal ? "it was interrupted" : error.text;
         jo_scene_free(half);
         half = NULL;
@@ -56,9 +56,9 @@ int cli_report_page(const CliCommand *command, const CliReportPage *page) {
 /* ---- runs with many seeds ---- */
 
 bool cli_is_sweep(const char *path) {
-    enum { AT = 68 }; /* of the number of who wrote an SQLite file */
+    enum { AT = 68 }; /* offset of the application id in an SQLite file */
     unsigned char head[AT + 4] = {0};
-    FILE *file = jox_file_open(path, "rb"); /* no pipe, which would be waited for */
+    FILE *file = jox_file_open(path, "rb"); /* refuses pipes, which would block */
     const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
     if (file)
         jox_file_close(file);
@@ -86,7 +86,8 @@ bool cli_make_folder(const CliCommand *command, const char *path) {
     return good;
 }
 
-int cli_runs_page(const CliCommand *command, const char *runs, const char *folder, bool quiet) {
+int cli_write_runs_page(const CliCommand *command, const char *runs, const char *folder,
+                        bool quiet) {
     JoCompareDef def = jo_default_compare_def();
     JoError error = {0};
     def.sides = &runs;

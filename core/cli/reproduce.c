@@ -1,3 +1,4 @@
+/* The command `reproduce`: checks the claims by jo_reproduce. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -34,8 +35,9 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Reproduce, trusted)},
 };
 
-/* Claims lie in a folder within that of the scenes. What is run reads its scene as any run does. */
-static void confine(const JoReproduceDef *def, bool trusted) {
+/* Confines the process. The folder of claims lies in that of the scenes. The runs, in processes of
+   their own, read scenes as `jostle run` does. */
+static void confine_reproduce(const JoReproduceDef *def, bool trusted) {
     static const char *const SAYS_WHERE[] = {".git", "/proc/cpuinfo", "/proc/stat"};
     CliReach reach = {.programs = true, .program = def->program};
     JoxText scenes = {0};
@@ -49,7 +51,7 @@ static void confine(const JoReproduceDef *def, bool trusted) {
     jox_text_free(&scenes);
 }
 
-static int reproduce(JoReproduceDef *def, bool trusted) {
+static int check_claims(JoReproduceDef *def, bool trusted) {
     char program[1024];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     JoError error = {0};
@@ -58,15 +60,15 @@ static int reproduce(JoReproduceDef *def, bool trusted) {
     def->program = program;
     def->stop = &cli_signal;
     cli_catch_signals(true);
-    confine(def, trusted);
-    if (!jo_reproduce(def, &missed, &error)) { /* what is wrong with a file was sent as a message */
+    confine_reproduce(def, trusted);
+    if (!jo_reproduce(def, &missed, &error)) { /* faults of files were sent as messages */
         const int status = cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
-        return cli_signal ? cli_interrupted(JO_OK) : status;
+        return cli_signal ? cli_add_signal_status(JO_OK) : status;
     }
     return missed ? JO_FAILED : JO_OK;
 }
 
-static int run(int argc, char **argv) {
+static int run_reproduce(int argc, char **argv) {
     Reproduce run = {.def = jo_default_reproduce_def()};
     CliList claims = {0};
     int status = cli_parse(&cli_reproduce, argc, argv, &run, &claims);
@@ -75,7 +77,7 @@ static int run(int argc, char **argv) {
         run.def.claim_count = claims.count;
         run.def.sets = run.sets.items;
         run.def.set_count = run.sets.count;
-        status = reproduce(&run.def, run.trusted);
+        status = check_claims(&run.def, run.trusted);
     }
     cli_free(&cli_reproduce, &run, &claims);
     return status;
@@ -94,5 +96,5 @@ const CliCommand cli_reproduce = {
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "claim",
-    .run = run,
+    .run = run_reproduce,
 };

@@ -1,4 +1,4 @@
-/* jostle resume: a run goes on from its newest checkpoint, in the same files. */
+/* The command `resume`: continues a run from its newest checkpoint, in the same files. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,8 +17,8 @@ typedef struct Resume {
     bool has_seconds, quiet, trusted;
 } Resume;
 
-static bool read_isa(void *options, const char *text, char why[160]) {
-    return cli_isa(&((Resume *)options)->def.isa, text, why);
+static bool read_resume_isa(void *options, const char *text, char why[160]) {
+    return cli_read_isa(&((Resume *)options)->def.isa, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -26,7 +26,7 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Resume, seconds), CLI_GIVEN(Resume, has_seconds), CLI_RANGE(0, 1e7)},
     {"threads", "N", "threads; never changes a result", "all processors",
      CLI_TO(Resume, def.threads), CLI_RANGE(1, 64)},
-    CLI_ISA_OPTION(read_isa),
+    CLI_ISA_OPTION(read_resume_isa),
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
      CLI_TO(Resume, summary), .writes = "json txt"},
     {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
@@ -38,9 +38,10 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Resume, trusted)},
 };
 
-/* Recording, log and checkpoints lie where the checkpoint says: a stranger's may say anything. */
-static void confine(const Resume *resume, const char *path) {
-    CliReach reach = {.programs = true}; /* a report's pictures are drawn by gnuplot */
+/* Confines the process to the surroundings of the checkpoint. The checkpoint names the paths of
+   recording, log and checkpoints, and one of unknown origin may name anything. */
+static void confine_resume(const Resume *resume, const char *path) {
+    CliReach reach = {.programs = true}; /* gnuplot draws a report's pictures */
     JoxText above = {0};
     struct stat info;
     const bool folder = stat(path, &info) == 0 && S_ISDIR(info.st_mode);
@@ -56,8 +57,9 @@ static void confine(const Resume *resume, const char *path) {
     jox_text_free(&above);
 }
 
-/* The value of a line "key value" of the note, to be freed; NULL where there is none. */
-static char *take(const char *note, const char *key) {
+/* Returns the value of a line "key value" of the checkpoint's note, to be freed; NULL if there is
+   none. */
+static char *find_note_value(const char *note, const char *key) {
     const size_t n = strlen(key);
     for (const char *line = note; line && *line;) {
         const char *end = strchr(line, '\n');
@@ -68,12 +70,14 @@ static char *take(const char *note, const char *key) {
     return NULL;
 }
 
-static int go_on(const Resume *resume, JoScene *scene, const char *note) {
+/* Continues the run to its end, in the files that the note names; returns an exit status. */
+static int continue_run(const Resume *resume, JoScene *scene, const char *note) {
     JoError error = {0};
-    char *record = take(note, "record"), *log = take(note, "log"), *steps = take(note, "steps");
-    char *every = take(note, "every"), *folder = take(note, "folder");
-    char *report = take(note, "report"), *data = take(note, "data");
-    char *no_half = take(note, "no-half");
+    char *record = find_note_value(note, "record"), *log = find_note_value(note, "log"),
+         *steps = find_note_value(note, "steps");
+    char *every = find_note_value(note, "every"), *folder = find_note_value(note, "folder");
+    char *report = find_note_value(note, "report"), *data = find_note_value(note, "data");
+    char *no_half = find_note_value(note, "no-half");
     const double dt = jo_scene_stats(scene).dt;
     const uint64_t until = resume->has_seconds ? (uint64_t)(resume->seconds / dt + 0.5)
                            : steps             ? strtoull(steps, NULL, 10)
@@ -93,14 +97,14 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
     }
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
         ok = jo_scene_step(scene, &error);
-    int status = cli_end(&cli_resume, scene, ok, &error, &files);
+    int status = cli_finish_run(&cli_resume, scene, ok, &error, &files);
     if (status == JO_OK && report) {
-        status = cli_report_page(&cli_resume, &(CliReportPage){.folder = report,
-                                                               .def = &resume->def,
-                                                               .scene = scene,
-                                                               .steps = until,
-                                                               .no_half = no_half != NULL,
-                                                               .quiet = resume->quiet});
+        status = cli_write_report_page(&cli_resume, &(CliReportPage){.folder = report,
+                                                                     .def = &resume->def,
+                                                                     .scene = scene,
+                                                                     .steps = until,
+                                                                     .no_half = no_half != NULL,
+                                                                     .quiet = resume->quiet});
         files.report = status == JO_OK ? report : NULL;
     }
     if (!begun && !resume->trusted)
@@ -114,38 +118,38 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
         status = status ? status : written;
     }
     jo_free(summary);
-    if (cli_troubled(&cli_resume, scene) && status == JO_OK)
+    if (cli_print_troubles(&cli_resume, scene) && status == JO_OK)
         status = JO_FAILED;
     if (begun && !resume->quiet)
-        cli_closing(scene, &files);
+        cli_print_closing(scene, &files);
     char *const taken[] = {record, log, steps, every, folder, report, data, no_half};
     for (size_t t = 0; t < sizeof taken / sizeof *taken; t++)
         jox_free(taken[t]);
     return status;
 }
 
-static int resume_file(Resume *resume, const char *path) {
+static int resume_checkpoint(Resume *resume, const char *path) {
     JoError error = {0};
     char *note = NULL;
-    if (resume->summary && cli_writable(&cli_resume, resume->summary) != JO_OK)
+    if (resume->summary && cli_check_writable(&cli_resume, resume->summary) != JO_OK)
         return JO_FAILED;
     cli_catch_signals(false);
-    confine(resume, path);
+    confine_resume(resume, path);
     JoScene *scene = jo_scene_resume(&resume->def, path, &note, &error);
     if (!scene)
         return cli_failed(&cli_resume, &error, false);
-    int status = go_on(resume, scene, note);
+    int status = continue_run(resume, scene, note);
     jo_free(note);
     jo_scene_free(scene);
-    return cli_interrupted(status);
+    return cli_add_signal_status(status);
 }
 
-static int run(int argc, char **argv) {
+static int run_resume(int argc, char **argv) {
     Resume resume = {.def = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_resume, argc, argv, &resume, &plain);
     if (status == CLI_GO_ON)
-        status = resume_file(&resume, plain.items[0]);
+        status = resume_checkpoint(&resume, plain.items[0]);
     cli_free(&cli_resume, &resume, &plain);
     return status;
 }
@@ -166,5 +170,5 @@ const CliCommand cli_resume = {
     .takes = "checkpoint",
     .least = 1,
     .most = 1,
-    .run = run,
+    .run = run_resume,
 };

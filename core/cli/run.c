@@ -1,3 +1,5 @@
+/* The command `run`: simulates a scene once, with several seeds, or on the live page, and writes
+   the outputs. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,22 +11,22 @@
 
 typedef struct Run {
     JoSceneDef def;
-    JoViewDef live; /* of the page */
+    JoViewDef live; /* settings of the live page */
     CliList sets, mods;
     const char *record, *report, *data, *summary, *log;
-    const char *folder; /* for checkpoints */
+    const char *folder; /* folder of checkpoints */
     double seconds, every, record_every;
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, has_wait, watch, no_watch, has_trace, quiet,
         profile;
     bool no_half, trusted;
-    JoxOverlay files;  /* what was vetted */
-    CliKeeper *keeper; /* has edited files vetted; or NULL */
-    bool troubled;     /* it went on to its end, but not as it was written */
+    JoxOverlay files;  /* files that were vetted */
+    CliKeeper *keeper; /* vets edited files; or NULL */
+    bool troubled;     /* the run reached its end, but not as it was written */
 } Run;
 
-static bool read_isa(void *options, const char *text, char why[160]) {
-    return cli_isa(&((Run *)options)->def.isa, text, why);
+static bool read_run_isa(void *options, const char *text, char why[160]) {
+    return cli_read_isa(&((Run *)options)->def.isa, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -38,7 +40,7 @@ static const CliOption OPTIONS[] = {
      "or "
      "as a list, what is no statistic of a run: the seed, the step, coordinates",
      CLI_TO(Run, seeds), CLI_RANGE(1, 1000)},
-    CLI_ISA_OPTION(read_isa),
+    CLI_ISA_OPTION(read_run_isa),
     {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log),
      .writes = "log txt"},
     {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record),
@@ -109,13 +111,13 @@ static const CliOption OPTIONS[] = {
     {"three", "DIR", "folder of three.js", CLI_TO(Run, live.three)},
 };
 
-/* Prints what went wrong unless the library has already sent it as a message. */
-static int complain(const JoError *error, bool already) {
+/* Prints an error, unless the library already sent it as a message; returns the exit status. */
+static int print_run_error(const JoError *error, bool already) {
     return cli_failed(&cli_run, error, already);
 }
 
-/* As jo_scene_load, from the files that were vetted. */
-static JoScene *load(const Run *run, JoError *error) {
+/* Loads the scene from the files that were vetted. */
+static JoScene *load_vetted_scene(const Run *run, JoError *error) {
     const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
     JoScene *scene = jo_scene_load(&run->def, error);
     if (run->files.sealed)
@@ -125,13 +127,13 @@ static JoScene *load(const Run *run, JoError *error) {
 
 enum { LONGEST_NOTED = 4096 };
 
-/* Whether a checkpoint's note, of a line for each path, can hold it. */
-static bool is_noted(const char *path) {
+/* Returns whether a path fits into a line of a checkpoint's note. */
+static bool fits_into_note(const char *path) {
     return !path || (!strpbrk(path, "\n\r") && strlen(path) <= LONGEST_NOTED);
 }
 
-/* From here on. The note is what `jostle resume` needs besides the scene. */
-static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
+/* Starts writing checkpoints. Their note holds what `jostle resume` needs besides the scene. */
+static bool start_checkpoints(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
     const struct {
         const char *key, *value;
     } texts[] = {{"record", run->record},
@@ -149,20 +151,20 @@ static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, Jo
     return jo_scene_checkpoint(scene, run->folder, run->every, note, error);
 }
 
-/* Steps that it is to take. */
-static uint64_t last_step(const Run *run, const JoScene *scene) {
+/* Returns the number of steps of the run. */
+static uint64_t count_run_steps(const Run *run, const JoScene *scene) {
     const double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
     return run->has_steps ? run->steps : (uint64_t)(seconds / jo_scene_stats(scene).dt + 0.5);
 }
 
-/* Whether the summary can be written at the end; says why not. */
-static bool can_summarize(const Run *run) {
-    return !run->summary || cli_writable(&cli_run, run->summary) == JO_OK;
+/* Checks that the summary can be written at the end; false with a message. */
+static bool check_summary_path(const Run *run) {
+    return !run->summary || cli_check_writable(&cli_run, run->summary) == JO_OK;
 }
 
-/* Begins what is written while it runs; `files` are those that could be. */
-static bool begin_files(const Run *run, JoScene *scene, uint64_t steps, CliRunFiles *files,
-                        JoError *error) {
+/* Opens the files that are written during the run; `files` lists those that could be opened. */
+static bool open_run_files(const Run *run, JoScene *scene, uint64_t steps, CliRunFiles *files,
+                           JoError *error) {
     const bool begun =
         (!run->record || (jo_scene_record(scene, run->record, run->record_every, error) &&
                           (files->record = run->record))) &&
@@ -173,19 +175,20 @@ static bool begin_files(const Run *run, JoScene *scene, uint64_t steps, CliRunFi
     if (!begun || !run->folder)
         return begun;
     files->checkpoints = run->folder;
-    return write_checkpoints(run, scene, steps, error);
+    return start_checkpoints(run, scene, steps, error);
 }
 
-/* The page and the summary of a run that ended with a status; returns that of all. */
-static int write_results(Run *run, JoScene *scene, uint64_t steps, int status, CliRunFiles *files) {
+/* Writes page and summary of a run that ended with `status`; returns the exit status. */
+static int write_page_and_summary(Run *run, JoScene *scene, uint64_t steps, int status,
+                                  CliRunFiles *files) {
     if (status == JO_OK && run->report) {
-        status = cli_report_page(&cli_run, &(CliReportPage){.folder = run->report,
-                                                            .def = &run->def,
-                                                            .files = &run->files,
-                                                            .scene = scene,
-                                                            .steps = steps,
-                                                            .no_half = run->no_half,
-                                                            .quiet = run->quiet});
+        status = cli_write_report_page(&cli_run, &(CliReportPage){.folder = run->report,
+                                                                  .def = &run->def,
+                                                                  .files = &run->files,
+                                                                  .scene = scene,
+                                                                  .steps = steps,
+                                                                  .no_half = run->no_half,
+                                                                  .quiet = run->quiet});
         files->report = status == JO_OK ? run->report : NULL;
     }
     char *summary = run->summary ? jo_scene_summary(scene) : NULL;
@@ -198,19 +201,19 @@ static int write_results(Run *run, JoScene *scene, uint64_t steps, int status, C
     return status;
 }
 
-/* Loads and simulates once. */
-static int simulate(Run *run) {
+/* Loads the scene and simulates it once; returns an exit status. */
+static int run_once(Run *run) {
     JoError error = {0};
     CliRunFiles files = {0};
-    JoScene *scene = load(run, &error);
+    JoScene *scene = load_vetted_scene(run, &error);
     if (!scene)
-        return complain(&error, true);
+        return print_run_error(&error, true);
     cli_catch_signals(true);
-    const uint64_t steps = last_step(run, scene);
+    const uint64_t steps = count_run_steps(run, scene);
     jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
-    bool ok = begin_files(run, scene, steps, &files, &error);
+    bool ok = open_run_files(run, scene, steps, &files, &error);
     const bool begun = ok;
-    if (ok && !can_summarize(run)) { /* in a folder that a report has made, too */
+    if (ok && !check_summary_path(run)) { /* checked only now: a report may have made its folder */
         jo_scene_free(scene);
         return JO_FAILED;
     }
@@ -220,26 +223,26 @@ static int simulate(Run *run) {
         jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
     for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
         ok = jo_scene_step(scene, &error);
-    int status = cli_end(&cli_run, scene, ok, &error, &files);
+    int status = cli_finish_run(&cli_run, scene, ok, &error, &files);
     if (begun)
-        status = write_results(run, scene, steps, status, &files);
-    run->troubled |= cli_troubled(&cli_run, scene);
+        status = write_page_and_summary(run, scene, steps, status, &files);
+    run->troubled |= cli_print_troubles(&cli_run, scene);
     if (!run->quiet && begun)
-        cli_closing(scene, &files);
+        cli_print_closing(scene, &files);
     if (run->profile)
-        cli_profile(scene);
+        cli_print_lua_costs(scene);
     jo_scene_free(scene);
     return status;
 }
 
-/* A page's run, at its beginning and at each restart. */
-static bool begun(void *context, JoScene *scene, JoError *error) {
+/* Called when a run on the live page begins, and at each restart. */
+static bool begin_page_run(void *context, JoScene *scene, JoError *error) {
     const Run *run = context;
-    return !run->folder || write_checkpoints(run, scene, last_step(run, scene), error);
+    return !run->folder || start_checkpoints(run, scene, count_run_steps(run, scene), error);
 }
 
-/* On its live page, until it is interrupted. */
-static int show(Run *run, char **summary) {
+/* Runs the scene on the live page until a signal ends it; returns an exit status. */
+static int run_on_page(Run *run, char **summary) {
     JoViewDef *live = &run->live;
     JoError error = {0};
     live->scene = run->def;
@@ -250,7 +253,7 @@ static int show(Run *run, char **summary) {
     live->log_input = run->log;
     live->stop = &cli_signal;
     live->opened = cli_print_address;
-    live->begun = begun;
+    live->begun = begin_page_run;
     live->begun_context = run;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
@@ -260,11 +263,12 @@ static int show(Run *run, char **summary) {
         jox_overlay_use(before);
     if (shown)
         return JO_OK;
-    return complain(&error, error.code == JO_INPUT);
+    return print_run_error(&error, error.code == JO_INPUT);
 }
 
-/* As `jostle sweep` does it, of one variant, and kept in memory. */
-static int simulate_seeds(Run *run, char **summary) {
+/* Runs the scene with several seeds, as a sweep of one variant; its file is in memory, or in the
+   folder of the report. */
+static int run_seeds(Run *run, char **summary) {
     JoSweepDef def = jo_default_sweep_def();
     JoSweepCounts counts;
     JoError error = {0};
@@ -289,12 +293,12 @@ static int simulate_seeds(Run *run, char **summary) {
         jo_sweep(&def, &counts, run->report && !run->summary ? NULL : summary, &error);
     if (run->files.sealed)
         jox_overlay_use(before);
-    int status = JO_OK; /* of a signal, too, which says how it ended */
+    int status = JO_OK; /* also after a signal, which sets the exit status later */
     if (!cli_signal) {
         run->troubled |= counts.troubled > 0;
-        status = !good ? complain(&error, false) : counts.failed ? JO_FAILED : JO_OK;
+        status = !good ? print_run_error(&error, false) : counts.failed ? JO_FAILED : JO_OK;
         if (good && run->report && counts.done + counts.failed) {
-            const int page = cli_runs_page(&cli_run, kept.data, run->report, run->quiet);
+            const int page = cli_write_runs_page(&cli_run, kept.data, run->report, run->quiet);
             status = status == JO_OK ? page : status;
         }
     }
@@ -302,8 +306,8 @@ static int simulate_seeds(Run *run, char **summary) {
     return status;
 }
 
-/* What of the options does not go together; NULL: nothing. */
-static const char *misuse(const Run *run) {
+/* Returns which options exclude each other; NULL: none. */
+static const char *find_run_misuse(const Run *run) {
     const JoViewDef *live = &run->live;
     return run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
            : run->seeds && (run->record || run->watch || run->log || run->has_trace || run->profile)
@@ -313,8 +317,9 @@ static const char *misuse(const Run *run) {
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
            : run->folder && run->seeds ? "--checkpoint cannot be combined with --seeds"
-           : run->folder && !(is_noted(run->record) && is_noted(run->log) &&
-                              is_noted(run->folder) && is_noted(run->report) && is_noted(run->data))
+           : run->folder && !(fits_into_note(run->record) && fits_into_note(run->log) &&
+                              fits_into_note(run->folder) && fits_into_note(run->report) &&
+                              fits_into_note(run->data))
                ? "with --checkpoint, the paths of --record, --log-input, --report, --data and "
                  "--checkpoint-dir have no line breaks, and 4096 bytes at most"
            : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
@@ -327,17 +332,18 @@ static const char *misuse(const Run *run) {
                : NULL;
 }
 
-static int begin(Run *run) {
+/* Vets the scene, then runs it in the way that the options ask for; returns an exit status. */
+static int vet_and_run(Run *run) {
     run->watch |= isatty(2) && !run->no_watch && !run->seeds && !run->def.input_log;
     char *summary = NULL;
-    if (run->view && !can_summarize(run))
+    if (run->view && !check_summary_path(run))
         return JO_FAILED;
     cli_catch_signals(false);
     int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files, NULL);
     const char *outputs[] = {run->record, run->log, run->summary};
     const char *inputs[] = {run->def.path, run->def.input_log};
     if (status == JO_OK)
-        status = cli_apart(&cli_run, outputs, 3, inputs, 2, &run->files);
+        status = cli_check_apart(&cli_run, outputs, 3, inputs, 2, &run->files);
     if (status != JO_OK)
         return status;
     if (!run->trusted && (run->watch || run->view) &&
@@ -345,25 +351,25 @@ static int begin(Run *run) {
         return JO_FAILED;
     cli_limit_work(run->trusted);
     cli_catch_signals(run->view);
-    status = run->view    ? show(run, &summary)
-             : run->seeds ? simulate_seeds(run, &summary)
-                          : simulate(run);
+    status = run->view    ? run_on_page(run, &summary)
+             : run->seeds ? run_seeds(run, &summary)
+                          : run_once(run);
     if (summary && (run->summary || run->seeds)) {
         int written = cli_write(&cli_run, run->summary ? run->summary : "-", summary);
         status = status ? status : written;
     }
     jo_free(summary);
     status = status == JO_OK && run->troubled ? JO_FAILED : status;
-    return cli_interrupted(status);
+    return cli_add_signal_status(status);
 }
 
-static int run_scene(int argc, char **argv) {
+static int run_run(int argc, char **argv) {
     Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
     run.live.wait = 5.0;
     CliList plain = {0};
     int status = cli_parse(&cli_run, argc, argv, &run, &plain);
     if (status == CLI_GO_ON) {
-        const char *why = misuse(&run);
+        const char *why = find_run_misuse(&run);
         run.def.path = why ? NULL : cli_scene(&cli_run, plain.items[0], &run.mods);
         run.def.overrides = run.sets.items;
         run.def.override_count = run.sets.count;
@@ -371,7 +377,7 @@ static int run_scene(int argc, char **argv) {
         run.def.mod_count = run.mods.count;
         run.def.resumable = run.folder != NULL;
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
-        status = why ? cli_misused(&cli_run, why) : !run.def.path ? JO_INPUT : begin(&run);
+        status = why ? cli_misused(&cli_run, why) : !run.def.path ? JO_INPUT : vet_and_run(&run);
     }
     cli_keeper_end(run.keeper);
     jox_overlay_free(&run.files);
@@ -402,5 +408,5 @@ const CliCommand cli_run = {
     .takes = "scene",
     .least = 1,
     .most = 1,
-    .run = run_scene,
+    .run = run_run,
 };

@@ -1,4 +1,5 @@
-/* Scenes by their names alone: where they lie, and what was meant where there is none. */
+/* Finds scenes, mods and recordings by path or by name, and suggests similar names if there is
+   none. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,14 +25,14 @@ static const struct {
     {"running-through", "a runner pushes through a standing crowd"},
 };
 
-/* Folders of scenes, and of each mod that may have some, by name, in place of its %s. */
+/* Folders in which scenes, and mods with scenes, are found by name. */
 static const char *const PLACES[] = {".", "scenes", JOX_DATADIR "/scenes"};
 static const char *const MOD_PLACES[] = {"mods", "scenes/mods", JOX_DATADIR "/scenes/mods"};
 
-/* Paths that cli_scene returned, until cli_scenes_free. */
+/* Paths that cli_scene and cli_mod_folder returned, freed by cli_scenes_free. */
 static CliPaths kept;
 
-static const char *keep(char *path) {
+static const char *keep_path(char *path) {
     JOX_RESERVE(kept.items, kept.capacity, kept.count + 1);
     kept.items[kept.count++] = path;
     return path;
@@ -44,32 +45,32 @@ void cli_scenes_free(void) {
     kept = (CliPaths){0};
 }
 
-/* Whether it is no path, but may name a scene. */
-static bool is_name(const char *given) {
+/* Returns whether an argument may be the name of a scene, and is no path. */
+static bool is_scene_name(const char *given) {
     return *given && strcspn(given, "/.") == strlen(given);
 }
 
-static bool is_folder(const char *path) {
+static bool is_mod_folder(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-static const char *join(const char *folder, const char *name, const char *ending) {
+static const char *join_scene_path(const char *folder, const char *name, const char *ending) {
     JoxText path = {0};
     const bool here = !strcmp(folder, ".");
     jox_text_printf(&path, "%s%s%s%s", here ? "" : folder, here ? "" : "/", name, ending);
-    return keep(path.data);
+    return keep_path(path.data);
 }
 
 const char *cli_mod_folder(const char *mod) {
     const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
-    if (is_folder(mod))
+    if (is_mod_folder(mod))
         return mod;
     if (strchr(mod, '/'))
         return NULL;
     for (size_t p = 0; p < sizeof MOD_PLACES / sizeof *MOD_PLACES; p++) {
-        const char *folder = join(MOD_PLACES[p], mod, "");
-        if (is_folder(folder))
+        const char *folder = join_scene_path(MOD_PLACES[p], mod, "");
+        if (is_mod_folder(folder))
             return folder;
     }
     JoxText path = {0};
@@ -78,17 +79,17 @@ const char *cli_mod_folder(const char *mod) {
                     : user        ? user
                                   : "",
                     home && *home ? "" : "/.local/share", mod);
-    return is_folder(keep(path.data)) ? path.data : NULL;
+    return is_mod_folder(keep_path(path.data)) ? path.data : NULL;
 }
 
-/* Where a name was found: the first place of ours, and each mod's. */
+/* Paths at which a name was found: the first of PLACES, and one in each mod. */
 typedef struct Found {
     const char *paths[1 + 64];
     size_t count;
 } Found;
 
-static void add_found(Found *found, const char *folder, const char *name) {
-    const char *path = join(folder, name, ".yaml");
+static void add_found_path(Found *found, const char *folder, const char *name) {
+    const char *path = join_scene_path(folder, name, ".yaml");
     struct stat info, other;
     bool known = !jox_is_file(path) || stat(path, &info) != 0 ||
                  found->count == sizeof found->paths / sizeof *found->paths;
@@ -99,25 +100,26 @@ static void add_found(Found *found, const char *folder, const char *name) {
         found->paths[found->count++] = path;
 }
 
-/* Looks for a name, or of "MOD:NAME" in that mod alone. */
-static Found find_scene(const char *given, const CliList *mods) {
+/* Looks for the scene NAME, or for "MOD:NAME" in that mod only. */
+static Found find_scene_paths(const char *given, const CliList *mods) {
     Found found = {0};
     const char *colon = strchr(given, ':'), *name = colon ? colon + 1 : given;
     for (size_t p = 0; !colon && !found.count && p < sizeof PLACES / sizeof *PLACES; p++)
-        add_found(&found, PLACES[p], name);
+        add_found_path(&found, PLACES[p], name);
     for (size_t m = 0; mods && m < mods->count; m++) {
         const char *folder = cli_mod_folder(mods->items[m]);
         const char *last = folder ? strrchr(folder, '/') : NULL;
         last = last ? last + 1 : folder;
         if (folder && (!colon || (strlen(last) == (size_t)(colon - given) &&
                                   !strncmp(last, given, strlen(last)))))
-            add_found(&found, join(folder, "scenes", ""), name);
+            add_found_path(&found, join_scene_path(folder, "scenes", ""), name);
     }
     return found;
 }
 
-/* A folder's files are what could have been meant: without ".yaml" where that is set. */
-static void add_names(CliPaths *names, const char *folder, bool scenes) {
+/* Adds the names of a folder's files as suggestions; if `scenes`, only those of .yaml files,
+   without the ending. */
+static void add_suggestions(CliPaths *names, const char *folder, bool scenes) {
     char **all = jox_folder_names(folder, false);
     for (char **name = all; name && *name; name++) {
         const size_t n = strlen(*name);
@@ -130,20 +132,21 @@ static void add_names(CliPaths *names, const char *folder, bool scenes) {
     jox_free(all);
 }
 
-/* Says what a name or path that is not there could have meant, or, of a name, where others are. */
-static void say_missing(const CliCommand *command, const char *given, bool scene,
-                        const CliList *mods) {
+/* Prints that a name or path does not exist, and the most similar one that does. */
+static void print_missing(const CliCommand *command, const char *given, bool scene,
+                          const CliList *mods) {
     CliPaths names = {0};
     const size_t before = jox_path_folder(given);
     JoxText folder = {0};
     jox_text_append(&folder, given, before);
     for (size_t p = 0; scene && p < sizeof PLACES / sizeof *PLACES; p++)
-        add_names(&names, PLACES[p], true);
+        add_suggestions(&names, PLACES[p], true);
     for (size_t m = 0; scene && mods && m < mods->count; m++)
         if (cli_mod_folder(mods->items[m]))
-            add_names(&names, join(cli_mod_folder(mods->items[m]), "scenes", ""), true);
+            add_suggestions(&names, join_scene_path(cli_mod_folder(mods->items[m]), "scenes", ""),
+                            true);
     if (!scene)
-        add_names(&names, before ? folder.data : ".", false);
+        add_suggestions(&names, before ? folder.data : ".", false);
     const char *near =
         jox_suggest(jox_path_name(given), (const char *const *)names.items, names.count);
     fprintf(stderr,
@@ -161,7 +164,7 @@ static void say_missing(const CliCommand *command, const char *given, bool scene
     jox_text_free(&folder);
 }
 
-static void say_ambiguous(const CliCommand *command, const char *given, const Found *found) {
+static void print_ambiguous(const CliCommand *command, const char *given, const Found *found) {
     fprintf(stderr,
             "jostle %s: there are several scenes '%s'; give the path of one:", command->name,
             given);
@@ -171,36 +174,37 @@ static void say_ambiguous(const CliCommand *command, const char *given, const Fo
 }
 
 const char *cli_scene(const CliCommand *command, const char *given, const CliList *mods) {
-    if (jox_is_file(given) || (!is_name(given) && access(given, F_OK) == 0))
+    if (jox_is_file(given) || (!is_scene_name(given) && access(given, F_OK) == 0))
         return given;
-    const Found found = is_name(given) ? find_scene(given, mods) : (Found){0};
+    const Found found = is_scene_name(given) ? find_scene_paths(given, mods) : (Found){0};
     if (found.count == 1)
         return found.paths[0];
     if (found.count)
-        say_ambiguous(command, given, &found);
+        print_ambiguous(command, given, &found);
     else
-        say_missing(command, given, is_name(given), mods);
+        print_missing(command, given, is_scene_name(given), mods);
     return NULL;
 }
 
 bool cli_scenes(const CliCommand *command, CliList *list) {
     for (size_t n = 0; n < list->count; n++)
-        if (access(list->items[n], F_OK) != 0 && (list->count == 1 || is_name(list->items[n])) &&
+        if (access(list->items[n], F_OK) != 0 &&
+            (list->count == 1 || is_scene_name(list->items[n])) &&
             !(list->items[n] = cli_scene(command, list->items[n], NULL)))
             return false;
     return true;
 }
 
-bool cli_is_there(const CliCommand *command, const char *given) {
+bool cli_check_exists(const CliCommand *command, const char *given) {
     const bool there = access(given, F_OK) == 0;
     if (!there)
-        say_missing(command, given, false, NULL);
+        print_missing(command, given, false, NULL);
     return there;
 }
 
-bool cli_recording(const CliCommand *command, const char *given) {
-    if (access(given, F_OK) == 0 || !is_name(given) || !find_scene(given, NULL).count)
-        return cli_is_there(command, given);
+bool cli_check_recording(const CliCommand *command, const char *given) {
+    if (access(given, F_OK) == 0 || !is_scene_name(given) || !find_scene_paths(given, NULL).count)
+        return cli_check_exists(command, given);
     fprintf(stderr,
             "jostle %s: '%s' is a scene, no recording: `jostle run %s --record FILE` makes one\n",
             command->name, given, given);
@@ -208,7 +212,7 @@ bool cli_recording(const CliCommand *command, const char *given) {
 }
 
 bool cli_is_scene(const char *given) {
-    return is_name(given) && find_scene(given, NULL).count > 0;
+    return is_scene_name(given) && find_scene_paths(given, NULL).count > 0;
 }
 
 void cli_list_scenes(FILE *out) {

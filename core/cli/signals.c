@@ -1,6 +1,6 @@
-/* What ends a command from outside. SIGINT, SIGTERM and, where the terminal closes, SIGHUP: the
-   first asks it to end, with its files whole; the second ends the process at once. Standard output
-   that cannot be written: serving a page of which nobody knows ends. */
+/* Ends commands from outside. Of SIGINT, SIGTERM and, when the terminal closes, SIGHUP, the first
+   asks the command to end with its files whole, and the second ends the process at once. Also
+   checks standard output: a server whose address could not be printed ends. */
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -9,18 +9,20 @@
 
 #include "cli/cli.h"
 
-enum { STATUS = 128 }; /* and the signal's number, as a shell says of who died of it */
+/* exit status of a process that a signal ended, minus its number; as in shells */
+enum { STATUS = 128 };
 
 volatile int cli_signal;
+/* Whether the command has files to finish before it ends. */
 static volatile sig_atomic_t holds;
 
-static void take(int number) {
+static void handle_signal(int number) {
     if (cli_signal || !holds)
         _exit(STATUS + number);
     cli_signal = number;
 }
 
-bool cli_end_soon(int number) {
+bool cli_request_end(int number) {
     if (cli_signal || !holds)
         return false;
     cli_signal = number;
@@ -28,16 +30,18 @@ bool cli_end_soon(int number) {
 }
 
 void cli_catch_signals(bool has_files) {
-    const struct sigaction action = {.sa_handler = take}; /* calls that wait are interrupted */
+    /* no SA_RESTART: calls that wait are interrupted */
+    const struct sigaction action = {.sa_handler = handle_signal};
     holds = has_files;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     struct sigaction before;
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* as by nohup */
+    /* ignored by nohup */
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
 }
 
-int cli_interrupted(int status) {
+int cli_add_signal_status(int status) {
     return !cli_signal || status != JO_OK                   ? status
            : cli_signal == SIGXCPU || cli_signal == SIGPIPE ? JO_FAILED
                                                             : STATUS + cli_signal;
@@ -50,7 +54,7 @@ void cli_output_is_data(void) {
     output_is_data = true;
 }
 
-/* Whether standard output is a pipe that nobody reads any more. */
+/* Returns whether standard output is a pipe without a reader. */
 static bool is_closed_pipe(void) {
     struct pollfd output = {.fd = STDOUT_FILENO, .events = POLLOUT};
     return poll(&output, 1, 0) == 1 && (output.revents & POLLERR);
@@ -73,5 +77,5 @@ void cli_print_address(void *context, const char *address) {
     if (cli_flush())
         fputs("Open this address in a browser; Ctrl-C ends it.\n", stderr);
     else
-        cli_signal = SIGPIPE; /* nobody knows the address: nobody can open the page, nor end it */
+        cli_signal = SIGPIPE; /* nobody knows the address, so the command ends */
 }

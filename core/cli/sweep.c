@@ -1,3 +1,5 @@
+/* The command `sweep`: runs the variants of a scene by jo_sweep, lists a command for each run, or
+   merges files. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,12 +15,12 @@ typedef struct Sweep {
     CliList sets, mods;
     uint64_t seeds, only;
     const char *csv;
-    JoxOverlay files; /* what was vetted */
+    JoxOverlay files; /* files that were vetted */
     bool of_scene, has_seconds, list, merge, trusted;
 } Sweep;
 
-static bool read_isa(void *options, const char *text, char why[160]) {
-    return cli_isa(&((Sweep *)options)->def.scene.isa, text, why);
+static bool read_sweep_isa(void *options, const char *text, char why[160]) {
+    return cli_read_isa(&((Sweep *)options)->def.scene.isa, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -57,28 +59,28 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Sweep, def.scene.threads), CLI_GIVEN(Sweep, of_scene), CLI_RANGE(1, 64)},
     {"input", "FILE", "play an input log in each run", CLI_TO(Sweep, def.scene.input_log),
      CLI_GIVEN(Sweep, of_scene)},
-    CLI_ISA_OPTION(read_isa),
+    CLI_ISA_OPTION(read_sweep_isa),
     CLI_MOD_OPTIONS(Sweep, def.scene),
     {"trusted", NULL, "the scene is one's own, as for `jostle run`", CLI_TO(Sweep, trusted)},
     {"quiet", NULL, "no progress", CLI_TO(Sweep, def.quiet)},
 };
 
-static bool vet(void *context, const JoSceneDef *scene, JoError *error) {
+static bool vet_variant(void *context, const JoSceneDef *scene, JoError *error) {
     Sweep *sweep = context;
     return cli_vet(&cli_sweep, scene, &sweep->files, error) == JO_OK;
 }
 
 /* ---- a list of commands ---- */
 
-static void put_option(const char *name, const char *value) {
+static void print_option(const char *name, const char *value) {
     JoxText quoted = {0};
     jox_quote_shell(&quoted, value);
     printf(" --%s %s", name, quoted.data);
     jox_text_free(&quoted);
 }
 
-/* All that the runs share. */
-static void put_command(const Sweep *sweep, const char *program) {
+/* Prints the options that all runs share. */
+static void print_shared_options(const Sweep *sweep, const char *program) {
     const JoSweepDef *def = &sweep->def;
     JoxText quoted = {0};
     jox_quote_shell(&quoted, program);
@@ -87,9 +89,9 @@ static void put_command(const Sweep *sweep, const char *program) {
     fputs(quoted.data, stdout);
     jox_text_free(&quoted);
     for (size_t s = 0; s < def->set_count; s++)
-        put_option("set", def->sets[s]);
+        print_option("set", def->sets[s]);
     for (size_t m = 0; m < def->scene.mod_count; m++)
-        put_option("mod", def->scene.mods[m]);
+        print_option("mod", def->scene.mods[m]);
     printf(" --seeds %u", def->seeds);
     if (def->scene.has_seed)
         printf(" --seed %llu", (unsigned long long)def->scene.seed);
@@ -102,12 +104,13 @@ static void put_command(const Sweep *sweep, const char *program) {
     if (def->scene.threads)
         printf(" --threads %u", def->scene.threads);
     if (def->scene.input_log)
-        put_option("input", def->scene.input_log);
+        print_option("input", def->scene.input_log);
     printf("%s%s", def->scene.named_mods_only ? " --no-mods" : "",
            sweep->trusted ? " --trusted" : "");
 }
 
-static int list(const Sweep *sweep) {
+/* Prints a command for each run, which writes a file of its own; returns an exit status. */
+static int print_commands(const Sweep *sweep) {
     static const char ENDING[] = ".sqlite";
     const char *out = sweep->def.out;
     const size_t n = strlen(out), e = sizeof ENDING - 1;
@@ -131,9 +134,9 @@ static int list(const Sweep *sweep) {
     for (uint32_t r = 1; r <= runs; r++) {
         JoxText part = {0};
         jox_text_printf(&part, "%s/run-%06u.sqlite", folder.data, r);
-        put_command(sweep, program);
+        print_shared_options(sweep, program);
         printf(" --only %u", r);
-        put_option("out", part.data);
+        print_option("out", part.data);
         puts(" --quiet");
         jox_text_free(&part);
     }
@@ -141,9 +144,9 @@ static int list(const Sweep *sweep) {
     return JO_OK;
 }
 
-/* ---- the whole ---- */
+/* ---- running and merging ---- */
 
-static void tell_counts(const Sweep *sweep, const JoSweepCounts *c) {
+static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
     if (sweep->def.quiet)
         return;
     fprintf(stderr, "%s: %u %s with figures", sweep->def.out, c->done,
@@ -155,29 +158,29 @@ static void tell_counts(const Sweep *sweep, const JoSweepCounts *c) {
     fputs("\n", stderr);
 }
 
-static int end(const Sweep *sweep, const JoSweepCounts *counts) {
+static int finish_sweep(const Sweep *sweep, const JoSweepCounts *counts) {
     JoError error = {0};
-    tell_counts(sweep, counts);
+    print_counts(sweep, counts);
     if (sweep->csv && !jo_sweep_csv(sweep->def.out, sweep->csv, &error))
         return cli_failed(&cli_sweep, &error, false);
     return counts->failed || counts->troubled ? JO_FAILED : JO_OK;
 }
 
-static int merge(const Sweep *sweep, const CliList *parts) {
+static int merge_files(const Sweep *sweep, const CliList *parts) {
     JoSweepCounts counts;
     JoError error = {0};
     if (!jo_sweep_merge(sweep->def.out, parts->items, parts->count, &counts, &error))
         return cli_failed(&cli_sweep, &error, false);
-    return end(sweep, &counts);
+    return finish_sweep(sweep, &counts);
 }
 
-static int run_all(Sweep *sweep) {
+static int run_variants(Sweep *sweep) {
     JoSweepCounts counts;
     JoError error = {0};
     cli_limit_work(sweep->trusted);
     cli_catch_signals(true);
     sweep->def.stop = &cli_signal;
-    sweep->def.vet = sweep->trusted ? NULL : vet;
+    sweep->def.vet = sweep->trusted ? NULL : vet_variant;
     sweep->def.vet_context = sweep;
     const JoxOverlay *before = sweep->trusted ? NULL : jox_overlay_use(&sweep->files);
     const bool good = jo_sweep(&sweep->def, &counts, NULL, &error);
@@ -185,13 +188,13 @@ static int run_all(Sweep *sweep) {
         jox_overlay_use(before);
     if (cli_signal && !good) {
         cli_failed(&cli_sweep, &error, false);
-        return cli_interrupted(JO_OK);
+        return cli_add_signal_status(JO_OK);
     }
-    return good ? end(sweep, &counts) : cli_failed(&cli_sweep, &error, false);
+    return good ? finish_sweep(sweep, &counts) : cli_failed(&cli_sweep, &error, false);
 }
 
-/* What of the arguments does not go together; NULL: nothing. */
-static const char *misuse(const Sweep *sweep, const CliList *plain) {
+/* Returns which arguments exclude each other; NULL: none. */
+static const char *find_sweep_misuse(const Sweep *sweep, const CliList *plain) {
     const bool of_runs = sweep->of_scene || sweep->has_seconds || sweep->def.steps ||
                          sweep->def.scene.has_seed || sweep->def.scene.has_dt || sweep->only ||
                          sweep->list;
@@ -205,13 +208,13 @@ static const char *misuse(const Sweep *sweep, const CliList *plain) {
                : NULL;
 }
 
-static int run(int argc, char **argv) {
+static int run_sweep_command(int argc, char **argv) {
     Sweep sweep = {.def = jo_default_sweep_def(), .seeds = 1};
     CliList plain = {0};
     const char *path = NULL;
     int status = cli_parse(&cli_sweep, argc, argv, &sweep, &plain);
     if (status == CLI_GO_ON) {
-        const char *why = misuse(&sweep, &plain);
+        const char *why = find_sweep_misuse(&sweep, &plain);
         sweep.def.sets = sweep.sets.items;
         sweep.def.set_count = sweep.sets.count;
         sweep.def.scene.mods = sweep.mods.items;
@@ -223,10 +226,10 @@ static int run(int argc, char **argv) {
         const char *outputs[] = {sweep.def.out, sweep.csv}, *inputs[] = {path};
         status = why                     ? cli_misused(&cli_sweep, why)
                  : !path && !sweep.merge ? JO_INPUT
-                 : cli_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
-                 : sweep.merge ? merge(&sweep, &plain)
-                 : sweep.list  ? list(&sweep)
-                               : run_all(&sweep);
+                 : cli_check_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
+                 : sweep.merge ? merge_files(&sweep, &plain)
+                 : sweep.list  ? print_commands(&sweep)
+                               : run_variants(&sweep);
     }
     jox_overlay_free(&sweep.files);
     cli_free(&cli_sweep, &sweep, &plain);
@@ -261,5 +264,5 @@ const CliCommand cli_sweep = {
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",
     .least = 1,
-    .run = run,
+    .run = run_sweep_command,
 };

@@ -1,3 +1,4 @@
+/* The command `test`: runs tests of behaviours by jo_test. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -18,8 +19,8 @@ static const CliOption OPTIONS[] = {
     CLI_TRUSTED_OPTION(Test),
 };
 
-/* Where tests lie when no path is given: the first that there is, else this folder. */
-static const char *usual_place(void) {
+/* Returns the default path of tests: the first of these that exists, else the present folder. */
+static const char *find_default_path(void) {
     static const char *const PLACES[] = {"tests/lua", "tests", "behaviours"};
     struct stat info;
     for (size_t p = 0; p < sizeof PLACES / sizeof *PLACES; p++)
@@ -28,9 +29,10 @@ static const char *usual_place(void) {
     return ".";
 }
 
-/* Behaviours that stand in a test become files for a while: below a folder of the user's alone,
-   which stays for the next run. NULL where there is none. */
-static const char *make_room(void) {
+/* Makes the folder for temporary files of tests, as behaviours that are written inside a test
+   become files for a while. Only the user may access it; it stays for the next run. NULL if it
+   cannot be made. */
+static const char *make_temporary_folder(void) {
     static char room[64];
     struct stat info;
     snprintf(room, sizeof room, "/tmp/jostle-tests-%u", (unsigned)geteuid());
@@ -40,8 +42,9 @@ static const char *make_room(void) {
     return own && setenv("TMPDIR", room, 1) == 0 ? room : NULL;
 }
 
-/* Tests lie beside the behaviours and scenes that they test, or in a folder of theirs. */
-static void confine(const char *const *paths, size_t count, bool trusted) {
+/* Confines the process. Tests lie beside the behaviours and scenes that they test, or in a folder
+   of their own. */
+static void confine_test(const char *const *paths, size_t count, bool trusted) {
     static const char *const NEAR[] = {"../behaviours", "../scenes", "../../behaviours",
                                        "../../scenes"};
     CliReach reach = {.memory = (size_t)4 << 30, .seconds = 3600};
@@ -59,22 +62,23 @@ static void confine(const char *const *paths, size_t count, bool trusted) {
             cli_reach_folder(&reach, path);
         }
     }
-    cli_reach_output(&reach, trusted ? NULL : make_room());
+    cli_reach_output(&reach, trusted ? NULL : make_temporary_folder());
     cli_confine_work(&reach, trusted);
 }
 
-static int run(int argc, char **argv) {
+static int run_test(int argc, char **argv) {
     Test options = {0};
     CliList paths = {0};
     int status = cli_parse(&cli_test, argc, argv, &options, &paths);
     if (status == CLI_GO_ON) {
         for (size_t p = 0; p < paths.count && !options.json; p++)
-            if (!cli_is_there(&cli_test, paths.items[p]))
+            if (!cli_check_exists(&cli_test, paths.items[p]))
                 status = JO_INPUT;
     }
     if (status == CLI_GO_ON) {
-        const char *usual = usual_place();
-        confine(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.trusted);
+        const char *usual = find_default_path();
+        confine_test(paths.count ? paths.items : &usual, paths.count ? paths.count : 1,
+                     options.trusted);
         size_t passed = 0, failed = 0;
         if (options.json)
             cli_output_is_data();
@@ -118,5 +122,5 @@ const CliCommand cli_test = {
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "path",
-    .run = run,
+    .run = run_test,
 };

@@ -1,5 +1,5 @@
-/* Files of others are read first by a child that could do no harm if they took it over, and are
-   loaded from what it read. */
+/* Reads files of unknown origin in a confined child process, which could do no harm if a file took
+   it over. The scene is then loaded from the texts that the child read. */
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -17,11 +17,13 @@
 #include "base/text.h"
 #include "cli/cli.h"
 
-enum { SECONDS = 20 };               /* of processor time */
-static const double LONGEST = 600.0; /* s that a child is waited for: it may sleep */
-static const size_t MEMORY = (size_t)2 << 30, LARGEST = (size_t)512 << 20;
+enum { SECONDS = 20 };               /* s of processor time for the child */
+static const double LONGEST = 600.0; /* s of wall time for the child */
+static const size_t MEMORY = (size_t)2 << 30,
+                    LARGEST = (size_t)512
+                              << 20; /* bytes: memory of the child; data that it may send */
 
-/* ---- what goes through the pipe ---- */
+/* ---- messages ---- */
 
 bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t length) {
     const CliHead head = {.kind = kind, .name = strlen(name), .text = length};
@@ -29,8 +31,8 @@ bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t 
            jox_file_send(out, text, length);
 }
 
-/* Whether there is more to read, or the end, before it is to stop. */
-static bool await(CliSource *source) {
+/* Waits until there are data or the end to read; false if reading is to be given up. */
+static bool await_data(CliSource *source) {
     while (!source->fault) {
         const double left = source->until > 0.0 ? source->until - jox_clock_wall() : 1e6;
         struct pollfd fds[2] = {{.fd = source->from, .events = POLLIN},
@@ -48,9 +50,9 @@ static bool await(CliSource *source) {
     return false;
 }
 
-static bool get(CliSource *source, void *bytes, size_t count) {
+static bool receive_bytes_of_child(CliSource *source, void *bytes, size_t count) {
     for (char *at = bytes; count > 0;) {
-        if (!await(source))
+        if (!await_data(source))
             return false;
         const ssize_t done = read(source->from, at, count);
         if (done == 0 || (done < 0 && errno != EINTR))
@@ -61,10 +63,10 @@ static bool get(CliSource *source, void *bytes, size_t count) {
     return true;
 }
 
-int cli_get(CliSource *source, CliGot *got) {
+int cli_receive(CliSource *source, CliReceived *got) {
     CliHead head;
-    *got = (CliGot){0};
-    if (!get(source, &head, sizeof head))
+    *got = (CliReceived){0};
+    if (!receive_bytes_of_child(source, &head, sizeof head))
         return -1;
     source->taken += head.name + head.text;
     if (head.kind >= CLI_SENT_COUNT || head.name >= sizeof got->name || head.text > LARGEST ||
@@ -74,13 +76,14 @@ int cli_get(CliSource *source, CliGot *got) {
     }
     got->text = jox_alloc(head.text + 1, 1);
     got->length = head.text;
-    if (get(source, got->name, head.name) && get(source, got->text, head.text))
+    if (receive_bytes_of_child(source, got->name, head.name) &&
+        receive_bytes_of_child(source, got->text, head.text))
         return (int)head.kind;
-    cli_got_free(got);
+    cli_free_received(got);
     return -1;
 }
 
-void cli_got_free(CliGot *got) {
+void cli_free_received(CliReceived *got) {
     jox_free(got->text);
     got->text = NULL;
 }
@@ -92,18 +95,18 @@ static void send_file(void *context, const char *path, const char *text, size_t 
         _exit(JO_FAILED);
 }
 
-static void send_message(void *context, const char *text) {
+static void send_child_message(void *context, const char *text) {
     if (!cli_send(*(const int *)context, CLI_MESSAGE, "", text, strlen(text)))
         _exit(JO_FAILED);
 }
 
-/* Reads and compiles, and says what it read; does not return. */
-static void read_it(const CliVetted *what, int out) {
+/* Loads the scene dry, or the edited files, and sends every file that it reads; does not return. */
+static void read_in_child(const CliVetted *what, int out) {
     JoError error = {0};
     JoSceneDef def = *what->def;
     def.threads = 1;
     def.dry = true;
-    def.message = send_message;
+    def.message = send_child_message;
     def.message_context = &out;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, what->edited ? SIG_IGN : SIG_DFL);
@@ -123,54 +126,56 @@ static void read_it(const CliVetted *what, int out) {
     else if (!jo_scene_load(&def, &error))
         end = error.code == JO_FAILED ? CLI_OUT_OF_MEMORY : CLI_REFUSED;
     cli_send(out, end, "", "", 0);
-    _exit(JO_OK); /* nothing of the program's that it shares with the child is ended twice */
+    _exit(JO_OK); /* not exit(): it would flush and close what the parent also has */
 }
 
 /* ---- the parent ---- */
 
-/* Takes what the child sends up to its end, which is returned; -1 where it ends without. */
-static int receive(CliVetted *what, CliSource *source) {
+/* Receives the messages of the child; returns the last one, or -1 if it ended without. */
+static int receive_all_messages(CliVetted *what, CliSource *source) {
     for (;;) {
-        CliGot got;
-        const int kind = cli_get(source, &got);
+        CliReceived got;
+        const int kind = cli_receive(source, &got);
         if (kind == CLI_FILE)
             jox_overlay_put(what->files, got.name, got.text, got.length);
         else if (kind == CLI_MESSAGE)
             jox_text_append(&what->said, got.text, got.length);
         else if (kind > CLI_OUT_OF_MEMORY)
             source->fault = "sends what it should not";
-        cli_got_free(&got);
+        cli_free_received(&got);
         if (kind != CLI_FILE && kind != CLI_MESSAGE)
             return source->fault ? -1 : kind;
     }
 }
 
-/* Seconds of processor time that the child has: this process may be held to fewer. */
-static double allowed(void) {
+/* Returns the child's processor time limit, s; that of this process may be lower. */
+static double get_time_limit(void) {
     struct rlimit own;
     const bool fewer = getrlimit(RLIMIT_CPU, &own) == 0 && own.rlim_max < SECONDS;
     return fewer ? (double)own.rlim_max : SECONDS;
 }
 
-static double used(const struct rusage *usage) {
+/* Returns the processor time that a process used, s. */
+static double get_time_used(const struct rusage *usage) {
     const struct timeval user = usage->ru_utime, system = usage->ru_stime;
     return (double)(user.tv_sec + system.tv_sec) + 1e-6 * (double)(user.tv_usec + system.tv_usec);
 }
 
-/* The system counts a limit by its ticks, and tells times by clocks: where processors are shared
-   with others, a process may be ended for its time at nine tenths of it and less. */
+/* Share of the limit from which a kill counts as its enforcement. The system enforces the limit by
+   counting ticks but reports times by clocks; on shared processors the reported time may be nine
+   tenths of the limit and less. */
 static const double LATE = 0.75;
 
-/* Says at which file the child ended, and why. A process ends by SIGKILL at its last second, too,
-   which its times tell from a kill. */
-static void say_ended(CliVetted *what, int end, int status, const struct rusage *usage,
-                      const char *fault) {
+/* Describes at which file the child ended, and why. SIGKILL also enforces the processor time limit;
+   the time used tells this from a kill. */
+static void describe_end(CliVetted *what, int end, int status, const struct rusage *usage,
+                         const char *fault) {
     const JoxOverlay *files = what->files;
     const char *file = files->count                           ? files->files[files->count - 1].path
                        : what->edited && !what->edited->scene ? what->edited->behaviours[0]
                                                               : what->def->path;
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    const bool late = used(usage) > LATE * allowed();
+    const bool late = get_time_used(usage) > LATE * get_time_limit();
     JoxText *why = &what->why;
     snprintf(what->file, sizeof what->file, "%s", file);
     jox_text_printf(why, "reading this %s ", what->edited ? "file" : "scene");
@@ -180,7 +185,7 @@ static void say_ended(CliVetted *what, int end, int status, const struct rusage 
     else if (fault)
         jox_text_add(why, fault);
     else if (number == SIGXCPU || (number == SIGKILL && late))
-        jox_text_printf(why, "takes more processor time than it may (%g s)", allowed());
+        jox_text_printf(why, "takes more processor time than it may (%g s)", get_time_limit());
     else if (number == SIGKILL)
         jox_text_printf(
             why, "was ended from outside, as systems that run out of memory do (it had %ld MB)",
@@ -196,8 +201,8 @@ static void say_ended(CliVetted *what, int end, int status, const struct rusage 
         jox_text_add(why, "ended the process that read it; please report it");
 }
 
-/* There is no child. */
-static int say_none(CliVetted *what) {
+/* Describes why no child could be started; returns -2. */
+static int describe_no_process(CliVetted *what) {
     jox_text_printf(&what->why, "no process to read it in: %s", strerror(errno));
     snprintf(what->file, sizeof what->file, "%s", what->def->path);
     return -2;
@@ -209,32 +214,32 @@ int cli_read_confined(CliVetted *what) {
     fflush(NULL);
     what->files->sealed = true;
     if (pipe(ends) != 0)
-        return say_none(what);
+        return describe_no_process(what);
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        read_it(what, ends[1]);
+        read_in_child(what, ends[1]);
     }
     const int why = errno;
     CliSource source = {.from = ends[0], .stop = what->stop, .until = jox_clock_wall() + LONGEST};
     close(ends[1]);
-    const int end = child > 0 ? receive(what, &source) : -1;
-    close(ends[0]); /* a child that sends on ends by it */
+    const int end = child > 0 ? receive_all_messages(what, &source) : -1;
+    close(ends[0]); /* a child that still sends ends by this */
     errno = why;
     if (child < 0)
-        return say_none(what);
+        return describe_no_process(what);
     if (source.fault)
         kill(child, SIGKILL);
     while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR)
         continue;
     if (end == CLI_LOADED || end == CLI_REFUSED)
         return end;
-    say_ended(what, end, status, &usage, source.fault);
+    describe_end(what, end, status, &usage, source.fault);
     return -1;
 }
 
-/* What the child said; and how files are read that lie where it may not look. */
-static void tell_refused(const CliCommand *command, const JoxText *said) {
+/* Prints the child's messages, and if a file was not accessible, which files are read. */
+static void print_refused(const CliCommand *command, const JoxText *said) {
     fputs(said->data, stderr);
     if (strstr(said->data, strerror(EACCES)))
         fprintf(stderr,
@@ -244,8 +249,8 @@ static void tell_refused(const CliCommand *command, const JoxText *said) {
                 command->name);
 }
 
-/* The first of what was said, but for what stands below it: the lines of the file. */
-static void put_first(const JoxText *said, JoError *error) {
+/* Copies the first line of the messages into `error`; the lines below it quote the file. */
+static void copy_first_line(const JoxText *said, JoError *error) {
     const char *text = said->data ? said->data : "see what was said above";
     snprintf(error->text, sizeof error->text, "%.*s", (int)strcspn(text, "\n"), text);
 }
@@ -254,13 +259,13 @@ int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files,
     CliVetted what = {.def = def, .files = files, .stop = -1};
     const int end = cli_read_confined(&what);
     if (end == CLI_REFUSED && what.said.data)
-        tell_refused(command, &what.said);
+        print_refused(command, &what.said);
     else if (end < 0)
         fprintf(stderr, "jostle %s: %s: error: %s\n", command->name, what.file, what.why.data);
     const int result = end == CLI_LOADED ? JO_OK : end == -2 ? JO_FAILED : JO_INPUT;
     if (error && result != JO_OK) {
         error->code = (JoCode)result;
-        put_first(end < 0 ? &what.why : &what.said, error);
+        copy_first_line(end < 0 ? &what.why : &what.said, error);
     }
     jox_text_free(&what.said);
     jox_text_free(&what.why);

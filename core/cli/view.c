@@ -1,3 +1,4 @@
+/* The command `view`: shows a recording on the live page by jo_view_recording. */
 #include "cli/cli.h"
 
 typedef struct View {
@@ -5,8 +6,8 @@ typedef struct View {
     bool trusted;
 } View;
 
-static bool read_unit(void *options, const char *text, char why[160]) {
-    return cli_unit(&((View *)options)->def.unit, text, why);
+static bool read_view_unit(void *options, const char *text, char why[160]) {
+    return cli_read_unit(&((View *)options)->def.unit, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -22,11 +23,11 @@ static const CliOption OPTIONS[] = {
     {"fps", "N", "frames a second, where the recording does not say", CLI_TO(View, def.fps),
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
-     .read = read_unit},
+     .read = read_view_unit},
     CLI_TRUSTED_OPTION(View),
 };
 
-static void confine(const View *view) {
+static void confine_view(const View *view) {
     CliReach reach = {.serves = true};
     cli_reach_file(&reach, view->def.recording);
     cli_reach_scene(&reach, view->def.scene);
@@ -35,26 +36,26 @@ static void confine(const View *view) {
     cli_confine_work(&reach, view->trusted);
 }
 
-static bool find_inputs(View *v) {
-    return cli_recording(&cli_view, v->def.recording) &&
+static bool find_view_inputs(View *v) {
+    return cli_check_recording(&cli_view, v->def.recording) &&
            (!v->def.scene || (v->def.scene = cli_scene(&cli_view, v->def.scene, NULL)));
 }
 
-static int run(int argc, char **argv) {
+static int run_view(int argc, char **argv) {
     View view = {.def = jo_default_view_recording_def()};
     CliList plain = {0};
     JoError error = {0};
     int status = cli_parse(&cli_view, argc, argv, &view, &plain);
     view.def.recording = plain.count ? plain.items[0] : NULL;
-    if (status == CLI_GO_ON && !find_inputs(&view))
+    if (status == CLI_GO_ON && !find_view_inputs(&view))
         status = JO_INPUT;
     if (status == CLI_GO_ON) {
         cli_catch_signals(true);
         view.def.stop = &cli_signal;
         view.def.opened = cli_print_address;
-        confine(&view);
+        confine_view(&view);
         status = jo_view_recording(&view.def, &error)
-                     ? cli_interrupted(JO_OK) /* what is wrong with a file was sent as a message */
+                     ? cli_add_signal_status(JO_OK) /* faults of files were sent as messages */
                      : cli_failed(&cli_view, &error, error.code != JO_FAILED);
     }
     cli_free(&cli_view, &view, &plain);
@@ -77,5 +78,5 @@ const CliCommand cli_view = {
     .least = 1,
     .most = 1,
     .none_said = "no recording given; `jostle run SCENE --view` shows a scene",
-    .run = run,
+    .run = run_view,
 };

@@ -1,4 +1,4 @@
-/* What `jostle bench` writes: a table, JSON, lines of CSV, a picture. */
+/* Writes the results of `jostle bench`: a table, JSON, lines of CSV, a plot. */
 #include <stdio.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ enum { CPU_LENGTH = 100 };
 #define COMPILER "gcc " __VERSION__
 #endif
 
-/* The name of the processor's model, or "unknown". */
+/* Finds the name of the processor's model; "unknown" if there is none. */
 static void find_cpu(char cpu[CPU_LENGTH]) {
     snprintf(cpu, CPU_LENGTH, "unknown");
     FILE *file = jox_file_open("/proc/cpuinfo", "r");
@@ -31,29 +31,30 @@ static void find_cpu(char cpu[CPU_LENGTH]) {
         jox_file_close(file);
 }
 
-static double median(const double *values, uint64_t count) {
+static double get_median_of_rounds(const double *values, uint64_t count) {
     double sorted[BENCH_ROUNDS];
     memcpy(sorted, values, count * sizeof *values);
     jox_sort_doubles(sorted, count);
     return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
 }
 
-static double least(const double *values, uint64_t count) {
+static double get_least_of_rounds(const double *values, uint64_t count) {
     double result = values[0];
     for (uint64_t i = 1; i < count; i++)
         result = values[i] < result ? values[i] : result;
     return result;
 }
 
-/* All that moves bodies and tells agents of them, in Bullet's own steps; 0 without bodies. */
-static double in_bullets(const BenchCase *c) {
+/* Returns the time of all that moves bodies and shows them to agents, divided by that of Bullet's
+   own steps; 0 without bodies. */
+static double get_bodies_ratio(const BenchCase *c) {
     double ratios[BENCH_ROUNDS] = {0.0};
     for (uint64_t i = 0; i < c->measured; i++)
         ratios[i] = c->bullet[i] > 0.0 ? c->bodies[i] / c->bullet[i] : 0.0;
-    return median(ratios, c->measured);
+    return get_median_of_rounds(ratios, c->measured);
 }
 
-static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c) {
+static void add_case_json(JoxJson *json, const BenchGiven *given, const BenchCase *c) {
     char cpu[CPU_LENGTH];
     find_cpu(cpu);
     jox_json_object(json, NULL);
@@ -69,27 +70,30 @@ static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c)
     jox_json_whole(json, "agents", c->last.agents);
     jox_json_whole(json, "bodies", c->last.bodies);
     jox_json_whole(json, "rounds", c->measured);
-    jox_json_digits(json, "steps_per_s", median(c->steps_per_s, c->measured), 6);
-    jox_json_digits(json, "times_real_time", median(c->times_real_time, c->measured), 6);
-    jox_json_digits(json, "cpu_ns_per_agent_step", median(c->ns, c->measured), 6);
-    jox_json_digits(json, "least_cpu_ns_per_agent_step", least(c->ns, c->measured), 6);
-    jox_json_digits(json, "bullet_ns", median(c->bullet, c->measured), 4);
-    jox_json_digits(json, "bodies_ns", median(c->bodies, c->measured), 4);
-    jox_json_digits(json, "bodies_in_bullets", in_bullets(c), 4);
+    jox_json_digits(json, "steps_per_s", get_median_of_rounds(c->steps_per_s, c->measured), 6);
+    jox_json_digits(json, "times_real_time", get_median_of_rounds(c->times_real_time, c->measured),
+                    6);
+    jox_json_digits(json, "cpu_ns_per_agent_step", get_median_of_rounds(c->ns, c->measured), 6);
+    jox_json_digits(json, "least_cpu_ns_per_agent_step", get_least_of_rounds(c->ns, c->measured),
+                    6);
+    jox_json_digits(json, "bullet_ns", get_median_of_rounds(c->bullet, c->measured), 4);
+    jox_json_digits(json, "bodies_ns", get_median_of_rounds(c->bodies, c->measured), 4);
+    jox_json_digits(json, "bodies_in_bullets", get_bodies_ratio(c), 4);
     jox_json_object(json, "stage_ns");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
-        jox_json_digits(json, jo_stage_name(s), median(c->stages[s], c->measured), 4);
+        jox_json_digits(json, jo_stage_name(s), get_median_of_rounds(c->stages[s], c->measured), 4);
     jox_json_end(json);
     jox_json_end(json);
 }
 
 void bench_line(const BenchCase *c) {
     printf("%-30s %-6s %7u %6u %10.1f %8.1f %8.0f %8.0f %9.1f %8.2f ", c->name, jo_isa_name(c->isa),
-           c->last.agents, c->last.bodies, median(c->steps_per_s, c->measured),
-           median(c->times_real_time, c->measured), median(c->ns, c->measured),
-           least(c->ns, c->measured), median(c->bullet, c->measured), in_bullets(c));
+           c->last.agents, c->last.bodies, get_median_of_rounds(c->steps_per_s, c->measured),
+           get_median_of_rounds(c->times_real_time, c->measured),
+           get_median_of_rounds(c->ns, c->measured), get_least_of_rounds(c->ns, c->measured),
+           get_median_of_rounds(c->bullet, c->measured), get_bodies_ratio(c));
     for (int s = 0; s < JO_STAGE_COUNT; s++)
-        printf(" %8.1f", median(c->stages[s], c->measured));
+        printf(" %8.1f", get_median_of_rounds(c->stages[s], c->measured));
     puts("");
     fflush(stdout);
 }
@@ -115,7 +119,8 @@ void bench_ratios(const BenchCase *cases, size_t count, size_t isas) {
         const BenchCase *c = &cases[k], *first = c - k % isas;
         if (c != first)
             printf("%-30s %-6s %7.2f\n", c->name, jo_isa_name(c->isa),
-                   least(first->ns, first->measured) / least(c->ns, c->measured));
+                   get_least_of_rounds(first->ns, first->measured) /
+                       get_least_of_rounds(c->ns, c->measured));
     }
 }
 
@@ -124,7 +129,7 @@ void bench_json(const BenchGiven *given, const BenchCase *cases, size_t count) {
     JoxJson array = jox_json_begin(&text, 1);
     jox_json_array(&array, NULL);
     for (size_t k = 0; k < count; k++)
-        add_case(&array, given, &cases[k]);
+        add_case_json(&array, given, &cases[k]);
     jox_json_end(&array);
     puts(text.data);
     jox_text_free(&text);
@@ -155,10 +160,10 @@ bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases
         jox_quote_put(file, jox_quote_csv, c->name);
         fprintf(file, ",%u,%u,%llu,%llu,%.5g,%.5g,%.6g", c->last.agents, c->last.bodies,
                 (unsigned long long)given->steps, (unsigned long long)c->measured,
-                median(c->ns, c->measured), least(c->ns, c->measured),
-                median(c->steps_per_s, c->measured));
+                get_median_of_rounds(c->ns, c->measured), get_least_of_rounds(c->ns, c->measured),
+                get_median_of_rounds(c->steps_per_s, c->measured));
         for (int s = 0; s < JO_STAGE_COUNT; s++)
-            fprintf(file, ",%.4g", median(c->stages[s], c->measured));
+            fprintf(file, ",%.4g", get_median_of_rounds(c->stages[s], c->measured));
         fputs("\n", file);
     }
     return jox_file_close(file) == 0;
@@ -166,19 +171,20 @@ bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases
 
 bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoError *error) {
     JoTiming *timings = jox_alloc(count, sizeof *timings);
-    size_t told = 0; /* the clock of processor time may advance by milliseconds */
+    /* cases with a measurable time; the clock of processor time may advance in milliseconds */
+    size_t told = 0;
     for (size_t k = 0; k < count; k++) {
         const BenchCase *c = &cases[k];
-        if (!(median(c->ns, c->measured) > 0.0))
+        if (!(get_median_of_rounds(c->ns, c->measured) > 0.0))
             continue;
         timings[told] = (JoTiming){.scene = c->name,
                                    .isa = jo_isa_name(c->isa),
                                    .agents = c->last.agents,
                                    .in_series = strncmp(c->name, "scale-", 6) == 0,
-                                   .ns = median(c->ns, c->measured),
-                                   .least_ns = least(c->ns, c->measured)};
+                                   .ns = get_median_of_rounds(c->ns, c->measured),
+                                   .least_ns = get_least_of_rounds(c->ns, c->measured)};
         for (int s = 0; s < JO_STAGE_COUNT; s++)
-            timings[told].stage_ns[s] = median(c->stages[s], c->measured);
+            timings[told].stage_ns[s] = get_median_of_rounds(c->stages[s], c->measured);
         told++;
     }
     if (told == 0)

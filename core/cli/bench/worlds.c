@@ -1,13 +1,14 @@
-/* Many small worlds, as a game steps them: a few people run after a ball. Each is stepped in turn
-   with all others, first without clocks, for what that costs, then with them, for the stages. */
+/* Times many small worlds, as a game would step them: in each, a few people run after a ball. The
+   worlds are stepped in turn, first without clocks, for the whole time, then with them, for the
+   stages. */
 #include <math.h>
 
 #include "base/clock.h"
 #include "base/mem.h"
 #include "cli/bench/bench.h"
 
-static const double SPACING = 0.7; /* m, between people at the beginning */
-enum { STEPS_A_WAY = 10 };         /* that everybody keeps on in a direction */
+static const double SPACING = 0.7; /* m: initial distance of people */
+enum { STEPS_A_WAY = 10 };         /* steps until people turn again */
 
 typedef struct Worlds {
     JoWorld **worlds;
@@ -52,7 +53,7 @@ static void free_worlds(Worlds *w) {
     jox_free(w->balls);
 }
 
-/* Everybody turns to where the ball is now. */
+/* Sets the preferred velocity of all people towards the ball. */
 static void turn_to_ball(JoWorld *world, JoBody ball) {
     JoAgent agents[BENCH_MOST_PEOPLE];
     const JoBodyState at = jo_body_state(world, ball);
@@ -65,8 +66,8 @@ static void turn_to_ball(JoWorld *world, JoBody ball) {
     }
 }
 
-/* Steps all; adds what that took, but for turning, s. */
-static void step_all(const Worlds *w, uint64_t steps, double *cpu, double *wall) {
+/* Steps all worlds; adds the time of the steps, s, without that of turning. */
+static void step_all_worlds(const Worlds *w, uint64_t steps, double *cpu, double *wall) {
     for (uint64_t done = 0; done < steps; done += STEPS_A_WAY) {
         for (uint32_t k = 0; k < w->count; k++)
             turn_to_ball(w->worlds[k], w->balls[k]);
@@ -79,8 +80,8 @@ static void step_all(const Worlds *w, uint64_t steps, double *cpu, double *wall)
     }
 }
 
-/* Of all worlds, as if they were one; agents and bodies are those of one. */
-static JoStats sum_of(const Worlds *w) {
+/* Sums the statistics of all worlds; agents and bodies are those of one world. */
+static JoStats sum_statistics(const Worlds *w) {
     JoStats sum = jo_world_stats(w->worlds[0]);
     for (uint32_t k = 1; k < w->count; k++) {
         const JoStats stats = jo_world_stats(w->worlds[k]);
@@ -109,13 +110,13 @@ int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, 
         w.count += good;
     }
     if (good) {
-        step_all(&w, given->warm_up, &unused[0], &unused[1]);
-        step_all(&w, given->steps, &cpu, &wall);
+        step_all_worlds(&w, given->warm_up, &unused[0], &unused[1]);
+        step_all_worlds(&w, given->steps, &cpu, &wall);
         for (uint32_t k = 0; k < w.count; k++)
             jo_world_set_timed(w.worlds[k], true);
-        JoStats from = sum_of(&w);
-        step_all(&w, given->steps, &unused[0], &unused[1]);
-        JoStats to = sum_of(&w);
+        JoStats from = sum_statistics(&w);
+        step_all_worlds(&w, given->steps, &unused[0], &unused[1]);
+        JoStats to = sum_statistics(&w);
         from.cpu_s = from.wall_s = 0.0;
         to.cpu_s = cpu;
         to.wall_s = wall;
