@@ -17,11 +17,10 @@
 #include "base/text.h"
 #include "cli/cli.h"
 
-enum { SECONDS = 20 };               /* s of processor time for the child */
-static const double LONGEST = 600.0; /* s of wall time for the child */
-static const size_t MEMORY = (size_t)2 << 30,
-                    LARGEST = (size_t)512
-                              << 20; /* bytes: memory of the child; data that it may send */
+enum { SECONDS = 20 };                           /* s of processor time for the child */
+static const double LONGEST = 600.0;             /* s of wall time for the child */
+static const size_t MEMORY = (size_t)2 << 30;    /* bytes of memory for the child */
+static const size_t LARGEST = (size_t)512 << 20; /* bytes of messages that it may send */
 
 /* ---- messages ---- */
 
