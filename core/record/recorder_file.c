@@ -83,8 +83,8 @@ bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db) {
    access could not roll back. */
 bool jox_recording_fold(JoxDatabase *database, JoxText *message) {
     sqlite3 *db = database->sqlite;
-    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0,
-                      NULL); /* defensive mode would keep a journal */
+    /* Defensive mode would keep a journal. */
+    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0, NULL);
     sqlite3_busy_timeout(db, FOLD_PATIENCE);
     if (sqlite3_exec(db, "PRAGMA journal_mode=OFF", NULL, NULL, NULL) == SQLITE_OK)
         return true;

@@ -14,9 +14,9 @@ enum { MOST_POINTS = 100000, MOST_WALLS = 1000000 };
 typedef struct RecordedWall {
     int64_t frame;
     uint32_t number;
-    bool solid, closed, open,
-        same_points; /* same: the points are those of the wall's previous row */
-    float height;    /* m */
+    /* same_points: the points are those of the wall's previous row. */
+    bool solid, closed, open, same_points;
+    float height; /* m */
     char *name;
     size_t first; /* index of its first point */
     uint32_t count;

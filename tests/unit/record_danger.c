@@ -137,8 +137,8 @@ static void held_load_counts_and_knock_does_not(void **state) {
     for (double dt = 0.0125; dt < 0.11; dt *= 2) {
         JoxDangerMost most;
         JoxDangerCount count = press_and_knock(dt, &most);
-        assert_int_equal(count.people,
-                         1); /* the knock of 500 Ns raises the mean to 500 N at most */
+        /* The knock of 500 Ns raises the mean to 500 N at most. */
+        assert_int_equal(count.people, 1);
         assert_float_equal(count.first, 2.0 + up, 1.01 * dt);
         assert_float_equal(count.person_s, 10.0 - up + down, 2.01 * dt);
         assert_float_equal(count.longest, count.person_s, 1e-9);

@@ -301,8 +301,8 @@ static void density_is_sum_over_people(void **state) {
     assert_true(fabsf(d->most_at.x - most_at.x) < 0.5f && fabsf(d->most_at.y - most_at.y) < 0.5f);
     assert_true(d->most_time == 3);
     float first = d->most, far_x[] = {NAN, INFINITY, 1e30f, -300}, far_y[] = {0, 0, 0, 0};
-    jox_density_add(d, (JoxV2){0, 0}, far_x, far_y, 4,
-                    4); /* nobody within reach: the mean halves */
+    /* Nobody within reach: the mean halves. */
+    jox_density_add(d, (JoxV2){0, 0}, far_x, far_y, 4, 4);
     assert_true(d->most == first && d->most_time == 3);
     uint32_t column = (uint32_t)((d->most_at.x + 5) / d->cell);
     uint32_t row = (uint32_t)((d->most_at.y + 15) / d->cell);

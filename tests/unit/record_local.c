@@ -154,8 +154,8 @@ static void unmeasured_pressure_is_nan(void **state) {
     assert_false(isnan(move_lattice(place_lattice(SIDE, SPACING), shake_evenly, 40)));
     JoxLocal *local = place_lattice(SIDE, SPACING);
     crowd.period = (JoxV2){12, 0};
-    assert_true(move_lattice(local, start_walking, 40) <
-                1e-4); /* before it and, from 25 s on, not measured */
+    /* Before it and, from 25 s on, not measured. */
+    assert_true(move_lattice(local, start_walking, 40) < 1e-4);
 }
 
 /* After a gap the measurement takes its full time again. */

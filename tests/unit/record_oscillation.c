@@ -67,8 +67,8 @@ static void swinging_turns_neither_way(void **state) {
     assert_near(figure_value(p, "frequency"), TURN, 1e-6);
     assert_true(figure_value(p, "rises") > 100);
     assert_near(figure_value(p, "one_way"), 0, 0.02);
-    assert_near(figure_value(p, "speed_frequency"), 2 * TURN,
-                1e-6); /* the speed is greatest twice per period */
+    /* The speed is greatest twice per period. */
+    assert_near(figure_value(p, "speed_frequency"), 2 * TURN, 1e-6);
     jox_probe_free(p);
 }
 

@@ -150,8 +150,8 @@ static void lattice_density_is_measured(void **state) {
     assert_near(figure_value(p, "speed"), 0.5, 1e-6);
     assert_near(figure_value(p, "specific_flow"), 8, 1e-4);
     jox_probe_free(p);
-    def = default_probe_def(JOX_PROBE_MEASURE, PART,
-                            4); /* a file of people 0.8 m apart between walls */
+    /* A file of people 0.8 m apart between walls. */
+    def = default_probe_def(JOX_PROBE_MEASURE, PART, 4);
     p = jox_probe_create(&def);
     reset_crowd(10);
     jox_walls_add_polyline(&crowd.walls, LOWER, 2, false, INFINITY);
@@ -282,8 +282,8 @@ static void push_front_has_a_speed(void **state) {
         reset_crowd(5);
         for (int step = 0; step <= 400; step++) {
             double t = 0.01 * step;
-            for (uint32_t i = 0; i < 5;
-                 i++) { /* 0.4 m apart; each moves 0.2 s after the person behind */
+            /* 0.4 m apart; each moves 0.2 s after the person behind. */
+            for (uint32_t i = 0; i < 5; i++) {
                 double go = t - 1 - 0.2 * i, way = go < 0 ? 0 : go < 0.4 ? go : fmax(0.8 - go, 0.1);
                 crowd.y[i] = (float)(2 - 0.4 * i - way);
                 crowd.x[i] = t < 0.5 ? (step % 2 ? 0.01f : -0.01f) : 0.03f;

@@ -102,8 +102,8 @@ static void columns_by_position(void **state) {
     assert_walk(read_text_recording(METRES, 0, 0));
     assert_walk(read_text_recording(strcat(marked, METRES), 0, 0));
     assert_walk(read_text_recording(CENTIMETRES, 0, 0));
-    assert_walk(read_text_recording(strstr(CENTIMETRES, "7 10"), 10,
-                                    0.01)); /* no header: the options give rate and unit */
+    /* No header: the options give rate and unit. */
+    assert_walk(read_text_recording(strstr(CENTIMETRES, "7 10"), 10, 0.01));
     /* Options override the file. */
     JoxTrajectories *t = read_text_recording(METRES, 20, 2);
     JoxFrame frame;

@@ -34,8 +34,8 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
         d->least[m] = INFINITY;
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double *least = &d->least[jox_danger_limits[l].measure];
-        JOX_ASSERT(jox_danger_limits[l].value >
-                   0.0); /* people without load must not count as over a limit */
+        /* People without load must not count as over a limit. */
+        JOX_ASSERT(jox_danger_limits[l].value > 0.0);
         *least = fmin(*least, jox_danger_limits[l].value);
         d->counts[l].first = NAN;
     }
@@ -224,9 +224,9 @@ static void add_danger_row(JoxDanger *d, const JoxFrame *frame, const JoxExits *
    of this frame; every frame. So the maximum over rows or cells is the maximum over all frames. */
 static void update_maxima(JoxDanger *d, const JoxFrame *frame) {
     JoxDangerRow *row = &d->rows[d->row_count - 1];
+    /* At least 0: people who bear nothing were measured, too. */
     for (int m = JOX_DANGER_FIRST_BORNE; m <= JOX_DANGER_LAST_BORNE && frame->count; m++)
-        row->most[m] = jox_maxf(row->most[m],
-                                0.0f); /* at least 0: people who bear nothing were measured, too */
+        row->most[m] = jox_maxf(row->most[m], 0.0f);
     for (uint32_t k = 0; k < d->loaded_count; k++) {
         const uint32_t i = d->loaded[k];
         size_t cell;
@@ -305,9 +305,8 @@ void jox_danger_add_plan(JoxDanger *d, const JoxPlace *places, uint32_t place_co
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     reserve_danger_people(d, frame);
-    jox_density_walls(
-        d->local->grid,
-        frame->walls); /* cells of people near walls are needed between samples, too */
+    /* Cells of people near walls are needed between samples, too. */
+    jox_density_walls(d->local->grid, frame->walls);
     update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);
     jox_danger_lines_cross(&d->lines, frame);

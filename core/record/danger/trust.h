@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 
-#define JOX_TRUST_OVERLAP 0.1 /* share of a diameter; 99 % of people overlap less */
+#define JOX_TRUST_OVERLAP 0.1 /* limit of the 99th percentile of overlaps, of a diameter */
 /* 1/m2, Gaussian, R = 1 m: about that of the densest known crowds. */
 #define JOX_TRUST_DENSITY 10.0
 

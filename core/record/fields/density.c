@@ -103,10 +103,9 @@ bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
     int column, row;
     if (!jox_density_locate(d, x, y, &column, &row))
         return false;
+    /* A person inside a wall is read at the cell that received the person's mass. */
     if (d->floor && d->floor->near[row * d->wide + column])
-        (void)jox_density_node(
-            d, x, y, &column,
-            &row); /* a person inside a wall is read at the cell that received the person's mass */
+        (void)jox_density_node(d, x, y, &column, &row);
     column -= d->edge;
     row -= d->edge;
     if (column < 0 || row < 0 || column >= (int)d->columns || row >= (int)d->rows)

@@ -277,8 +277,8 @@ static void measure_areas(JoxDensity *d, JoxDensitySolids *solids) {
 static void narrow_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     const int wide = d->wide, last = wide * (d->high - 1);
-    float *room =
-        jox_density_spare(d); /* total width of the ways of a node, then the factor for its ways */
+    /* Total width of the ways of a node, then the factor for its ways. */
+    float *room = jox_density_spare(d);
     for (int c = wide; c < last; c++)
         room[c] = f->open_x[c] + f->open_x[c - 1] + f->open_y[c] + f->open_y[c - wide];
     for (uint32_t s = 0; s < f->slant_count; s++) {

@@ -1,5 +1,5 @@
-/* Cuts Voronoi cells by the neighbours of a site, which bins of the plane hold; voronoi_walls.c
-   cuts them by walls. */
+/* Cuts Voronoi cells by the neighbouring sites, which are found through bins. voronoi_walls.c cuts
+   cells by walls. */
 #include "record/fields/voronoi.h"
 
 #include <math.h>
@@ -94,8 +94,8 @@ double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, ui
         x[0][0] = 0.0, y[0][0] = 0.0;
         x[0][1] = (double)from.x - at.x, y[0][1] = (double)from.y - at.y;
         x[0][2] = (double)to.x - at.x, y[0][2] = (double)to.y - at.y;
-        for (uint32_t c = 0; c < cell->count && corners > 0;
-             c++) { /* clip by the sides of the cell */
+        /* Clip by the sides of the cell. */
+        for (uint32_t c = 0; c < cell->count && corners > 0; c++) {
             uint32_t n = c + 1 < cell->count ? c + 1 : 0, kept = 0;
             double sx = cell->x[n] - cell->x[c], sy = cell->y[n] - cell->y[c];
             for (uint32_t k = 0; k < corners; k++) {
@@ -115,8 +115,8 @@ double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, ui
             corners = kept;
             now = !now;
         }
-        sum += measure_polygon_area(x[now], y[now],
-                                    corners); /* clockwise triangles count as negative */
+        /* Clockwise triangles count as negative. */
+        sum += measure_polygon_area(x[now], y[now], corners);
     }
     return fabs(sum);
 }

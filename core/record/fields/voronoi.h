@@ -58,8 +58,8 @@ typedef struct JoxSites {
     /* index in `order` of the first site of each bin; one more at the end */
     uint32_t *first, first_capacity;
     uint32_t *order, order_capacity;
-    bool *
-        repeated; /* used if a bin has very many sites: the site repeats the point of another one */
+    /* Used if a bin has very many sites: the site repeats the point of another one. */
+    bool *repeated;
     uint32_t *sort_scratch; /* scratch for sorting */
     uint32_t repeated_capacity, sort_scratch_capacity;
 } JoxSites;

@@ -175,8 +175,8 @@ static void add_segment_powers(Spectrum *s, const double *nx, const double *ny, 
     for (uint32_t k = 0; k < s->bins; k++) {
         double turning[2], alone[2];
         compute_powers(s, nx, ny, k, turning);
-        compute_powers(s, speed, speed, k,
-                       alone); /* power of (1 + i) speed, which is twice the power of speed */
+        /* Power of (1 + i) speed, which is twice the power of speed. */
+        compute_powers(s, speed, speed, k, alone);
         s->anticlockwise[k] += turning[0];
         s->clockwise[k] += turning[1];
         s->speed[k] += 0.5 * alone[0];

@@ -16,8 +16,8 @@ struct JoxProbe {
     const JoxProbeCalls *calls;
     void *state;
     double pace;
-    int64_t
-        last_interval; /* number of the interval of `pace` seconds that the last frame lies in */
+    /* Number of the interval of `pace` seconds that the last frame lies in. */
+    int64_t last_interval;
     uint8_t *seen;
     uint32_t seen_capacity;
 };
