@@ -86,7 +86,7 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_walls(l->grid, frame->walls);
     jox_density_sample(l->grid, &crowd, l->pressure ? 3 : 1,
                        (float *[]){l->grid->now, l->flow_x, l->flow_y});
-    jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
+    jox_density_update_statistics(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
     if (l->tracked) /* in the first sample, velocities since the last are unknown */
         jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
     l->tracked = l->pressure != NULL;

@@ -326,7 +326,7 @@ static JoxRecorder *create_recorder(const char *path, FILE *file, double fps, co
 }
 
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
-    FILE *file = jox_claim_recording(path, error);
+    FILE *file = jox_recording_claim(path, error);
     return file ? create_recorder(path, file, fps, wkt, 0, error) : NULL;
 }
 
@@ -489,7 +489,7 @@ bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
     if (good && !sqlite3_get_autocommit(r->db->sqlite))
         good = execute_sql(r, "COMMIT");
     good = good && check_file_name(r);
-    if (good && !jox_recording_fold(r->db, message)) {
+    if (good && !jox_recording_merge_log(r->db, message)) {
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
         good = false;
     }

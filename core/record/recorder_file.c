@@ -47,7 +47,7 @@ void jox_recording_remove(const char *path) {
     unlink(path);
 }
 
-FILE *jox_claim_recording(const char *path, JoxText *error) {
+FILE *jox_recording_claim(const char *path, JoxText *error) {
     struct stat info;
     const bool there = lstat(path, &info) == 0;
     if (there && (!S_ISREG(info.st_mode) || (info.st_size > 0 && !jox_is_recording(path)))) {
@@ -81,7 +81,7 @@ bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db) {
 
 /* Journal mode OFF: if the run is killed now, no journal is left, which a reader without write
    access could not roll back. */
-bool jox_recording_fold(JoxDatabase *database, JoxText *message) {
+bool jox_recording_merge_log(JoxDatabase *database, JoxText *message) {
     sqlite3 *db = database->sqlite;
     /* Defensive mode would keep a journal. */
     sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 0, NULL);

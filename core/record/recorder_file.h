@@ -14,7 +14,7 @@ bool jox_is_recording(const char *path);
 /* Creates the file of a new recording and returns it open and empty, with a lock against other
    runs; an earlier recording at that path is removed. Returns NULL with a sentence in `error` on
    failure. */
-FILE *jox_claim_recording(const char *path, JoxText *error);
+FILE *jox_recording_claim(const char *path, JoxText *error);
 /* Removes a recording and the journal files of SQLite beside it. */
 void jox_recording_remove(const char *path);
 /* Returns whether the file being written still has its path: it may have been removed or
@@ -23,7 +23,7 @@ bool jox_recording_has_name(FILE *claimed, const JoxDatabase *db);
 /* Moves the write-ahead log into the recording, so that one file is left; call it after the last
    commit. While another program has the file open, part of the log stays in a file beside it and
    `message` says so. Returns false on an error of SQLite, which sqlite3_errmsg explains. */
-bool jox_recording_fold(JoxDatabase *db, JoxText *message);
+bool jox_recording_merge_log(JoxDatabase *db, JoxText *message);
 
 /* Names of all tables of recordings, including older versions; ends with NULL. */
 extern const char *const jox_recording_tables[];

@@ -13,7 +13,7 @@ void jox_track_sections(JoxTrack *track, JoxSections *s) {
     JOX_SECTION_ROOM(s, "tracked", track->items, track->capacity);
 }
 
-int jox_stretch_crosses_near(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
+int jox_stretch_crosses_exactly(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
     JoxV2 from = s->from, to = jox_add(s->from, s->by);
     int crosses = jox_segment_crossing(a, b, from, to);
     if (crosses == 0 && (to.x != s->to.x ||

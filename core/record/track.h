@@ -60,14 +60,14 @@ static inline bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32
 }
 
 /* The exact part of jox_stretch_crosses, for stretches whose bounding boxes meet a-b. */
-int jox_stretch_crosses_near(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);
+int jox_stretch_crosses_exactly(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);
 /* Returns +1 where a stretch crosses the segment a-b from its right to its left, -1 from left to
    right, and sets `time`, s; returns 0 where it does not cross. Bounding boxes exclude most
    stretches first. */
 static inline int jox_stretch_crosses(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
     const JoxV2 end = jox_add(s->from, s->by), begin = jox_sub(s->to, s->by);
     const bool by = jox_boxes_meet(a, b, s->from, end) || jox_boxes_meet(a, b, begin, s->to);
-    return by ? jox_stretch_crosses_near(s, a, b, time) : 0;
+    return by ? jox_stretch_crosses_exactly(s, a, b, time) : 0;
 }
 
 #endif

@@ -169,7 +169,7 @@ static bool read_text_file(JoxTrajectories *t, const char *path,
     /* Comments of other programs may be in any 8-bit encoding; zero bytes show UTF-16, which is
        refused. */
     bool good = !memchr(text, 0, length) || jox_diag_check_text(diagnostics, path, text, length);
-    good = good && jox_trajectories_text(t, path, text, length, options, diagnostics);
+    good = good && jox_trajectories_add_text(t, path, text, length, options, diagnostics);
     jox_diag_attach_source(diagnostics, path, text, length);
     jox_free(text);
     return good;

@@ -71,17 +71,18 @@ JoxTrajectories *jox_trajectories_read_text(const char *path, const JoxTrajector
                                             JoxDiagnostics *diagnostics);
 bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics);
 /* Adds the rows of a text (trajectories_text.c). Returns false with errors. */
-bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
-                           const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
+bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char *text,
+                               size_t length, const JoxTrajectoryOptions *options,
+                               JoxDiagnostics *diagnostics);
 /* Reads only walls and groups from an open file (trajectory_plan.c). */
 struct JoxDatabase;
-void jox_trajectories_plan(JoxTrajectories *t, struct JoxDatabase *db);
+void jox_trajectories_read_walls(JoxTrajectories *t, struct JoxDatabase *db);
 /* Returns the colour in a column of a row; 0 for none. */
 struct sqlite3_stmt;
 JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);
 /* Returns whether a file begins with the signature of SQLite. */
 bool jox_is_sqlite(const char *path);
 /* Adds a row and returns its index; the caller fills its columns. */
-size_t jox_trajectories_add(JoxTrajectories *t);
+size_t jox_trajectories_add_row(JoxTrajectories *t);
 
 #endif

@@ -16,7 +16,7 @@ static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path, c
 
 /* Builds the names of states. The first, "", is for people without a machine; with several machines
    the machine's name stands before the state's. */
-static void build_state_names(JoxTrajectories *t, const JoxTrajectoryReader *r) {
+static void build_recorded_state_names(JoxTrajectories *t, const JoxTrajectoryReader *r) {
     bool several = false;
     if (r->state_count == 0)
         return;
@@ -55,7 +55,7 @@ static void reserve_own_columns(JoxTrajectories *t, bool loads, bool radii, size
 /* Adds person i of a frame as a row; our own recordings have more columns. */
 static void add_person_row(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
                            const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[OWN]) {
-    const size_t row = jox_trajectories_add(t);
+    const size_t row = jox_trajectories_add_row(t);
     t->number[row] = r->number[frame];
     t->id[row] = f->id[i];
     t->line[row] = 0;
@@ -108,10 +108,10 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     t->period = options->period;
     t->fps = r->fps;
     t->last = r->last;
-    build_state_names(t, r);
+    build_recorded_state_names(t, r);
     bool good = read_all_frames(t, r, path, diagnostics);
     if (good) {
-        jox_trajectories_plan(t, r->db);
+        jox_trajectories_read_walls(t, r->db);
         good = jox_trajectories_finish(t, path, diagnostics);
     }
     jox_trajectory_reader_close(r);

@@ -210,7 +210,7 @@ static bool parse_row(Text *r, const char *line, size_t length) {
         if (first || v[FRAME] > r->last_frame)
             r->last_frame = v[FRAME], r->last_time = v[TIME];
     }
-    size_t row = jox_trajectories_add(t);
+    size_t row = jox_trajectories_add_row(t);
     t->number[row] = (int64_t)v[FRAME];
     t->line[row] = (uint32_t)r->line;
     t->id[row] = (int64_t)v[ID];
@@ -250,8 +250,9 @@ static bool apply_units(Text *r, const JoxTrajectoryOptions *options) {
     return t->count > 0 && t->fps > 0.0 && unit > 0.0;
 }
 
-bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
-                           const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char *text,
+                               size_t length, const JoxTrajectoryOptions *options,
+                               JoxDiagnostics *diagnostics) {
     Text r = {.t = t, .diagnostics = diagnostics, .path = path};
     const size_t errors = diagnostics->errors;
     bool begun = false;

@@ -7,7 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-size_t jox_trajectories_add(JoxTrajectories *t) {
+size_t jox_trajectories_add_row(JoxTrajectories *t) {
     if (t->count == t->capacity) {
         size_t wider = t->capacity ? 2 * t->capacity : 1024;
         t->number = jox_realloc(t->number, wider, sizeof *t->number);

@@ -66,7 +66,7 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
     jox_database_finalize(db, statement);
 }
 
-void jox_trajectories_plan(JoxTrajectories *t, JoxDatabase *db) {
+void jox_trajectories_read_walls(JoxTrajectories *t, JoxDatabase *db) {
     t->history = jox_wall_history_read(db);
     if (t->history)
         jox_wall_history_first(t->history, &t->walls);

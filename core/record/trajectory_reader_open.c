@@ -293,7 +293,7 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
         r->last = (int64_t)found;
     read_bounds(r);
     read_state_names(r);
-    jox_trajectories_plan(&r->outlines, r->db);
+    jox_trajectories_read_walls(&r->outlines, r->db);
     return true;
 }
 

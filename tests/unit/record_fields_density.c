@@ -326,7 +326,7 @@ static void within_agrees_with_polygon_test(void **state) {
             jox_free(ring);
         }
         inside += expected;
-        if (jox_density_within(solids, p) != expected)
+        if (jox_density_is_within_solid(solids, p) != expected)
             fail_msg("(%g, %g) is %s", (double)p.x, (double)p.y, expected ? "within" : "outside");
     }
     assert_in_range(inside, 8000, 36000);
@@ -347,7 +347,7 @@ static double sum_kernel_over_people(const JoxDensity *d, const float *x, const 
     for (uint32_t i = 0; i < count; i++) {
         uint32_t nodes[4];
         float shares[4];
-        const int found = jox_density_share(d, x[i], y[i], nodes, shares);
+        const int found = jox_density_share_person(d, x[i], y[i], nodes, shares);
         for (int n = 0; n < found; n++) {
             const JoxV2 low = jox_density_corner(d);
             const double column = nodes[n] % (uint32_t)d->wide, row = nodes[n] / (uint32_t)d->wide;

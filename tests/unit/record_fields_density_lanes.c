@@ -68,9 +68,9 @@ static void put_one_by_one(const JoxDensity *d, const JoxDensityCrowd *crowd,
             for (int r = -up; r <= up; r++) {
                 uint32_t nodes[4];
                 float shares[4];
-                const int count =
-                    jox_density_share(d, crowd->x[i] + (float)c * crowd->period.x,
-                                      crowd->y[i] + (float)r * crowd->period.y, nodes, shares);
+                const int count = jox_density_share_person(
+                    d, crowd->x[i] + (float)c * crowd->period.x,
+                    crowd->y[i] + (float)r * crowd->period.y, nodes, shares);
                 for (int k = 0; k < count && crowd->seen[i]; k++)
                     for (int f = 0; f < FIELDS; f++)
                         mass[f][nodes[k]] +=
@@ -124,8 +124,8 @@ static void packets_put_people_as_one_by_one(void **state) {
                 for (int first = 0; first < d->high; first += rows) {
                     const int end = first + rows < d->high ? first + rows : d->high;
                     const size_t from = (size_t)first * (size_t)d->wide;
-                    jox_density_strip(d, FIELDS, first, end);
-                    jox_density_put(d, &crowd);
+                    jox_density_clear_strip(d, FIELDS, first, end);
+                    jox_density_put_crowd(d, &crowd);
                     for (int f = 0; f < FIELDS; f++)
                         assert_equal_bits(d->work.mass[f], plain[f] + from,
                                           (size_t)(end - first) * (size_t)d->wide, isa);
@@ -238,8 +238,8 @@ static void assert_steps_equal(JoxDensity *d, const JoxDensityCrowd *crowd) {
     }
     EACH_ISA(isa) {
         d->isa = isa;
-        jox_density_strip(d, FIELDS, 0, d->high);
-        jox_density_put(d, crowd);
+        jox_density_clear_strip(d, FIELDS, 0, d->high);
+        jox_density_put_crowd(d, crowd);
         for (int f = 0; f < FIELDS; f++) {
             jox_density_diffuse(d, f);
             assert_equal_bits(d->work.mass[f], mass[f], cells, isa);

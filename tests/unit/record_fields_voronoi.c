@@ -106,7 +106,7 @@ static void walls_bound_cells(void **state) {
         jox_cell_begin(&cell, 1.0);
         jox_cell_cut(&cell, 0.9, 0.3);
         jox_cell_cut(&cell, -0.3, -1.1);
-        jox_cell_seen(&cell, at, &bars, BOX, 4, &whole, &within);
+        jox_cell_visible_area(&cell, at, &bars, BOX, 4, &whole, &within);
         for (int r = 0; r < FINE; r++)
             for (int c = 0; c < FINE; c++) {
                 double x = (c + 0.5) * step - 1, y = (r + 0.5) * step - 1;
@@ -148,7 +148,7 @@ static void person_behind_wall_is_no_neighbour(void **state) {
     for (int with = 0; with < 2; with++) {
         sites.bars = with ? &bars : NULL;
         jox_sites_cell(&sites, 3 * 8, 1.0, &cell);
-        jox_cell_seen(&cell, sites.points[3 * 8], &bars, all, 4, &whole, &within);
+        jox_cell_visible_area(&cell, sites.points[3 * 8], &bars, all, 4, &whole, &within);
         assert_near(whole, with ? 0.5 : 0.3, 1e-6);
     }
     jox_sites_free(&sites);

@@ -240,7 +240,7 @@ static void update_maxima(JoxDanger *d, const JoxFrame *frame) {
                 d->greatest[m][cell] = jox_maxf(d->greatest[m][cell], value);
         }
     }
-    row->wall_most = fmaxf(row->wall_most, (float)jox_danger_walls_now(&d->walls));
+    row->wall_most = fmaxf(row->wall_most, (float)jox_danger_walls_greatest_load(&d->walls));
     if (!d->walls.known)
         row->wall_most = NAN;
     if (!frame->compression)
@@ -253,8 +253,9 @@ static void update_maxima(JoxDanger *d, const JoxFrame *frame) {
 static void measure_voronoi(JoxDanger *d, const JoxFrame *frame) {
     const JoxDensityCrowd crowd = {
         .count = frame->count, .x = frame->x, .y = frame->y, .period = frame->period};
-    jox_voronoi_people(&d->voronoi, &crowd, frame->walls, jox_density_walls_hash(d->local->grid),
-                       d->gaussian_density, d->voronoi_density);
+    jox_voronoi_people_measure(&d->voronoi, &crowd, frame->walls,
+                               jox_density_walls_hash(d->local->grid), d->gaussian_density,
+                               d->voronoi_density);
 }
 
 /* Takes a sample of the fields and counts the people over the limits of density and pressure. */
@@ -309,9 +310,9 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     jox_density_walls(d->local->grid, frame->walls);
     update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);
-    jox_danger_lines_cross(&d->lines, frame);
+    jox_danger_lines_add_crossings(&d->lines, frame);
     if (exits)
-        jox_leaving_note(&d->leaving, exits, frame->time);
+        jox_leaving_update(&d->leaving, exits, frame->time);
     if (d->owns_local)
         jox_local_frame(d->local, frame, NULL);
     if (d->local->time == frame->time && d->last_sample != frame->time)

@@ -13,7 +13,7 @@ static void add_leave(JoxLeaving *l, double time, uint32_t people, int32_t exit)
     l->items[l->count++] = (JoxLeave){time, people, exit};
 }
 
-void jox_leaving_note(JoxLeaving *l, const JoxExits *exits, double time) {
+void jox_leaving_update(JoxLeaving *l, const JoxExits *exits, double time) {
     if (exits->left <= l->left)
         return;
     uint32_t elsewhere = (uint32_t)(exits->left - l->left);

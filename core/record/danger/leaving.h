@@ -30,7 +30,7 @@ typedef struct JoxLeaving {
 } JoxLeaving;
 
 /* Adds the people who left since the last call. `time`, s, must ascend. */
-void jox_leaving_note(JoxLeaving *leaving, const JoxExits *exits, double time);
+void jox_leaving_update(JoxLeaving *leaving, const JoxExits *exits, double time);
 /* Returns how many people left by an exit, JOX_LEFT_ELSEWHERE or JOX_LEFT_ANYWHERE. */
 uint64_t jox_leaving_count(const JoxLeaving *leaving, int32_t exit);
 /* Returns the time, s, by which a share (0 to 1) of the people who left by an exit had left: the

@@ -47,7 +47,7 @@ static void add_line_crossing(JoxDangerLine *line, double time, uint32_t key, in
     line->back += direction < 0;
 }
 
-void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame) {
+void jox_danger_lines_add_crossings(JoxDangerLines *lines, const JoxFrame *frame) {
     if (lines->count == 0)
         return;
     jox_track_reserve(&lines->track, frame);

@@ -77,7 +77,7 @@ typedef struct JoxDangerLines {
 /* Adds a line. A line that exists already or has no length is ignored. */
 void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV2 b);
 /* Adds the crossings of a frame; call it in every frame. */
-void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame);
+void jox_danger_lines_add_crossings(JoxDangerLines *lines, const JoxFrame *frame);
 /* Takes a sample, `duration` seconds after the last. `density[i]` is the density where person i
    stands, 1/m2; NAN outside the measured area. */
 void jox_danger_lines_sample(JoxDangerLines *lines, const JoxFrame *frame, const float *density,

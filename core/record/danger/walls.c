@@ -68,7 +68,7 @@ void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double
         update_piece_figures(walls, p, frame->time, duration);
 }
 
-double jox_danger_walls_now(const JoxDangerWalls *walls) {
+double jox_danger_walls_greatest_load(const JoxDangerWalls *walls) {
     double most = walls->known ? 0.0 : NAN;
     for (uint32_t p = 0; p < walls->count; p++)
         most = fmax(most, (double)walls->items[p].load);

@@ -37,7 +37,7 @@ typedef struct JoxDangerWalls {
 void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double duration,
                             float share);
 /* Returns the greatest mean load of any piece at present, N; NAN if unknown. */
-double jox_danger_walls_now(const JoxDangerWalls *walls);
+double jox_danger_walls_greatest_load(const JoxDangerWalls *walls);
 /* Returns the greatest load of a piece over its length, N/m. */
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
 /* Writes "walls": {...}, or null without wall loads. `end` is the time of the last frame, s. */

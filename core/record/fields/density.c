@@ -39,8 +39,8 @@ static size_t index_in_working_grid(const JoxDensity *d,
 static void sample_floor(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
                          float *const *out) {
     const float per = 1.0f / (d->cell * d->cell);
-    jox_density_strip(d, fields, 0, d->high);
-    jox_density_put(d, crowd);
+    jox_density_clear_strip(d, fields, 0, d->high);
+    jox_density_put_crowd(d, crowd);
     for (int f = 0; f < fields; f++) {
         jox_density_diffuse(d, f);
         for (uint32_t row = 0; row < d->rows; row++) {
@@ -72,7 +72,7 @@ static void add_to_mean(JoxDensity *d) {
     d->frames++;
 }
 
-void jox_density_note(JoxDensity *d, double t, bool mean) {
+void jox_density_update_statistics(JoxDensity *d, double t, bool mean) {
     enum { AT_ONCE = 64 };
     const size_t cells = (size_t)d->columns * d->rows;
     const float *now = d->now;
@@ -96,7 +96,7 @@ void jox_density_add(JoxDensity *d, JoxV2 period, const float *x, const float *y
                      double t) {
     const JoxDensityCrowd crowd = {.count = count, .x = x, .y = y, .period = period};
     jox_density_sample(d, &crowd, 1, &d->now);
-    jox_density_note(d, t, true);
+    jox_density_update_statistics(d, t, true);
 }
 
 bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
@@ -105,7 +105,7 @@ bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
         return false;
     /* A person inside a wall is read at the cell that received the person's mass. */
     if (d->floor && d->floor->near[row * d->wide + column])
-        (void)jox_density_node(d, x, y, &column, &row);
+        (void)jox_density_find_node(d, x, y, &column, &row);
     column -= d->edge;
     row -= d->edge;
     if (column < 0 || row < 0 || column >= (int)d->columns || row >= (int)d->rows)

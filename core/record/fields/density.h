@@ -99,8 +99,8 @@ void jox_density_sample(JoxDensity *density, const JoxDensityCrowd *crowd, int f
 void jox_density_want_mean(JoxDensity *density);
 /* Updates the greatest value and, if wanted and with `mean`, the mean from the sample in `now`,
    taken at t, s. */
-void jox_density_note(JoxDensity *density, double t, bool mean);
-/* Samples `count` people into `now` and updates as jox_density_note does. */
+void jox_density_update_statistics(JoxDensity *density, double t, bool mean);
+/* Samples `count` people into `now` and updates as jox_density_update_statistics does. */
 void jox_density_add(JoxDensity *density, JoxV2 period, const float *x, const float *y,
                      uint32_t count, double t);
 /* Sets the cell whose value applies to a person at (x, y): the nearest one on the same side of

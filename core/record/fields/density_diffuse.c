@@ -10,10 +10,10 @@
 #include "record/fields/density_parts.h"
 
 #define X(name, isa)                                                                               \
-    [isa] = {jox_density_held_##name, jox_density_reach_##name, jox_density_step_mixed_##name,     \
-             jox_density_step_plain_##name},
+    [isa] = {jox_density_find_nonzero_##name, jox_density_reach_##name,                            \
+             jox_density_step_mixed_##name, jox_density_step_plain_##name},
 static const struct Kernels {
-    JoxDensityHeldKernel *held;
+    JoxDensityNonzeroKernel *find_nonzero;
     JoxDensityReachKernel *reach;
     JoxDensityStepKernel *mixed, *plain;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -196,22 +196,22 @@ static void step_spans(const JoxDensity *d, float share, const float *from, floa
     }
 }
 
-/* Turns masses into densities and sets `held` to the cells that are not zero. */
-static void divide_by_area(JoxDensity *d, float *mass, uint64_t *held) {
-    JoxDensityHeldKernel *const find_held = KERNELS[jox_isa_resolve(d->isa)].held;
+/* Turns masses into densities and sets `nonzero_cells` to the cells that are not zero. */
+static void divide_by_area(JoxDensity *d, float *mass, uint64_t *nonzero_cells) {
+    JoxDensityNonzeroKernel *const find_nonzero = KERNELS[jox_isa_resolve(d->isa)].find_nonzero;
     for (int row = 0; row < d->high; row++)
         for (int c = 0; c < d->wide; c += 64) {
             const int count = d->wide - c < 64 ? d->wide - c : 64;
             const float *per = d->floor->per + cell_index(d, c, row);
             float *cells = mass + cell_index(d, c, row);
-            const uint64_t nonzero = find_held(cells, count);
-            *jox_density_word(d, held, c, row) = nonzero;
+            const uint64_t nonzero = find_nonzero(cells, count);
+            *jox_density_word(d, nonzero_cells, c, row) = nonzero;
             for (int k = 0; k < count && nonzero; k++)
                 cells[k] *= per[k];
         }
 }
 
-float *jox_density_spare(JoxDensity *d) {
+float *jox_density_scratch(JoxDensity *d) {
     if (!d->work.spare)
         d->work.spare = jox_alloc((size_t)d->wide * (size_t)d->high, sizeof *d->work.spare);
     return d->work.spare;
@@ -226,7 +226,7 @@ void jox_density_diffuse(JoxDensity *d, int field) {
     for (int k = 0; k < 2; k++)
         if (!w->reached[k])
             w->reached[k] = jox_alloc(count_words(d), sizeof *w->reached[k]);
-    memset(jox_density_spare(d), 0, cells * sizeof *w->spare);
+    memset(jox_density_scratch(d), 0, cells * sizeof *w->spare);
     divide_by_area(d, w->mass[field], w->reached[0]);
     for (int s = 0; s < steps; s++) {
         if (s % LISTED == 0) {

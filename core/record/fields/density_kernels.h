@@ -32,7 +32,7 @@ typedef struct JoxDensityPlaced {
 typedef bool JoxDensityPlaceKernel(const JoxDensityAxis *axis, const float *at, uint32_t count,
                                    JoxDensityPlaced *placed);
 /* Returns bits of the cells that are not zero, among at most 64. */
-typedef uint64_t JoxDensityHeldKernel(const float *cells, int count);
+typedef uint64_t JoxDensityNonzeroKernel(const float *cells, int count);
 /* Sets out[c] to scale * the sum of taps[k] * rows[k][c], added in order of k. */
 typedef void JoxDensitySumKernel(const float *const *rows, const float *taps, int count,
                                  float scale, float *out, int columns);
@@ -55,7 +55,7 @@ typedef void JoxDensityReachKernel(const uint64_t *reached, const uint64_t *righ
 
 #define X(name, isa)                                                                               \
     JoxDensityPlaceKernel jox_density_place_##name;                                                \
-    JoxDensityHeldKernel jox_density_held_##name;                                                  \
+    JoxDensityNonzeroKernel jox_density_find_nonzero_##name;                                       \
     JoxDensitySumKernel jox_density_sum_##name;                                                    \
     JoxDensityStepKernel jox_density_step_mixed_##name, jox_density_step_plain_##name;             \
     JoxDensityReachKernel jox_density_reach_##name;

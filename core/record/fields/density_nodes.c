@@ -9,7 +9,7 @@ JoxV2 jox_density_corner(const JoxDensity *d) {
     return (JoxV2){d->low.x - (float)d->edge * d->cell, d->low.y - (float)d->edge * d->cell};
 }
 
-int jox_density_clamped(double value, int most) {
+int jox_density_clamp_index(double value, int most) {
     return value < 0.0 ? 0 : value > most ? most : (int)value;
 }
 
@@ -26,15 +26,15 @@ static bool touches_bar(const struct JoxDensityBar *bar, double ax, double ay, d
              (c < -slack && e < -slack));
 }
 
-bool jox_density_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
+bool jox_density_is_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
     double ax = (a.x - low.x) / d->cell, ay = (a.y - low.y) / d->cell;
     double bx = (b.x - low.x) / d->cell, by = (b.y - low.y) / d->cell;
-    int right = jox_density_clamped(fmax(ax, bx), d->wide - 1),
-        above = jox_density_clamped(fmax(ay, by), d->high - 1);
-    for (int r = jox_density_clamped(fmin(ay, by), d->high - 1); r <= above; r++)
-        for (int c = jox_density_clamped(fmin(ax, bx), d->wide - 1); c <= right; c++) {
+    int right = jox_density_clamp_index(fmax(ax, bx), d->wide - 1),
+        above = jox_density_clamp_index(fmax(ay, by), d->high - 1);
+    for (int r = jox_density_clamp_index(fmin(ay, by), d->high - 1); r <= above; r++)
+        for (int c = jox_density_clamp_index(fmin(ax, bx), d->wide - 1); c <= right; c++) {
             size_t cell = (size_t)r * (size_t)d->wide + (size_t)c;
             for (uint32_t k = f->first[cell]; k < f->first[cell + 1]; k++)
                 if (touches_bar(&f->bars[f->passing[k]], a.x, a.y, b.x, b.y))
@@ -62,13 +62,14 @@ JoxV2 jox_density_node_at(const JoxDensity *d, int column, int row) {
     return jox_v2(low.x + ((float)column + 0.5f) * d->cell, low.y + ((float)row + 0.5f) * d->cell);
 }
 
-JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *column, int *row) {
+JoxDensityNode jox_density_find_node(const JoxDensity *d, float x, float y, int *column, int *row) {
     const JoxDensityFloor *f = d->floor;
     float nearest = INFINITY;
     const int c0 = *column, r0 = *row;
     const size_t own = (size_t)r0 * (size_t)d->wide + (size_t)c0;
     bool seen = false;
-    if (f->per[own] > 0.0f && !jox_density_hidden(d, jox_v2(x, y), jox_density_node_at(d, c0, r0)))
+    if (f->per[own] > 0.0f &&
+        !jox_density_is_hidden(d, jox_v2(x, y), jox_density_node_at(d, c0, r0)))
         return JOX_DENSITY_SEEN;
     for (int r = r0 > 0 ? r0 - 1 : 0; r <= r0 + 1 && r < d->high; r++)
         for (int c = c0 > 0 ? c0 - 1 : 0; c <= c0 + 1 && c < d->wide; c++) {
@@ -77,7 +78,7 @@ JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *colu
             float away = jox_length2(jox_sub(node, jox_v2(x, y)));
             if (f->per[n] <= 0.0f || (seen && away >= nearest))
                 continue;
-            bool sees = !jox_density_hidden(d, jox_v2(x, y), node);
+            bool sees = !jox_density_is_hidden(d, jox_v2(x, y), node);
             if (!sees && (seen || away >= nearest))
                 continue;
             nearest = away;
@@ -92,7 +93,7 @@ JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *colu
    number of nodes. */
 static int share_near_wall(const JoxDensity *d, float x, float y, int column, int row,
                            uint32_t nodes[4], float shares[4]) {
-    if (jox_density_node(d, x, y, &column, &row) == JOX_DENSITY_NO_NODE)
+    if (jox_density_find_node(d, x, y, &column, &row) == JOX_DENSITY_NO_NODE)
         return 0;
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
@@ -117,7 +118,8 @@ static int share_near_wall(const JoxDensity *d, float x, float y, int column, in
     return 4;
 }
 
-int jox_density_share(const JoxDensity *d, float x, float y, uint32_t nodes[4], float shares[4]) {
+int jox_density_share_person(const JoxDensity *d, float x, float y, uint32_t nodes[4],
+                             float shares[4]) {
     int column, row;
     if (!jox_density_locate(d, x, y, &column, &row))
         return 0;

@@ -50,30 +50,31 @@ static inline bool jox_density_has_wall(const JoxDensityFloor *floor, size_t cel
 }
 /* density_put.c: makes rows first..end - 1 the strip and clears it; adds a crowd to it. Within
    walls the strip must be the whole grid. */
-void jox_density_strip(JoxDensity *density, int fields, int first, int end);
-void jox_density_put(JoxDensity *density, const JoxDensityCrowd *crowd);
+void jox_density_clear_strip(JoxDensity *density, int fields, int first, int end);
+void jox_density_put_crowd(JoxDensity *density, const JoxDensityCrowd *crowd);
 /* density_nodes.c: returns the lower left corner of the working grid, m; returns a value rounded
    down and limited to 0..most. */
 JoxV2 jox_density_corner(const JoxDensity *density);
-int jox_density_clamped(double value, int most);
+int jox_density_clamp_index(double value, int most);
 /* Sets the cell of (x, y). Returns false unless it has cells on all sides. */
 bool jox_density_locate(const JoxDensity *density, float x, float y, int *column, int *row);
 /* Returns whether a wall lies between two points that are at most two cells apart. */
-bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
+bool jox_density_is_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
 /* Moves from the cell of (x, y) to the cell of the node that applies there: its own if visible,
    else the nearest visible one, else (inside a wall) the nearest one. */
 typedef enum { JOX_DENSITY_NO_NODE, JOX_DENSITY_HIDDEN, JOX_DENSITY_SEEN } JoxDensityNode;
-JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int *column, int *row);
+JoxDensityNode jox_density_find_node(const JoxDensity *density, float x, float y, int *column,
+                                     int *row);
 /* Returns the position of a cell's node, m: the middle of the cell, or a walkable point in it. */
 JoxV2 jox_density_node_at(const JoxDensity *density, int column, int row);
 /* Sets the nodes that share a person at (x, y), and their shares. Returns their number; 0 outside
    the grid. */
-int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
-                      float shares[4]);
+int jox_density_share_person(const JoxDensity *density, float x, float y, uint32_t nodes[4],
+                             float shares[4]);
 /* density_solids.c: tests points against the solid walls that stand. Made for many queries. */
 typedef struct JoxDensitySolids JoxDensitySolids;
 JoxDensitySolids *jox_density_solids_create(const JoxDensity *density, const JoxWalls *walls);
-bool jox_density_within(JoxDensitySolids *solids, JoxV2 point);
+bool jox_density_is_within_solid(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c: frees a floor. */
 void jox_density_free_floor(JoxDensityFloor *floor);
@@ -94,7 +95,7 @@ static inline uint64_t jox_density_bit(int column) {
 void jox_density_list_floor(JoxDensity *density);
 void jox_density_diffuse(JoxDensity *density, int field);
 /* Returns scratch of one number for each cell. */
-float *jox_density_spare(JoxDensity *density);
+float *jox_density_scratch(JoxDensity *density);
 /* density_spread.c: returns the variance that the kernel has yet to add, cells2. Sharing a person
    among the nodes around has added 1/6 already, averaged over positions. jox_density_spread samples
    a crowd without walls. */

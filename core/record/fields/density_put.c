@@ -12,7 +12,7 @@ static JoxDensityPlaceKernel *const PLACE[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 
 /* ---- the strip ---- */
 
-void jox_density_strip(JoxDensity *d, int fields, int first, int end) {
+void jox_density_clear_strip(JoxDensity *d, int fields, int first, int end) {
     JoxDensityWork *w = &d->work;
     const size_t wide = (size_t)d->wide, cells = (size_t)(end - first) * wide;
     JOX_ASSERT(fields > 0 && fields <= JOX_DENSITY_FIELDS && first < end && end <= d->high);
@@ -39,7 +39,7 @@ void jox_density_strip(JoxDensity *d, int fields, int first, int end) {
 static void put_near_wall(JoxDensity *d, float x, float y, const float *weights) {
     uint32_t nodes[4];
     float shares[4];
-    const int count = jox_density_share(d, x, y, nodes, shares);
+    const int count = jox_density_share_person(d, x, y, nodes, shares);
     for (int k = 0; k < count; k++)
         for (int f = 0; f < d->work.fields; f++)
             d->work.mass[f][nodes[k]] += shares[k] * weights[f];
@@ -104,7 +104,7 @@ put_chunk(JoxDensity *d, const JoxDensityCrowd *crowd, const Chunk *chunk, int f
     }
 }
 
-void jox_density_put(JoxDensity *d, const JoxDensityCrowd *crowd) {
+void jox_density_put_crowd(JoxDensity *d, const JoxDensityCrowd *crowd) {
     JoxDensityPlaceKernel *const place = PLACE[jox_isa_resolve(d->isa)];
     const JoxDensityWork *w = &d->work;
     const JoxV2 low = jox_density_corner(d);

@@ -49,7 +49,7 @@ struct JoxDensitySolids {
 /* ---- edges by row ---- */
 
 static int find_edge_row(const JoxDensitySolids *s, float y) {
-    return jox_density_clamped(((double)y - s->low) / s->cell, s->rows - 1);
+    return jox_density_clamp_index(((double)y - s->low) / s->cell, s->rows - 1);
 }
 
 static void enter_solid_edge(JoxDensitySolids *s, uint32_t edge, bool fill) {
@@ -190,7 +190,7 @@ static Line *find_line(JoxDensitySolids *s, float y) {
     return line;
 }
 
-bool jox_density_within(JoxDensitySolids *s, JoxV2 p) {
+bool jox_density_is_within_solid(JoxDensitySolids *s, JoxV2 p) {
     if (s->edge_count == 0)
         return false;
     const Line *line = find_line(s, p.y);

@@ -9,9 +9,9 @@
 #include "record/fields/density_kernels.h"
 #include "record/fields/density_parts.h"
 
-#define X(name, isa) [isa] = {jox_density_held_##name, jox_density_sum_##name},
+#define X(name, isa) [isa] = {jox_density_find_nonzero_##name, jox_density_sum_##name},
 static const struct Kernels {
-    JoxDensityHeldKernel *held;
+    JoxDensityNonzeroKernel *find_nonzero;
     JoxDensitySumKernel *sum;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
@@ -57,11 +57,11 @@ static float *strip_row(const JoxDensity *d, int field, int row) {
 
 /* Returns the marks of a row of the strip. */
 static uint64_t mark_row(const JoxDensity *d, int field, int row) {
-    JoxDensityHeldKernel *const find_held = KERNELS[jox_isa_resolve(d->isa)].held;
+    JoxDensityNonzeroKernel *const find_nonzero = KERNELS[jox_isa_resolve(d->isa)].find_nonzero;
     const float *cells = strip_row(d, field, row);
     uint64_t marks = 0;
     for (int c = 0; c < d->wide; c += 64) {
-        uint64_t nonzero = find_held(cells + c, d->wide - c < 64 ? d->wide - c : 64);
+        uint64_t nonzero = find_nonzero(cells + c, d->wide - c < 64 ? d->wide - c : 64);
         while (nonzero) {
             const int first = __builtin_ctzll(nonzero), beyond = ((first >> d->stretch) + 1)
                                                                  << d->stretch;
@@ -177,7 +177,7 @@ static void spread_row(JoxDensity *d, const Taps *taps, int row, float *const *o
 void jox_density_spread(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
                         float *const *out) {
     JoxDensityWork *w = &d->work;
-    const int rows = jox_density_clamped((double)STRIP_CELLS / d->wide, d->high - 1) + 1;
+    const int rows = jox_density_clamp_index((double)STRIP_CELLS / d->wide, d->high - 1) + 1;
     Taps taps;
     tabulate_taps(d, &taps);
     JOX_ASSERT(taps.reach < d->edge);
@@ -187,8 +187,8 @@ void jox_density_spread(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
         if (!w->lines[f])
             w->lines[f] = jox_alloc((size_t)taps.count * d->columns, sizeof(float));
     for (int first = 0; first < d->high; first += rows) {
-        jox_density_strip(d, fields, first, first + rows < d->high ? first + rows : d->high);
-        jox_density_put(d, crowd);
+        jox_density_clear_strip(d, fields, first, first + rows < d->high ? first + rows : d->high);
+        jox_density_put_crowd(d, crowd);
         for (int row = first; row < w->end; row++)
             spread_row(d, &taps, row, out);
     }

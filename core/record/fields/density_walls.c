@@ -32,8 +32,8 @@ static void enter_bar(JoxDensity *d, uint32_t bar, bool fill) {
     if (fmax(ax, bx) < -e || fmax(ay, by) < -e || fmin(ax, bx) > d->wide + e ||
         fmin(ay, by) > d->high + e)
         return;
-    int last = jox_density_clamped(fmax(ay, by) + e, d->high - 1);
-    for (int row = jox_density_clamped(fmin(ay, by) - e, d->high - 1); row <= last; row++) {
+    int last = jox_density_clamp_index(fmax(ay, by) + e, d->high - 1);
+    for (int row = jox_density_clamp_index(fmin(ay, by) - e, d->high - 1); row <= last; row++) {
         double from = 0.0, to = 1.0; /* part of the bar within the row */
         if (fabs(by - ay) > TOUCHES) {
             double s = (row - e - ay) / (by - ay), t = (row + 1 + e - ay) / (by - ay);
@@ -43,8 +43,8 @@ static void enter_bar(JoxDensity *d, uint32_t bar, bool fill) {
         double x = ax + from * (bx - ax), y = ax + to * (bx - ax);
         if (from > to || fmax(x, y) < -e || fmin(x, y) > d->wide + e)
             continue;
-        int right = jox_density_clamped(fmax(x, y) + e, d->wide - 1);
-        for (int c = jox_density_clamped(fmin(x, y) - e, d->wide - 1); c <= right; c++) {
+        int right = jox_density_clamp_index(fmax(x, y) + e, d->wide - 1);
+        for (int c = jox_density_clamp_index(fmin(x, y) - e, d->wide - 1); c <= right; c++) {
             uint32_t *n = &f->first[row * d->wide + c];
             if (fill)
                 f->passing[--*n] = bar;
@@ -97,7 +97,7 @@ static bool can_hold_node(const JoxDensity *d, size_t cell, JoxV2 p, JoxDensityS
         if (jox_length2(jox_sub(jox_segment_nearest(from, to, p), p)) < off * off)
             return false;
     }
-    return !jox_density_within(solids, p);
+    return !jox_density_is_within_solid(solids, p);
 }
 
 /* Sets nodes to the middle of each cell or, if that is not walkable, to the nearest walkable sample
@@ -140,16 +140,16 @@ static void place_nodes(JoxDensity *d, JoxDensitySolids *solids) {
 static bool find_owner(const JoxDensity *d, JoxV2 p, JoxDensitySolids *solids, int *node) {
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = jox_density_corner(d);
-    int column = jox_density_clamped((p.x - low.x) / d->cell, d->wide - 1);
-    int row = jox_density_clamped((p.y - low.y) / d->cell, d->high - 1);
+    int column = jox_density_clamp_index((p.x - low.x) / d->cell, d->wide - 1);
+    int row = jox_density_clamp_index((p.y - low.y) / d->cell, d->high - 1);
     const int cell = row * d->wide + column;
     *node = cell;
     if (!f->near[cell])
         return true;
     /* A cell without walls is entirely walkable or not, as its node tells. */
-    if ((jox_density_has_wall(f, (size_t)cell) ? jox_density_within(solids, p)
+    if ((jox_density_has_wall(f, (size_t)cell) ? jox_density_is_within_solid(solids, p)
                                                : f->per[cell] <= 0.0f) ||
-        jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
+        jox_density_find_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
         return false;
     *node = row * d->wide + column;
     return true;
@@ -192,7 +192,7 @@ static void add_side_ways(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2
         JoxV2 p = jox_add(from, jox_scale(along, ((float)k + 0.5f) / SIDE));
         JoxV2 before = jox_sub(p, off), behind = jox_add(p, off);
         if (find_owner(d, before, solids, &a) && find_owner(d, behind, solids, &b) && a != b &&
-            !jox_density_hidden(d, before, behind))
+            !jox_density_is_hidden(d, before, behind))
             widen_way(d, a, b, 1.0f / SIDE);
     }
 }
@@ -256,9 +256,9 @@ static void share_area(JoxDensity *d, int column, int row, JoxDensitySolids *sol
         uint32_t nodes[4];
         float shares[4];
         JoxV2 p = sample_point(d, column, row, k);
-        if (jox_density_has_wall(f, cell) && jox_density_within(solids, p))
+        if (jox_density_has_wall(f, cell) && jox_density_is_within_solid(solids, p))
             continue;
-        int n = jox_density_share(d, p.x, p.y, nodes, shares);
+        int n = jox_density_share_person(d, p.x, p.y, nodes, shares);
         for (int s = 0; s < n; s++)
             f->area[nodes[s]] += shares[s] / FINE;
     }
@@ -278,7 +278,7 @@ static void narrow_ways(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     const int wide = d->wide, last = wide * (d->high - 1);
     /* Total width of the ways of a node, then the factor for its ways. */
-    float *room = jox_density_spare(d);
+    float *room = jox_density_scratch(d);
     for (int c = wide; c < last; c++)
         room[c] = f->open_x[c] + f->open_x[c - 1] + f->open_y[c] + f->open_y[c - wide];
     for (uint32_t s = 0; s < f->slant_count; s++) {

@@ -48,16 +48,16 @@ bool JOX_WIDE(jox_density_place)(const JoxDensityAxis *axis, const float *at, ui
     return nonzero != 0;
 }
 
-uint64_t JOX_WIDE(jox_density_held)(const float *cells, int count) {
-    uint64_t held = 0;
+uint64_t JOX_WIDE(jox_density_find_nonzero)(const float *cells, int count) {
+    uint64_t nonzero = 0;
     int c = 0;
     for (; c + JOX_WIDTH <= count; c += JOX_WIDTH) {
         const JoxMask none = jf_le(jf_abs(jf_load(cells + c)), jf_set(0.0f));
-        held |= (uint64_t)(~jm_bits(none) & JOX_ALL_LANES) << c;
+        nonzero |= (uint64_t)(~jm_bits(none) & JOX_ALL_LANES) << c;
     }
     for (; c < count; c++)
-        held |= (uint64_t) !(fabsf(cells[c]) <= 0.0f) << c;
-    return held;
+        nonzero |= (uint64_t) !(fabsf(cells[c]) <= 0.0f) << c;
+    return nonzero;
 }
 
 /* ---- sums of rows ---- */

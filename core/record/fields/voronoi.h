@@ -41,8 +41,8 @@ typedef struct JoxBars {
 } JoxBars;
 /* Sets `whole` to the area, m2, of the part of a cell that the person at `at` sees past the
    walls, and `within` to the part of that area in the ring. */
-void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
-                   uint32_t count, double *whole, double *within);
+void jox_cell_visible_area(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
+                           uint32_t count, double *whole, double *within);
 
 /* Sites in bins, for fast search of neighbours. Initialise to zero and keep for later frames;
    jox_sites_free frees it. */

@@ -42,8 +42,9 @@ static void gather_walls_near_point(JoxVoronoiPeople *v, JoxV2 at) {
     }
 }
 
-void jox_voronoi_people(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd, const JoxWalls *walls,
-                        uint64_t walls_hash, const float *here, float *out) {
+void jox_voronoi_people_measure(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd,
+                                const JoxWalls *walls, uint64_t walls_hash, const float *here,
+                                float *out) {
     bool any = false;
     for (uint32_t i = 0; i < crowd->count; i++) {
         out[i] = NAN;
@@ -65,7 +66,7 @@ void jox_voronoi_people(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd, const
         gather_walls_near_point(v, v->sites.points[i]);
         v->sites.bars = v->near.count ? &v->near : NULL;
         jox_sites_cell(&v->sites, i, JOX_VORONOI_CUTOFF, &cell);
-        jox_cell_seen(&cell, v->sites.points[i], &v->near, NULL, 0, &area, &within);
+        jox_cell_visible_area(&cell, v->sites.points[i], &v->near, NULL, 0, &area, &within);
         if (area > 0.0)
             out[i] = (float)(1.0 / area);
     }

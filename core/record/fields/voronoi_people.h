@@ -25,8 +25,9 @@ typedef struct JoxVoronoiPeople {
 
 /* Sets `out` to the density of each person, NAN where it is not measured. `here` is the Gaussian
    density of each person; `walls_hash` must change when the walls do. */
-void jox_voronoi_people(JoxVoronoiPeople *voronoi, const JoxDensityCrowd *crowd,
-                        const JoxWalls *walls, uint64_t walls_hash, const float *here, float *out);
+void jox_voronoi_people_measure(JoxVoronoiPeople *voronoi, const JoxDensityCrowd *crowd,
+                                const JoxWalls *walls, uint64_t walls_hash, const float *here,
+                                float *out);
 void jox_voronoi_people_free(JoxVoronoiPeople *voronoi);
 
 #endif

@@ -81,8 +81,8 @@ static bool gather_view_edges(View *v, const JoxCell *cell, JoxV2 at, const JoxB
     return v->count > v->of_cell;
 }
 
-void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
-                   uint32_t count, double *whole, double *within) {
+void jox_cell_visible_area(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
+                           uint32_t count, double *whole, double *within) {
     View v;
     if (bars->count == 0 || !gather_view_edges(&v, cell, at, bars)) {
         *whole = jox_cell_area(cell);

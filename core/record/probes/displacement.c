@@ -146,7 +146,7 @@ static void add_displacement_figures(const JoxProbeDef *def, const void *state, 
     const char *why;
     const double front = fit_front_speed(def, d, &why);
     jox_figure_add(out, "front_speed", "speed of the push front", "m/s", front);
-    jox_figure_why(out, why);
+    jox_figure_set_reason(out, why);
     jox_free(ends);
 }
 
@@ -185,7 +185,7 @@ static void plot_displacement(const JoxProbeDef *def, const void *state, bool wa
                       jox_maxf(high.y, jox_maxf(p->y, p->y + p->dy)));
     }
     if (low.x > high.x) {
-        jox_plot_nothing(out, "nobody was seen");
+        jox_plot_reason(out, "nobody was seen");
         return;
     }
     /* Give gnuplot a colour range: it warns where all values are equal. */

@@ -72,7 +72,7 @@ static void plot_failures(const JoxProbeDef *def, const void *state, bool walls,
     for (uint32_t b = 0; b < f->count; b++)
         most = f->bins[b].all ? fmax(100.0 * compute_failure_share(f->bins[b]), most) : most;
     if (isnan(most)) {
-        jox_plot_nothing(out, "nobody was there");
+        jox_plot_reason(out, "nobody was there");
         return;
     }
     jox_text_printf(

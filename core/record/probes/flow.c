@@ -129,7 +129,7 @@ uint32_t jox_flow_passages(const void *state) {
     return ((const Flow *)state)->valid_count;
 }
 
-uint32_t jox_flow_against(const void *state) {
+uint32_t jox_flow_backward_crossings(const void *state) {
     const Flow *f = state;
     return f->forward ? 0 : f->back;
 }
@@ -173,13 +173,13 @@ static void add_flow_figures(const JoxProbeDef *def, const void *state, JoxFigur
     jox_figure_add(out, "forward", "crossings from right to left of the line", "", f->forward);
     jox_figure_add(out, "back", "crossings from left to right of the line", "", f->back);
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);
-    jox_figure_why(out, FEW);
+    jox_figure_set_reason(out, FEW);
     jox_figure_add(out, "flow_all", "flow from the first to the last passage", "1/s",
                    count >= 2 ? compute_flow(times, 0, count - 1) : NAN);
-    jox_figure_why(out, FEW);
+    jox_figure_set_reason(out, FEW);
     jox_figure_add(out, "specific_flow", "flow over the middle 60 % per metre of the opening",
                    "1/(m s)", f->width > 0.0 ? flow / f->width : NAN);
-    jox_figure_why(out, FEW);
+    jox_figure_set_reason(out, FEW);
     jox_figure_add(out, "lapse_median", "median time between passages", "s",
                    jox_quantile(lapses, gaps, 0.5));
     jox_figure_add(out, "lapse_max", "longest time between passages", "s",
@@ -241,7 +241,7 @@ static void plot_flow(const JoxProbeDef *def, const void *state, bool walls, Jox
     const Flow *f = state;
     size_t count, first, last;
     if (f->count == 0) {
-        jox_plot_nothing(out, "nobody crossed the line");
+        jox_plot_reason(out, "nobody crossed the line");
         return;
     }
     double *times = collect_passage_times(f, &count);

@@ -117,7 +117,7 @@ static void plot_lanes(const JoxProbeDef *def, const void *state, bool walls, Jo
     const Lanes *l = state;
     (void)walls;
     if (l->count == 0) {
-        jox_plot_nothing(out, "nobody walked in the area");
+        jox_plot_reason(out, "nobody walked in the area");
         return;
     }
     jox_text_printf(out, "set xlabel 'time (s)'\nset ylabel 'order parameter of lanes'\n"

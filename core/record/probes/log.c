@@ -195,7 +195,7 @@ static void plot_log(const JoxProbeDef *def, const void *state, bool walls, JoxT
     const Log *log = state;
     (void)def, (void)walls;
     if (log->count == 0) {
-        jox_plot_nothing(out, "nothing happened");
+        jox_plot_reason(out, "nothing happened");
         return;
     }
     jox_text_printf(out, "set xlabel 'time (s)'\nset ylabel 'person'\nset yrange [-0.5:*]\n"

@@ -269,7 +269,7 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
             speed = fmax(speed, m->speed[c] / m->density[c]);
     }
     if (density <= 0.0) {
-        jox_plot_nothing(out, "nobody was in the area");
+        jox_plot_reason(out, "nobody was in the area");
         return;
     }
     jox_text_printf(

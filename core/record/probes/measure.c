@@ -96,7 +96,7 @@ static double measure_voronoi_density(const JoxProbeDef *def, Measure *m, const 
             continue;
         jox_sites_cell(&m->sites, s, def->cutoff, &cell);
         double whole, within;
-        jox_cell_seen(&cell, at, &m->bars, def->points, def->count, &whole, &within);
+        jox_cell_visible_area(&cell, at, &m->bars, def->points, def->count, &whole, &within);
         if (whole > 0.0)
             sum += within / whole;
     }
@@ -239,7 +239,7 @@ static void plot_measure(const JoxProbeDef *def, const void *state, bool walls, 
     for (uint32_t r = 0; r < m->count; r++)
         any |= m->rows[r].walked > 0;
     if (!any) {
-        jox_plot_nothing(out, "nobody was in the polygon");
+        jox_plot_reason(out, "nobody was in the polygon");
         return;
     }
     jox_text_printf(out,

@@ -310,7 +310,7 @@ static void plot_oscillation(const JoxProbeDef *def, const void *state, bool wal
     const Oscillation *o = state;
     (void)walls;
     if (fmin(round(def->span / def->every), o->intervals) < LEAST_SAMPLES) {
-        jox_plot_nothing(out, "too few intervals for a spectrum");
+        jox_plot_reason(out, "too few intervals for a spectrum");
         return;
     }
     jox_text_printf(out,

@@ -121,7 +121,7 @@ uint32_t jox_probe_passages(const JoxProbe *p) {
 }
 
 uint32_t jox_probe_against(const JoxProbe *p) {
-    return p->def.kind == JOX_PROBE_FLOW ? jox_flow_against(p->state) : 0;
+    return p->def.kind == JOX_PROBE_FLOW ? jox_flow_backward_crossings(p->state) : 0;
 }
 
 void jox_probe_window(const JoxProbe *p, JoxText *out) {
@@ -197,5 +197,5 @@ void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width
     }
     char why[80];
     snprintf(why, sizeof why, "it measures from %.6g s on: the run ended before", p->def.from);
-    jox_plot_nothing(commands, why);
+    jox_plot_reason(commands, why);
 }

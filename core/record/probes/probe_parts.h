@@ -51,7 +51,7 @@ JOX_PROBES(X)
 uint32_t jox_flow_passages(const void *state);
 /* Returns the number of crossings against the direction of the line; 0 if anybody crossed in its
    direction. */
-uint32_t jox_flow_against(const void *state);
+uint32_t jox_flow_backward_crossings(const void *state);
 /* Sets the times, s, of the first and last passage of the middle 60 %. Returns false for fewer than
    two passages. */
 bool jox_flow_middle(const void *state, double *from, double *to);
@@ -65,9 +65,9 @@ void jox_figure_add(JoxFigures *figures, const char *name, const char *title, co
                     double value);
 
 /* Sets the reason why the figure added last has no value; ignored if it has one. */
-void jox_figure_why(JoxFigures *figures, const char *why);
+void jox_figure_set_reason(JoxFigures *figures, const char *why);
 
 /* Writes a plot with the reason why there is nothing to draw. */
-void jox_plot_nothing(JoxText *out, const char *why);
+void jox_plot_reason(JoxText *out, const char *why);
 
 #endif

@@ -148,8 +148,8 @@ static void plot_transit(const JoxProbeDef *def, const void *state, bool walls, 
     (void)walls;
     const Transit *t = state;
     if (t->count == 0) {
-        jox_plot_nothing(out, def->kind == JOX_PROBE_VISIT ? "nobody entered both states"
-                                                           : "nobody crossed both lines");
+        jox_plot_reason(out, def->kind == JOX_PROBE_VISIT ? "nobody entered both states"
+                                                          : "nobody crossed both lines");
         return;
     }
     double first = INFINITY, last = -INFINITY;

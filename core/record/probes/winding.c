@@ -92,7 +92,7 @@ static void plot_winding(const JoxProbeDef *def, const void *state, bool walls, 
             greatest = fmax(greatest, w->people[k].greatest);
         }
     if (least > greatest) {
-        jox_plot_nothing(out, "nobody was seen");
+        jox_plot_reason(out, "nobody was seen");
         return;
     }
     double most = fmax(greatest, -least);
