@@ -11,6 +11,8 @@ enum {
     MOST_TIMES = 8
 }; /* strips; times that an edge stands in them, on average */
 
+/* Samples of a floor at least, over its extent. */
+enum { FLOOR_SAMPLES = 250000 };
 static const float APART = 1e-3f; /* m: so much beyond `clear`, rounding does not matter */
 
 /* Edges by strips of equal height along y. An edge stands in each strip that its range of y
@@ -226,12 +228,9 @@ double jox_area_sampling(JoxV2 low, JoxV2 high) {
     return fmax(0.1, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 1e6));
 }
 
-double jox_area_size(const JoxArea *area) {
-    JoxV2 low, high;
-    if (!jox_area_extent(area, &low, &high))
-        return 0;
-    double w = (double)high.x - low.x, h = (double)high.y - low.y;
-    double step = jox_area_sampling(low, high);
+/* Returns the size of an area, m2, by samples `step` m apart; low, high: its extent. */
+static double sample_size(const JoxArea *area, JoxV2 low, JoxV2 high, double step) {
+    const double w = (double)high.x - low.x, h = (double)high.y - low.y;
     double nx = floor(w / step) + 1, ny = floor(h / step) + 1, hits = 0;
     if (!(nx * ny <= 4e6))
         return 0; /* too thin or too large to sample */
@@ -242,4 +241,21 @@ double jox_area_size(const JoxArea *area) {
                                                      (float)(low.y + (j + 0.5) * h / ny)});
     jox_area_index_free(index);
     return hits / (nx * ny) * w * h;
+}
+
+double jox_area_size(const JoxArea *area) {
+    JoxV2 low, high;
+    if (!jox_area_extent(area, &low, &high))
+        return 0;
+    return sample_size(area, low, high, jox_area_sampling(low, high));
+}
+
+double jox_area_floor(const JoxArea *area) {
+    JoxArea floor = *area;
+    JoxV2 low, high;
+    if (!jox_area_extent(area, &low, &high))
+        return 0;
+    floor.clear = 0.0f;
+    const double fine = sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / FLOOR_SAMPLES);
+    return sample_size(&floor, low, high, fmin(fine, jox_area_sampling(low, high)));
 }

@@ -36,5 +36,8 @@ bool jox_area_extent(const JoxArea *area, JoxV2 *low, JoxV2 *high);
 double jox_area_sampling(JoxV2 low, JoxV2 high);
 /* Square metres, by sampling a lattice of 0.1 m or coarser (at most a million samples). */
 double jox_area_size(const JoxArea *area);
+/* Square metres up to the walls, whatever `clear` is: what is not in a solid. By samples, of which
+   a square of 10 x 10 m has 500 a side. */
+double jox_area_floor(const JoxArea *area);
 
 #endif

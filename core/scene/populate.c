@@ -106,7 +106,7 @@ static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode
     char agents[JOX_NOUN];
     if (fit < group->count)
         jox_scene_error(r, map, "too-many",
-                        "Lower count or spacing, or widen the area; `fill: hex` packs closest",
+                        "Lower count, density or spacing, or widen the area; `fill: hex` packs closest",
                         "%u of %s fit", fit, jox_noun(agents, group->count, "agent"));
     group->count = fit < group->count ? fit : group->count;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
@@ -153,7 +153,7 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
     const JoxYaml *density = jox_yaml_get(map, "density");
     const JoxYaml *from = density ? density : jox_yaml_get(map, "count");
     const double number =
-        density ? floor(r->load->fill.density * jox_area_size(area) + 0.5) : (double)group->count;
+        density ? floor(r->load->fill.density * jox_area_floor(area) + 0.5) : (double)group->count;
     if (!(number >= 1 && number <= MOST_AGENTS)) {
         jox_scene_error(r, from, "out-of-range",
                         "A group may begin empty, with count: 0, where a source is like it",

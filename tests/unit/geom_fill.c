@@ -42,6 +42,22 @@ static void counts_and_spacing_are_kept(void **state) {
     jox_walls_free(&walls);
 }
 
+static void floor_reaches_to_walls_and_leaves_out_solids(void **state) {
+    (void)state;
+    JoxV2 room[] = {{0, 0}, {3, 0}, {3, 2}, {0, 2}};
+    JoxV2 pillar[] = {{1, 0.5f}, {2, 0.5f}, {2, 1.5f}, {1, 1.5f}};
+    JoxPlace place = {.kind = JOX_PLACE_POLYGON, .points = room, .count = 4, .start = -1};
+    JoxWalls walls = {0};
+    uint32_t in = 0;
+    JoxArea area = {.places = &place, .in = &in, .in_count = 1, .walls = &walls, .clear = 0.2f};
+    jox_walls_add_outline(&walls, room, 4, INFINITY);
+    assert_float_equal(jox_area_floor(&area), 6, 0.03);
+    assert_true(jox_area_size(&area) < 5); /* of 2.6 x 1.6 m, as `clear` leaves it */
+    jox_walls_add_solid(&walls, pillar, 4, INFINITY);
+    assert_float_equal(jox_area_floor(&area), 5, 0.03);
+    jox_walls_free(&walls);
+}
+
 /* A lattice as wide as one agent's share of a corridor may miss it with every point. */
 static void few_fit_wherever_there_is_room(void **state) {
     (void)state;
@@ -204,6 +220,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_is_in_an_area_as_all_its_edges_have_it),
         cmocka_unit_test(counts_and_spacing_are_kept),
+        cmocka_unit_test(floor_reaches_to_walls_and_leaves_out_solids),
         cmocka_unit_test(random_is_uniform_along_both_axes),
         cmocka_unit_test(random_keeps_from_others_and_across_joined_ends),
         cmocka_unit_test(a_spacing_that_does_not_fit_leaves_some_out),

@@ -323,8 +323,34 @@ static void who_has_come_in_is_state(void **state) {
     jo_scene_free(other);
 }
 
+/* 9 people were made in 6 m2 at 2 per m2: the floor within 0.2 m of walls did not count. */
+static void density_counts_the_floor_up_to_walls(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\n"
+                              "places:\n"
+                              "  room: {polygon: [[0, 0], [3, 0], [3, 2], [0, 2]]}\n"
+                              "  hall: {polygon: [[5, 0], [15, 0], [15, 10], [5, 10]]}\n"
+                              "walls:\n"
+                              "  - {line: [[0, 0], [3, 0], [3, 2], [0, 2], [0, 0]]}\n"
+                              "  - {solid: [[8, 4], [10, 4], [10, 6], [8, 6]]}\n"
+                              "groups:\n"
+                              "  a: {behaviour: own.lua, density: 2, in: room}\n"
+                              "  b: {behaviour: own.lua, density: 2, in: hall}\n",
+                              WALKER);
+    const JoxAgents *a = &scene->world->state.agents;
+    uint32_t in_room = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        assert_true(a->x[i] > 0.15f && a->y[i] > 0 && (a->x[i] < 2.85f || a->x[i] > 5));
+        in_room += a->x[i] < 3;
+    }
+    assert_int_equal(in_room, 12);
+    assert_int_equal(a->count - in_room, 192);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_program_steps_the_world_of_a_scene),
+                                       cmocka_unit_test(density_counts_the_floor_up_to_walls),
                                        cmocka_unit_test(a_saved_crowd_goes_on_to_the_bit),
                                        cmocka_unit_test(counts_of_sources_are_hashed),
                                        cmocka_unit_test(sources_in_full_places_wait),
