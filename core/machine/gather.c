@@ -160,6 +160,7 @@ static void give_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count
         give_row(run, g, row, entries + given, here);
         given += here;
     }
+    run->without_spot += g->spots.count ? count - given : 0;
     for (uint32_t k = 0; k < count; k++) {
         s->gather_number[entries[k].agent] = k;
         if (entries[k].has_spot)
@@ -202,6 +203,7 @@ void jox_gatherings_form(JoxMachineRun *run) {
     for (uint32_t k = 0; k < s->ground_count; k++)
         s->gather_grounds[k].checked = false;
     const uint32_t count = find_gathered(run);
+    run->without_spot = 0;
     if (!count)
         return;
     jox_sort(s->gathered, count, sizeof *s->gathered, by_turn, NULL,

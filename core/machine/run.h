@@ -204,6 +204,7 @@ typedef struct JoxMachineRun {
     JoxGrip *grips; /* by agent id */
     uint32_t grip_count;
     size_t grip_capacity;
+    uint32_t without_spot; /* agents that gather in a place that has no room for them */
     /* What states say of pushing, per agent index, for the force stage; until the next think. */
     uint8_t *push_on, *push_nearest;
     float *push_toward_x, *push_toward_y; /* unit direction; (0, 0): the preferred velocity's */

@@ -41,6 +41,8 @@ void jox_stage_think(const JoxThinkStage *s) {
 
 void jox_stage_prefer(const JoxPreferStage *s) {
     jox_machines_prefer(s->machines, s->pool);
+    if (s->machines->without_spot > s->statistics->most_without_spot)
+        s->statistics->most_without_spot = s->machines->without_spot;
     if (!s->literal)
         jox_nav_walk(s->nav, s->agents, s->neighbours, s->seed, s->substep->end - s->substep->dt,
                      s->substep->interval, s->substep->plans, s->pool);

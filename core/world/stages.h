@@ -62,6 +62,7 @@ typedef struct JoxPreferStage {
     JoxNav *nav;             /* its grid of walls */
     JoxMachineRun *machines; /* which says what machines read and write */
     JoxAgents *agents;       /* aim, walk, eager, course of those who walk by the law */
+    JoxStatistics *statistics;
 } JoxPreferStage;
 void jox_stage_prefer(const JoxPreferStage *stage);
 

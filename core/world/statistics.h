@@ -73,6 +73,7 @@ typedef struct JoxStatistics {
     uint64_t dropped;                   /* bodies that their carriers had no room for any more */
     uint64_t shifted_at_birth;          /* to a free spot, out of walls or others */
     uint64_t not_placed;                /* who were to be born, and found no spot */
+    uint64_t most_without_spot;         /* agents at a time that waited where there was no room */
     uint64_t moved_out, not_moved_out;  /* in whose way a wall came: moved; without a free spot */
     uint64_t people_lost, bodies_lost;  /* that the guard found */
     uint64_t opened, closed, announced; /* walls by name, and signals to everybody */

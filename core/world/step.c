@@ -74,7 +74,8 @@ static void prefer(JoWorld *w, const JoxSubstep *substep) {
                                        .neighbours = &w->scratch.neighbours,
                                        .nav = w->scratch.nav,
                                        .machines = &w->machines,
-                                       .agents = &w->state.agents});
+                                       .agents = &w->state.agents,
+                                       .statistics = &w->state.statistics});
 }
 
 static void push(JoWorld *w, const JoxSubstep *substep) {

@@ -129,6 +129,9 @@ static void people_without_room_stand_still_about_the_place(void **state) {
         inside += jox_place_contains(scene->world->model.places, 0, at);
     }
     assert_int_equal(a->count, 80);
+    JoFigures *told = jo_scene_figures(scene);
+    assert_float_equal(jo_figure(told, "events.most_without_spot"), 66, 6);
+    jo_free(told);
     assert_in_range(inside, 16, 26);
     assert_in_range(drifted, 0, 12);
     jo_scene_free(scene);

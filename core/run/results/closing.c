@@ -70,6 +70,9 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->people_lost, "person was lost|people were lost"},
         {s->bodies_lost, "body was lost|bodies were lost"},
         {s->not_placed, "person not placed|people not placed"},
+        {s->most_without_spot,
+         "person at a time without room in the place where they waited|people at a time without "
+         "room in the place where they waited"},
         {s->moved_out,
          "person moved out of the way of a wall|people moved out of the way of a wall"},
         {s->not_moved_out, "person left in the way of a wall|people left in the way of a wall"},

@@ -70,6 +70,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"removed", s->removed},
                   {"shifted_at_birth", s->shifted_at_birth},
                   {"not_placed", s->not_placed},
+                  {"most_without_spot", s->most_without_spot},
                   {"moved_out", s->moved_out},
                   {"not_moved_out", s->not_moved_out},
                   {"people_lost", s->people_lost},

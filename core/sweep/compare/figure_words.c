@@ -90,6 +90,8 @@ static const struct {
     {"events.closed", "gates closed", "", false},
     {"events.shifted_at_birth", "people who began beside their point", "", false},
     {"events.not_placed", "people who were not placed", "", false},
+    {"events.most_without_spot", "most people who waited at a time where there was no room", "",
+     false},
     {"events.moved_out", "people moved out of the way of walls that came", "", false},
     {"events.not_moved_out", "people who stayed in the way of walls that came", "", false},
     {"events.people_lost", "people lost", "", false},
