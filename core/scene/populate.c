@@ -105,9 +105,10 @@ static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode
     a->taken = NULL;
     char agents[JOX_NOUN];
     if (fit < group->count)
-        jox_scene_error(r, map, "too-many",
-                        "Lower count, density or spacing, or widen the area; `fill: hex` packs closest",
-                        "%u of %s fit", fit, jox_noun(agents, group->count, "agent"));
+        jox_scene_error(
+            r, map, "too-many",
+            "Lower count, density or spacing, or widen the area; `fill: hex` packs closest",
+            "%u of %s fit", fit, jox_noun(agents, group->count, "agent"));
     group->count = fit < group->count ? fit : group->count;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     if (positions)
