@@ -8,9 +8,10 @@
 #include "record/trajectories.h"
 #include "record/trajectory_reader_parts.h"
 
-static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path, const char *what) {
+static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path,
+                                const char *message) {
     JoxPosition at = {path, 0, 0, 0};
-    jox_diag_error(diagnostics, at, "bad-recording", NULL, "%s", what);
+    jox_diag_error(diagnostics, at, "bad-recording", NULL, "%s", message);
     return false;
 }
 

@@ -50,8 +50,8 @@ uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *r, double time) {
 
 /* ---- frames ---- */
 
-static bool set_damage(JoxText *why, const char *format, const char *what) {
-    jox_text_printf(why, format, what);
+static bool set_damage(JoxText *why, const char *format, const char *detail) {
+    jox_text_printf(why, format, detail);
     return false;
 }
 
@@ -133,13 +133,13 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     sqlite3_bind_int64(r->rows, 3, r->from[frame + 1]);
     while ((status = sqlite3_step(r->rows)) == SQLITE_ROW) {
         if (!has_numeric_position(r->rows)) {
-            jox_text_printf(why, "in frame %lld somebody's id or position is no number",
+            jox_text_printf(why, "in frame %lld a person's id or position is not a number",
                             (long long)r->number[frame]);
             return false;
         }
         store_person_row(r, n);
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
-            return set_damage(why, "%s is more than 1000 km from the origin", "somebody");
+            return set_damage(why, "%s is more than 1000 km from the origin", "a person");
         if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller ids come from a damaged index */
             jox_text_printf(why, "person %lld is in frame %lld twice", (long long)r->id[n],
                             (long long)r->number[frame]);

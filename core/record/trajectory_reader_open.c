@@ -12,9 +12,9 @@
 enum { MOST_FRAMES = 10000000, NEWEST = 2 /* newest version of the format that is read */ };
 
 static bool add_open_error(JoxDiagnostics *diagnostics, const char *path, const char *hint,
-                           const char *what) {
+                           const char *message) {
     JoxPosition at = {path, 0, 0, 0};
-    jox_diag_error(diagnostics, at, "bad-recording", hint, "%s", what);
+    jox_diag_error(diagnostics, at, "bad-recording", hint, "%s", message);
     return false;
 }
 
@@ -195,14 +195,14 @@ static void read_bounds(JoxTrajectoryReader *r) {
 static bool has_known_version(const JoxTrajectoryReader *r, const char *path,
                               JoxDiagnostics *diagnostics) {
     double version;
-    char what[100];
+    char message[100];
     if (!query_number(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'version'",
                       &version) ||
         version < NEWEST + 1)
         return true;
-    snprintf(what, sizeof what, "this recording is of version %.9g of the JuPedSim format",
+    snprintf(message, sizeof message, "this recording is of version %.9g of the JuPedSim format",
              version);
-    return add_open_error(diagnostics, path, "Versions 1 and 2 are read", what);
+    return add_open_error(diagnostics, path, "Versions 1 and 2 are read", message);
 }
 
 /* Returns whether a table has an index whose first column is the frame. */

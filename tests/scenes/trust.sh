@@ -77,7 +77,7 @@ says "other things beside its tables do no harm to a recording" 0 '"people": 1' 
 for value in NULL "'here'" "x'00'"; do
     rm -f bad.sqlite
     sqlite3 bad.sqlite "$table trajectory_data(frame, id, pos_x, pos_y); INSERT INTO trajectory_data VALUES (0, 1, 1.0, 1.0), (1, 1, $value, 1.0)"
-    says "a position that is $value is nowhere" 3 "in frame 1 somebody's id or position is no number" "$program" report bad.sqlite --summary -
+    says "a position that is $value is nowhere" 3 "in frame 1 a person's id or position is not a number" "$program" report bad.sqlite --summary -
 done
 
 # ---- outputs ----

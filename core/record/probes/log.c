@@ -8,8 +8,8 @@
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
-typedef enum { ENTERS, KICKS, HIT } What;
-static const char *const WHAT[] = {"enters", "kicks", "hit"};
+typedef enum { ENTERS, KICKS, HIT } Event;
+static const char *const EVENT_NAMES[] = {"enters", "kicks", "hit"};
 
 typedef struct Before { /* a person in the last frame */
     float x, y, speed;
@@ -20,13 +20,13 @@ typedef struct Before { /* a person in the last frame */
 typedef struct Action {
     double time; /* s: end of the step */
     uint32_t person;
-    What what;
+    Event event;
     uint32_t group, state; /* indices in `names`; the state is the one after the step */
     Before before;
     int32_t body; /* id of the body; -1: none */
     JoxV3 at;
     float speed, gap; /* speed of the body, m/s; gap between person and body, m */
-    uint8_t lies;
+    uint8_t grounded;
 } Action;
 
 typedef struct Log {
@@ -77,21 +77,21 @@ static int32_t find_nearest_body(const JoxFrame *frame, const Before *person) {
 
 /* Adds a row: the person as before the step, and the body in row `row` of the objects, -1 for
    none. */
-static void add_action(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t row) {
+static void add_action(Log *log, const JoxFrame *frame, uint32_t i, Event event, int32_t row) {
     const Before *before = &log->before[frame->key[i]];
     JOX_RESERVE(log->actions, log->capacity, log->count + 1);
     Action *action = &log->actions[log->count++];
     *action =
         (Action){.time = frame->time,
                  .person = frame->key[i],
-                 .what = what,
+                 .event = event,
                  .group = intern_name(
                      log, frame->group && frame->groups ? frame->groups[frame->group[i]] : ""),
                  .state = frame->state ? log->states[frame->state[i]] : 0,
                  .before = *before,
                  .body = -1,
                  .gap = NAN};
-    log->counts[what]++;
+    log->counts[event]++;
     if (row < 0 || !frame->objects || (uint32_t)row >= frame->objects->count)
         return;
     const JoxObject *body = &frame->objects->rows[row];
@@ -100,7 +100,7 @@ static void add_action(Log *log, const JoxFrame *frame, uint32_t i, What what, i
     action->speed = sqrtf(jox_length2(jox_v2(body->velocity.x, body->velocity.y)) +
                           body->velocity.z * body->velocity.z);
     action->gap = measure_gap(before, body, jox_frame_radius(frame, i, 0.0f));
-    action->lies = body->grounded;
+    action->grounded = body->grounded;
 }
 
 static void take_log_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
@@ -144,7 +144,7 @@ static bool are_actions_valid(const Log *log) {
     for (uint32_t n = 0; n < log->count; n++) {
         const Action *action = &log->actions[n];
         if (action->group >= log->name_count || action->state >= log->name_count ||
-            action->before.state >= log->name_count || (uint32_t)action->what >= 3)
+            action->before.state >= log->name_count || (uint32_t)action->event >= 3)
             return false;
     }
     return true;
@@ -179,15 +179,15 @@ static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) 
           out);
     for (uint32_t n = 0; n < log->count; n++) {
         const Action *d = &log->actions[n];
-        fprintf(out, "%.4f,%s,%u,%s,%s,%s,%.4f,%.4f,%.4f,", d->time, WHAT[d->what], d->person,
-                log->names[d->group], log->names[d->before.state], log->names[d->state],
+        fprintf(out, "%.4f,%s,%u,%s,%s,%s,%.4f,%.4f,%.4f,", d->time, EVENT_NAMES[d->event],
+                d->person, log->names[d->group], log->names[d->before.state], log->names[d->state],
                 (double)d->before.x, (double)d->before.y, (double)d->before.speed);
         if (d->body < 0)
             fputs(",,,,,,\n", out);
         else
             fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d\n", d->body, (double)d->at.x,
                     (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap,
-                    d->lies != 0);
+                    d->grounded != 0);
     }
 }
 
@@ -205,7 +205,7 @@ static void plot_log(const JoxProbeDef *def, const void *state, bool walls, JoxT
         jox_text_printf(out,
                         "%scsv skip 1 using 1:(strcol(2) eq '%s' ? $3 : NaN) with points pt 7 "
                         "ps %.1f lc '%s' title '%s'",
-                        w ? ", " : "", WHAT[w], 1.6 - 0.4 * w, COLOURS[w], WHAT[w]);
+                        w ? ", " : "", EVENT_NAMES[w], 1.6 - 0.4 * w, COLOURS[w], EVENT_NAMES[w]);
     jox_text_printf(out, "\n");
 }
 

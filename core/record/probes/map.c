@@ -250,11 +250,11 @@ static void write_map_csv(const JoxProbeDef *def, const void *state, FILE *out) 
 
 /* Plots one field as a colour map. The colour range is given, since gnuplot warns where all values
    are 0. */
-static void plot_field(bool walls, int column, const char *what, double most, JoxText *out) {
+static void plot_field(bool walls, int column, const char *title, double most, JoxText *out) {
     jox_text_printf(out,
                     "set title '%s'\nset cbrange [0:%g]\n"
                     "plot csv skip 1 using 1:2:%d with image%s\n",
-                    what, most > 0.0 ? most : 1.0, column,
+                    title, most > 0.0 ? most : 1.0, column,
                     walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
 }
 
@@ -279,10 +279,10 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
         "unset grid\nset xrange [%g:%g]\nset yrange [%g:%g]\n",
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
-    char what[96];
-    snprintf(what, sizeof what, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
+    char title[96];
+    snprintf(title, sizeof title, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
              def->kernel * sqrt(2.0), def->through_walls ? ", through walls" : "");
-    plot_field(walls, 3, what, density, out);
+    plot_field(walls, 3, title, density, out);
     plot_field(walls, 4, "speed (m/s)", speed, out);
     if (isnan(m->pressure_most))
         jox_text_printf(

@@ -156,14 +156,14 @@ static void compute_powers(const Spectrum *s, const double *x, const double *y, 
 /* Calls `visit` with each segment of each window. */
 typedef void (*SegmentCall)(Spectrum *s, const double *nx, const double *ny, const double *speed,
                             void *context);
-static void visit_segments(const Oscillation *o, Spectrum *s, SegmentCall of, void *context) {
+static void visit_segments(const Oscillation *o, Spectrum *s, SegmentCall visit, void *context) {
     double *series = jox_alloc(3 * (size_t)s->samples + 1, sizeof *series);
     double *nx = series, *ny = series + s->samples, *speed = ny + s->samples;
     for (uint32_t first = 0; s->samples && first + s->samples <= o->intervals;
          first += s->samples / 2)
         for (uint32_t w = 0; w < count_windows(o); w++)
             if (fill_segment(o, s, w, first, nx, ny, speed))
-                of(s, nx, ny, speed, context);
+                visit(s, nx, ny, speed, context);
     jox_free(series);
 }
 
@@ -195,23 +195,23 @@ static Spectrum compute_spectrum(const JoxProbeDef *def, const Oscillation *o) {
     return s;
 }
 
-/* Returns the bin of the greatest power, and in `rises` its ratio to the least power at lower bins;
-   0 if there is no spectrum. The first LEAST_BIN bins are left out: removing the mean lowers
-   them. */
-static uint32_t find_spectrum_peak(const Spectrum *s, const double *power, const double *more,
+/* Returns the bin of the greatest power (of `power` plus `other`, unless that is NULL), and in
+   `rises` its ratio to the least power at lower bins; 0 if there is no spectrum. The first
+   LEAST_BIN bins are left out: removing the mean lowers them. */
+static uint32_t find_spectrum_peak(const Spectrum *s, const double *power, const double *other,
                                    double *rises) {
     uint32_t peak = 0;
     double least = INFINITY, greatest = 0.0;
     *rises = NAN;
     for (uint32_t k = LEAST_BIN; k < s->bins && s->segments > 0.0; k++) {
-        const double p = power[k] + (more ? more[k] : 0.0);
+        const double p = power[k] + (other ? other[k] : 0.0);
         if (p > greatest) {
             greatest = p;
             peak = k;
         }
     }
     for (uint32_t k = LEAST_BIN; k <= peak; k++)
-        least = fmin(least, power[k] + (more ? more[k] : 0.0));
+        least = fmin(least, power[k] + (other ? other[k] : 0.0));
     if (peak)
         *rises = greatest / least;
     return peak;
@@ -231,10 +231,10 @@ static void add_segment_turn(Spectrum *s, const double *nx, const double *ny, co
     Turns *turns = context;
     double sum[2] = {0.0, 0.0};
     for (uint32_t k = turns->peak - 1; k <= turns->peak + 1; k++) {
-        double of[2];
-        compute_powers(s, nx, ny, k, of);
-        sum[0] += of[0];
-        sum[1] += of[1];
+        double power[2];
+        compute_powers(s, nx, ny, k, power);
+        sum[0] += power[0];
+        sum[1] += power[1];
     }
     const double both = sum[0] + sum[1];
     turns->all += 1.0;
@@ -264,24 +264,25 @@ static void add_oscillation_figures(const JoxProbeDef *def, const void *state, J
     Turns turns = {.peak = peak};
     if (peak)
         visit_segments(o, &s, add_segment_turn, &turns);
-    const double area = count_windows(o) * def->window * def->window, none = peak ? 1.0 : NAN;
+    const double area = count_windows(o) * def->window * def->window, known = peak ? 1.0 : NAN;
     jox_figure_add(out, "intervals", "intervals measured", "", o->intervals);
     jox_figure_add(out, "windows", "windows", "", count_windows(o));
     jox_figure_add(out, "density", "density by counting, mean", "1/m2",
                    frames > 0.0 ? people / frames / area : NAN);
     jox_figure_add(out, "speed", "speed, root mean square", "m/s",
                    filled > 0.0 ? sqrt(square / filled) : NAN);
-    jox_figure_add(out, "frequency", "frequency of the orientation", "rad/s", none * peak * s.step);
+    jox_figure_add(out, "frequency", "frequency of the orientation", "rad/s",
+                   known * peak * s.step);
     jox_figure_add(out, "rises", "peak of the orientation over the least power below it", "",
                    rises);
     jox_figure_add(out, "speed_frequency", "frequency of the speed", "rad/s",
-                   none * speed_peak * s.step);
+                   known * speed_peak * s.step);
     jox_figure_add(out, "speed_rises", "peak of the speed over the least power below it", "",
                    speed_rises);
     jox_figure_add(out, "anticlockwise", "share that turns anti-clockwise", "",
-                   none * turns.anticlockwise / turns.all);
+                   known * turns.anticlockwise / turns.all);
     jox_figure_add(out, "one_way", "predominance of one sense of rotation", "",
-                   none * turns.one_way / turns.all);
+                   known * turns.one_way / turns.all);
     free_spectrum(&s);
 }
 
