@@ -1,20 +1,6 @@
 /* Driven bodies stop at their force limits: what presses on one that stands is that force, and it
    goes on when people give way. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "body/body.h"
-#include "jostle.h"
-#include "jostle_act.h"
-#include "jostle_read.h"
-#include "world/world.h"
+#include "unit/world_meeting.h"
 
 /* A lane along x, closed by a wall at x = 6 m, with people before the wall, and a piston that fills
    the lane and comes from x = -1 m. */
@@ -25,27 +11,20 @@ typedef struct Lane {
 } Lane;
 
 static Lane make_lane(double width, uint32_t columns, uint32_t rows, JoBodyDef piston) {
-    JoError error = {0};
-    JoWorldDef def = jo_default_world_def();
-    Lane lane = {.world = jo_world_create(&def, &error), .dt = def.dt};
+    Lane lane = {.world = create_world(), .dt = jo_default_world_def().dt};
     const double half = width / 2;
     const double walls[] = {-3, half, 6, half, 6, -half, -3, -half};
-    assert_true(jo_world_add_line(lane.world, walls, 4, &error));
-    for (uint32_t n = 0; n < columns * rows; n++) {
-        JoAgentDef agent = jo_default_agent_def();
-        agent.x = 5.75 - 0.45 * (n / rows);
-        agent.y = (n % rows + 0.5) * (width / rows) - half;
-        jo_world_add_agent(lane.world, &agent, &error);
-    }
+    add_wall(lane.world, walls, 4);
+    for (uint32_t n = 0; n < columns * rows; n++)
+        add_person(lane.world, 5.75 - 0.45 * (n / rows), (n % rows + 0.5) * (width / rows) - half,
+                   jo_default_agent_def().push);
     piston.size[0] = 0.5;
     piston.size[1] = width - 0.1;
     piston.size[2] = 2;
     piston.x = -1;
     piston.z = 1;
     piston.kinematic = true;
-    lane.piston = jo_world_add_body(lane.world, &piston, &error);
-    if (error.text[0])
-        fail_msg("%s", error.text);
+    lane.piston = add_body(lane.world, &piston);
     return lane;
 }
 
@@ -179,20 +158,16 @@ static void a_bar_that_turns_stops_at_its_limit(void **state) {
     if (!jox_bodies_available())
         skip();
     JoError error = {0};
-    JoWorldDef def = jo_default_world_def();
-    JoWorld *world = jo_world_create(&def, &error);
+    JoWorld *world = create_world();
     const double niche[] = {0.75, 0.6, 0.75, 1, 1.25, 1, 1.25, 0.6};
-    assert_true(jo_world_add_line(world, niche, 4, &error));
-    JoAgentDef agent = jo_default_agent_def();
-    agent.x = 1;
-    agent.y = 0.78;
-    const JoAgent person = jo_world_add_agent(world, &agent, &error);
+    add_wall(world, niche, 4);
+    const JoAgent person = add_person(world, 1, 0.78, jo_default_agent_def().push);
     JoBodyDef bar = jo_default_body_def();
     bar.size[0] = 4;
     bar.size[1] = 0.2;
     bar.kinematic = true;
     bar.force_limit = 500;
-    const JoBody body = jo_world_add_body(world, &bar, &error);
+    const JoBody body = add_body(world, &bar);
     const double still[3] = {0}, spin[3] = {0, 0, 0.3};
     assert_true(jo_body_set_velocity(world, body, still, spin, &error));
     double most = 0;

@@ -1,29 +1,13 @@
 /* Bodies as heavy, light and fast as definitions allow meet people: what is given and taken agrees
    within rounding, and no assertion is in the way. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "body/body.h"
-#include "jostle.h"
-#include "world/world.h"
+#include "unit/world_meeting.h"
 
 /* A ball that hits somebody, and a box that somebody leans on. */
 static JoWorld *meet(double mass, double speed) {
-    JoError error = {0};
-    JoWorldDef def = jo_default_world_def();
-    JoWorld *world = jo_world_create(&def, &error);
+    JoWorld *world = create_world();
     for (int n = 0; n < 2; n++) {
-        JoAgentDef agent = jo_default_agent_def();
-        agent.x = 3;
-        agent.y = 4 * n;
-        agent.push = n ? 300 : 0;
-        jo_agent_set_preferred(world, jo_world_add_agent(world, &agent, &error), -1, 0);
+        const JoAgent person = add_person(world, 3, 4 * n, n ? 300 : 0);
+        jo_agent_set_preferred(world, person, -1, 0);
         JoBodyDef body = jo_default_body_def();
         body.shape = n ? JO_BOX : JO_SPHERE;
         body.size[0] = n ? 1 : 0.5;
@@ -31,10 +15,8 @@ static JoWorld *meet(double mass, double speed) {
         body.y = 4 * n;
         body.x = n ? 2.2 : -1;
         body.vx = n ? speed / 10 : speed;
-        jo_world_add_body(world, &body, &error);
+        add_body(world, &body);
     }
-    if (error.text[0])
-        fail_msg("%s", error.text);
     return world;
 }
 
@@ -63,8 +45,7 @@ static void what_is_too_light_is_refused(void **state) {
     if (!jox_bodies_available())
         skip();
     JoError error = {0};
-    JoWorldDef def = jo_default_world_def();
-    JoWorld *world = jo_world_create(&def, &error);
+    JoWorld *world = create_world();
     JoBodyDef body = jo_default_body_def();
     body.mass = 1e-30;
     assert_int_equal(jo_world_add_body(world, &body, &error).generation, 0);
