@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "record/fields/density_parts.h"
+#include "record_draw.h"
 
 /* Fails for NAN, too. */
 static void assert_near(double got, double expected, double tolerance) {
@@ -54,17 +55,6 @@ static double sum_people_where(const JoxDensity *d, bool (*inside)(JoxV2)) {
 static void add_box_wall(JoxWalls *walls, float x0, float y0, float x1, float y1) {
     const JoxV2 ring[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     jox_walls_add_polyline(walls, ring, 4, true, 3);
-}
-
-static void add_wall_line(JoxWalls *walls, float x0, float y0, float x1, float y1) {
-    const JoxV2 ends[] = {{x0, y0}, {x1, y1}};
-    jox_walls_add_polyline(walls, ends, 2, false, 3);
-}
-
-/* Returns a pseudo-random number in [0, 1). */
-static float draw_uniform(uint32_t *state) {
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) / 16777216.0f;
 }
 
 static void open_floor_has_gaussian(void **state) {

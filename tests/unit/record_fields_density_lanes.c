@@ -13,6 +13,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "record/fields/density_parts.h"
+#include "record_draw.h"
 
 enum { PEOPLE = 403, FIELDS = JOX_DENSITY_FIELDS };
 
@@ -20,12 +21,6 @@ typedef struct Crowd {
     float x[PEOPLE], y[PEOPLE], weights[2][PEOPLE];
     uint8_t seen[PEOPLE];
 } Crowd;
-
-/* Returns a pseudo-random number in [0, 1). */
-static float draw_uniform(uint32_t *state) {
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) / 16777216.0f;
-}
 
 /* Draws people in 0..wide by 0..high and a little outside; each seventh in the middle of a cell,
    and two with positions that are NAN or huge. */
@@ -52,11 +47,6 @@ static JoxDensityCrowd draw_density_crowd(Crowd *c, const JoxDensity *d, float w
                              .y = c->y,
                              .seen = c->seen,
                              .weights = {NULL, c->weights[0], c->weights[1]}};
-}
-
-static void add_wall_line(JoxWalls *walls, float x0, float y0, float x1, float y1) {
-    const JoxV2 ends[] = {{x0, y0}, {x1, y1}};
-    jox_walls_add_polyline(walls, ends, 2, false, 3);
 }
 
 /* Adds people one by one to the nodes of all rows. */

@@ -9,6 +9,7 @@
 
 #include "geom/polygon.h"
 #include "record/fields/voronoi.h"
+#include "record_draw.h"
 
 #define assert_near(value, wanted, within)                                                         \
     do {                                                                                           \
@@ -16,15 +17,6 @@
         if (!(fabs(was - right) <= (within)))                                                      \
             fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
     } while (0)
-
-/* Returns a pseudo-random number in [0, 1) from a counter. */
-static double draw_from_counter(uint32_t n) {
-    n = (n ^ 61u) ^ (n >> 16);
-    n *= 9u;
-    n ^= n >> 4;
-    n *= 0x27d4eb2du;
-    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
-}
 
 static void lattice_has_known_cells(void **state) {
     (void)state;

@@ -13,6 +13,7 @@
 
 #include "base/mem.h"
 #include "record/local.h"
+#include "record_draw.h"
 
 /* Fails for NAN, too. */
 static void assert_near(double got, double expected, double tolerance) {
@@ -29,11 +30,6 @@ static struct {
     float x[PEOPLE], y[PEOPLE], vx[PEOPLE], vy[PEOPLE];
     JoxV2 period;
 } crowd;
-
-static float draw_uniform(uint32_t *state) {
-    *state = *state * 1664525u + 1013904223u;
-    return (float)(*state >> 8) / 16777216.0f;
-}
 
 /* Places a lattice about (6, 6) with random offsets of up to a quarter of its spacing. */
 static JoxLocal *place_lattice(int side, float spacing) {

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "record_crowd.h"
+#include "record_draw.h"
 
 /* ---- files ---- */
 
@@ -133,15 +134,6 @@ static void log_has_each_action(void **state) {
     assert_non_null(strstr(text, "\n0.3000,hit,1,,Walk,Walk,0.0000,2.0000,0.0000,"
                                  "8,0.0000,3.0000,0.5000,5.0000,0.9000,0\n"));
     jox_probe_free(p);
-}
-
-/* Returns a pseudo-random number in [0, 1) from a counter. */
-static double draw_from_counter(uint32_t n) {
-    n = (n ^ 61u) ^ (n >> 16);
-    n *= 9u;
-    n ^= n >> 4;
-    n *= 0x27d4eb2du;
-    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
 }
 
 static void steady_frames_allocate_nothing(void **state) {
