@@ -331,7 +331,7 @@ const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
                                           : d->local->grid->now;
 }
 
-static void list_exit_names(JoxDanger *d, JoxSections *s) {
+static void list_exit_name_sections(JoxDanger *d, JoxSections *s) {
     uint32_t count = (uint32_t)jox_section_count(s, "exits", d->exit_count, 1);
     if (count > JOX_DANGER_EXITS) {
         jox_sections_fail(s, "exits", "there are too many");
@@ -373,7 +373,7 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     JOX_SECTION(s, "counts", d->counts);
     JOX_SECTION(s, "most", d->most);
     JOX_SECTION_ARRAY(s, "rows", d->rows, d->row_count, d->row_capacity);
-    list_exit_names(d, s);
+    list_exit_name_sections(d, s);
 }
 
 void jox_danger_free(JoxDanger *d) {
