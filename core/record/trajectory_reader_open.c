@@ -252,7 +252,8 @@ static bool find_row_table(JoxTrajectoryReader *r, const char *path, const char 
     return true;
 }
 
-/* Reads everything about the file but its frames. Returns false with an error. */
+/* Lists the frames, prepares the queries, and reads frame rate, bounds, states, walls and groups.
+   Returns false with an error. */
 static bool read_properties(JoxTrajectoryReader *r, const char *path,
                             const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";

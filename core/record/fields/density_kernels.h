@@ -40,10 +40,11 @@ typedef void JoxDensitySumKernel(const float *const *rows, const float *taps, in
 /* Input of a diffusion step along a row; pointers are to the first cell of the row
    (density_diffuse.c). */
 typedef struct JoxDensityStep {
-    float share;
-    int wide;       /* cells from one row to the next */
-    const float *u; /* densities */
-    const float *open_x, *open_y, *per;
+    float share;                  /* flow over a fully open side per difference of densities */
+    int wide;                     /* cells from one row to the next */
+    const float *u;               /* densities */
+    const float *open_x, *open_y; /* cells: open width to the next node along x, and along y */
+    const float *per;             /* 1 / area of the node */
 } JoxDensityStep;
 /* Computes cells from..to - 1 of `out`; it may compute further cells from `low` on. */
 typedef void JoxDensityStepKernel(const JoxDensityStep *step, int low, int from, int to,
