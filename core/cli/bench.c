@@ -82,22 +82,21 @@ static bool read_isas(void *options, const char *text, char why[160]) {
 }
 
 static const CliOption OPTIONS[] = {
-    {"steps", "N", "counted steps of each scene", "200", CLI_TO(Bench, given.steps),
+    {"steps", "N", "timed steps of each scene", "200", CLI_TO(Bench, given.steps),
      CLI_RANGE(1, 1e6)},
-    {"warm-up", "N", "steps before counting", "100", CLI_TO(Bench, given.warm_up),
+    {"warm-up", "N", "steps before timing begins", "100", CLI_TO(Bench, given.warm_up),
      CLI_RANGE(0, 1e6)},
-    {"rounds", "N", "times that each is timed, in turn with all others", "1",
-     CLI_TO(Bench, given.rounds), CLI_RANGE(1, BENCH_ROUNDS)},
+    {"rounds", "N", "rounds; each round times all scenes in turn", "1", CLI_TO(Bench, given.rounds),
+     CLI_RANGE(1, BENCH_ROUNDS)},
     {"threads", "N", "threads", "1", CLI_TO(Bench, given.threads), CLI_RANGE(1, 64)},
     {"isa", "NAMES",
-     "instruction sets of the kernels, with commas between: scalar, sse2, avx2, avx512 or neon; "
-     "they "
-     "never change a result",
+     "instruction sets of the kernels, separated by commas: scalar, sse2, avx2, avx512 or neon; "
+     "results never depend on them",
      "the widest that the machine runs", .kind = CLI_READ, .read = read_isas},
-    {"json", NULL, "one array of objects instead of the table", CLI_TO(Bench, json)},
-    {"csv", "FILE", "append a line for each scene and instruction set to a table of such lines",
+    {"json", NULL, "print a JSON array of objects instead of the table", CLI_TO(Bench, json)},
+    {"csv", "FILE", "append a line for each scene and instruction set to this CSV file",
      CLI_TO(Bench, csv), .writes = "csv txt"},
-    {"commit", "NAME", "what those lines call the version that is timed", "the version",
+    {"commit", "NAME", "name of the timed version in these lines", "the version",
      CLI_TO(Bench, given.commit)},
     {"plot", "DIR", "draw DIR/bench.svg: the scenes as bars, those named scale-... as a curve",
      CLI_TO(Bench, plot), .writes = "folder"},
@@ -260,11 +259,11 @@ static int run_bench(int argc, char **argv) {
     "  " mark " " name " (" #count " worlds of " #people " people and a ball)\n"
 const CliCommand cli_bench = {
     .name = "bench",
-    .what = "time scenes and stages",
+    .what = "time the steps of scenes",
     .usage = "[NAME|SCENE...] [--rounds N] [--steps N] [--isa NAMES] [--json]",
-    .about =
-        "Times scenes without drawing or recording, by stage: files, or these by name, of\n"
-        "which some set values:\n" NAMES(X) WORLDS(Y) "Without a name: those marked by a star.",
+    .about = "Times the steps of scenes by stage, without drawing or recording. A scene is a file, "
+             "or one of\nthese names, some of which also set values:\n" NAMES(X)
+                 WORLDS(Y) "Without arguments, the names marked by a star are timed.",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",

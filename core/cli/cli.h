@@ -58,12 +58,12 @@ typedef struct CliOption {
     const char *standard; /* default, as the help shows it; NULL: not shown */
     CliKind kind;
     const char
-        *writes; /* of an output: "folder", or allowed endings of a file, the usual one first */
+        *writes; /* output options: "folder", or allowed endings of a file, the usual one first */
     bool only_equals; /* a value is optional and follows '=', as in --view=8730 */
     size_t at, given; /* offset of the member; 1 + offset of a bool that is set if the option is
                          given, 0: none */
     double least, greatest; /* bounds of a number; both 0: none */
-    /* Of CLI_READ: parses `text` into the command's options; false with the fault in `why`. */
+    /* Parses `text` into the command's options, for CLI_READ; false with the fault in `why`. */
     bool (*read)(void *options, const char *text, char why[160]);
 } CliOption;
 
@@ -154,7 +154,7 @@ typedef struct CliReportPage {
     const JoSceneDef *def;
     const JoxOverlay *files; /* vetted files; NULL: read those of the scene again */
     JoScene *scene;
-    uint64_t steps; /* of the whole run */
+    uint64_t steps; /* steps of the whole run */
     bool no_half, quiet;
 } CliReportPage;
 int cli_write_report_page(const CliCommand *command, const CliReportPage *page);
@@ -345,8 +345,8 @@ bool cli_read_isa(JoIsa *isa, const char *text, char why[160]);
 #define CLI_ISA_OPTION(function)                                                                   \
     {                                                                                              \
         "isa", "NAME",                                                                             \
-            "instruction set of the kernels: scalar, sse2, avx2, avx512 or neon; never changes "   \
-            "a result",                                                                            \
+            "instruction set of the kernels: scalar, sse2, avx2, avx512 or neon; results never "   \
+            "depend on it",                                                                        \
             "the widest that the machine runs", .kind = CLI_READ, .read = function                 \
     }
 
@@ -354,9 +354,9 @@ bool cli_read_isa(JoIsa *isa, const char *text, char why[160]);
 #define CLI_TRUSTED_OPTION(type)                                                                   \
     {                                                                                              \
         "trusted", NULL,                                                                           \
-            "the files are one's own: whatever they name is read. Else the command reads the "     \
-            "folders of what it is given, ../behaviours and mods alone, writes to its output's "   \
-            "folder alone and connects to nothing",                                                \
+            "trust the files: read whatever they name. Without it the command reads only the "     \
+            "folders of its arguments, ../behaviours and mods, writes only to the folder of its "  \
+            "output, and connects to nothing",                                                     \
             CLI_TO(type, trusted)                                                                  \
     }
 
@@ -374,25 +374,25 @@ bool cli_read_isa(JoIsa *isa, const char *text, char why[160]);
          CLI_GIVEN(type, def.has_seed)},                                                           \
         {"threads",                                                                                \
          "N",                                                                                      \
-         "threads; never changes a result",                                                        \
+         "number of threads; results never depend on it",                                          \
          "all processors",                                                                         \
          CLI_TO(type, def.threads),                                                                \
          CLI_GIVEN(type, of_scene),                                                                \
          CLI_RANGE(1, 64)},                                                                        \
-        {"set", "PATH=VALUE", "replace a value of the scene, as groups.pilgrims.count=5000",       \
+        {"set", "PATH=VALUE", "replace a value of the scene, such as groups.pilgrims.count=5000",  \
          CLI_TO(type, sets), CLI_GIVEN(type, of_scene)},                                           \
-        {"input", "FILE", "play an input log: what people did, and files that were reloaded",      \
+        {"input", "FILE", "replay an input log: commands of people, and reloaded files",           \
          CLI_TO(type, def.input_log), CLI_GIVEN(type, of_scene)},                                  \
         CLI_MOD_OPTIONS(type, def)
 #define CLI_MOD_OPTIONS(type, def)                                                                 \
     {"mod", "DIR",                                                                                 \
-     "take a mod: a folder, or the name of one that lies in the scene's mods/ or in the user's "   \
-     "data directory ($XDG_DATA_HOME/jostle/mods); may be given several times. Others are off, "   \
-     "but those that `jostle mod enable` turned on, and what a mod depends on must be on or "      \
-     "named, too",                                                                                 \
+     "use a mod: a folder, or the name of one in the scene's mods/ or in the user's data "         \
+     "directory ($XDG_DATA_HOME/jostle/mods); may be given several times. Other mods are off "     \
+     "unless `jostle mod enable` turned them on; mods that a mod depends on must be on or named, " \
+     "too",                                                                                        \
      CLI_TO(type, mods), CLI_GIVEN(type, of_scene)},                                               \
     {                                                                                              \
-        "no-mods", NULL, "take no mods but those given by --mod or named by the scene",            \
+        "no-mods", NULL, "use only mods given by --mod or named by the scene",                     \
             CLI_TO(type, def.named_mods_only), CLI_GIVEN(type, of_scene)                           \
     }
 

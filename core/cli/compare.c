@@ -37,40 +37,41 @@ static bool read_compare_unit(void *options, const char *text, char why[160]) {
 
 static const CliOption OPTIONS[] = {
     {"out", "DIR",
-     "a page, index.html, with curves, plans and all figures; and files that keep the runs of "
+     "write a page, index.html, with curves, plans and all figures, and the files with the runs of "
      "scenes",
      CLI_TO(Compare, def.out), .writes = "folder"},
     {"json", "FILE",
-     "write every figure of every side as JSON; '-' is standard output, in place "
-     "of the table",
+     "write every figure of every side as JSON; '-' writes to standard output instead of the table",
      CLI_TO(Compare, json), .writes = "json txt"},
-    {"base", "SIDE", "what the others are compared with: a number from 1, a name or a file",
-     "the first", CLI_TO(Compare, def.base)},
+    {"base", "SIDE",
+     "the side that the others are compared with: a number from 1, a name or a file", "the first",
+     CLI_TO(Compare, def.base)},
     {"label", "NAME",
-     "what a side is called, in their order, once for each: of a sweep each variant is a side, the "
-     "last setting changing first",
+     "name of a side; give it once for each side, in order. In a sweep each variant is a side, and "
+     "the last setting varies fastest",
      CLI_TO(Compare, labels)},
     {"percentile", "P",
-     "also the value above P % of all runs, as MSC.1/Circ.1533 takes the 95 % value, the worst "
-     "case, and a bound of the true one",
+     "also print the value above P % of all runs, as MSC.1/Circ.1533 defines the 95 % value, the "
+     "worst case, and a bound of the true value",
      CLI_TO(Compare, def.percentile), CLI_RANGE(1, 99.9)},
-    {"confidence", "P", "of intervals, %", "95", CLI_TO(Compare, confidence), CLI_RANGE(50, 99.99)},
-    {"bootstrap", "N", "intervals by N bootstrap samples, in place of Student's t",
+    {"confidence", "P", "confidence of intervals, %", "95", CLI_TO(Compare, confidence),
+     CLI_RANGE(50, 99.99)},
+    {"bootstrap", "N", "compute intervals from N bootstrap samples instead of Student's t",
      CLI_TO(Compare, resamples), CLI_RANGE(100, 1000000)},
-    {"all", NULL, "all figures in the table, not only those that one asks for first",
-     CLI_TO(Compare, def.all)},
-    {"seeds", "N", "of scenes: seeds of each", "10", CLI_TO(Compare, seeds), CLI_RANGE(1, 10000)},
-    {"for", "S", "of scenes: simulate S seconds", "the scene's duration", CLI_TO(Compare, seconds),
-     CLI_GIVEN(Compare, has_seconds), CLI_RANGE(0, 1e7)},
-    {"jobs", "N", "of scenes: processes at once", "one for each processor", CLI_TO(Compare, jobs),
+    {"all", NULL, "show all figures in the table, not only key figures", CLI_TO(Compare, def.all)},
+    {"seeds", "N", "scenes only: seeds of each", "10", CLI_TO(Compare, seeds), CLI_RANGE(1, 10000)},
+    {"for", "S", "scenes only: simulate S seconds", "the scene's duration",
+     CLI_TO(Compare, seconds), CLI_GIVEN(Compare, has_seconds), CLI_RANGE(0, 1e7)},
+    {"jobs", "N", "scenes only: processes at once", "one for each processor", CLI_TO(Compare, jobs),
      CLI_RANGE(1, 1000)},
-    {"scene", "SCENE", "of recordings: its `probes` measure", CLI_TO(Compare, scene)},
-    {"fps", "N", "of recordings: frames a second, where they do not say", CLI_TO(Compare, def.fps),
-     CLI_RANGE(0.01, 10000)},
-    {"unit", "m|cm", "of recordings: unit of lengths, where they do not say", .kind = CLI_READ,
+    {"scene", "SCENE", "recordings only: measure with the `probes` of this scene",
+     CLI_TO(Compare, scene)},
+    {"fps", "N", "recordings only: frames per second, if the file does not say",
+     CLI_TO(Compare, def.fps), CLI_RANGE(0.01, 10000)},
+    {"unit", "m|cm", "recordings only: unit of lengths, if the file does not say", .kind = CLI_READ,
      .read = read_compare_unit},
     CLI_TRUSTED_OPTION(Compare),
-    {"quiet", NULL, "no progress", CLI_TO(Compare, quiet)},
+    {"quiet", NULL, "print no progress", CLI_TO(Compare, quiet)},
 };
 
 /* ---- finding the sides ---- */
@@ -293,18 +294,16 @@ const CliCommand cli_compare = {
     .name = "compare",
     .what = "compare variants of scenes, sweeps or recordings",
     .usage = "SIDE SIDE... [options]",
-    .about =
-        "A side is a file of `jostle sweep`, of which each variant is one, a scene, which is run "
-        "with --seeds first, a recording, or a folder of recordings, which are its runs. Each "
-        "figure of each side is compared with that of the "
-        "first: the difference of the means, and an interval that holds the true one with a "
-        "probability of 95 %. Runs of the same seed are compared in pairs. Where the runs do not "
-        "tell two sides apart, that is said, and about how many seeds would.\n"
-        "\n"
-        "A recording is one run: a difference from it has no interval.",
-    .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input; 129, 130 and "
-             "143: SIGHUP, SIGINT or SIGTERM ended it, and the same command goes on with the runs "
-             "of scenes",
+    .about = "A side is a variant in a file of `jostle sweep`, a scene, which is run first with "
+             "--seeds, a recording, or a folder of recordings, which are its runs. Each figure of "
+             "each side is compared with that of the first side: the difference of the means, and "
+             "an interval that contains the true difference with a probability of 95 %. Runs with "
+             "the same seed are compared in pairs. If the runs do not tell two sides apart, the "
+             "output says so, and about how many seeds would.\n\nA recording is a single run, so a "
+             "difference from it has no interval.",
+    .notes =
+        "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input; 129, 130 and 143: "
+        "SIGHUP, SIGINT or SIGTERM ended it, and the same command continues the runs of scenes",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "side",

@@ -9,7 +9,7 @@ typedef struct Migrate {
 } Migrate;
 
 static const CliOption OPTIONS[] = {
-    {"check", NULL, "change nothing, and say what there is to change", CLI_TO(Migrate, check)},
+    {"check", NULL, "change nothing; print what would be changed", CLI_TO(Migrate, check)},
     CLI_TRUSTED_OPTION(Migrate),
 };
 
@@ -46,15 +46,14 @@ static int run_migrate(int argc, char **argv) {
 
 const CliCommand cli_migrate = {
     .name = "migrate",
-    .what = "rewrite names that are called otherwise now",
+    .what = "rewrite names that have changed",
     .usage = "PATH... [--check]",
-    .about =
-        "Rewrites scenes (.yaml), behaviours (.lua) and folders of them where they use a name that "
-        "was changed: a word of the language, a shipped behaviour, or what a behaviour says was "
-        "`renamed`. Comments, layout and all other bytes stay as they are; what was changed is "
-        "printed. `jostle check` says what is wrong besides.",
-    .notes = "exit status: 0 done, 1 with --check: there is something to change, or it could not "
-             "be done, 2 wrong usage, 3 errors of another kind are left",
+    .about = "Rewrites old names in scenes (.yaml), behaviours (.lua) and folders of them: changed "
+             "words of the language, renamed shipped behaviours, and names that a behaviour lists "
+             "as `renamed`. Comments, layout and all other bytes stay as they are; changes are "
+             "printed. `jostle check` reports other errors.",
+    .notes = "exit status: 0 done, 1 it could not be done or, with --check, there is something to "
+             "change, 2 wrong usage, 3 errors of another kind are left",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "path",

@@ -88,7 +88,7 @@ static void print_setting(const JoSetting *setting) {
     const bool cut = shown > LONGEST_SHOWN;
     shown = cut ? LONGEST_SHOWN - 3 : shown;
     while (cut && ((unsigned char)value[shown] & 0xc0) == 0x80)
-        shown--; /* no half of a letter */
+        shown--; /* not within a UTF-8 character */
     printf("  %s:%d:%d: %.*s%s", setting->file, setting->line, setting->column, (int)shown, value,
            cut ? "..." : "");
     if (*setting->where)
@@ -118,11 +118,12 @@ static int why(const JoSceneDef *def, const char *path) {
     return JO_OK;
 }
 
-/* s: an agent that nobody asks about for longer is no longer watched, and who writes its values is
-   not known (jo_agent_why). */
+/* s between two questions about an agent. One that is not asked about for longer is no longer
+   watched, and the writers of its values are not known (jo_agent_why). */
 static const double ASKED_EACH = 2.0;
 
-/* Says that there is no such agent: when it left, where it was there, and which there are. */
+/* Prints that there is no such agent: when it left, if it was there, and the ids of those
+   present. */
 static void say_gone(const JoWorld *world, uint64_t id, double left) {
     const uint32_t count = jo_world_agent_count(world);
     JoAgent *agents = calloc(count ? count : 1, sizeof *agents);
@@ -139,8 +140,8 @@ static void say_gone(const JoWorld *world, uint64_t id, double left) {
     free(agents);
 }
 
-/* The agent with an id, from when it is there on; it is asked about now and then, so that who
-   writes its values is known. */
+/* Prints the value `name` of the agent with an id, and what set it. The agent is asked about now
+   and then from its appearance on, so that the writers of its values are known. */
 static int why_now(const Mods *options, const char *name) {
     JoError error = {0};
     JoSettings *settings = NULL;
@@ -201,7 +202,7 @@ static int check(const char *const *folders, size_t count) {
     return errors ? JO_INPUT : JO_OK;
 }
 
-/* What a verb takes after itself: so many words, of which the last may be a scene. */
+/* The arguments of a verb: allowed numbers of words; the last one may be a scene. */
 typedef struct Verb {
     const char *name, *takes;
     size_t least, most; /* most 0: any number */
@@ -215,8 +216,8 @@ static const Verb VERBS[] = {{"list", "[SCENE]", 0, 1, true},
                              {"check", "DIR...", 1, 0, false}};
 enum { VERB_COUNT = sizeof VERBS / sizeof *VERBS };
 
-/* The verb of the arguments; NULL with a message where there is none, or what it takes is not
-   there. */
+/* Returns the verb of the arguments; NULL with a message if it is unknown or has the wrong number
+   of arguments. */
 static const Verb *find_verb(const CliList *plain) {
     const char *names[VERB_COUNT];
     const size_t given = plain->count - 1;
@@ -236,13 +237,13 @@ static const Verb *find_verb(const CliList *plain) {
     return NULL;
 }
 
-/* Gives up what the verb does not need. */
+/* Confines the process to what the verb needs. */
 static void confine(const Mods *options, const Verb *verb, const CliList *plain) {
     CliReach reach = {CLI_READING};
     cli_reach_def(&reach, &options->def);
     for (size_t p = 1; p < plain->count && !strcmp(verb->name, "check"); p++)
         cli_reach_scene(&reach, plain->items[p]);
-    if (verb->least == 1 && verb->scene) { /* that turns one on or off */
+    if (verb->least == 1 && verb->scene) { /* enable, disable */
         cli_reach_folder(&reach, plain->items[1]);
         cli_reach_settings(&reach);
     }

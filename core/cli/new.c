@@ -221,7 +221,7 @@ static int make(const char *kind, const char *name) {
         return cli_misused(&cli_new, "a name has up to 60 lower-case letters, digits, - and _");
     if (!strcmp(kind, "behaviour"))
         return new_behaviour(behaviours, name);
-    if (!strcmp(kind, "scene")) /* what a scene of scenes/ needs lies in ../behaviours */
+    if (!strcmp(kind, "scene")) /* scenes of scenes/ find their behaviours in ../behaviours */
         return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
     if (!strcmp(kind, "mod"))
         return new_mod(*scenes ? "scenes/mods" : "mods", name);

@@ -59,42 +59,43 @@ static bool read_render_unit(void *options, const char *text, char why[160]) {
 
 static const CliOption OPTIONS[] = {
     {"out", "FILE",
-     "FILE.svg or FILE.png: one picture. FILE.mp4, .mkv or .webm: a video, by the program ffmpeg, "
-     "without which its frames stay in FILE-frames. A folder, which has no ending or ends with "
-     "'/': frame-000001.png, ...",
+     "FILE.svg or FILE.png: one picture. FILE.mp4, .mkv or .webm: a video, made by the program "
+     "ffmpeg; without it the frames stay in FILE-frames. A folder (no ending, or a final '/'): "
+     "frame-000001.png, ...",
      "NAME.png here, and NAME-frames with --from, --until or --fps", CLI_TO(Wanted, def.out)},
     {"at", "T", "time of the picture, s", "the beginning", CLI_TO(Wanted, def.at),
      CLI_RANGE(-1e9, 1e9)},
-    {"from", "T", "where frames and videos begin, s", "the beginning", CLI_TO(Wanted, def.from),
+    {"from", "T", "first time of frames and videos, s", "the beginning", CLI_TO(Wanted, def.from),
      CLI_GIVEN(Wanted, from), CLI_RANGE(-1e9, 1e9)},
-    {"until", "T", "where they end, s", "the end of the scene's duration, or of the recording",
-     CLI_TO(Wanted, def.until), CLI_GIVEN(Wanted, until), CLI_RANGE(-1e9, 1e9)},
-    {"fps", "N", "frames a second", "of every step, or every few, up to 30",
+    {"until", "T", "last time of frames and videos, s",
+     "the end of the scene's duration, or of the recording", CLI_TO(Wanted, def.until),
+     CLI_GIVEN(Wanted, until), CLI_RANGE(-1e9, 1e9)},
+    {"fps", "N", "frames per second", "one for every step, or every few, up to 30",
      CLI_TO(Wanted, def.fps), CLI_GIVEN(Wanted, fps), CLI_RANGE(0.001, 1000)},
-    {"size", "WxH", "in pixels, each from 320 to 8192", "what suits the area", .kind = CLI_READ,
-     .read = read_size},
-    {"area", "X0,Y0,X1,Y1", "what is shown, m", "everything", .kind = CLI_READ, .read = read_area},
+    {"size", "WxH", "size in pixels, each from 320 to 8192", "what suits the area",
+     .kind = CLI_READ, .read = read_size},
+    {"area", "X0,Y0,X1,Y1", "area to show, m", "everything", .kind = CLI_READ, .read = read_area},
     {"colour", "WHAT[:MOST]",
-     "of people: state, group, speed, force, compression, load, density, direction or none; MOST "
-     "is the value at the end of the bar, as speed:1.5",
+     "colour people by state, group, speed, force, compression, load, density, direction or none; "
+     "MOST is the value at the end of the bar, as speed:1.5",
      "what the scene's view says", CLI_TO(Wanted, def.colour)},
     {"color", "WHAT[:MOST]", CLI_TO(Wanted, def.colour)},
     {"field", "WHAT[:MOST]",
-     "on the floor: density (people/m2) or pressure (crowd pressure, 1/s2, from 20 s on, where "
-     "it can be measured); people are then rings",
+     "colour the floor by density (people/m2) or pressure (crowd pressure, 1/s2, from 20 s on, "
+     "where it can be measured); people are then drawn as rings",
      CLI_TO(Wanted, def.field)},
-    {"paths", NULL, "where people and bodies went until then (of many, 500)",
+    {"paths", NULL, "draw the paths of people and bodies up to that time (at most 500)",
      CLI_TO(Wanted, def.paths)},
-    {"quiet", NULL, "no progress", CLI_TO(Wanted, quiet)},
+    {"quiet", NULL, "print no progress", CLI_TO(Wanted, quiet)},
     CLI_TRUSTED_OPTION(Wanted),
-    {"of a scene, as of `jostle run`:", .kind = CLI_HEADING},
+    {"for a scene, as for `jostle run`:", .kind = CLI_HEADING},
     CLI_SCENE_OPTIONS(Wanted, scene),
-    {"of a recording:", .kind = CLI_HEADING},
-    {"scene", "SCENE", "whose walls and places are drawn (recordings keep solid walls)",
+    {"for a recording:", .kind = CLI_HEADING},
+    {"scene", "SCENE", "draw the walls and places of this scene (recordings keep solid walls)",
      CLI_TO(Wanted, def.plan)},
-    {"recorded-fps", "N", "frames a second, where the recording does not say",
+    {"recorded-fps", "N", "frames per second, if the recording does not say",
      CLI_TO(Wanted, def.recorded_fps), CLI_GIVEN(Wanted, of_recording), CLI_RANGE(0.01, 10000)},
-    {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
+    {"unit", "m|cm", "unit of its lengths, if it does not say", .kind = CLI_READ,
      .read = read_render_unit, CLI_GIVEN(Wanted, of_recording)},
 };
 
@@ -187,9 +188,10 @@ const CliCommand cli_render = {
     .name = "render",
     .what = "draw a scene or a recording: pictures, frames, video",
     .usage = "SCENE|RECORDING [options]",
-    .about = "Draws a crowd from above, without a display: a scene (.yaml), which is run for it, "
-             "or a recording as of `jostle report`. Walls, gates and places with their names, "
-             "bodies, people as discs of their radius, a legend with units, a scale and the time.",
+    .about = "Draws a crowd from above, without a display: a scene (.yaml), which is simulated for "
+             "this, or a recording as for `jostle report`. Shows walls, gates and places with "
+             "their names, bodies, people as discs of their radius, a legend with units, a scale "
+             "and the time.",
     .notes = "examples:\n"
              "  jostle render scenes/office.yaml --at 8 --out office.svg\n"
              "  jostle render scenes/door-050.yaml --at 20 --colour compression --out door.png\n"

@@ -13,18 +13,18 @@ static bool read_report_unit(void *options, const char *text, char why[160]) {
 
 static const CliOption OPTIONS[] = {
     {"scene", "SCENE",
-     "its `probes` measure, its walls are drawn (without: fields, and densities and speeds over "
-     "time, of all the area)",
+     "measure with this scene's `probes` and draw its walls (without: fields, and densities and "
+     "speeds over time, of the whole area)",
      CLI_TO(Wanted, def.scene)},
     {"out", "DIR",
-     "a page, index.html; CSV files and pictures, NAME.csv, NAME.png and NAME.svg, of each probe "
-     "and of danger: density, crowd pressure and, in recordings of `jostle run`, loads",
+     "write a page, index.html, and NAME.csv, NAME.png and NAME.svg of each probe and of danger: "
+     "density, crowd pressure and, for recordings of `jostle run`, loads",
      CLI_TO(Wanted, def.directory), .writes = "folder"},
     {"summary", "FILE", "write the figures as JSON; '-' is standard output",
      CLI_TO(Wanted, summary), .writes = "json txt"},
-    {"fps", "N", "frames a second, where the recording does not say", CLI_TO(Wanted, def.fps),
+    {"fps", "N", "frames per second, if the recording does not say", CLI_TO(Wanted, def.fps),
      CLI_RANGE(0.01, 10000)},
-    {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
+    {"unit", "m|cm", "unit of its lengths, if it does not say", .kind = CLI_READ,
      .read = read_report_unit},
     CLI_TRUSTED_OPTION(Wanted),
 };
@@ -81,11 +81,11 @@ const CliCommand cli_report = {
     .name = "report",
     .what = "measure a recording, simulated or real",
     .usage = "RECORDING [options]",
-    .about = "Measures a recording: an SQLite file of `jostle run --record` or of JuPedSim "
-             "(versions 1 and 2), text with the columns id, frame, x, y (PeTrack, the archive of "
-             "Juelich), or CSV with a line of names (ID,Frame,x,y,v_x,v_y). Give one of --out and "
-             "--summary, or both. Of a file of `jostle sweep` with one variant, --out has the page "
-             "of all its seeds.",
+    .about =
+        "Measures a recording: an SQLite file of `jostle run --record` or of JuPedSim (versions 1 "
+        "and 2), text with the columns id, frame, x, y (PeTrack, the archive of Juelich), or CSV "
+        "with a header line (ID,Frame,x,y,v_x,v_y). Give one of --out and --summary, or both. For "
+        "a file of `jostle sweep` with one variant, --out writes the page of all its seeds.",
     .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

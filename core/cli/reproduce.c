@@ -13,25 +13,27 @@ typedef struct Reproduce {
 
 static const CliOption OPTIONS[] = {
     {"standards", NULL,
-     "the tests of RiMEA, IMO and NIST, and a page of them for authorities, standards.html",
+     "run the tests of RiMEA, IMO and NIST, and write a page of them for authorities, "
+     "standards.html",
      CLI_TO(Reproduce, def.standards)},
     {"quick", NULL, "smaller runs with the same bands", CLI_TO(Reproduce, def.quick)},
-    {"seeds", "A-B", "these seeds, or A alone, in place of those of each claim",
+    {"seeds", "A-B", "use these seeds, or only A, instead of those of each claim",
      CLI_TO(Reproduce, def.seeds)},
     {"set", "PATH=VALUE",
-     "replace a value of every scene, as walking.width=1.3: how much of a claim hangs on it",
+     "replace a value of every scene, such as walking.width=1.3, to see how much a claim depends "
+     "on it",
      CLI_TO(Reproduce, sets)},
     {"jobs", "N", "processes at once", "one for each processor", CLI_TO(Reproduce, def.jobs),
      CLI_RANGE(1, 256)},
-    {"out", "DIR", "for runs, pictures and index.html", "build/out/reproduce",
+    {"out", "DIR", "folder for runs, pictures and index.html", "build/out/reproduce",
      CLI_TO(Reproduce, def.out), .writes = "folder"},
     {"claims", "DIR", "folder of claim files", "scenes/claims", CLI_TO(Reproduce, def.folder)},
-    {"fresh", NULL, "do all runs anew", CLI_TO(Reproduce, def.fresh)},
-    {"list", NULL, "name the claims, run nothing", CLI_TO(Reproduce, def.list)},
-    {"quiet", NULL, "no progress", CLI_TO(Reproduce, def.quiet)},
+    {"fresh", NULL, "repeat all runs", CLI_TO(Reproduce, def.fresh)},
+    {"list", NULL, "list the claims; run nothing", CLI_TO(Reproduce, def.list)},
+    {"quiet", NULL, "print no progress", CLI_TO(Reproduce, def.quiet)},
     {"trusted", NULL,
-     "the claims are one's own. Else the command reads their folder, the one above, ../behaviours "
-     "and ../scripts of that alone, writes to --out alone and connects to nothing",
+     "trust the claims. Without it the command reads only their folder, the one above, and "
+     "../behaviours and ../scripts of that, writes only to --out, and connects to nothing",
      CLI_TO(Reproduce, trusted)},
 };
 
@@ -85,12 +87,12 @@ static int run_reproduce(int argc, char **argv) {
 
 const CliCommand cli_reproduce = {
     .name = "reproduce",
-    .what = "run what papers and real crowds show, and compare",
+    .what = "compare runs with what papers and real crowds show",
     .usage = "[CLAIM...] [options]",
-    .about = "Runs scenes, measures, and compares with what papers and real crowds say: all claims "
-             "of scenes/claims, or those named; `paper`, `real`, `rimea`, `imo`, `nist` "
-             "and `iso` name several, `standards` the last four. Runs that are there already are "
-             "not done again.",
+    .about = "Runs scenes, measures them, and compares the results with papers and real crowds: "
+             "all claims of scenes/claims, or those named. `paper`, `real`, `rimea`, `imo`, `nist` "
+             "and `iso` name groups of claims, `standards` the last four groups. Runs that exist "
+             "are not repeated.",
     .notes = "exit status: 0 all in band, 1 a claim misses, 2 wrong usage, 3 a claim file is "
              "wrong; 129, 130 and 143: SIGHUP, SIGINT or SIGTERM ended it early",
     .options = OPTIONS,

@@ -22,19 +22,18 @@ static bool read_resume_isa(void *options, const char *text, char why[160]) {
 }
 
 static const CliOption OPTIONS[] = {
-    {"for", "S", "simulate until S seconds from the beginning of the run", "as that run was to",
+    {"for", "S", "simulate until S seconds from the beginning of the run", "the end of that run",
      CLI_TO(Resume, seconds), CLI_GIVEN(Resume, has_seconds), CLI_RANGE(0, 1e7)},
-    {"threads", "N", "threads; never changes a result", "all processors",
+    {"threads", "N", "number of threads; results never depend on it", "all processors",
      CLI_TO(Resume, def.threads), CLI_RANGE(1, 64)},
     CLI_ISA_OPTION(read_resume_isa),
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
      CLI_TO(Resume, summary), .writes = "json txt"},
-    {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
-     CLI_TO(Resume, quiet)},
+    {"quiet", NULL, "print no progress, and no closing paragraph", CLI_TO(Resume, quiet)},
     {"trusted", NULL,
-     "the checkpoint is one's own: whatever it names is read and written. Else the command reaches "
-     "what lies beside the checkpoint, its folder and the one above, and what lies below the "
-     "working folder, and connects to nothing",
+     "trust the checkpoint: read and write whatever it names. Without it the command reaches only "
+     "the checkpoint's folder and the one above, and what lies below the working folder, and "
+     "connects to nothing",
      CLI_TO(Resume, trusted)},
 };
 
@@ -156,15 +155,15 @@ static int run_resume(int argc, char **argv) {
 
 const CliCommand cli_resume = {
     .name = "resume",
-    .what = "go on with a run from its checkpoint",
+    .what = "continue a run from its checkpoint",
     .usage = "CHECKPOINT [options]",
-    .about = "CHECKPOINT is a file that `jostle run --checkpoint` wrote, or their folder, which "
-             "stands for the newest whole one. The run goes on to the bit, in the recording, "
-             "the input log, the report and the data that it wrote, and writes further "
-             "checkpoints. Scene, behaviours, "
-             "mods and plans are those of the file, not those that lie on the disk by now; of a "
-             "mod the folder must still be there.",
-    .notes = "exit status: as of `jostle run`; 3: the checkpoint is damaged, or of another version",
+    .about = "CHECKPOINT is a file that `jostle run --checkpoint` wrote, or the folder of such "
+             "files, which means the newest whole one. The run continues bit for bit, in the same "
+             "recording, input log, report and data files, and writes further checkpoints. Scene, "
+             "behaviours, mods and plans are those in the checkpoint, not those on the disk now; "
+             "the folder of a mod must still be there.",
+    .notes =
+        "exit status: as for `jostle run`; 3: the checkpoint is damaged, or of another version",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "checkpoint",

@@ -32,13 +32,13 @@ static bool read_run_isa(void *options, const char *text, char why[160]) {
 static const CliOption OPTIONS[] = {
     {"for", "S", "simulate S seconds", "the scene's duration", CLI_TO(Run, seconds),
      CLI_GIVEN(Run, has_seconds), CLI_RANGE(0, 1e7)},
-    {"steps", "N", "or N steps", CLI_TO(Run, steps), CLI_GIVEN(Run, has_steps), CLI_RANGE(0, 1e9)},
+    {"steps", "N", "simulate N steps instead", CLI_TO(Run, steps), CLI_GIVEN(Run, has_steps),
+     CLI_RANGE(0, 1e9)},
     CLI_SCENE_OPTIONS(Run, def),
     {"seeds", "N",
-     "run with N seeds, at once as `jostle sweep` does it; the summary gives mean and 5-95 % of "
-     "each figure, and in \"given\", once "
-     "or "
-     "as a list, what is no statistic of a run: the seed, the step, coordinates",
+     "run with N seeds in parallel, as `jostle sweep` does; the summary has mean and 5-95 % of "
+     "each figure and, in \"given\", the values that are no statistics, such as seed, step and "
+     "coordinates, once or as a list",
      CLI_TO(Run, seeds), CLI_RANGE(1, 1000)},
     CLI_ISA_OPTION(read_run_isa),
     {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log),
@@ -46,25 +46,25 @@ static const CliOption OPTIONS[] = {
     {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record),
      .writes = "sqlite sqlite3 db db3"},
     {"record-every", "S",
-     "a frame of --record each S seconds, which are rounded to whole steps; what people bear is "
-     "its mean since the frame before",
+     "seconds between frames of --record, rounded to whole steps; the loads of a frame are means "
+     "since the frame before",
      "0.1", CLI_TO(Run, record_every), CLI_RANGE(0.001, 1e6)},
     {"checkpoint", "S",
-     "every S simulated seconds, write all that the run's future depends on, with the text of each "
-     "file, for `jostle resume`: to latest.checkpoint, and the one before to before.checkpoint. "
-     "With bodies the state is exact, and saved, at each 128th step",
+     "every S simulated seconds, save the whole state of the run, with the text of each file, for "
+     "`jostle resume`: to latest.checkpoint, and the one before to before.checkpoint. With bodies "
+     "the state is exact, and saved, at each 128th step only",
      CLI_TO(Run, every), CLI_RANGE(0.001, 1e7)},
     {"checkpoint-dir", "DIR", "folder for checkpoints", CLI_TO(Run, folder), .writes = "folder"},
     {"report", "DIR",
-     "write a page to hand on or print, pictures and tables into DIR (index.html): a summary in "
-     "sentences, a plan, who left when, who was over which published limit, maps and moments, "
-     "levels of service, what probes measure, inputs and their hashes. Runs once more at half the "
-     "step to show the difference beside each figure. With --seeds: how far the runs differ, in "
-     "sentences, curves with bands, maps of the mean and the worst, and each run with its hash; "
-     "the runs are kept in DIR/runs.sqlite, with which the same command goes on, or makes a page "
+     "write a page to share or print (DIR/index.html), with pictures and tables: a summary in "
+     "sentences, a plan, times of leaving, published limits that were exceeded, maps and moments, "
+     "levels of service, results of probes, inputs and their hashes. Runs the scene again at half "
+     "the step to show the difference beside each figure. With --seeds: how far the runs differ, "
+     "in sentences, curves with bands, maps of the mean and the worst, and each run with its hash; "
+     "the runs are kept in DIR/runs.sqlite, from which the same command continues, or makes a page "
      "of more seeds",
      CLI_TO(Run, report), .writes = "folder"},
-    {"no-half-step", NULL, "do not run once more", CLI_TO(Run, no_half)},
+    {"no-half-step", NULL, "do not run again at half the step", CLI_TO(Run, no_half)},
     {"data", "DIR",
      "write the CSV files of the scene's probes and of danger, and no pictures; with --seeds those "
      "of each seed into DIR/seed-N",
@@ -72,36 +72,32 @@ static const CliOption OPTIONS[] = {
     {"summary", "FILE",
      "write the run's figures as JSON; '-' is standard output. \"density_max\" is the greatest "
      "density of any place and time, people per m2 by a Gaussian of R = 1 m within the walls, "
-     "sampled every 0.5 s, as in all maps and tables; \"clearance_s\" is when the last of all "
-     "left, "
-     "null while anybody is inside",
+     "sampled every 0.5 s, as in all maps and tables; \"clearance_s\" is the time at which the "
+     "last person left, null if anybody is still inside",
      CLI_TO(Run, summary), .writes = "json txt"},
-    {"profile-lua", NULL, "list what each plain Lua function costs, by state",
+    {"profile-lua", NULL, "list the cost of each plain Lua function, by state",
      CLI_TO(Run, profile)},
     {"trusted", NULL,
-     "the scene is one's own: it is read at once. Else a process that has no network, writes "
-     "nothing and reads the scene's folder, ../behaviours, ../scripts and mods alone reads it "
-     "first, and it is "
-     "loaded from what that one read; so is what is edited while it runs",
+     "trust the scene: read it directly. Without it, a process that has no network, writes nothing "
+     "and reads only the scene's folder, ../behaviours, ../scripts and mods reads it first, and "
+     "the run loads what that process read; likewise for files that are edited while it runs",
      CLI_TO(Run, trusted)},
     {"watch", NULL, "reload behaviours and the scene when their files change",
-     "where the output is a terminal", CLI_TO(Run, watch)},
-    {"no-watch", NULL, "do not", CLI_TO(Run, no_watch)},
+     "if the output is a terminal", CLI_TO(Run, watch)},
+    {"no-watch", NULL, "do not reload changed files", CLI_TO(Run, no_watch)},
     {"trace", "AGENT", "print each transition of the agent with this id, and why",
      CLI_TO(Run, trace), CLI_GIVEN(Run, has_trace), CLI_RANGE(0, UINT32_MAX)},
-    {"quiet", NULL, "no progress, and no paragraph at the end on what the run comes to",
-     CLI_TO(Run, quiet)},
+    {"quiet", NULL, "print no progress, and no closing paragraph", CLI_TO(Run, quiet)},
     {"view", "PORT",
      "show the run on a live page, in real time, and print the page's address: port 8730, or the "
-     "next that is free. People can act on the run, pause, restart and inspect it. Files are "
-     "watched; --for, --record, --log-input, --input, --checkpoint and --summary go with it. Who "
-     "does not have "
-     "the address's token is refused",
+     "next that is free. On the page people can act on the run, pause, restart and inspect it. "
+     "Files are watched; --for, --record, --log-input, --input, --checkpoint and --summary can be "
+     "given, too. Requests without the address's token are refused",
      CLI_TO(Run, live.port), .only_equals = true, CLI_GIVEN(Run, view), CLI_RANGE(1, 65535)},
-    {"fast", NULL, "with --view: as fast as it can go", CLI_TO(Run, live.fast)},
+    {"fast", NULL, "with --view: run as fast as possible", CLI_TO(Run, live.fast)},
     {"view-wait", "S",
-     "with --view: how long time stands still at most, until the first page is open (5); 0 begins "
-     "at once, as --fast does",
+     "with --view: wait up to S seconds for the first page to open before the run begins (5); 0 "
+     "begins at once, as --fast does",
      CLI_TO(Run, live.wait), CLI_GIVEN(Run, has_wait), CLI_RANGE(0, 3600)},
     {"view-address", "A",
      "listen at this address, not at 127.0.0.1: others can then reach the page, with its token, "
@@ -389,20 +385,16 @@ const CliCommand cli_run = {
     .name = "run",
     .what = "simulate a scene",
     .usage = "SCENE [options]",
-    .about =
-        "SCENE is a file, or the name alone of one that lies here, in scenes/, in scenes/ of a mod "
-        "of --mod, or came with Jostle: `jostle` lists some. MOD:NAME is that of the mod.",
-    .notes =
-        "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), "
-        "walls keep people from their goal, or a function of a behaviour failed in a tenth of its "
-        "calls or more, or 100 times within a "
-        "second, which suspends it, and was not mended and reloaded (then the run goes on to its "
-        "end), 2 wrong usage, 3 bad input: "
-        "also a mod that is asked for and is not there, or does not load; 129, 130 and 143: "
-        "SIGHUP, "
-        "SIGINT or SIGTERM ended it early, its files and figures being whole up to there, with "
-        "--view, too. The "
-        "second of them ends it at once",
+    .about = "SCENE is a file, or the name of one in this folder, in scenes/, in scenes/ of a mod "
+             "of --mod, or among those that came with Jostle, of which `jostle` lists some. "
+             "MOD:NAME names a scene of that mod.",
+    .notes = "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), "
+             "walls keep people from their goal, or a function of a behaviour failed in a tenth of "
+             "its calls or more, or 100 times within a second, which suspends it, and was not "
+             "corrected and reloaded (the run still goes on to its end), 2 wrong usage, 3 bad "
+             "input, also a mod that is asked for and is missing or does not load; 129, 130 and "
+             "143: SIGHUP, SIGINT or SIGTERM ended it early, also with --view; its files and "
+             "figures are whole up to there. A second signal ends it at once",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",

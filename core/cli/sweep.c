@@ -25,44 +25,44 @@ static bool read_sweep_isa(void *options, const char *text, char why[160]) {
 
 static const CliOption OPTIONS[] = {
     {"set", "PATH=A,B,C",
-     "a variant for each of these values, and for each combination where it is given several "
-     "times; one value holds for all. A comma within brackets or quotes parts nothing. Any value "
-     "of the scene: groups.pilgrims.count=500,1000, walls.3.open=true,false",
+     "one variant for each of these values; given several times, one for each combination; a "
+     "single value applies to all variants. A comma within brackets or quotes does not separate. "
+     "Any value of the scene: groups.pilgrims.count=500,1000, walls.3.open=true,false",
      CLI_TO(Sweep, sets), CLI_GIVEN(Sweep, of_scene)},
     {"seeds", "N", "seeds of each variant", "1", CLI_TO(Sweep, seeds), CLI_GIVEN(Sweep, of_scene),
      CLI_RANGE(1, 100000)},
-    {"seed", "N", "the first of the seeds", "1", CLI_TO(Sweep, def.scene.seed),
+    {"seed", "N", "first seed", "1", CLI_TO(Sweep, def.scene.seed),
      CLI_GIVEN(Sweep, def.scene.has_seed)},
     {"out", "FILE",
-     "SQLite file for figures, curves, fields, hashes and inputs of all runs. A run that is there "
-     "is not done again, so that a sweep that was interrupted goes on, and one of more seeds or "
-     "values does what is new. Other inputs are refused",
+     "SQLite file for figures, curves, fields, hashes and inputs of all runs. Runs that are in it "
+     "are not repeated: an interrupted sweep continues, and one of more seeds or values does only "
+     "what is new. A file of other inputs is refused",
      CLI_TO(Sweep, def.out), .writes = "sqlite sqlite3 db db3"},
     {"csv", "FILE", "write a table of all runs in --out; '-' is standard output",
      CLI_TO(Sweep, csv), .writes = "csv txt"},
     {"jobs", "N", "processes at once", "one for each processor that it may use",
      CLI_TO(Sweep, def.jobs), CLI_RANGE(1, 1000)},
-    {"again", NULL, "do runs that failed once more", CLI_TO(Sweep, def.again)},
+    {"again", NULL, "repeat runs that failed", CLI_TO(Sweep, def.again)},
     {"list", NULL,
-     "run nothing: print a command for each run, which writes a file of its own into a folder "
+     "run nothing; print a command for each run, which writes a file of its own into a folder "
      "beside --out, for GNU parallel, Slurm and the like",
      CLI_TO(Sweep, list)},
-    {"merge", NULL, "put the runs of such files into --out", CLI_TO(Sweep, merge)},
-    {"only", "N", "the N-th run alone, as such a command does it", CLI_TO(Sweep, only),
+    {"merge", NULL, "copy the runs of such files into --out", CLI_TO(Sweep, merge)},
+    {"only", "N", "do only the N-th run, as such a command does", CLI_TO(Sweep, only),
      CLI_RANGE(1, 100000)},
     {"for", "S", "simulate S seconds", "the scene's duration", CLI_TO(Sweep, def.seconds),
      CLI_GIVEN(Sweep, has_seconds), CLI_RANGE(0, 1e7)},
-    {"steps", "N", "or N steps", CLI_TO(Sweep, def.steps), CLI_RANGE(1, 1e9)},
+    {"steps", "N", "simulate N steps instead", CLI_TO(Sweep, def.steps), CLI_RANGE(1, 1e9)},
     {"dt", "S", "time step, s (0.001 to 0.2)", CLI_TO(Sweep, def.scene.dt),
      CLI_GIVEN(Sweep, def.scene.has_dt), CLI_RANGE(0.001, 0.2)},
-    {"threads", "N", "threads of each run; never changes a result", "1",
+    {"threads", "N", "number of threads of each run; results never depend on it", "1",
      CLI_TO(Sweep, def.scene.threads), CLI_GIVEN(Sweep, of_scene), CLI_RANGE(1, 64)},
-    {"input", "FILE", "play an input log in each run", CLI_TO(Sweep, def.scene.input_log),
+    {"input", "FILE", "replay an input log in each run", CLI_TO(Sweep, def.scene.input_log),
      CLI_GIVEN(Sweep, of_scene)},
     CLI_ISA_OPTION(read_sweep_isa),
     CLI_MOD_OPTIONS(Sweep, def.scene),
-    {"trusted", NULL, "the scene is one's own, as for `jostle run`", CLI_TO(Sweep, trusted)},
-    {"quiet", NULL, "no progress", CLI_TO(Sweep, def.quiet)},
+    {"trusted", NULL, "trust the scene, as for `jostle run`", CLI_TO(Sweep, trusted)},
+    {"quiet", NULL, "print no progress", CLI_TO(Sweep, def.quiet)},
 };
 
 static bool vet_variant(void *context, const JoSceneDef *scene, JoError *error) {
@@ -152,7 +152,7 @@ static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
     fprintf(stderr, "%s: %u %s with figures", sweep->def.out, c->done,
             c->done == 1 ? "run" : "runs");
     if (c->troubled)
-        fprintf(stderr, ", %u of them not as it was written", c->troubled);
+        fprintf(stderr, ", %u of them did not go as written", c->troubled);
     if (c->failed)
         fprintf(stderr, ", %u failed", c->failed);
     fputs("\n", stderr);
@@ -242,24 +242,18 @@ const CliCommand cli_sweep = {
     .usage = "SCENE --set PATH=A,B,C... --seeds N --out FILE.sqlite [options]\n"
              "SCENE ... --out FILE.sqlite --list\n"
              "--merge FILE... --out FILE.sqlite",
-    .about =
-        "Runs every combination of the values given with every seed, as processes of their own, "
-        "and keeps what came of them in one SQLite file. All runs are made of the files as they "
-        "were when it began. A run that fails is kept with its reason, and ends nothing. `jostle "
-        "compare` compares the variants.\n"
-        "\n"
-        "On many machines:\n"
-        "  jostle sweep SCENE --set ... --seeds 20 --out all.sqlite --list > jobs\n"
-        "  parallel < jobs                            # or, in a Slurm array:\n"
-        "  sed -n \"${SLURM_ARRAY_TASK_ID}p\" jobs | sh\n"
-        "  jostle sweep --merge all-parts/*.sqlite --out all.sqlite\n"
-        "\n"
-        "The sweep's own command, with the same --out, then does what is missing.",
-    .notes = "exit status: 0 all runs are done, 1 some failed or went on otherwise than they were "
-             "written, or the file could not be written, 2 wrong usage, 3 bad input, or a file of "
-             "other inputs; 129, 130 and 143: SIGHUP, SIGINT or SIGTERM ended it early, and what "
-             "was done is "
-             "kept",
+    .about = "Runs every combination of the values given with every seed, each in a process of its "
+             "own, and stores the results in one SQLite file. All runs use the files as they were "
+             "when the sweep began. A run that fails is stored with its reason; the others go on. "
+             "`jostle compare` compares the variants.\n\nOn many machines:\n  jostle sweep SCENE "
+             "--set ... --seeds 20 --out all.sqlite --list > jobs\n  parallel < jobs               "
+             "             # or, in a Slurm array:\n  sed -n \"${SLURM_ARRAY_TASK_ID}p\" jobs | "
+             "sh\n  jostle sweep --merge all-parts/*.sqlite --out all.sqlite\n\nThe same sweep "
+             "without --list then does the runs that are missing in --out.",
+    .notes =
+        "exit status: 0 all runs are done, 1 some failed or did not go as written, or the file "
+        "could not be written, 2 wrong usage, 3 bad input, or a file of other inputs; 129, 130 and "
+        "143: SIGHUP, SIGINT or SIGTERM ended it early, and finished runs are kept",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",

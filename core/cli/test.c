@@ -13,8 +13,8 @@ typedef struct Test {
 } Test;
 
 static const CliOption OPTIONS[] = {
-    {"only", "TEXT", "those whose name contains it", CLI_TO(Test, only)},
-    {"json", NULL, "one array of {file, line, name, passed, simulated_s, message}",
+    {"only", "TEXT", "run only tests whose name contains TEXT", CLI_TO(Test, only)},
+    {"json", NULL, "print a JSON array of {file, line, name, passed, simulated_s, message}",
      CLI_TO(Test, json)},
     CLI_TRUSTED_OPTION(Test),
 };
@@ -101,9 +101,9 @@ const CliCommand cli_test = {
     .name = "test",
     .what = "run tests of behaviours, written in Lua",
     .usage = "[PATH...] [options]",
-    .about = "Runs tests of behaviours: Lua files, or all *_test.lua of a folder; without a path "
-             "those of the first of tests/lua, tests and behaviours that there is, else of this "
-             "folder.",
+    .about =
+        "Runs tests of behaviours: Lua files, or all *_test.lua of a folder; without a path, those "
+        "of the first of tests/lua, tests and behaviours that exists, else of this folder.",
     .notes = "  test(\"a walker reaches its goal\", function()\n"
              "    local s = scene { places = { goal = { point = { 8, 0 } } },\n"
              "      groups = { people = { behaviour = \"walker.lua\", at = { { 0, 0 } },\n"

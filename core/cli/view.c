@@ -20,9 +20,9 @@ static const CliOption OPTIONS[] = {
      CLI_TO(View, def.address)},
     {"page", "DIR", "folder of the page's files", CLI_TO(View, def.page)},
     {"three", "DIR", "folder of three.js", CLI_TO(View, def.three)},
-    {"fps", "N", "frames a second, where the recording does not say", CLI_TO(View, def.fps),
+    {"fps", "N", "frames per second, if the recording does not say", CLI_TO(View, def.fps),
      CLI_RANGE(0.01, 10000)},
-    {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
+    {"unit", "m|cm", "unit of its lengths, if it does not say", .kind = CLI_READ,
      .read = read_view_unit},
     CLI_TRUSTED_OPTION(View),
 };
@@ -66,10 +66,10 @@ const CliCommand cli_view = {
     .name = "view",
     .what = "show a recording on the live page",
     .usage = "RECORDING [options]",
-    .about = "Shows a recording on the live page, to play, stop and look through: an SQLite file "
-             "of `jostle run --record` or of JuPedSim (versions 1 and 2), text with the columns "
-             "id, frame, x, y (PeTrack, the archive of Juelich), or CSV with a line of names. "
-             "Prints the page's address.",
+    .about =
+        "Shows a recording on the live page, to play, pause and inspect: an SQLite file of `jostle "
+        "run --record` or of JuPedSim (versions 1 and 2), text with the columns id, frame, x, y "
+        "(PeTrack, the archive of Juelich), or CSV with a header line. Prints the page's address.",
     .notes = "exit status: 1 the page cannot be served, 2 wrong usage, 3 bad input; 129, 130 and "
              "143: SIGHUP, SIGINT (Ctrl-C) or SIGTERM ended it",
     .options = OPTIONS,

@@ -96,7 +96,7 @@ static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError 
     bool good = jox_sweep_open_to_read(&part, path, error) &&
                 compare_notes(store, &part, &differences, error);
     if (good && differences.length) {
-        jox_error(error, JO_INPUT, "%.200s is of another sweep than %.200s:\n%.500s", path,
+        jox_error(error, JO_INPUT, "%.200s belongs to another sweep than %.200s:\n%.500s", path,
                   store->path, differences.data);
         good = false;
     }

@@ -40,8 +40,8 @@ bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error) {
     jox_error(error, bad ? JO_INPUT : JO_FAILED, "%.300s: %.150s%s", store->path,
               sqlite3_errmsg(store->db->sqlite),
               code == SQLITE_FULL || code == SQLITE_IOERR
-                  ? "; what was kept so far stays, and the same command goes on with it"
-              : bad ? "; the file is damaged: move it away, and the sweep begins anew"
+                  ? "; finished runs are kept, and the same command continues with them"
+              : bad ? "; the file is damaged: move it away to begin the sweep anew"
                     : "");
     return false;
 }

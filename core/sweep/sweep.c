@@ -26,7 +26,7 @@ JoSweepDef jo_default_sweep_def(void) {
 
 typedef struct Job {
     uint32_t variant;
-    int64_t id; /* of the variant in the file's tables */
+    int64_t id; /* id of the variant in the file's tables */
     uint64_t seed;
 } Job;
 
@@ -118,8 +118,8 @@ static bool refuse_file(const Sweep *s, const JoxText *differences, JoError *err
     pass_message(s, text.data);
     jox_text_free(&text);
     jox_error(error, JO_INPUT,
-              "%s was begun with other inputs, so that its runs do not compare with these: give "
-              "another --out, or bring back what was",
+              "%s was begun with other inputs, so its runs cannot be compared with these: give "
+              "another --out, or bring back the former inputs",
               s->def->out);
     return false;
 }
@@ -327,8 +327,8 @@ static bool run_sweep(Sweep *s, char **summary, JoError *error) {
     s->counts.missing = s->counts.runs - s->counts.done - s->counts.failed;
     if (good && is_stopped(s)) {
         jox_error(error, JO_FAILED,
-                  s->def->out ? "interrupted; %u of %u runs are kept in %s, with which the same "
-                                "command goes on"
+                  s->def->out ? "interrupted; %u of %u runs are kept in %s, and the same command "
+                                "continues with it"
                               : "interrupted",
                   s->counts.done + s->counts.failed, s->counts.runs, s->def->out);
         return false;

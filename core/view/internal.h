@@ -1,6 +1,6 @@
-/* What the server's two threads share: the stepping thread (hub.c), which creates the messages, and
-   the serving thread (serving.c, lws_*.c), which sends them and owns the clients. Messages are
-   handed over by atomic exchanges, so that neither thread waits for the other. */
+/* Types and calls shared by the server's two threads: the stepping thread (hub.c), which creates
+   the messages, and the serving thread (serving.c, lws_*.c), which sends them and owns the clients.
+   Messages are handed over by atomic exchanges, so that neither thread waits for the other. */
 #ifndef JOX_VIEW_INTERNAL_H
 #define JOX_VIEW_INTERNAL_H
 
@@ -26,7 +26,7 @@ typedef struct JoxMessage {
     uint32_t client, refs;      /* refs: uses of a published message by the serving thread */
     uint32_t what;              /* JoxRequest to the serving thread, JoxViewTaken from it */
     uint32_t mask, epoch;       /* epoch: jox_view_forget calls before the message */
-    struct JoxChannel *channel; /* of a published message, else NULL */
+    struct JoxChannel *channel; /* its channel, if published; else NULL */
     unsigned char data[];
 } JoxMessage;
 

@@ -1,4 +1,4 @@
-/* What the files share that call libwebsockets: lws_server.c runs the serving thread and its
+/* Shared by the files that call libwebsockets: lws_server.c runs the serving thread and its
    connections, lws_http.c answers requests. */
 #ifndef JOX_VIEW_LWS_SERVER_H
 #define JOX_VIEW_LWS_SERVER_H
@@ -22,7 +22,7 @@ typedef struct JoxTransport {
 
 /* Data of a connection, kept by libwebsockets. */
 typedef struct JoxSession {
-    JoxClient *client; /* of a web socket, else NULL */
+    JoxClient *client; /* client of a web socket; else NULL */
 } JoxSession;
 
 /* lws_http.c: answers a request for a file. Returns what libwebsockets expects: nonzero closes the

@@ -29,25 +29,25 @@ assert not any(n.endswith("_person") or n.startswith("stage_ns") or n == "cpu_s"
 END
 [ ! -s check ]; verdict "the interval is that of the table" $?
 cat check
-grep -q '^count=90, less count=30:' "$work/out"; verdict "variants are called by what differs" $?
+grep -q '^count=90 minus count=30:' "$work/out"; verdict "variants are called by what differs" $?
 grep -q 'seeds would tell a difference of this size' "$work/out"; verdict "few seeds are said to be few, and how many it takes" $?
 grep -q 'takes 11 runs' "$work/out"; verdict "a bound of a percentile says how many runs it takes" $?
 expect "by bootstrap" 0 "bootstrap of the differences of 4 seeds, 2000 resamples" "$program" compare halls.sqlite --bootstrap 2000
 "$program" sweep "$scene" --set groups.hall.count=90 --set groups.archive.count=2 --set groups.office.count=20 --seeds 3 --seed 50 --for 12 --out others.sqlite --quiet
 expect "seeds that are not shared are not paired" 0 "Welch's t of 4 and 3 runs" "$program" compare halls.sqlite others.sqlite --base 1
 grep -q '^ 3  others: 3 runs, seeds 50 to 52' "$work/out"; verdict "  files are called by their names" $?
-expect "labels" 0 "as it is, less fewer:" "$program" compare halls.sqlite --label fewer --label "as it is"
+expect "labels" 0 "as it is minus fewer:" "$program" compare halls.sqlite --label fewer --label "as it is"
 expect "  more than sides" 2 "there are 3 labels, and 2 sides" "$program" compare halls.sqlite --label a --label b --label c
-expect "another base" 0 "less halls: count=90:" "$program" compare halls.sqlite others.sqlite --base "halls: count=90"
+expect "another base" 0 "minus halls: count=90:" "$program" compare halls.sqlite others.sqlite --base "halls: count=90"
 
 # ---- the page ----
 for file in index.html compare.plt effects.svg curve-1.svg plan-1.svg plan-2.svg; do [ -s "page/$file" ]; verdict "  the page's $file" $?; done
 grep -q '<div class=summary>' page/index.html && grep -q 'greatest density of any place and time' page/index.html; verdict "figures are told in words" $?
-grep -q 'the runs are too few' page/index.html; verdict "  what the seeds do not tell too" $?
+grep -q 'too few runs to tell these apart' page/index.html; verdict "  what the seeds do not tell too" $?
 for id in walls field; do grep -q "id=\"$id\"" page/plan-2.svg; verdict "  a plan has $id" $?; done
 
 # ---- scenes and recordings ----
-expect "scenes are run with seeds" 0 "less evacuation:" "$program" compare "$scene" "$root/scenes/two-exits.yaml" --seeds 2 --for 3 --out scenes --quiet
+expect "scenes are run with seeds" 0 "minus evacuation:" "$program" compare "$scene" "$root/scenes/two-exits.yaml" --seeds 2 --for 3 --out scenes --quiet
 [ "$(sqlite3 scenes/two-exits.sqlite 'select count(*) from run')" = 2 ]; verdict "  which are kept" $?
 expect "  and their folder has to be named" 2 "where the runs of scenes are kept" "$program" compare "$scene"
 for n in 1 2; do "$program" run "$scene" --quiet --seed $n --for 4 --record "r$n.sqlite"; done

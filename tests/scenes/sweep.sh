@@ -48,7 +48,7 @@ goes_on() { # NAME SIGNAL RUNS: after so many runs are kept
 }
 goes_on "killed" KILL 2
 goes_on "interrupted" INT 1
-grep -q 'status 130' err && grep -q 'runs are kept in cut.sqlite, with which the same command goes on' err; verdict "  which says what is kept" $?
+grep -q 'status 130' err && grep -q 'runs are kept in cut.sqlite, and the same command continues with it' err; verdict "  which says what is kept" $?
 [ -z "$(ps -eo ppid=,args= | awk '$1 == 1' | grep 'cut[.]sqlite')" ]; verdict "  no run is left behind" $?
 
 # ---- inputs ----
@@ -68,7 +68,7 @@ table edited.sqlite | cmp -s - whole.csv; verdict "what is edited meanwhile chan
 printf 'return machine { name = "odd", start = "A", states = { A = { steer = drift(1, 0) } } }\n' >behaviours/odd.lua
 printf 'jostle: 1\ngroups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9, 9]]}}\n' >scenes/fails.yaml
 fails=(--set guard.people=end,remove --seeds 2 --for 2)
-expect "runs that fail are kept with their reason, and end nothing" 1 "2 runs with figures, 2 of them not as it was written, 2 failed" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite
+expect "runs that fail are kept with their reason, and end nothing" 1 "2 runs with figures, 2 of them did not go as written, 2 failed" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite
 grep -qF 'people=end, seed 2 failed: step 8, t = 0.40 s: the position of agent 0 is more than 10 km from the origin' "$work/out"; verdict "  which the sweep says" $?
 [ "$(sqlite3 fails.sqlite "select count(*) from run where state = 'failed' and reason like '%the position of agent 0%'")" = 2 ]; verdict "  and the file" $?
 expect "  they are not tried again" 1 "4 of 4 runs done (4 from before, 2 failed)" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite
@@ -137,7 +137,7 @@ while kill -0 $pid && [ ! -s two.sqlite ]; do sleep 0.02; done
 expect "two sweeps on one file" 1 "another sweep writes it" "$program" sweep $scene --seeds 1 --for 80 --out two.sqlite
 kill $pid; wait $pid 2>/dev/null
 (ulimit -f 400; "$program" sweep $scene "${what[@]}" --out full.sqlite >"$work/out" 2>&1; echo "status $?" >>"$work/out")
-grep -q 'status 1' "$work/out" && grep -q 'what was kept so far stays' "$work/out"; verdict "no room on the disk is said" $?
+grep -q 'status 1' "$work/out" && grep -q 'finished runs are kept' "$work/out"; verdict "no room on the disk is said" $?
 [ "$(sqlite3 full.sqlite 'pragma integrity_check')" = ok ] && table full.sqlite | cmp -s - whole.csv; verdict "  and the sweep goes on once there is" $?
 
 # ---- many machines ----
@@ -151,7 +151,7 @@ expect "  and what is missing is done by the sweep's own command" 0 "6 of 6 runs
 table many.sqlite | cmp -s - whole.csv; verdict "  to the table of one machine" $?
 [ "$(sqlite3 many.sqlite 'select count(*), sum(value) from curve_point')" = "$(sqlite3 whole.sqlite 'select count(*), sum(value) from curve_point')" ]; verdict "  curves and all" $?
 "$program" sweep $scene --set groups.hall.count=20,30 --set groups.archive.count=6 --seeds 3 --for 7 --only 1 --out another.sqlite --quiet
-expect "another sweep's file is not merged" 3 "is of another sweep" "$program" sweep --merge another.sqlite --out many.sqlite
+expect "another sweep's file is not merged" 3 "belongs to another sweep" "$program" sweep --merge another.sqlite --out many.sqlite
 cp many-parts/run-000001.sqlite lies.sqlite; sqlite3 lies.sqlite "update run set hash = '0000000000000000'"
 expect "nor one that says another thing of a run" 3 "the programs that made them are not the same" "$program" sweep --merge lies.sqlite --out many.sqlite
 

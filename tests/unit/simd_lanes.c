@@ -48,7 +48,7 @@ static uint32_t bits_of(float x) {
     return bits;
 }
 
-/* Asserts that lanes have the expected bits; any NaN equals any other. */
+/* Asserts the bits of all lanes; any NaN equals any other. */
 static void assert_floats(JoxFloats lanes, const float *expected) {
     float is[JOX_WIDTH];
     jf_store(is, lanes);

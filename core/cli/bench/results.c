@@ -99,11 +99,10 @@ void bench_line(const BenchCase *c) {
 }
 
 void bench_header(void) {
-    puts("Medians of the rounds. Nanoseconds are per agent and step: cpu of processor time, stages "
-         "of time.\n"
-         "'bullet': of the stage 'bodies', Bullet's own steps; 'x bullet': all that moves bodies "
-         "and "
-         "tells agents of them, in Bullet's own.");
+    puts("Medians of the rounds. Nanoseconds are per agent and step: 'cpu ns' of processor time, "
+         "stages of wall time.\n'bullet': the part of the stage 'bodies' that Bullet's own steps "
+         "take; 'x bullet': the time of all that moves bodies and shows them to agents, divided by "
+         "that of Bullet's own steps.");
     printf("%-30s %-6s %7s %6s %10s %8s %8s %8s %9s %8s ", "scene", "isa", "agents", "bodies",
            "steps/s", "x real", "cpu ns", "least", "bullet", "x bullet");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
@@ -189,8 +188,8 @@ bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoErro
     }
     if (told == 0)
         jox_error(error, JO_INPUT,
-                  "nothing to draw: so few steps take less processor time than its clock tells "
-                  "apart; more --steps would do");
+                  "nothing to draw: these few steps take less processor time than its clock "
+                  "resolves; give more --steps");
     const bool good = told > 0 && jo_plot_times(timings, told, folder, error);
     jox_free(timings);
     return good;

@@ -40,7 +40,7 @@ static void inspect_files(const JoxSides *sides, bool *several, bool *alike) {
         }
 }
 
-/* Names each side by what distinguishes it: its file, its settings, or both. */
+/* Names each side by its file, its settings, or both, as far as these differ. */
 static void name_sides(JoxSides *sides) {
     bool several, alike;
     inspect_files(sides, &several, &alike);

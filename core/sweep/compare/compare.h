@@ -58,7 +58,7 @@ typedef struct JoxSideNotes {
 
 typedef struct JoxSide {
     char *name, *source; /* name: as people read it; source: path of its file */
-    char *settings;      /* of a variant: "PATH=VALUE", one a line; "": none */
+    char *settings;      /* settings of the variant: "PATH=VALUE", one a line; "": none */
     uint64_t *seeds;     /* ascending, one for each of `runs` */
     uint32_t runs;       /* compared: those with figures that went as written */
     uint32_t left_out;   /* runs that failed or did not go as written */
@@ -112,7 +112,7 @@ const JoxSideFigure *jox_side_find_figure(const JoxSide *side, const char *name)
 JoxSideCurve *jox_side_add_curve(JoxSide *side, const char *name, const char *unit);
 void jox_side_add_point(JoxSideCurve *curve, double time, double *values, size_t count);
 
-/* What the plan and the maps of a side are drawn from. side_maps.c fills it; false if the side has
+/* Input for drawing the plan and the maps of a side, filled by side_maps.c; false if the side has
    no plan. Call jox_side_draw_end even then. */
 typedef struct JoxSideDrawn {
     JoxSidePlan plan;

@@ -17,7 +17,7 @@ static const struct {
     {"danger.leaving_s.p95", "time by which 95 % had left", "s", true},
     {"danger.left", "people who left", "", true},
     {"danger.inside", "people still inside at the end", "", true},
-    {"danger.last_left_s", "time at which the last of those who left did", "s", true},
+    {"danger.last_left_s", "time at which the last person left", "s", true},
     {"danger.exits.*.people", "people who left by %s", "", true},
     {"danger.exits.*.last_s", "time at which the last left by %s", "s", true},
     {"density_max", "greatest density of any place and time " JOX_DENSITY_BY, "1/m2", true},
@@ -25,7 +25,7 @@ static const struct {
     {"danger.load_max", "greatest load on anybody", "N", true},
     {"danger.pressure_max", "greatest crowd pressure", "1/s2", true},
     {"danger.dose_max", "greatest dose of load", "", true},
-    {"stood_longest.s", "longest that anybody stood who wanted to get on", "s", true},
+    {"stood_longest.s", "longest time that anybody stood who wanted to get on", "s", true},
     {"tally.*", "tally of %s", "", true},
     {"probes.*.flow", "flow through %s", "1/s", true},
     {"probes.*.mean", "mean of %s", "", true},
@@ -63,9 +63,9 @@ static const struct {
     {"danger.lines.*.stop_and_go.first_s", "time at which stop-and-go began at %s", "s", false},
     {"probes.*.people", "people in %s, mean over time", "", false},
     {"probes.*.density_max", "greatest density in %s", "1/m2", false},
-    {"probes.*.density_p90", "density that 90 % of the time is below in %s", "1/m2", false},
+    {"probes.*.density_p90", "90 % value of density over time in %s", "1/m2", false},
     {"probes.*.density_median", "median density in %s", "1/m2", false},
-    {"probes.*.density_classical", "people by the area of %s", "1/m2", false},
+    {"probes.*.density_classical", "people per area of %s", "1/m2", false},
     {"probes.*.intervals", "samples of %s", "", false},
     {"probes.*.standing", "share of people who stand in %s", "", false},
     {"probes.*.speed_deviation", "deviation of the speeds at %s", "m/s", false},
@@ -119,7 +119,7 @@ static const struct {
     {"lp_failure_share", "share of agent-steps whose 2-D program failed", "", false},
     {"trust.overlap_share",
      "share of people's time in which they overlap by more than 10 % of a diameter", "", false},
-    {"overlap_p99", "overlap that 99 % stay below, share of a diameter", "", false},
+    {"overlap_p99", "99 % value of overlap, share of a diameter", "", false},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 

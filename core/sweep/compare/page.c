@@ -57,11 +57,12 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     const bool has_spread = c->sides.items[s].runs > 1 && c->sides.items[c->base].runs > 1;
     JoxText thin = {0};
     uint32_t count = 0;
-    jox_html_statement(out, c->sides.items[s].name,
-                       has_spread ? ""
-                       : c->sides.items[s].runs == 0
-                           ? "No run of it has figures; why is told below."
-                           : "It takes two runs of each to say how sure a difference is.");
+    jox_html_statement(
+        out, c->sides.items[s].name,
+        has_spread ? ""
+        : c->sides.items[s].runs == 0
+            ? "None of its runs has figures; the reasons are below."
+            : "Two runs of each side are needed to tell how certain a difference is.");
     fputs("<ul>\n", out);
     for (uint32_t f = 0; f < c->count; f++) {
         const JoxCompared *figure = &c->figures[f];
@@ -81,15 +82,15 @@ static void put_findings(FILE *out, const JoxComparison *c, uint32_t s) {
     }
     JoxText text = {0};
     if (count == 0 && has_spread)
-        jox_text_add(&text, "no figure that one asks for first is told apart from the other's");
+        jox_text_add(&text, "no key figure is told apart from the base");
     else if (count > MOST)
         jox_text_printf(&text, "and %u more, in the table", count - MOST);
     if (text.length)
         put_item(out, &text);
     if (thin.length) {
         jox_text_printf(&text,
-                        "the runs are too few to tell these apart, for which it would take "
-                        "so many of each: %s",
+                        "too few runs to tell these apart (in brackets, the runs of each side that "
+                        "it would take): %s",
                         thin.data);
         put_item(out, &text);
     }
@@ -101,10 +102,10 @@ static void put_comparison_summary(FILE *out, const JoxComparison *c) {
     JoxText text = {0};
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    jox_text_printf(&text,
-                    "%s. Means of the runs; in brackets, the difference and its %.0f %% "
-                    "interval.",
-                    c->sides.items[c->base].name, 100 * c->def->share);
+    jox_text_printf(
+        &text,
+        "%s. Figures are means of the runs; in brackets, the difference and its %.0f %% interval.",
+        c->sides.items[c->base].name, 100 * c->def->share);
     jox_html_statement(out, "All are compared with", text.data);
     for (uint32_t s = 0; s < c->sides.count; s++)
         if (s != c->base)
@@ -126,8 +127,8 @@ static void put_left_out_runs(FILE *out, const JoxComparison *c) {
         if (r == side->all_count)
             continue;
         if (!begun)
-            jox_html_paragraph(out, "Runs that failed, or did not go as they were written, are "
-                                    "left out; where there are many, the means are of the rest.");
+            jox_html_paragraph(out, "Runs that failed or did not go as written are left out; the "
+                                    "means are those of the other runs.");
         begun = true;
         JoxText text = {0};
         jox_text_printf(&text, "%s, %u of %u runs: seed %llu, %s", side->name, side->left_out,
@@ -250,15 +251,14 @@ static void put_methods_paragraph(FILE *out, const JoxComparison *c) {
     }
     jox_text_printf(
         &text,
-        "An interval holds the true difference with a probability of %.0f %%; where it "
-        "holds 0, the runs do not tell the sides apart. The numbers of runs that would are "
-        "those of which an effect of the size that was seen is found with a probability of "
-        "80 %%. A figure of a run alone, as a greatest value, may well differ by "
-        "chance: of %u figures compared, one in %.0f does so. Those with * differ with "
-        "Holm's correction for their number, too.%s",
+        "An interval contains the true difference with a probability of %.0f %%; if it contains 0, "
+        "the runs do not tell the sides apart. The number of runs that would is that with which an "
+        "effect of the size seen is detected with a probability of 80 %%. Figures may also differ "
+        "by chance: of %u figures compared, about one in %.0f does. Those with * still differ "
+        "after Holm's correction for the number of figures.%s",
         100 * c->def->share, c->tested, 1 / (1 - c->def->share),
-        jox_compare_is_thin(c) ? " Of fewer than five runs the spread itself is hardly "
-                                 "known, and so is the number of runs that it takes."
+        jox_compare_is_thin(c) ? " With fewer than five runs the spread itself is uncertain, and "
+                                 "so is the number of runs needed."
                                : "");
     jox_html_paragraph(out, text.data);
     jox_text_free(&text);
@@ -298,14 +298,14 @@ void jox_compare_put_percentiles(FILE *out, const JoxComparison *c) {
         }
     }
     jox_html_table_end(out);
-    jox_text_printf(&text,
-                    "The first is that of MSC.1/Circ.1533: ranked from the lowest, the value of "
-                    "which %.4g %% of all are lower. The bound lies above the true %.4g %% value "
-                    "with a probability of %.0f %%, whatever the distribution (Wilks 1941), which "
-                    "takes %zu runs; a dash says that there are too few. That circular wants 50 "
-                    "runs or more of each case.",
-                    c->def->percentile, c->def->percentile, 100 * c->def->share,
-                    jox_rank_runs(q, c->def->share));
+    jox_text_printf(
+        &text,
+        "The first column follows MSC.1/Circ.1533: of all values ranked from the lowest, the one "
+        "that %.4g %% of them are below. The bound lies above the true %.4g %% value with a "
+        "probability of %.0f %%, whatever the distribution (Wilks 1941), which takes %zu runs; a "
+        "dash means that there are too few. The circular asks for 50 runs or more of each case.",
+        c->def->percentile, c->def->percentile, 100 * c->def->share,
+        jox_rank_runs(q, c->def->share));
     jox_html_paragraph(out, text.data);
     jox_text_free(&text);
 }
@@ -314,8 +314,8 @@ void jox_compare_put_percentiles(FILE *out, const JoxComparison *c) {
 
 static void put_comparison_pictures(FILE *out, const JoxComparison *c) {
     jox_html_heading(out, "Over time");
-    jox_html_paragraph(out, "Lines are means of the runs; nine runs in ten lie in the bands, from "
-                            "5 to 95 %.");
+    jox_html_paragraph(
+        out, "Lines are means of the runs; nine runs in ten are within the bands, from 5 to 95 %.");
     jox_html_panels(out, false);
     for (uint32_t n = 0; n < JOX_COMPARE_CURVES && jox_compare_curve(c, n); n++) {
         char name[40];
@@ -324,21 +324,20 @@ static void put_comparison_pictures(FILE *out, const JoxComparison *c) {
     }
     jox_html_panels_end(out);
     jox_html_heading(out, "Plans");
-    jox_html_paragraph(out, "The greatest density " JOX_DENSITY_BY
-                            " that each place had at any time until the end, as "
-                            "a mean over the runs; one scale for all.");
+    jox_html_paragraph(
+        out, "The greatest density " JOX_DENSITY_BY
+             " at each place at any time, as a mean over the runs; the same scale for all.");
     jox_compare_put_plans(out, c);
 }
 
 static void put_validity_paragraph(FILE *out) {
-    jox_html_heading(out, "What that is worth");
+    jox_html_heading(out, "What the intervals cover");
     jox_html_paragraph(
-        out,
-        "An interval says how far the difference is due to chance, with the scene, "
-        "behaviours and parameters as they are. It says nothing of how well these stand for "
-        "people: a difference that is sure of the model may be smaller than the model's own "
-        "error. Runs of the same seed begin with the same people, which makes pairs of them "
-        "tell smaller differences. What of the engine is validated, `jostle reproduce` shows.");
+        out, "An interval covers chance alone, with the scene, behaviours and parameters as they "
+             "are. It says nothing about how well these represent people: a difference that is "
+             "certain within the model may be smaller than the model's own error. Runs of the same "
+             "seed begin with the same people, so pairs of them reveal smaller differences. "
+             "`jostle reproduce` shows what is validated of the engine.");
 }
 
 /* Writes the title: that of the scene if all sides have the same one. */
@@ -368,11 +367,10 @@ bool jox_compare_write_page(const JoxComparison *c, JoxText *why) {
     if (c->sides.count > 1) {
         jox_html_heading(out, "Figures");
         if (jox_compare_count_effect_rows(c))
-            jox_html_figure(
-                out, c->def->out, "effects",
-                "Changes of the means, with their intervals. What changes by more than its "
-                "base is told in numbers at the edge.",
-                true);
+            jox_html_figure(out, c->def->out, "effects",
+                            "Changes of the means, with their intervals. Changes by more than the "
+                            "base itself are given as numbers at the edge.",
+                            true);
         put_figures_table(out, c, true);
         put_methods_paragraph(out, c);
     }

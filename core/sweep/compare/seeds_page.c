@@ -42,7 +42,7 @@ static void put_spread_table(FILE *out, const JoxSide *side) {
                 {"danger.limits.density_5.person_s",
                  "time of all people over 5 per m\xc2\xb2 " JOX_DENSITY_BY, "s"},
                 {"danger.load_max", "greatest load from one side", "N"},
-                {"stood_longest.s", "longest that anybody stood who wanted to get on", "s"}};
+                {"stood_longest.s", "longest time that anybody stood who wanted to get on", "s"}};
     jox_html_table(out, "figure|>mean|>least|>5 %|>median|>95 %|>greatest|>runs");
     for (size_t r = 0; r < sizeof ROWS / sizeof *ROWS; r++) {
         const JoxSpread s = jox_spread_of(side, ROWS[r].path);

@@ -34,9 +34,8 @@ static void add_sides(const JoxComparison *c, JoxText *out) {
                             (unsigned long long)side->seeds[side->runs - 1]);
         if (side->left_out)
             jox_text_printf(out, "; %u that failed or went wrong left out", side->left_out);
-        jox_text_add(out, s == c->base && c->sides.count > 1
-                              ? "  (what the others are compared with)\n"
-                              : "\n");
+        jox_text_add(out, s == c->base && c->sides.count > 1 ? "  (the base of the comparison)\n"
+                                                             : "\n");
     }
 }
 
@@ -50,7 +49,7 @@ static void add_runs_needed(const JoxDifference *d, JoxText *out) {
         jox_text_printf(out, "; about %zu %s would tell a difference of this size", d->runs,
                         e->pairs ? "seeds" : "runs of each");
     else if (e->difference != 0 && d->runs == 0)
-        jox_text_add(out, "; more than a million runs would have to tell it");
+        jox_text_add(out, "; it would take more than a million runs to tell");
 }
 
 /* Appends the words of a figure and its unit as the first column; if they are longer than the
@@ -70,7 +69,7 @@ static bool is_figure_listed(const JoxComparison *c, const JoxCompared *f) {
 
 static void add_differences(const JoxComparison *c, uint32_t s, JoxText *out) {
     uint32_t differ = 0, told = 0, thin = 0;
-    jox_text_printf(out, "\n%s, less %s:\n%-*s%*s%*s%*s  %.0f %% interval\n",
+    jox_text_printf(out, "\n%s minus %s:\n%-*s%*s%*s%*s  %.0f %% interval\n",
                     c->sides.items[s].name, c->sides.items[c->base].name, WORDS, "mean of the runs",
                     NUMBER, "base", NUMBER, "this", NUMBER, "difference", 100 * c->def->share);
     for (uint32_t f = 0; f < c->count; f++) {
@@ -103,7 +102,7 @@ static void add_differences(const JoxComparison *c, uint32_t s, JoxText *out) {
         jox_text_add(out, "  no figure differs in any run\n");
     jox_text_printf(out, "%u of %u figures differ", differ, told);
     if (thin)
-        jox_text_printf(out, "; of %u the runs are too few to say so or not", thin);
+        jox_text_printf(out, "; for %u there are too few runs to say", thin);
     jox_text_add(out, "\n");
 }
 
@@ -120,13 +119,12 @@ static void add_methods(const JoxComparison *c, JoxText *out) {
         jox_text_printf(out, "Intervals of %s: %s.\n", c->sides.items[s].name, method);
     }
     jox_text_printf(out,
-                    "* stays so with Holm's correction for %u figures; of those without, one in "
-                    "%.0f seems to differ by chance.\n",
+                    "* still differs after Holm's correction for %u figures; of the others, about "
+                    "one in %.0f seems to differ by chance.\n",
                     c->tested, 1 / (1 - c->def->share));
     if (jox_compare_is_thin(c))
-        jox_text_add(out,
-                     "Of fewer than five runs the spread itself is hardly known, and so is the "
-                     "number of runs that it takes.\n");
+        jox_text_add(out, "With fewer than five runs the spread itself is uncertain, and so is the "
+                          "number of runs needed.\n");
 }
 
 /* ---- one side alone ---- */
@@ -185,12 +183,11 @@ static void add_percentiles(const JoxComparison *c, JoxText *out) {
     }
     jox_text_printf(
         out,
-        "The first is that of MSC.1/Circ.1533: ranked from the lowest, the one of which "
-        "%.4g %% of all are lower; it takes %zu runs at least. The bound lies above the "
-        "true %.4g %% value with a probability of %.0f %%, whatever the distribution "
-        "(Wilks 1941); it takes %zu runs. That circular wants 50 runs or more of each "
-        "case. Of flows and of people who left, of which less is worse, nothing is told "
-        "here.\n",
+        "The first column follows MSC.1/Circ.1533: of all values ranked from the lowest, the one "
+        "that %.4g %% of them are below; it takes %zu runs at least. The bound lies above the true "
+        "%.4g %% value with a probability of %.0f %%, whatever the distribution (Wilks 1941); it "
+        "takes %zu runs. The circular asks for 50 runs or more of each case. Flows and numbers of "
+        "people who left are not listed here, as less of them is worse.\n",
         c->def->percentile, (size_t)floor(1 / (1 - q) + 1e-9), c->def->percentile,
         100 * c->def->share, jox_rank_runs(q, c->def->share));
 }
