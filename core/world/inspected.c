@@ -30,7 +30,7 @@ static void end(JoWorld *w, uint32_t n) {
 static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
     const JoxV2 body = jox_force_of_bodies(w->scratch.forces, i + a->moved_up[i]);
-#define PART(X, keep, role, name, label)                                                                 \
+#define PART(X, keep, role, name, label)                                                           \
     seen->forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
     JOX_FORCE_TERMS(PART, )
 #undef PART
@@ -136,7 +136,7 @@ void jox_inspect_pushed(JoxInspection *all, const JoxAgents *a, const JoxForces 
         if (i == JOX_NO_INDEX)
             continue;
         JoxV2 *forces = seen->forces, body = jox_force_of_bodies(forces_of, i);
-#define PART(X, keep, role, name, label)                                                                 \
+#define PART(X, keep, role, name, label)                                                           \
     forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
         JOX_FORCE_TERMS(PART, )
 #undef PART
