@@ -1,4 +1,4 @@
-// Making elements. What comes from the server is only ever set as text.
+// Makes elements. Data from the server are only ever set as text.
 
 /**
  * An element with properties and children. `on*` properties become listeners, `data-*`, `aria-*`,
@@ -32,13 +32,13 @@ function assign(node, properties) {
     }
 }
 
-/** Replaces what `node` holds. */
+/** Replaces the children of `node`. */
 export function fill(node, ...children) {
     node.replaceChildren(...children.flat(Infinity).filter((c) => c !== null && c !== undefined));
     return node;
 }
 
-/** Sets text only where it changes: readers of screens then say nothing twice. */
+/** Sets text only if it changed, so that screen readers repeat nothing. */
 export function say(node, text) {
     if (node.textContent !== text) node.textContent = text;
 }
@@ -58,7 +58,7 @@ export function figure(value) {
     return text.replace("-", "−").replace(/\B(?=(\d{3})+$)/g, digits === 0 ? "\u202f" : "");
 }
 
-/** A measured figure with its unit. What is below a thousandth is 0: it is how a sum of rounded numbers shows nothing. */
+/** A measured figure with its unit. Below a thousandth it is shown as 0: rounding in sums leaves such rests. */
 export function amount(value, unit) {
     return `${figure(Math.abs(value) < 0.001 ? 0 : value)} ${unit}`;
 }
@@ -70,7 +70,7 @@ export function clock(seconds) {
     return `${minutes}:${rest}`;
 }
 
-/** Whether key presses belong to a field that the person types into. */
+/** Returns whether key presses belong to an input field. */
 export function typing(event) {
     const target = event.target;
     return target instanceof HTMLInputElement && target.type !== "range" && target.type !== "checkbox"

@@ -1,4 +1,4 @@
-// The page: joins the connection, the picture and the panels, and keeps the loop.
+// The page: connects the socket, the picture and the panels, and runs the loop.
 import { ActPage } from "./panels/act.js";
 import { AgentPage, announce } from "./panels/agent.js";
 import { ChartsPage } from "./panels/charts.js";
@@ -27,7 +27,7 @@ const LINKS = { connecting: "connecting", open: "connected", lost: "not connecte
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
 const PROTOCOL = 3; // of the messages, as the program counts it
-const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
+const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 class Page {
     constructor() {
@@ -38,8 +38,8 @@ class Page {
         this.messages = new Messages();
         this.meter = new Meter();
         this.legend = new Legend();
-        this.slot = null; // of the person that is looked at
-        this.person = null; // what was last said of them
+        this.slot = null; // slot of the chosen person
+        this.person = null; // last message about them
         this.following = false;
         this.colour = "state";
         this.field = "none";
@@ -111,7 +111,7 @@ class Page {
         }, this.player, typing);
     }
 
-    /** Names show under the pointer, even where not all of them do. */
+    /** Shows the name under the pointer, even if not all names are shown. */
     point() {
         const canvas = byId("picture");
         const take = (at) => this.overlay.point(at) && this.redraw();
@@ -122,7 +122,7 @@ class Page {
         canvas.addEventListener("pointerleave", () => take(null));
     }
 
-    /** Moves what is looked at, in directions of the picture. */
+    /** Moves the camera's target, in directions of the picture. */
     move(right, up) {
         const { view } = this, away = view.top ? view.flatSize / view.flat.zoom : view.camera.position.distanceTo(view.controls.target);
         const m = view.camera.matrixWorld.elements, flat = Math.hypot(m[0], m[1]) || 1;
@@ -160,7 +160,7 @@ class Page {
     again() {
         this.crowd.snap = true;
         this.charts.lost();
-        if (!this.scene) return; // the scene says how it begins
+        if (!this.scene) return; // a scene message sets the initial state
         this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
         if (this.slot !== null && !this.recorded()) this.connection.send({ do: "inspect", slot: this.slot });
@@ -219,7 +219,7 @@ class Page {
     takePerson(message) {
         const agent = message.agent;
         if (!agent && this.slot === null) return;
-        if (agent && agent.slot !== this.slot) return; // of the one before
+        if (agent && agent.slot !== this.slot) return; // about the person chosen before
         this.agentPage.take(message);
         if (!agent) {
             this.slot = this.overlay.chosen = this.overlay.forces = this.person = null;

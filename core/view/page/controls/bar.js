@@ -1,14 +1,14 @@
-// The bar over the picture: one line, whatever the window. What does not fit goes into a menu at its end.
+// The bar over the picture: always one line. Controls that do not fit go into a menu at its end.
 import { byId, el, fill } from "../dom.js";
 import { icon } from "./icons.js";
 
-/** A button with an icon and a word; the bar shows the icon alone where room is scarce. */
+/** A button with an icon and a word; if there is little room the bar shows the icon only. */
 export function iconButton(name, text, title, onclick, toggles = false) {
     return el("button", { type: "button", className: "iconed", title, onclick, "aria-pressed": toggles ? "false" : null },
         icon(name), el("span", { className: "words" }, text));
 }
 
-/** A field with an icon and a word for its label. */
+/** A field whose label has an icon and a word. */
 export function iconLabel(name, text, field) {
     return el("label", { className: "iconed", title: text }, icon(name), el("span", { className: "words" }, text), field);
 }
@@ -53,7 +53,7 @@ export class Bar {
         return true;
     }
 
-    /** Lays out anew: all in the bar, or, in the order of ranks, less and less of it. */
+    /** Lays out again: everything in the bar or, in the order of ranks, less and less of it. */
     fold() {
         const focus = document.activeElement;
         for (const rank of [Infinity, ...new Set([...this.units.map((u) => u.rank), this.worded])].sort((a, b) => b - a)) {
@@ -65,7 +65,7 @@ export class Bar {
         if (focus !== document.activeElement && focus?.getClientRects().length) focus.focus();
     }
 
-    /** Puts into the menu what has at least this rank, and the rest into the bar. */
+    /** Puts elements of this rank and higher into the menu, the rest into the bar. */
     place(rank) {
         this.node.classList.toggle("worded", rank > this.worded);
         const folded = this.units.filter((u) => u.rank >= rank && !u.node.hidden);

@@ -1,4 +1,4 @@
-// What stands in the bar: time, tools, view, figures. Keys of the whole page.
+// The contents of the bar (time, tools, view, figures), and the keys of the page.
 import { byId, clock, el, figure, fill, say } from "../dom.js";
 import { iconButton, iconLabel } from "./bar.js";
 import { icon } from "./icons.js";
@@ -7,8 +7,8 @@ import { TOOLS } from "./tools.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
-// Which go into the menu first where the bar is too narrow: the highest.
-export const WORDS = 10.5; // that rank's turn: buttons lose their words
+// Ranks: if the bar is too narrow, the controls with the highest rank go into the menu first.
+export const WORDS = 10.5; // rank at which buttons lose their words
 const RANK = { top: 1, speed: 2, time: 3, home: 4, colour: 5, field: 6, names: 7, follow: 8, picture: 9, help: 10, counts: 11, restart: 12 };
 
 /** Pause, step, speed, restart and seed. `send` takes commands. */

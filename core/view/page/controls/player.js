@@ -1,4 +1,4 @@
-// The keys that drive a player's agent: WASD or arrows, as the picture is turned.
+// Keys that drive a player's agent: WASD or arrows, relative to the camera.
 
 const KEYS = {
     w: [0, 1], arrowup: [0, 1], s: [0, -1], arrowdown: [0, -1],
@@ -39,7 +39,7 @@ export class Player {
         if (this.on) this.send(1);
     }
 
-    /** What is wanted, in the directions of the picture; sent where it changed. */
+    /** Sends the wanted velocity, in the directions of the picture, if it changed. */
     send(part) {
         let right = 0, up = 0;
         for (const key of this.held) {

@@ -1,7 +1,7 @@
 // The time bar of a recording.
 import { byId, clock, el, fill, say } from "../dom.js";
 
-const PERIOD = 80; // ms between seeks while the bar is drawn
+const PERIOD = 80; // ms between seeks while the bar is dragged
 
 export class Replay {
     constructor(send) {
@@ -38,7 +38,7 @@ export class Replay {
         }, PERIOD);
     }
 
-    /** Takes a `time` message; not while the bar is drawn. */
+    /** Takes a `time` message; ignored while the bar is dragged. */
     take({ from, until, at }) {
         this.bar.min = from;
         this.bar.max = until;

@@ -1,12 +1,12 @@
-// Tools: what the pointer, or Enter at the cross in the middle, does to the crowd.
+// Tools: actions on the crowd by the pointer, or by Enter at the cross in the middle.
 import { stroke } from "../draw/overlay.js";
 import { pickBody, pickPerson } from "../draw/picking.js";
 
 const GRAVITY = 9.81; // m/s²
-const HAND = 1.5; // m, from which boxes are thrown
-const SLOPE = (35 * Math.PI) / 180; // of a throw's beginning
+const HAND = 1.5; // m: height from which boxes are thrown
+const SLOPE = (35 * Math.PI) / 180; // elevation of a throw's start, rad
 const FASTEST = 20; // m/s
-const NEWTONS = 250; // of a push, for each metre that the pointer is drawn
+const NEWTONS = 250; // N of a push per metre that the pointer is dragged
 const HARDEST = 1500; // N
 const PERIOD = 50; // ms between commands of one gesture
 
@@ -74,7 +74,7 @@ export class Tools {
         if (this.begin(at)) this.canvas.setPointerCapture(event.pointerId);
     }
 
-    /** Begins a gesture of the tool in hand at a CSS pixel; false if there is nothing to act on. */
+    /** Begins a gesture of the active tool at a CSS pixel; false if there is nothing to act on. */
     begin(at) {
         const { view, crowd } = this.page;
         if (this.tool === "throw") {
@@ -110,7 +110,7 @@ export class Tools {
         this.page.view.dirty = true;
     }
 
-    /** What goes out again and again while a gesture lasts. */
+    /** Sends the repeated commands of a gesture. */
     repeat() {
         const g = this.gesture, { connection, crowd } = this.page;
         if (!g) return;
@@ -125,7 +125,7 @@ export class Tools {
         }
     }
 
-    /** N, of the push under way; null while it is too short to mean anything. */
+    /** Returns the force of the present push, N; null while the drag is too short. */
     force() {
         const at = this.page.crowd.position(this.gesture.slot, 1);
         if (!at) return null;
@@ -138,7 +138,7 @@ export class Tools {
     up(event) {
         const at = this.spot(event);
         if (this.gesture) return this.finish();
-        // A click, not the end of a turn of the picture.
+        // Only a click counts, not the end of a drag that turned the picture.
         if (this.start && Math.hypot(at[0] - this.start[0], at[1] - this.start[1]) < 5 && event.button === 0) {
             if (this.tool === "select") this.page.inspect(pickPerson(this.page.view, this.page.crowd, ...at, this.page.share()));
         }

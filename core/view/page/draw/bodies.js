@@ -5,12 +5,12 @@ import { readPoses } from "../net/crowd.js";
 import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./shaders.js";
 import { meetsBox } from "./sightline.js";
 
-const EDGE = 30; // degrees between faces, from which their edge is drawn
+const EDGE = 30; // degrees between two faces from which their edge is drawn
 const ROW = 1024; // texels of the texture's rows: 256 bodies
-// Wood, cloth, metal and such, told apart by their lightness too.
+// Wood, cloth, metal and others; they also differ in lightness.
 const TINTS = [0xb08a5b, 0x8fa3ad, 0xc9b79c, 0x7d8a6a, 0x9c6b5a, 0xd8cfc0];
 
-/** One part's geometry in its body's frame: sizes in m, `turn` a quaternion. It keeps the box about it, as it lies. */
+/** One part's geometry in its body's frame: sizes in m, `turn` a quaternion. It also has its bounding box in that frame. */
 function makePart(part) {
     const geometry = shapeOf(part).toNonIndexed(), frame = new THREE.Matrix4().compose(
         new THREE.Vector3(...(part.at ?? [0, 0, 0])), new THREE.Quaternion(...(part.turn ?? [0, 0, 0, 1])), new THREE.Vector3(1, 1, 1));
@@ -58,7 +58,7 @@ export class Bodies {
         this.names = [];
     }
 
-    /** Builds the mesh of the bodies of a scene message; keeps none of the old one. */
+    /** Builds the mesh of the bodies of a scene message, in place of the old one. */
     set(list) {
         for (const mesh of [...this.group.children]) {
             this.group.remove(mesh);
@@ -104,7 +104,7 @@ export class Bodies {
         return mesh;
     }
 
-    /** One mesh of the parts of all bodies, whose geometries are let go. */
+    /** Merges the parts of all bodies into one mesh, and disposes of their geometries. */
     made(parts, tints, material, Kind) {
         const total = parts.flat().reduce((n, g) => n + g.attributes.position.count, 0);
         const position = new Float32Array(3 * total), normal = new Float32Array(3 * total), tint = new Float32Array(4 * total);
@@ -131,7 +131,7 @@ export class Bodies {
         this.uniforms.poses.value?.dispose();
         const rows = Math.max(1, Math.ceil((4 * count) / ROW));
         this.poses = new Float32Array(4 * ROW * rows);
-        for (let row = 0; row < count; row++) this.poses[16 * row + 2] = this.poses[16 * row + 10] = -1000; // until known
+        for (let row = 0; row < count; row++) this.poses[16 * row + 2] = this.poses[16 * row + 10] = -1000; // below the floor until the pose is known
         const texture = new THREE.DataTexture(this.poses, ROW, rows, THREE.RGBAFormat, THREE.FloatType);
         texture.magFilter = texture.minFilter = THREE.NearestFilter;
         texture.generateMipmaps = false;
@@ -141,7 +141,7 @@ export class Bodies {
         this.known = count;
     }
 
-    /** Whether a body stands between an eye [x, y, z] and a point; m. */
+    /** Returns whether a body hides a point from a camera at [x, y, z]; m. */
     between(point, eye) {
         const a = new THREE.Vector3(...point), b = new THREE.Vector3(...eye), line = new THREE.Line3(a, b), nearest = new THREE.Vector3();
         return this.radii.some((radius, row) => {
@@ -166,7 +166,7 @@ export class Bodies {
     }
 }
 
-/** How far a geometry reaches from its body's origin, m. */
+/** Returns how far a geometry extends from its body's origin, m. */
 function reachOf(geometry) {
     const p = geometry.attributes.position;
     let most = 0;

@@ -1,16 +1,16 @@
-// Where the eye stands so that a scene fills the window, and from which side.
+// Chooses the camera's position and direction so that a scene fills the window.
 import * as THREE from "/three/build/three.module.js";
 
-const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75, -90, 90]; // degrees from the south, eastwards
-const RISES = [36, 48, 60]; // degrees above the floor
-const FILL = 0.94; // of the window
+const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75, -90, 90]; // candidate directions: degrees from the south, eastwards
+const RISES = [36, 48, 60]; // candidate elevations: degrees above the floor
+const FILL = 0.94; // share of the window that the scene fills
 const RELUCTANCE = 0.1; // share of the score that a turn of 90 degrees from the south costs
-const STEEP = [48, 0.01]; // degrees from which on people are seen from above, and what each costs of the score
-const EVEN = 0.7; // how much it counts that what is far is not much smaller: power of the distances' ratio
-const NARROW = 1; // width by height of a window, below which the eye of a scene's own camera steps back
-const TALL = 2.1; // m, the height that has to be in sight: of the tallest figures
-const WIDE = 0.4; // m, around where people stand
-const TALLEST = 3; // m, up to which that is the height of walls
+const STEEP = [48, 0.01]; // degrees of elevation above which people look flat; share of the score that each further degree costs
+const EVEN = 0.7; // weight of perspective: power of the ratio of the nearest and farthest distance
+const NARROW = 1; // width / height of a window below which a scene's own camera moves back
+const TALL = 2.1; // m: height that has to be visible, that of the tallest figures
+const WIDE = 0.4; // m: margin around people
+const TALLEST = 3; // m: walls count as visible height up to this
 
 /** The corners of a box [[x0, y0], [x1, y1]], on the floor and `high` above it, m. */
 function cornersOf([[x0, y0], [x1, y1]], high) {
@@ -25,7 +25,7 @@ function axesOf(turn, rise) {
 }
 
 /**
- * The nearest place of an eye with these axes that has all points in sight: the tangents bound
+ * Returns the nearest camera position with these axes that has all points in view. The tangents bound
  * x - tx z and -x - tx z of every point (z: its depth), which gives where the four planes of the
  * window meet.
  */
@@ -44,8 +44,8 @@ function standOf(points, { right, up, ahead }, tangents) {
 }
 
 /**
- * How well a window is filled: the share of it that the floor covers, times the share that the box around
- * the floor spans (so that long scenes are seen along a diagonal), less where what is far is much smaller.
+ * Scores how well a window is filled: the share of it that the floor covers, times the share that the box around
+ * the floor spans (so that long scenes lie along a diagonal), reduced if far parts look much smaller.
  */
 function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
     let area = 0, nearest = Infinity, farthest = 0;
@@ -64,13 +64,13 @@ function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
     return Math.abs(area) * span * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
 }
 
-/** The height that has to be in sight in a scene: of heads, and of walls, m. */
+/** Returns the height that has to be visible in a scene, that of heads and of walls, m. */
 export function heightOf(scene) {
     return Math.min(TALLEST, Math.max(TALL, ...(scene.walls ?? []).map((wall) => wall.height || 0)));
 }
 
 /**
- * An eye that has a box of the floor and `tall` m above it in sight, and shows most of it: {at, look}.
+ * Returns the camera {at, look} with the best score that shows a box of the floor and `tall` m above it.
  * `fieldOfView` is the window's height in degrees, `aspect` its width by its height.
  */
 export function fitBox(box, tall, fieldOfView, aspect) {
@@ -89,8 +89,8 @@ export function fitBox(box, tall, fieldOfView, aspect) {
 }
 
 /**
- * The eye of a camera that a scene gives, {at, look} as [x, y, z], m: where it says, and farther back on its
- * line of sight where the window is narrow, so that as much is seen across.
+ * Returns the camera that a scene gives, {at, look} as [x, y, z], m, moved back on its
+ * line of sight if the window is narrow, so that it shows the same width.
  */
 export function standAt({ at, look }, aspect) {
     const target = new THREE.Vector3(...look), back = Math.max(1, NARROW / aspect);
@@ -115,8 +115,8 @@ export function boxOf(points, least = 2) {
     return [low, high];
 }
 
-const LARGER = 8; // times the area of a crowd without walls that the crowd and where it goes may take
-const NEAR = 0.4; // of the size of what is walled or crowded: how far from it places are in sight
+const LARGER = 8; // a crowd and its places may take this many times the area of a crowd without walls
+const NEAR = 0.4; // share of the size of walls and crowd: distance from these within which places are shown
 
 /** Points around a place, m. */
 function extentOf({ kind, points = [], radius = 0 }) {
@@ -124,9 +124,9 @@ function extentOf({ kind, points = [], radius = 0 }) {
 }
 
 /**
- * The box that a picture of a scene has to show: walls and people, and of places what lies
- * near them; what is far (where people go once they are out) is left out, but not those to which a
- * crowd walks that nothing encloses. `people`: [x, y] of each.
+ * Returns the box that a picture of a scene has to show: walls, people, and the places
+ * near them. Far places (where people go once they are out) are left out, unless a crowd that
+ * no wall encloses walks to them. `people`: [x, y] of each.
  */
 export function sceneBox(scene, people) {
     const places = (scene.places ?? []).filter((p) => p.kind !== "set").map(extentOf);

@@ -1,39 +1,39 @@
-// The eye that goes where a person goes: from where the user put it, as long as nothing stands between;
-// else it turns and rises to where nothing does. No wall or body is ever between the eye and the person
-// for longer than the eye can come nearer.
+// A camera that follows a person. It stays in the user's direction as long as nothing hides the person;
+// otherwise it turns and rises to a free direction. A wall or body hides the person only
+// until the camera has come nearer.
 
 import * as THREE from "/three/build/three.module.js";
 
-const NEAR = 14; // m, from which a person is followed
-const LEAST = 1.5; // m, to which the eye comes where something is in between
-const HEAD = 1.5; // m above the floor, what has to be seen
-const MARGIN = 0.08; // of the distance: how much room the eye that is looked for has around it
-const TURNS = 24; // directions that are tried all round
+const NEAR = 14; // m: distance from which a person is followed
+const LEAST = 1.5; // m: least distance, if something is in between
+const HEAD = 1.5; // m above the floor: point that has to be visible
+const MARGIN = 0.08; // share of the distance: free space around the line of sight
+const TURNS = 24; // directions that are tried
 const RISES = [36, 50, 64, 76, 87].map((degrees) => (degrees * Math.PI) / 180);
-const STEEP = 1.2; // what a radian of rise costs, where one of turn costs 1
-const STAY = 0.3; // what a radian away from where the eye is bound costs
-const EASE = 0.4; // s, in which the eye makes most of a short way
-const FASTEST = 1.2; // rad/s, at which it turns or rises
-const HOLD = 500; // ms for which a place is good before a better one is looked for
-const JUMP = 3; // m between two pictures, over which the eye does not slide
+const STEEP = 1.2; // cost of a radian of elevation, relative to one of turn
+const STAY = 0.3; // cost of a radian away from the present target
+const EASE = 0.4; // s: time constant of the camera's motion
+const FASTEST = 1.2; // rad/s: greatest rate of turn and rise
+const HOLD = 500; // ms for which a target is kept before a better one is sought
+const JUMP = 3; // m: beyond such a jump between two pictures the camera does not slide
 
-/** An angle as one from -pi to pi. */
+/** Wraps an angle to -pi to pi. */
 const near = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 export class Follow {
     constructor(view) {
         this.view = view;
-        this.now = null; // where the eye is seen from the person: turn and rise, rad, away, m
+        this.now = null; // camera relative to the person: turn and rise, rad; away, m
     }
 
-    /** Begins from where the eye is, but no farther than NEAR. */
+    /** Starts following from the camera's position, but at most NEAR away. */
     begin() {
         const { view } = this, away = view.camera.position.distanceTo(view.controls.target);
         if (!view.top && away > NEAR) view.turnBy(0, 0, away / NEAR);
         this.now = null;
     }
 
-    /** Goes to where the person is, [x, y], at `time` (ms). */
+    /** Moves with the person, who is at [x, y] at `time` (ms). */
     keepUp(at, time) {
         const { view } = this, target = view.controls.target, dx = at[0] - target.x, dy = at[1] - target.y, moved = Math.hypot(dx, dy);
         if (moved > 1e-3) view.moveBy(dx, dy);
@@ -47,7 +47,7 @@ export class Follow {
         this.began = false;
     }
 
-    /** Where the eye is that nobody but this put there is where the user wants it. */
+    /** Takes a camera position that was not set by this as the user's wish. */
     heed() {
         const { x, y, z } = this.view.perspective.position.clone().sub(this.view.orbit.target), away = Math.hypot(x, y, z);
         const seen = { turn: Math.atan2(y, x), rise: Math.asin(z / away), away };
@@ -65,12 +65,12 @@ export class Follow {
         return [t.x + flat * Math.cos(turn), t.y + flat * Math.sin(turn), t.z + away * Math.sin(rise)];
     }
 
-    /** Whether nothing is between the person and the eye there. */
+    /** Returns whether nothing is between the person and a camera there. */
     sees(eye) {
         return !this.view.ground.between(this.head, eye) && !this.view.bodies.between(this.head, eye);
     }
 
-    /** Whether the eye there would see the person, also if it were a little beside. */
+    /** Returns whether a camera there, or a little beside it, sees the person. */
     free(turn, rise) {
         const { away } = this.wanted, eye = this.place({ turn, rise, away }), room = MARGIN * away;
         const across = [-Math.sin(turn) * room, Math.cos(turn) * room, 0];
@@ -78,7 +78,7 @@ export class Follow {
         return [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]].every(([i, j]) => this.sees(eye.map((v, k) => v + i * across[k] + j * up[k])));
     }
 
-    /** Where the eye is bound: where the user wants it, or near by. */
+    /** Returns the camera's target: the user's wish, or the nearest free direction. */
     aim(time) {
         const { goal, wanted } = this;
         if (time - this.looked < HOLD && this.free(goal.turn, goal.rise)) return;
@@ -99,7 +99,7 @@ export class Follow {
         return tries.sort((a, b) => a.cost - b.cost).find(({ turn, rise }) => this.free(turn, rise));
     }
 
-    /** By how much to turn to come to a place: the shorter way round, unless more is in between there. */
+    /** Returns the turn to a target: the shorter way round, unless more is in between there. */
     wayTo({ turn, rise }) {
         const short = near(turn - this.now.turn), long = short - Math.sign(short) * 2 * Math.PI;
         const hidden = (way) => [1, 2, 3, 4, 5].filter((i) => {
@@ -109,7 +109,7 @@ export class Follow {
         return hidden(short) > 0 && hidden(long) === 0 ? long : short;
     }
 
-    /** Goes on for so many seconds, and comes as near as it takes to see the person. */
+    /** Advances the camera by some seconds, and comes near enough to see the person. */
     go(seconds) {
         const { now, goal, wanted, view } = this, share = 1 - Math.exp(-seconds / EASE), most = FASTEST * seconds;
         const step = (from, to) => from + Math.max(-most, Math.min(most, share * (to - from)));
@@ -126,7 +126,7 @@ export class Follow {
         this.put = eye.clone().sub(view.orbit.target);
     }
 
-    /** The greatest distance, m, from which the person is seen that way. */
+    /** Returns the greatest distance, m, from which the person is visible in a direction. */
     nearer({ turn, rise, away }) {
         let low = LEAST, high = away;
         for (let i = 0; i < 12; i++) {

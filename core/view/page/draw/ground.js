@@ -1,4 +1,4 @@
-// What stands still: the floor with its field, walls, gates, places and regions.
+// The static parts of the picture: the floor with its field, walls, gates, places and regions.
 import * as THREE from "/three/build/three.module.js";
 import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
@@ -48,7 +48,7 @@ export class Ground {
             cover: { value: new THREE.Vector4() }, gain: { value: 1 },
             shade: { value: null }, shaded: { value: new THREE.Vector4() },
         };
-        // What the walls are seen from, and the box of the floor that they must not hide, m.
+        // Camera position for lowering walls, and the box of the floor that they must not hide, m.
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 }, edge: { value: 0.4 } };
         const material = new THREE.ShaderMaterial({
             uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
@@ -57,7 +57,7 @@ export class Ground {
         this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(1, 1), material);
         this.floor.frustumCulled = false;
         this.floor.renderOrder = -1;
-        this.materials = new Map(); // kept over scene messages: a material that is made anew has its program compiled anew
+        this.materials = new Map(); // kept across scene messages, as a new material compiles its shader again
         this.walls = [];
         this.theme("light");
     }
@@ -96,22 +96,22 @@ export class Ground {
         this.gates();
     }
 
-    /** Where the eye is; from above no wall hides anything. */
+    /** Sets the camera's position; from above no wall hides anything. */
     seenFrom(eye, top) {
         this.seen.eye.value.copy(eye);
         this.seen.lowered.value = top ? 0 : 1;
     }
 
-    /** The box [[x0, y0], [x1, y1]] that walls must not hide, m. */
+    /** Sets the box [[x0, y0], [x1, y1]] that walls must not hide, m. */
     inside([[x0, y0], [x1, y1]]) {
         this.seen.keep.value.set(x0, y0, x1, y1);
     }
 
-    /** Whether a wall, as it is drawn for an eye [x, y, z], stands between the eye and a point; m. */
+    /** Returns whether a wall, as drawn for a camera at [x, y, z], hides a point from it; m. */
     between(point, eye) {
         const [kx0, ky0, kx1, ky1] = this.seen.keep.value.toArray(), edge = this.seen.edge.value;
         const low = [0, 1].map((k) => Math.min(point[k], eye[k])), high = [0, 1].map((k) => Math.max(point[k], eye[k]));
-        // As the walls' program has it.
+        // Same computation as in the walls' shader.
         const lowered = ({ middle: [mx, my], across: [ax, ay] }) => {
             const way = ax * (mx - eye[0]) + ay * (my - eye[1]) < 0 ? -1 : 1, x = mx + way * ax, y = my + way * ay;
             return x > kx0 + edge && y > ky0 + edge && x < kx1 - edge && y < ky1 - edge;
@@ -135,7 +135,7 @@ export class Ground {
         this.shade();
     }
 
-    /** The shade about walls and closed gates, made anew where they are others. */
+    /** Updates the shade around walls and closed gates, if they changed. */
     shade() {
         const rings = this.blocks.filter((block) => block.high > OPEN).map((block) => block.ring), same = JSON.stringify(rings);
         if (same === this.shadeOf) return;
@@ -146,7 +146,7 @@ export class Ground {
         this.uniforms.shaded.value.set(...(baked?.cover ?? [0, 0, 0, 0]));
     }
 
-    /** Takes which gates are open; true if that changed. */
+    /** Sets which gates are open; true if that changed. */
     setOpen(open) {
         let changed = false;
         for (const [name, value] of Object.entries(open ?? {})) {
@@ -157,7 +157,7 @@ export class Ground {
         return changed;
     }
 
-    /** The material of a key, made where there is none. */
+    /** Returns the material of a key, created on first use. */
     material(key, make) {
         if (!this.materials.has(key)) this.materials.set(key, make());
         return this.materials.get(key);

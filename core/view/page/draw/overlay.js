@@ -1,4 +1,4 @@
-// What is written and drawn over the picture in two dimensions: names, the chosen person, arrows of
+// The two-dimensional overlay of the picture: names, the chosen person, arrows of
 // forces, the path of a throw. One canvas, so that it costs the 3-D picture no draw call.
 import { say } from "../dom.js";
 
@@ -17,13 +17,13 @@ export class Overlay {
         this.crowd = crowd;
         this.pen = canvas.getContext("2d");
         this.labels = [];
-        this.names = false; // all of them; without, that under the pointer
+        this.names = false; // true: show all names; false: only the one under the pointer
         this.pointer = null; // CSS pixels
         this.chosen = null; // slot
-        this.forces = null; // of the chosen person
+        this.forces = null; // forces on the chosen person
         this.players = []; // slots
-        this.sketch = null; // what a tool shows: function(pen, project)
-        this.cross = false; // in the middle, for work by keys
+        this.sketch = null; // drawing of the active tool: function(pen, project)
+        this.cross = false; // whether the cross in the middle is shown, for use by keys
         this.blank = true; // nothing is on the canvas
     }
 
@@ -53,7 +53,7 @@ export class Overlay {
     draw(share) {
         const pen = this.pen, ratio = this.view.ratio;
         const blank = !this.names && !this.pointer && this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross;
-        if (blank && this.blank) return; // even clearing costs, where the processor draws
+        if (blank && this.blank) return; // clearing takes time, too, when the processor draws
         this.blank = blank;
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, this.view.wide, this.view.high);
@@ -67,7 +67,7 @@ export class Overlay {
         if (this.cross) this.drawCross();
     }
 
-    /** Takes where the pointer is, CSS pixels, or null; true if another name is due. */
+    /** Sets the position of the pointer, CSS pixels, or null; true if another name has to be shown. */
     point(at) {
         this.pointer = at;
         const near = this.names || !at ? -1 : this.labels.findIndex((label) => this.near(this.view.project(label.at[0], label.at[1], label.at[2] ?? 0)));
@@ -100,7 +100,7 @@ export class Overlay {
         return this.dark ? "#6cc0f5" : "#0062a0";
     }
 
-    /** A word on a plate. */
+    /** Draws a label on a plate. */
     tag(text, [x, y], colour = this.dark ? "#e8ecf1" : "#20242a") {
         const pen = this.pen, wide = pen.measureText(text).width + 10;
         pen.fillStyle = this.dark ? "rgb(18 21 25 / 78%)" : "rgb(255 255 255 / 84%)";
@@ -159,7 +159,7 @@ export class Overlay {
     }
 }
 
-/** A line through points of the screen; where one is null, the line is interrupted. */
+/** Draws a line through points of the screen, interrupted at null. */
 export function stroke(pen, points, style, width) {
     pen.strokeStyle = style;
     pen.lineWidth = width;
@@ -187,7 +187,7 @@ function roundRect(pen, x, y, wide, high, r) {
     pen.closePath();
 }
 
-/** Where a place's name is written: inside a polygon, at the middle of a line. */
+/** Returns where a place's name is written: inside a polygon, at the middle of a line. */
 function middle({ points, kind }) {
     if (kind === "line" || kind === "queue") {
         const a = points[0], b = points[points.length - 1];
@@ -201,7 +201,7 @@ function middle({ points, kind }) {
     return [x, y];
 }
 
-/** Says in words what the picture shows, for those who do not see it. */
+/** Describes the picture in words, for screen readers. */
 export function describe(node, status) {
     say(node, `${status.agents} agents and ${status.bodies} bodies at ${status.time.toFixed(0)} seconds`);
 }

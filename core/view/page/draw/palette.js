@@ -4,9 +4,9 @@
 
 const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
 const RAMP = ["#fbf6d3", "#fde39a", "#fcc562", "#f8a140", "#ee762f", "#d84a2c", "#b32536", "#82123f", "#4d0b3b"];
-// Of what is no danger: the speed of people.
+// For figures that are no danger, such as speed.
 const CALM = ["#f6f5dc", "#d3e8cf", "#a3d6cf", "#6bbdcf", "#3c9cc4", "#2577ad", "#1a528b", "#142f63"];
-// Ways that people go, from east by north: hues around the circle, whose lightness differs, too.
+// Headings from east by north: hues around the circle that also differ in lightness.
 const WAYS = ["#d55e00", "#f0b942", "#7fb842", "#1c9e77", "#37a6dd", "#2c5fb8", "#7b4aa8", "#c0508f"];
 
 /** Levels of service of walkways, people per m2 up to which each holds (Fruin 1971). */
@@ -25,13 +25,13 @@ export function classColour(index) {
     return base.map((c) => Math.round(c + 0.45 * (towards - c)));
 }
 
-/** sRGB of a share of the most, 0 to 1; `calm`: of what is no danger. */
+/** sRGB of a share of the greatest value, 0 to 1; `calm`: for figures that are no danger. */
 export function valueColour(share, calm = false) {
     const stops = calm ? CALM : RAMP;
     return between(stops, Math.max(0, Math.min(1, share)) * (stops.length - 1));
 }
 
-/** sRGB of a way, in turns from the east, counter-clockwise. */
+/** sRGB of a heading, in turns from the east, counter-clockwise. */
 export function wayColour(turn) {
     return between([...WAYS, WAYS[0]], (turn - Math.floor(turn)) * WAYS.length);
 }
@@ -52,14 +52,14 @@ export function css([r, g, b]) {
     return `rgb(${r} ${g} ${b})`;
 }
 
-const NOBODYS = [0x77, 0x77, 0x77]; // of who is in no class
+const NOBODYS = [0x77, 0x77, 0x77]; // people without a class
 
-/** sRGB of a state or group as the scene message lists it: what it was given, else what pictures take. */
+/** sRGB of a state or group in the scene message: its own colour, else the one that pictures use. */
 export function namedColour(named) {
     return named?.colour ? channels(named.colour) : NOBODYS;
 }
 
-/** What the texel `i` of 256 of a table is: of classes, values, ways, or levels of service up to `most`. */
+/** Colour of texel `i` of 256 of a table of classes, values, headings, or levels of service up to `most`. */
 const TEXELS = {
     class: (i) => classColour(i),
     value: (i) => valueColour(i / 255),
@@ -68,14 +68,14 @@ const TEXELS = {
     service: (i, most) => serviceColour(SERVICE.findIndex(([, up]) => (i / 255) * most < up)),
 };
 
-/** 256 RGBA texels; `named`: the states or groups whose colours they are, in place of a kind. */
+/** 256 RGBA texels of a kind, or of the states or groups `named`. */
 export function table(kind, most = 0, named = null) {
     const out = new Uint8Array(4 * 256);
     for (let i = 0; i < 256; i++) out.set([...(named ? namedColour(named[i]) : TEXELS[kind](i, most)), 255], 4 * i);
     return out;
 }
 
-/** What people are coloured by: how it is called and whether by classes. */
+/** What people can be coloured by: its name, and whether it has classes. */
 export const COLOURS = {
     state: { name: "state", classes: true },
     group: { name: "group", classes: true },
@@ -90,7 +90,7 @@ export const COLOURS = {
     failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [4, 3] },
 };
 
-/** A unit as it is written: 1/m2 becomes 1/m². */
+/** Formats a unit: 1/m2 becomes 1/m². */
 export function unitText(unit) {
     return (unit ?? "").replace(/2$/, "²").replace(/3$/, "³");
 }

@@ -6,12 +6,12 @@ import { makeFigure } from "./figure.js";
 import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./shaders.js";
 
 const FIGURES = 4608; // at most; a little more than are chosen, for the margin
-const MARGIN = 0.4; // m: who stands there is drawn as both, so that nobody is missing while they slide
-const RINGS = 128; // around the eye, of equal area
-const FIGURE_PIXELS = 20; // who is taller on the screen is worth a figure
+const MARGIN = 0.4; // m: people in this margin are drawn as both, so that nobody is missing between two frames
+const RINGS = 128; // rings around the camera, of equal area
+const FIGURE_PIXELS = 20; // people who are taller on the screen are drawn as figures
 
 export class People {
-    /** `most`: how many may be figures. */
+    /** `most`: people drawn as figures, at most. */
     constructor(most) {
         this.uniforms = {
             mapA: { value: new THREE.Vector4() }, mapB: { value: new THREE.Vector4() },
@@ -22,7 +22,7 @@ export class People {
         this.most = most; // fewer where drawing is slow
         this.capacity = 0;
         this.counts = new Uint32Array(RINGS);
-        this.newest = 1; // of the two buffers
+        this.newest = 1; // index of the newer of the two buffers
         this.personVersion = -1;
         this.group = new THREE.Group();
         this.makeFigures();
@@ -33,7 +33,7 @@ export class People {
         return new THREE.RawShaderMaterial({ uniforms: this.uniforms, vertexShader, fragmentShader, ...more });
     }
 
-    /** Buffers for so many slots; what they held is written again by the next frame. */
+    /** Creates buffers for so many slots; the next frame fills them again. */
     grow(slots) {
         while (this.capacity < slots) this.capacity = Math.max(1024, 2 * this.capacity);
         if (this.points) {
@@ -51,7 +51,7 @@ export class People {
         for (const buffer of this.buffers) buffer.setUsage(THREE.DynamicDrawUsage);
         this.points = new THREE.Points(geometry, this.pointMaterial ??= this.material(POINT_VERTEX, POINT_FRAGMENT));
         this.points.frustumCulled = false;
-        this.created = false; // on the card; until then what comes is copied into arrays of full size
+        this.created = false; // whether buffers are on the card; until then, frames are copied into arrays of full size
         this.points.onAfterRender = () => (this.created = true);
         this.shades = new THREE.Points(geometry, this.shadeMaterial ??= this.material(SHADE_VERTEX, SHADE_FRAGMENT, {
             transparent: true, depthWrite: false,
@@ -96,7 +96,7 @@ export class People {
         this.uploadPersons(crowd);
     }
 
-    /** Radii and groups, where they changed. */
+    /** Updates radii and groups that changed. */
     uploadPersons(crowd) {
         if (this.personVersion === crowd.personVersion) return;
         this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
@@ -106,7 +106,7 @@ export class People {
 
     write(which, frame) {
         const buffer = this.buffers[which];
-        if (this.created) buffer.array = frame.bytes; // uploaded as it came
+        if (this.created) buffer.array = frame.bytes; // uploaded without a copy
         else buffer.array.set(frame.bytes);
         if (frame.slots > 0) buffer.needsUpdate = true;
         this.uniforms[which === 0 ? "mapA" : "mapB"].value.set(frame.x0, frame.y0, frame.sx, frame.sy);
@@ -127,7 +127,7 @@ export class People {
         }
     }
 
-    /** The reach (m), at most `furthest`, within which there are no more people than may be figures. */
+    /** Returns the distance (m), at most `furthest`, within which all people may be figures. */
     reachOf(frame, eye, furthest) {
         const rise = eye.z - 0.85, flat = furthest * furthest - rise * rise;
         if (flat <= 0) return 0;

@@ -3,13 +3,13 @@ import { NOBODY } from "../net/crowd.js";
 
 const REACH = 24; // CSS pixels around the pointer
 
-/** The slot of the person nearest to a CSS pixel, or null; who stands in front wins near ties. */
+/** Returns the slot of the person nearest to a CSS pixel, or null; near ties go to the one in front. */
 export function pickPerson(view, crowd, px, py, share, reach = REACH) {
     const frame = crowd.next;
     if (!frame) return null;
     const camera = view.camera;
     camera.updateMatrixWorld();
-    // The product of both matrices, once: this loop runs over everybody.
+    // The product of both matrices is computed once, as the loop runs over all people.
     const m = multiply(camera.projectionMatrix.elements, camera.matrixWorldInverse.elements);
     const z = 0.9;
     let best = null, least = Infinity;
@@ -57,7 +57,7 @@ export function pickBody(view, crowd, bodies, px, py) {
     return best;
 }
 
-/** a times b; matrices by columns, as three.js and OpenGL keep them. */
+/** Multiplies matrices, stored by columns as in three.js and OpenGL. */
 function multiply(a, b) {
     const out = new Float64Array(16);
     for (let column = 0; column < 4; column++) {

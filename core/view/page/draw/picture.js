@@ -1,7 +1,7 @@
 // The picture as a PNG: what is drawn in three and in two dimensions, with a line of legend.
 import { el } from "../dom.js";
 
-/** Saves what is seen; `title` becomes the file's name and its caption. */
+/** Saves the picture; `title` becomes the file's name and its caption. */
 export function savePicture(view, overlay, title) {
     view.dirty = true;
     view.draw(performance.now());

@@ -1,11 +1,11 @@
-// The shade that lies on the floor about walls, as a picture of it from above that the floor's program
-// reads: what stands in the way of light from the sky, and a soft shadow to one side.
+// The shade on the floor around walls: a texture seen from above, which the floor's shader
+// reads. It has the ambient occlusion of walls and a soft shadow to one side.
 import * as THREE from "/three/build/three.module.js";
 
 const MOST = 1024; // texels along the longer side
 const FINEST = 32; // texels a metre
-const AROUND = 0.7, SIDE = 0.5; // m, how far the shade about a wall reaches, and the shadow beside it
-const EDGE = 3; // m about the walls
+const AROUND = 0.7, SIDE = 0.5; // m: reach of the occlusion around a wall, and of its shadow
+const EDGE = 3; // m: margin around the walls
 
 /** The box of some rings of points, with an edge: [x0, y0, width, height], m. */
 function coverOf(rings) {
@@ -20,8 +20,8 @@ function coverOf(rings) {
 }
 
 /**
- * {texture, cover: [x0, y0, width, height]} of the shade of rings, which all run the same way round; null
- * without any. All rings are one path, so that shades that overlap are no darker.
+ * Draws the shade of rings, all of the same orientation, as {texture, cover: [x0, y0, width, height]}; null
+ * without rings. All rings are one path, so that overlapping shades are no darker.
  */
 export function bakeShade(rings) {
     if (rings.length === 0) return null;
@@ -30,7 +30,7 @@ export function bakeShade(rings) {
     canvas.width = Math.max(2, Math.round(scale * cover[2]));
     canvas.height = Math.max(2, Math.round(scale * cover[3]));
     const pen = canvas.getContext("2d"), aside = 2 * canvas.width;
-    // Only the shadows of what is drawn beside the picture fall into it.
+    // The walls are drawn outside the texture, so that only their shadows fall into it.
     const cast = (offset, blur, dark) => {
         pen.shadowColor = `rgb(0 0 0 / ${dark})`;
         pen.shadowBlur = scale * blur;

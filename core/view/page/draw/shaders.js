@@ -1,4 +1,4 @@
-// What the programs of the people share: a slot's record is decoded on the graphics card, from the
+// Shaders. People: a slot's record is decoded on the graphics card from the
 // bytes as they came, and people slide from the previous frame to the next one.
 
 /** Records of two frames, A and B; `swapped` says that A is the newer one. */
@@ -21,7 +21,7 @@ struct Person { vec2 at; vec2 ahead; vec2 lean; float radius; float colour; floa
 
 vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
 
-// How somebody leans under pushes: rad, towards where they are pushed.
+// Lean of a person under pushes: rad, in the direction of the push.
 vec2 leanOf(float flags) {
     float code = floor(flags / 8.0), way = mod(code - 1.0, 8.0) * TURN / 8.0;
     return code < 0.5 || code > 24.5 ? vec2(0.0) : (0.1 + 0.12 * floor((code - 1.0) / 8.0)) * vec2(cos(way), sin(way));
@@ -33,7 +33,7 @@ Person decode() {
     vec2 before = late ? place(placeB, mapB) : place(position, mapA);
     vec2 after = late ? place(position, mapA) : place(placeB, mapB);
     float t = share;
-    // A slot that got another person, or was empty, does not slide.
+    // A slot that was empty or has another person now does not slide.
     bool another = oldInfo.y > 254.5 || mod(oldInfo.w, 2.0) != mod(info.w, 2.0);
     if (another) t = 1.0;
     float from = oldInfo.x / 256.0, to = info.x / 256.0;
@@ -68,9 +68,9 @@ vec3 hair(float look) { return mix(vec3(0.07, 0.06, 0.06), vec3(0.34, 0.24, 0.17
 
 /** Everyone as one point: a disc from above, an upright capsule from the side. */
 export const POINT_VERTEX = RECORDS + `
-uniform float pixels;      // pixels of a metre at distance 1 (orthographic: of a metre)
-uniform float tall;        // share of a height that is seen: cosine of the eye's elevation
-uniform float nearer;      // m: figures stand for those who are nearer to the eye
+uniform float pixels;      // pixels per metre at distance 1 (orthographic: per metre)
+uniform float tall;        // visible share of a height: cosine of the camera's elevation
+uniform float nearer;      // m: people nearer to the camera are drawn as figures
 uniform vec3 eye;
 varying vec4 paint;        // radius and half of the spine in pixels, colour, flags
 varying vec3 nose;         // where it looks on the screen, and its look
@@ -134,7 +134,7 @@ void main() {
 
 export const SHADE_FRAGMENT = `
 precision highp float;
-uniform float tall;        // as of points: sqrt(1 - tall^2) is how much a disc on the floor is flattened
+uniform float tall;        // as for points; sqrt(1 - tall^2) flattens discs on the floor
 varying float dark;
 void main() {
     vec2 at = (gl_PointCoord - 0.5) * 2.0;
@@ -147,7 +147,7 @@ void main() {
 export const FIGURE_VERTEX = RECORDS + `
 attribute vec3 corner;     // of a figure 1 m high and 1 m wide, looking along +x
 attribute vec3 normal;
-attribute vec3 swing;      // of a limb: which way, around which height; and which part it is
+attribute vec3 swing;      // of a limb: direction and height of its swing; and its part
 uniform float clock;       // s
 varying vec3 facing, where;
 varying float shade, marks, self, limb;
@@ -165,7 +165,7 @@ void main() {
         c.x += down * sin(turn);
         c.z += down * (1.0 - cos(turn));
     }
-    c.x += 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // who runs leans forward
+    c.x += 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // runners lean forward
     vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
     vec3 at = vec3(p.at + ahead * c.x + left * c.y + p.lean * c.z, c.z * (1.0 - 0.5 * dot(p.lean, p.lean)));
     facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
@@ -233,7 +233,7 @@ void main() {
 /** The shade under bodies: a rectangle a body, on the floor under its two axes that lie flattest. */
 export const BODY_SHADE_VERTEX = `
 precision highp float;
-attribute vec3 position;   // a corner: which way along the one axis, and the other; and the body's row
+attribute vec3 position;   // of a corner: sign along both axes; and the body's row
 attribute vec3 half_size;  // m, of the box about the body
 attribute vec3 centre;     // m, of that box, in the body's frame
 uniform sampler2D poses;
@@ -341,8 +341,8 @@ uniform float spacing;     // m between thin lines; every fifth is thicker
 uniform sampler2D field, ramp;
 uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
 uniform sampler2D shade;   // of walls
-uniform vec4 shaded;       // where it lies; width 0: nowhere
-uniform float gain;        // of the field's values, so that one scale serves people and floor
+uniform vec4 shaded;       // its area, as of cover; width 0: none
+uniform float gain;        // factor of the field's values, so that people and floor share a scale
 varying vec2 ground;
 float lines(float every, float wide) {
     vec2 at = ground / every;
@@ -360,7 +360,7 @@ void main() {
     }
     if (shaded.z > 0.0) {
         vec2 at = (ground - shaded.xy) / shaded.zw;
-        // Weak where the colours of a field are to be read.
+        // Weaker where a field's colours have to be read.
         if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))))
             colour *= 1.0 - (cover.z > 0.0 ? 0.25 : 0.6) * texture2D(shade, at).a;
     }

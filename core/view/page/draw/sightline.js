@@ -1,6 +1,6 @@
-// What stands between two points: upright blocks and boxes that are turned. Points are [x, y, z], m.
+// Tests whether an upright block or a turned box is between two points. Points are [x, y, z], m.
 
-/** The part of a -> b, from 0 to 1, that lies between two heights: [from, to], or null. */
+/** Returns the part of a -> b that is between two heights: [from, to], 0 to 1, or null. */
 function within(a, b, low, high) {
     const dz = b[2] - a[2];
     if (Math.abs(dz) < 1e-9) return a[2] > low && a[2] < high ? [0, 1] : null;
@@ -18,7 +18,7 @@ function inside(ring, x, y) {
     return odd;
 }
 
-/** Whether a -> b goes through an upright block on a ring of points, from the floor to `high`. */
+/** Returns whether a -> b passes through an upright block on a ring of points, from the floor to `high`. */
 export function meetsBlock(a, b, ring, high) {
     const part = within(a, b, 0, high);
     if (!part) return false;
@@ -34,7 +34,7 @@ export function meetsBlock(a, b, ring, high) {
     return false;
 }
 
-/** Whether a -> b goes through a box with its middle at the origin and these halves of its sizes. */
+/** Returns whether a -> b passes through a box at the origin with these half sizes. */
 export function meetsBox(a, b, half) {
     let from = 0, to = 1;
     for (let k = 0; k < 3; k++) {

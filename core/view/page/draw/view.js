@@ -1,4 +1,4 @@
-// The picture: renderer, cameras, what is drawn when, and where things are on the screen.
+// The picture: renderer and cameras; decides when to draw, and maps points to the screen.
 import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
 import * as THREE from "/three/build/three.module.js";
 import { Bodies } from "./bodies.js";
@@ -9,7 +9,7 @@ import { People } from "./people.js";
 
 const FIELD_OF_VIEW = 34; // degrees
 const LEAST_FIGURES = 500, MOST_FIGURES = 4096; // people drawn as figures
-const SLOW = 60; // ms a picture: then fewer figures are drawn
+const SLOW = 60; // ms per picture from which on fewer figures are drawn
 
 export class View {
     constructor(canvas, crowd) {
@@ -35,7 +35,7 @@ export class View {
         this.colourBy("state");
         this.dirty = true;
         this.slow = 0;
-        this.called = 0; // ms, that the calls of the last picture took: where the processor draws, they wait for it
+        this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
     }
 
@@ -51,7 +51,7 @@ export class View {
         return controls;
     }
 
-    /** The eye is elsewhere: places on the screen change, and the picture. */
+    /** Called when the camera has moved: positions on the screen and the picture change. */
     moved() {
         this.camera?.updateMatrixWorld();
         this.dirty = true;
@@ -65,7 +65,7 @@ export class View {
         return this.top ? this.slide : this.orbit;
     }
 
-    /** With a tool in hand the left button is the tool's; the right one turns, or slides from above. */
+    /** With an active tool, the left button belongs to it, and the right one turns, or pans from above. */
     useControls() {
         this.orbit.enabled = !this.top;
         this.slide.enabled = this.top;
@@ -99,7 +99,7 @@ export class View {
         this.dirty = true;
     }
 
-    /** Where the scene's camera is, or where everything fills the window. */
+    /** Moves to the scene's camera, or to where everything fills the window. */
     goHome() {
         if (!this.shown) return;
         this.handled = false;
@@ -126,7 +126,7 @@ export class View {
         this.frameFlat();
     }
 
-    /** From above, or back; both look at the same spot. */
+    /** Switches to the view from above, or back; both look at the same spot. */
     setTop(top) {
         if (top === this.top) return;
         const target = this.controls.target.clone();
@@ -156,7 +156,7 @@ export class View {
         this.moved();
     }
 
-    /** Turns around the target (rad), climbs (rad) and nears (factor). */
+    /** Turns around the target (rad), rises (rad) and changes the distance (factor). */
     turnBy(turn, climb, nearer) {
         this.handled = true;
         if (this.top) {
@@ -175,7 +175,7 @@ export class View {
         this.moved();
     }
 
-    /** By what people are coloured: one of palette.js. */
+    /** Sets what people are coloured by: one of palette.js. */
     colourBy(by) {
         const u = this.people.uniforms, colour = COLOURS[by];
         u.classes.value = { state: 1, group: 2, failed: 3, direction: 4 }[by] ?? 0;
@@ -191,7 +191,7 @@ export class View {
         this.dirty = true;
     }
 
-    /** Takes the size of the window; who has not moved the eye goes on seeing the whole scene. */
+    /** Takes the size of the window; a camera that was not moved still shows the whole scene. */
     resize() {
         const box = this.canvas.parentElement.getBoundingClientRect();
         const wide = Math.max(1, Math.round(box.width)), high = Math.max(1, Math.round(box.height));
@@ -221,7 +221,7 @@ export class View {
     takeFrame(kind) {
         this.people.upload(this.crowd, kind);
         this.bodies.upload(this.crowd);
-        if (!this.peopled && !this.handled && this.crowd.next.slots > 0) this.goHome(); // now that it is known where people are
+        if (!this.peopled && !this.handled && this.crowd.next.slots > 0) this.goHome(); // the positions of people are known now
         this.peopled ||= this.crowd.next.slots > 0;
         this.dirty = true;
     }
@@ -258,7 +258,7 @@ export class View {
         return true;
     }
 
-    /** Where pictures are slow to draw, fewer figures; where they are fast again, more. */
+    /** Draws fewer figures when pictures are slow, and more when they are fast again. */
     spare(now, drawn) {
         const took = now - (drawn ?? now);
         if (took <= 0 || took > 500) return;
@@ -287,7 +287,7 @@ export class View {
     }
 }
 
-/** Whether pictures are drawn by the processor: then edges are not smoothed, which would cost it much. */
+/** Returns whether the processor draws the pictures: then edges are not smoothed, to save time. */
 function drawsSlowly() {
     const probe = document.createElement("canvas").getContext("webgl");
     const known = probe?.getExtension("WEBGL_debug_renderer_info");

@@ -1,14 +1,14 @@
-// Walls: upright blocks whose vertices know where the block's middle is and how far across it reaches,
-// by which the shader lowers those that stand before the crowd.
+// Walls: upright blocks. Each vertex has the middle of its block and the extent across,
+// by which the shader lowers blocks that would hide the crowd.
 import * as THREE from "/three/build/three.module.js";
 import { boxOf } from "./camera.js";
 import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
 
 const THIN = 0.12; // m, drawn thickness of walls that have none
-const LANDMARK = 3.5; // m: a solid block as high is what the scene is about, and is never lowered
+const LANDMARK = 3.5; // m: solid blocks of this height are what the scene is about, and are never lowered
 const FAR = 1e6; // m: beside such a block nothing is hidden
 
-/** The direction across a block's longest edge, as long as it takes to be `beside` m beside the block, m. */
+/** Returns the vector across a block's longest edge that ends `beside` m beside the block, m. */
 function acrossOf(points, [mx, my], beside) {
     let longest = 0, x = 1, y = 0;
     points.forEach((a, i) => {
@@ -30,7 +30,7 @@ export function wallMaterial(seen, colour, fragmentShader) {
     });
 }
 
-/** Triangles and edges of blocks. `beside`: m from a wall; whether the spot there is within the scene decides if it is lowered. */
+/** Triangles and edges of blocks. A wall may be lowered if the spot `beside` m from it is within the scene. */
 export class Prism {
     constructor(beside = 1.2) {
         this.beside = beside;
@@ -68,7 +68,7 @@ export class Prism {
         }
     }
 
-    /** A wall as the scene has it: solid, or a line that gets a thickness to be seen. */
+    /** Adds a wall of the scene: solid, or a line that gets a visible thickness. */
     wall({ solid, points, closed }, high) {
         if (solid && points.length > 2) return this.block(points, high, high >= LANDMARK);
         const ends = points.length - (closed ? 0 : 1);
@@ -85,7 +85,7 @@ export class Prism {
         return this.faces.position.length === 0;
     }
 
-    /** What is drawn: the faces and their edges. `materialOf(colour, fragment shader)` makes or finds their materials. */
+    /** Returns the meshes of faces and edges. `materialOf(colour, fragment shader)` makes or finds their materials. */
     parts(materialOf, colour, edge) {
         const made = [[this.faces, colour, WALL_FRAGMENT, THREE.Mesh], [this.edges, edge, WALL_EDGE_FRAGMENT, THREE.LineSegments]];
         return made.map(([part, ink, fragmentShader, Kind]) => {

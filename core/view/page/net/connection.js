@@ -1,8 +1,8 @@
-// The socket: comes back by itself, hands out what arrives, counts it.
+// The socket: reconnects by itself, passes on messages, and counts bytes.
 
 const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
 
-// The token of the address is kept by this tab alone, and taken out of what the address bar shows.
+// The token is kept in this tab only, and removed from the address bar.
 const KEY = "jostle-token";
 function token() {
     const given = new URLSearchParams(location.search).get("token");
@@ -15,7 +15,7 @@ function token() {
 
 /**
  * Opens the page's socket. `handlers`: {json(message), binary(buffer), state(text)}, where the state
- * is "connecting", "open", "lost" or "refused". The token of the page's address goes along.
+ * is "connecting", "open", "lost" or "refused". The token of the page's address is sent with the request.
  */
 export class Connection {
     constructor(handlers) {

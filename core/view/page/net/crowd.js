@@ -1,9 +1,9 @@
-// The last two frames as they came, and what the page reads of them: positions, states, bodies.
+// The last two frames as received, and access to their positions, states and bodies.
 
 const HEADER = 48; // bytes of a frame before its slots
 const BODY = 20;
 export const NOBODY = 255;
-export const FLAG = { parity: 1, failed: 2, player: 4 }; // above: how somebody leans under pushes, or that they lie
+export const FLAG = { parity: 1, failed: 2, player: 4 }; // higher bits: lean under pushes, or lying
 
 /** Reads a frame's header; its slots stay where they are in the buffer. Lengths in m. */
 export function readFrame(buffer) {
@@ -42,7 +42,7 @@ export class Crowd {
         this.personVersion = 0;
         this.arrived = 0;
         this.interval = 50; // ms between frames, as measured
-        this.snap = true; // nothing to slide from
+        this.snap = true; // true: no previous frame to slide from
     }
 
     /** Takes a frame that arrived at `now` (ms). Returns "new", or "same" for a tick seen already. */
@@ -78,7 +78,7 @@ export class Crowd {
         this.personVersion++;
     }
 
-    /** How far from the previous frame to the next, 0 to 1, at `now` (ms). */
+    /** Returns the share of the way from the previous frame to the next, 0 to 1, at `now` (ms). */
     share(now) {
         if (this.snap || !this.next) return 1;
         return Math.min(1, (now - this.arrived) / this.interval);
@@ -88,13 +88,13 @@ export class Crowd {
         return this.next !== null && slot < this.next.slots && this.next.bytes[8 * slot + 5] !== NOBODY;
     }
 
-    /** Whether a slot's person was another one in the previous frame, or came round a periodic edge since. */
+    /** Returns whether a slot had another person in the previous frame, or its person crossed a periodic edge. */
     another(slot) {
         const at = 8 * slot + 7, a = this.previous.bytes, b = this.next.bytes;
         return at < Math.min(a.length, b.length) && ((a[at] ^ b[at]) & FLAG.parity) !== 0;
     }
 
-    /** Where a slot's person is at a share of the way, m; null where there is nobody. */
+    /** Returns the position of a slot's person at a share of the way, m; null if the slot is empty. */
     position(slot, share) {
         if (!this.alive(slot)) return null;
         const b = this.next, a = this.previous;
@@ -106,7 +106,7 @@ export class Crowd {
         return [x, y];
     }
 
-    /** Where everybody is in the newest frame: [x, y] of each, m. */
+    /** Returns the positions of all people in the newest frame: [x, y] of each, m. */
     everybody() {
         const out = [];
         for (let slot = 0; slot < (this.next?.slots ?? 0); slot++) {
@@ -121,7 +121,7 @@ export class Crowd {
         return 2 * slot < this.person.length ? this.person[2 * slot] / 100 : 0.2;
     }
 
-    /** Where a body is in the newest frame: [x, y, z], m; null for none. */
+    /** Returns the position of a body in the newest frame: [x, y, z], m; null if there is none. */
     bodyPosition(row) {
         if (!this.next || row >= this.next.bodies) return null;
         const at = BODY * row, p = this.next.poses;

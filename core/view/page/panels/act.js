@@ -1,4 +1,4 @@
-// What a person can do to the crowd besides the tools: gates, signals, the size of boxes, a player.
+// Actions besides the tools: gates, signals, the size of boxes, a player.
 import { el, fill, say } from "../dom.js";
 
 export class ActPage {
@@ -12,7 +12,7 @@ export class ActPage {
         this.shown = "";
     }
 
-    /** Of the next box: edge in m, mass in kg. */
+    /** Returns size (edge, m) and mass (kg) of the next box. */
     box() {
         const within = (input, fallback) => {
             const v = Number(input.value);
@@ -21,7 +21,7 @@ export class ActPage {
         return { size: within(this.size, 0.4), mass: within(this.mass, 20) };
     }
 
-    /** False where the scene offers nothing of all this. */
+    /** Shows the actions that a scene offers; returns false if there are none. */
     set(scene) {
         const tools = scene.tools ?? {};
         this.page.player.set(tools.players);
@@ -53,7 +53,7 @@ export class ActPage {
         this.page.connection.input(gate.open ? "close" : "open", name);
     }
 
-    /** Takes which gates are open. */
+    /** Sets which gates are open. */
     takeGates(open) {
         for (const [name, gate] of this.gates) {
             if (!(name in (open ?? {}))) continue;

@@ -71,7 +71,7 @@ export class AgentPage {
         fill(this.memory, memory.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
     }
 
-    /** What a recording tells of a person: {slot, state, group, x, y, speed, radius}. */
+    /** Takes a person of a recording: {slot, state, group, x, y, speed, radius}. */
     takeSeen(seen) {
         this.id = `slot ${seen.slot}`;
         fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
@@ -103,7 +103,7 @@ export class AgentPage {
     }
 }
 
-/** The line of a screen reader when a person is chosen. */
+/** The text for screen readers when a person is chosen. */
 export function announce(node, agent) {
     say(node, agent ? `Agent ${agent.id}, ${agent.state}` : "");
 }

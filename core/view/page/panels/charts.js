@@ -3,7 +3,7 @@ import { Chart } from "./chart.js";
 import { el, fill } from "../dom.js";
 import { classColour, css, namedColour } from "../draw/palette.js";
 
-const KEPT = 2400; // points a series; then every second one goes
+const KEPT = 2400; // most points per series; beyond, every second one is dropped
 const STAGES = ["perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe"];
 
 /** Values over time, of names that may come and go. Times ascend; a line leads from one point to the
@@ -16,10 +16,10 @@ export class Series {
     clear() {
         this.times = [];
         this.values = new Map();
-        this.seen = []; // by point: whether all since the point before it was seen
+        this.seen = []; // by point: whether the page saw all of the time since the previous point
     }
 
-    /** `numbers`: {name: value} at time `t`, s. `since`: the time from which on all was seen until `t`, or
+    /** `numbers`: {name: value} at time `t`, s. `since`: the page has seen all from this time until `t`, or
         behind it, where it went backwards; undefined after a jump. */
     add(t, numbers, since) {
         for (const name of Object.keys(numbers)) {
@@ -29,7 +29,7 @@ export class Series {
         while (at > 0 && this.times[at - 1] >= t) at--;
         if (this.times[at] !== t) {
             this.times.splice(at, 0, t);
-            this.seen.splice(at, 0, this.seen[at] ?? false); // within what was seen, both halves are
+            this.seen.splice(at, 0, this.seen[at] ?? false); // both halves of an interval that was seen are seen
             for (const [name, list] of this.values) list.splice(at, 0, numbers[name] ?? NaN);
         }
         const from = Math.min(t, since ?? t), to = Math.max(t, since ?? t);
@@ -46,7 +46,7 @@ export class Series {
         for (const [name, list] of this.values) this.values.set(name, half(list));
     }
 
-    /** Onto a chart, with gaps where nobody looked. */
+    /** Draws onto a chart, with gaps for times that the page did not see. */
     draw(chart, colour) {
         const spread = (list, gap) => list.flatMap((v, i) => (i > 0 && !this.seen[i] ? [gap(i), v] : [v]));
         chart.draw(spread(this.times, (i) => this.times[i]), [...this.values].map(([name, values], i) => (
@@ -55,11 +55,11 @@ export class Series {
 }
 
 export class ChartsPage {
-    /** `engine`: the node of what only engineers ask for. */
+    /** `engine`: the node of charts for engineers. */
     constructor(node, engine) {
         this.node = node;
         this.engine = engine;
-        this.states = []; // of each machine
+        this.states = []; // counts by state, of each machine
         this.speed = new Series();
         this.dense = new Series();
         this.failures = new Series();
@@ -95,14 +95,14 @@ export class ChartsPage {
         this.charts.states.node.hidden = names.length === 0;
     }
 
-    /** What comes next does not follow what came last: the page was not told of all between. */
+    /** Marks a gap: the page did not get all data between the last point and the next. */
     lost() {
         this.last = null;
     }
 
     take(status) {
         const t = status.time, last = this.last;
-        if (this.live && this.speed.times[this.speed.times.length - 1] > t) { // the run began anew
+        if (this.live && this.speed.times[this.speed.times.length - 1] > t) { // the run was restarted
             for (const series of [...this.states, this.speed, this.dense, this.failures, this.flows, this.stages]) series.clear();
         }
         const since = last && last.jumps === status.jumps && (!this.live || last.time <= t) ? last.time : undefined;

@@ -1,4 +1,4 @@
-// Keys, and how long the page takes: shown by `?`.
+// The list of keys, and times that the page spends; shown by `?`.
 import { byId, el, fill, figure, say } from "../dom.js";
 
 const KEYS = [
@@ -9,7 +9,7 @@ const KEYS = [
     ["Enter", "with the picture in focus: act at its middle"], ["Esc", "let go, close"], ["?", "this"],
 ];
 
-/** Times of pictures, in ms, of the last 120: of the script, and of the graphics calls, which wait for whatever draws. */
+/** Times of the last 120 pictures, ms: of the script, and of the graphics calls, which include waiting for the card. */
 export class Meter {
     constructor() {
         this.spent = [];
@@ -18,7 +18,7 @@ export class Meter {
         this.pictures = 0;
     }
 
-    /** One picture took `ms`, of which `calls` in graphics calls; the messages before it count as script. */
+    /** Notes a picture of `ms`, `calls` of it in graphics calls; the messages before it count as script. */
     add(ms, calls) {
         this.spent.push(ms - calls + this.messages);
         this.calls.push(calls);

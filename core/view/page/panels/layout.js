@@ -1,4 +1,4 @@
-// Where the states of a machine stand in its picture: in rows by their distance from the start, each
+// Places the states of a machine in its graph: in rows by distance from the start, each
 // row ordered so that few transitions cross.
 
 const WIDE = 112, HIGH = 44, GAP = 26, ROW = 104;
@@ -60,7 +60,7 @@ function order(rows, links) {
     }
 }
 
-/** Parallel transitions and those back the other way bend away from each other. */
+/** Bends parallel and opposite transitions away from each other. */
 function bend(links, k) {
     const [from, to] = links[k];
     const same = links.slice(0, k).filter(([a, b]) => a === from && b === to).length;
@@ -76,7 +76,7 @@ function edge(nodes, from, to, aside) {
         return { path: `M${x} ${a.y - 10} C${x + 34} ${a.y - 26} ${x + 34} ${a.y + 26} ${x + 2} ${a.y + 10}`, x: x + 26, y: a.y };
     }
     const dx = b.x - a.x, dy = b.y - a.y, length = Math.hypot(dx, dy) || 1;
-    const far = length > 1.3 * ROW ? 0.16 * length : 0; // around what stands between
+    const far = length > 1.3 * ROW ? 0.16 * length : 0; // curve around the boxes in between
     const mx = (a.x + b.x) / 2 - (dy / length) * (aside + far), my = (a.y + b.y) / 2 + (dx / length) * (aside + far);
     const p = border(a, mx, my), q = border(b, mx, my);
     return {
@@ -85,7 +85,7 @@ function edge(nodes, from, to, aside) {
     };
 }
 
-/** Where the line from a box's middle towards a point leaves the box. */
+/** Returns where the line from a box's middle towards a point leaves the box. */
 function border(box, x, y) {
     const dx = x - box.x, dy = y - box.y;
     const k = Math.min(dx ? (WIDE / 2 + 2) / Math.abs(dx) : Infinity, dy ? (HIGH / 2 + 2) / Math.abs(dy) : Infinity);

@@ -12,7 +12,7 @@ function ramp(calm = false) {
     return canvas;
 }
 
-const MANY = 8; // states, that are shown whether somebody is in them or not
+const MANY = 8; // up to this number of states, empty ones are shown, too
 
 export class Legend {
     constructor() {
@@ -81,7 +81,7 @@ export class Legend {
         if (this.fieldHigh) say(this.fieldHigh, figure(this.fieldMost));
     }
 
-    /** Takes what 255 stands for: of people, or of the floor where `field`. */
+    /** Sets the value of 255, for people, or for the floor if `field`. */
     setMost(value, field = false) {
         if (field) this.fieldMost = value;
         else this.most = value;
@@ -98,7 +98,7 @@ export class Legend {
             const n = status.states?.[state.machine]?.[k];
             if (!this.counts[i]) return;
             say(this.counts[i], n === undefined ? "" : figure(n));
-            this.counts[i].parentElement.hidden = this.counts.length > MANY && !n; // of many states, those that somebody is in
+            this.counts[i].parentElement.hidden = this.counts.length > MANY && !n; // of more states, only those with people are shown
         });
     }
 }

@@ -1,4 +1,4 @@
-// The machine as a graph: how many are in each state, how many took each transition in a second.
+// The machine as a graph: people in each state, and transitions per second.
 import { el, figure, fill, say, svg } from "../dom.js";
 import { BOX, layOut } from "./layout.js";
 import { css, namedColour } from "../draw/palette.js";
@@ -14,7 +14,7 @@ export class MachinePage {
 
     set(scene) {
         const machines = scene.machines ?? [];
-        // A scene message comes whenever anything changed: what did not is not built again.
+        // Scene messages come on any change; unchanged parts are not rebuilt.
         const same = JSON.stringify([scene.states, machines.map((m) => [m.name, m.start, m.states.map((s) => s.name), m.transitions])]);
         this.scene = scene;
         this.machines = machines;
@@ -94,7 +94,7 @@ export class MachinePage {
         });
     }
 
-    /** Marks the state of the person that is looked at. */
+    /** Marks the state of the chosen person. */
     mark(name, state) {
         const machine = this.machines?.[this.at];
         this.nodes?.forEach((node, i) => node.classList.toggle("chosen", machine?.name === name && machine.states[i].name === state));

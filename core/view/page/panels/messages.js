@@ -1,4 +1,4 @@
-// What the server says: short words that go away, errors of a reload that stay until they are mended.
+// Messages of the server: short ones disappear, errors of a reload stay until they are corrected.
 import { byId, el, fill } from "../dom.js";
 
 const MOST = 8; // errors listed
@@ -11,7 +11,7 @@ export class Messages {
         this.standing = new Map();
     }
 
-    /** A line for a few seconds. The same line again only lasts longer. */
+    /** Shows a line for a few seconds. The same line again only lasts longer. */
     say(text, level = "info") {
         let line = [...this.node.children].find((p) => p.textContent === text);
         if (!line) {
@@ -23,7 +23,7 @@ export class Messages {
         line.timer = setTimeout(() => line.remove(), SHOWN[level] ?? 5000);
     }
 
-    /** A line that stays until it is taken back with an empty text. */
+    /** Shows a line that stays until an empty text replaces it. */
     stand(key, text) {
         this.standing.get(key)?.remove();
         this.standing.delete(key);
@@ -33,7 +33,7 @@ export class Messages {
         this.node.prepend(line);
     }
 
-    /** Errors of files that were saved; none hides them. */
+    /** Shows errors of saved files; an empty list hides them. */
     showErrors(errors) {
         this.errors.hidden = errors.length === 0;
         if (errors.length === 0) return fill(this.errors);

@@ -27,13 +27,13 @@ export class Panel {
         this.show("scene");
     }
 
-    /** A tab that the scene has no use for is not there. */
+    /** Hides a tab that the scene has no use for. */
     offer(name, on) {
         this.tabs[name].hidden = !on;
         if (!on && this.front === name) this.show("scene");
     }
 
-    /** A tab whose page is empty at times keeps its place, or the others would jump. */
+    /** Disables a tab whose page is empty; it keeps its place, or the others would jump. */
     enable(name, on, hint) {
         this.tabs[name].disabled = !on;
         this.tabs[name].title = on ? "" : hint;

@@ -1,4 +1,4 @@
-// Parameters of a state, changed while everybody in it goes on; and the line of Lua that keeps them.
+// Parameters of a state, changed while the run goes on; and the line of Lua that makes a change permanent.
 import { el, figure, fill, say } from "../dom.js";
 import { unitText } from "../draw/palette.js";
 
@@ -27,12 +27,12 @@ export class ParametersPage {
         const same = JSON.stringify([this.allowed, this.machines]);
         if (same === this.shown) return;
         this.shown = same;
-        this.changed.clear(); // the files have the say again, or the page's values came back with the scene
+        this.changed.clear(); // values are now those of the files, or came with the scene message
         this.machine = Math.min(this.machine, Math.max(0, this.machines.length - 1));
         this.build();
     }
 
-    /** Opens on the state with most people, unless somebody chose one; what is looked at stays. */
+    /** Opens the state with most people, unless the user chose one; a state that is shown stays. */
     take(status) {
         if (this.chosen || (this.opened && !this.node.hidden) || !this.machines?.length || !status.states?.length) return;
         const counts = status.states.flatMap((states, m) => states.map((n, s) => [n, m, s]));
@@ -54,7 +54,7 @@ export class ParametersPage {
     }
 
     build() {
-        if (this.held) { // a slider is in the hand
+        if (this.held) { // a slider is being dragged
             this.late = true;
             return;
         }
@@ -80,14 +80,14 @@ export class ParametersPage {
         this.focus(focus);
     }
 
-    /** Which control has the focus, or, given that, gives it back after a new build. */
+    /** Returns which control has the focus; given that, restores it after a rebuild. */
     focus(which) {
         if (which) return this.node.querySelector(which)?.focus();
         const at = document.activeElement, part = this.node.contains(at) && at.closest("[data-parameter]");
         return part ? `[data-parameter="${CSS.escape(part.dataset.parameter)}"] ${at.type ? `[type="${at.type}"]` : at.localName}` : null;
     }
 
-    /** First what files or people set, then what the engine has. */
+    /** Sorts parameters: first those that files or people set, then the engine's defaults. */
     list(machine, state) {
         const own = [], rest = [];
         for (const p of state.parameters) {
@@ -137,7 +137,7 @@ export class ParametersPage {
         return part;
     }
 
-    /** The newest value goes out, at most every PERIOD. */
+    /** Sends the newest value, at most every PERIOD. */
     send(key, words) {
         this.waiting ??= new Map();
         const first = !this.waiting.has(key);
@@ -150,7 +150,7 @@ export class ParametersPage {
         }, PERIOD);
     }
 
-    /** Shows the line of Lua that the server answered with. */
+    /** Shows the line of Lua in the server's answer. */
     takeLua(text) {
         if (!this.paste) return;
         const copied = el("span", { className: "faint", role: "status" });
@@ -166,13 +166,13 @@ async function copyText(text, code, said) {
     try {
         await navigator.clipboard.writeText(text);
         say(said, "copied");
-    } catch { // without the right to it, the text is at least selected
+    } catch { // without permission to copy, the text is at least selected
         window.getSelection().selectAllChildren(code);
         say(said, "selected: copy it with Ctrl+C");
     }
 }
 
-/** Ends and step of a slider: the parameter's own range where it is a handy one, else around its value. */
+/** Ends and step of a slider: the parameter's own range if it is narrow enough, else one around its value. */
 function range(p, value) {
     const size = Math.abs(value ?? 0) || 1;
     const least = Number.isFinite(p.least) && p.least > -4 * size - 10 ? p.least : -3 * size;

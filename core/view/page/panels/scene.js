@@ -1,4 +1,4 @@
-// The first tab: what this is, what to try, and how it stands.
+// The first tab: what the scene is, what to try, and its present state.
 import { clock, el, figure, fill, say } from "../dom.js";
 import { SERVICE } from "../draw/palette.js";
 import { TOOLS } from "../controls/tools.js";
@@ -48,7 +48,7 @@ export class ScenePage {
         this.show(this.exits, Object.fromEntries(Object.entries(flows).map(([name, n]) => [name, figure(n)])));
     }
 
-    /** Sentences on what came to nothing so far, of which there are none for the most part. */
+    /** Shows sentences on parts of the scene that have had no effect so far; mostly there are none. */
     showHints(hints) {
         const known = hints.join("\n");
         if (this.hinted === known) return;
@@ -57,7 +57,7 @@ export class ScenePage {
         fill(this.hints, hints.map((hint) => el("li", {}, hint)));
     }
 
-    /** Rows of names and values, of which only what changed is written anew. */
+    /** Shows rows of names and values; only changed ones are written again. */
     show(list, rows) {
         const names = Object.keys(rows).join("\n");
         if (this.rows.get(list)?.names !== names) {

@@ -1,5 +1,5 @@
-// The space of velocities of one person: what each half-plane forbids, what was wanted, what was
-// chosen. The axes are those of the scene, in m/s.
+// The velocity space of one person: half-planes, the preferred velocity and the one
+// that was chosen. The axes are those of the scene, in m/s.
 import { fill, svg } from "../dom.js";
 
 const SIDE = 300; // SVG units
