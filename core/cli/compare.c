@@ -76,6 +76,7 @@ static const CliOption OPTIONS[] = {
 
 /* ---- finding the sides ---- */
 
+/* Returns what an argument is; a path that does not exist may name a scene. */
 static Kind find_side_kind(const char *path) {
     const char *dot = strrchr(path, '.');
     struct stat status;
@@ -208,6 +209,7 @@ static void confine_compare(const Compare *compare) {
     cli_confine_work(&reach, compare->trusted);
 }
 
+/* Measures each recording by jo_report; its JSON goes to `summaries`. */
 static int measure_recordings(Compare *compare) {
     compare->summaries = jox_alloc(compare->count, sizeof *compare->summaries);
     for (size_t s = 0; s < compare->count; s++) {
@@ -226,6 +228,7 @@ static int measure_recordings(Compare *compare) {
     return JO_OK;
 }
 
+/* Compares the sides, prints the table, and writes the outputs. */
 static int print_comparison(Compare *compare) {
     JoError error = {0};
     char *json = NULL;
@@ -247,6 +250,8 @@ static int print_comparison(Compare *compare) {
     return status;
 }
 
+/* Runs, measures and compares the sides. Only the runs of scenes can be interrupted and
+   continued. */
 static int compare_arguments(Compare *c, const CliList *plain) {
     cli_limit_work(c->trusted);
     cli_catch_signals(true);

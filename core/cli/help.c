@@ -60,6 +60,7 @@ static void add_option_meaning(JoxText *out, const CliOption *o) {
         jox_text_printf(out, " (default: %s)", o->standard);
 }
 
+/* Appends an option and its meaning, in two columns. */
 static void add_option(JoxText *out, const CliOption *o) {
     JoxText name = {0}, meaning = {0};
     if (o->kind == CLI_HEADING) {
@@ -118,6 +119,7 @@ static void add_roff(JoxText *out, const char *text, size_t length) {
     }
 }
 
+/* Appends paragraphs as roff; lines that begin with a blank are not filled. */
 static void add_roff_paragraphs(JoxText *out, const char *text) {
     bool literal = false;
     while (text && *text) {

@@ -38,6 +38,7 @@ static void ignore_message(void *context, const char *text) {
     (void)text;
 }
 
+/* Loads the kept scene dry from its kept texts. */
 static void load_kept_scene(Kept *kept) {
     JoSceneDef def = *kept->def;
     def.threads = 1;
@@ -134,6 +135,7 @@ static void serve_requests(int socket, const JoSceneDef *def, const JoxOverlay *
 
 /* ---- in the parent ---- */
 
+/* Sends a request to the keeper; false if it is gone. */
 static bool send_vetting_request(const CliKeeper *keeper, const JoVetting *what) {
     JoxText paths = {0};
     for (size_t b = 0; b < what->behaviour_count; b++)

@@ -119,6 +119,7 @@ static int read_whole_number(const Reading *r, const CliOption *o, const char *t
     return CLI_GO_ON;
 }
 
+/* Stores the value of an option by its kind; CLI_GO_ON, or JO_USAGE with a message. */
 static int store_value(const Reading *r, const CliOption *o, const char *text) {
     char why[200];
     bool yes = true;
@@ -171,6 +172,7 @@ static int read_option(Reading *r, const char *word) {
     return value || !o->argument ? store_value(r, o, value) : CLI_GO_ON;
 }
 
+/* Adds a plain argument, if the command takes another one. */
 static int read_plain_argument(const Reading *r, CliList *plain, const char *text) {
     char why[200];
     const CliCommand *command = r->command;

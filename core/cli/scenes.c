@@ -88,6 +88,7 @@ typedef struct Found {
     size_t count;
 } Found;
 
+/* Adds a path if the file exists and is not the same as one found before. */
 static void add_found_path(Found *found, const char *folder, const char *name) {
     const char *path = join_scene_path(folder, name, ".yaml");
     struct stat info, other;

@@ -158,6 +158,7 @@ static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
     fputs("\n", stderr);
 }
 
+/* Prints the counts and writes the CSV table; returns the exit status. */
 static int finish_sweep(const Sweep *sweep, const JoSweepCounts *counts) {
     JoError error = {0};
     print_counts(sweep, counts);

@@ -49,6 +49,7 @@ static bool await_data(CliSource *source) {
     return false;
 }
 
+/* Receives exactly `count` bytes; false at the end of the data, or if reading is given up. */
 static bool receive_bytes_of_child(CliSource *source, void *bytes, size_t count) {
     for (char *at = bytes; count > 0;) {
         if (!await_data(source))

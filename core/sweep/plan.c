@@ -34,6 +34,7 @@ static bool refuse_set(JoError *error, const char *set, const char *what) {
     return false;
 }
 
+/* Adds the value between `from` and `to`, without blanks around it. */
 static bool add_axis_value(JoxSweepAxis *axis, const char *set, const char *from, const char *to,
                            JoError *error) {
     while (from < to && isspace((unsigned char)*from))
@@ -52,6 +53,7 @@ static int compare_values(const void *a, const void *b) {
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
+/* Returns whether a value stands twice in the list. */
 static bool has_twice(const JoxSweepAxis *axis) {
     char **sorted = jox_alloc(axis->count, sizeof *sorted);
     bool twice = false;
@@ -63,6 +65,7 @@ static bool has_twice(const JoxSweepAxis *axis) {
     return twice;
 }
 
+/* Reads "PATH=A,B,C" into an axis; false with `error`. */
 static bool read_axis(JoxSweepAxis *axis, const char *set, JoError *error) {
     const char *equals = strchr(set, '=');
     if (!equals || equals == set)
@@ -168,6 +171,7 @@ static const char *find_set_line(const char *key, const char *path, size_t lengt
     return NULL;
 }
 
+/* Compares two lines, each of which ends at a line break or may be NULL. */
 static bool are_lines_equal(const char *a, const char *b) {
     const size_t n = a ? strcspn(a, "\n") : 0, m = b ? strcspn(b, "\n") : 0;
     return !a == !b && n == m && strncmp(a ? a : "", b ? b : "", n) == 0;

@@ -22,6 +22,7 @@ static void bind_run(sqlite3_stmt *s, const RunWriter *p) {
     sqlite3_bind_int64(s, 2, (sqlite3_int64)p->seed);
 }
 
+/* Binds a number; NULL if it is not finite. */
 static void bind_number(sqlite3_stmt *s, int at, double value) {
     if (isfinite(value))
         sqlite3_bind_double(s, at, value);
@@ -37,6 +38,7 @@ static bool step_insert(RunWriter *p, sqlite3_stmt *s) {
     return p->good;
 }
 
+/* Inserts a figure of a summary; called for each item of its JSON. */
 static bool insert_figure(void *context, const JoxJsonItem *item) {
     RunWriter *p = context;
     if ((item->kind != JOX_JSON_NUMBER && item->kind != JOX_JSON_NULL) ||
@@ -61,6 +63,7 @@ static bool insert_figures(RunWriter *p, const char *summary) {
     return p->good;
 }
 
+/* Finds the id of a curve's name, and adds the name if it is missing. */
 static bool find_curve_id(RunWriter *p, const JoxSweepCurve *curve, int64_t *id) {
     sqlite3_stmt *s = jox_sweep_prepare(
         p->store, "INSERT INTO curve_name(name, unit) VALUES(?, ?) ON CONFLICT DO NOTHING",
@@ -118,6 +121,7 @@ static bool insert_field(RunWriter *p, const JoxSweepField *field) {
     return p->good = jox_sweep_step_once(p->store, s, p->error);
 }
 
+/* Stores the plan with the variant; the first run of a variant that has one provides it. */
 static bool insert_plan(RunWriter *p, const char *plan) {
     sqlite3_stmt *s = jox_sweep_prepare(
         p->store, "UPDATE variant SET plan = ? WHERE id = ? AND plan IS NULL", p->error);
@@ -196,6 +200,8 @@ static bool insert_piece(RunWriter *p, const JoxPiece *piece) {
     return p->good;
 }
 
+/* Replaces the rows of the run by those of its pieces. Without a valid "state" the run counts as
+   failed. */
 static bool insert_pieces(RunWriter *p, const JoxText *pieces) {
     uint32_t state = JOX_SWEEP_FAILED;
     JoxSweepNumbers numbers = {0};

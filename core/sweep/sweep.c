@@ -161,6 +161,8 @@ static bool open_file(Sweep *s, JoError *error) {
 
 /* ---- the runs ---- */
 
+/* Shows on stderr how many runs have ended, and an estimate of the time left: on a terminal one
+   line that is rewritten, else a line for each tenth of the runs. */
 static void show_sweep_progress(Sweep *s, uint32_t running, bool last) {
     const uint32_t all = s->counts.runs, ended = s->counts.done + s->counts.failed;
     const uint32_t own = ended - s->counts.kept, tenth = all ? 10 * ended / all : 10;
@@ -212,6 +214,7 @@ static void count_state(Sweep *s, JoxSweepState state) {
     s->counts.failed += state == JOX_SWEEP_FAILED;
 }
 
+/* Stores the results of a child that ended well, and counts and reports the run. */
 static bool take_result(Sweep *s, const Job *job, const JoxText *pieces, JoError *error) {
     const char *reason = NULL, *said = NULL;
     uint32_t state = JOX_SWEEP_FAILED;
@@ -232,6 +235,7 @@ static bool take_result(Sweep *s, const Job *job, const JoxText *pieces, JoError
     return true;
 }
 
+/* Stores what a child left: its results, or why it failed. */
 static bool take_end(Sweep *s, const JoxChildEnd *end, JoError *error) {
     const Job *job = &s->jobs[end->job];
     if (end->good)
@@ -309,6 +313,8 @@ static char *aggregate_summaries(Sweep *s, JoError *error) {
     return all;
 }
 
+/* Reads the inputs, opens the file and does the runs. *summary, unless NULL, becomes the aggregate
+   of all runs. Returns false with `error`, also if the sweep was stopped. */
 static bool run_sweep(Sweep *s, char **summary, JoError *error) {
     s->refused = jox_alloc(s->plan.variant_count, sizeof *s->refused);
     if (!jox_sweep_load_inputs(s->def, &s->plan, (const char *const *)s->names, &s->files,

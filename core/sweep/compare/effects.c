@@ -67,6 +67,8 @@ static Samples pair_samples(const JoxSide *base, const JoxSide *other, const cha
     return s;
 }
 
+/* Computes the difference of a figure between a side and the base: paired or not, by t or by
+   bootstrap, as the def says. */
 static JoxDifference measure_difference(const JoxComparison *c, const JoxSide *other,
                                         const char *name) {
     const JoxSide *base = &c->sides.items[c->base];
@@ -85,6 +87,7 @@ static JoxDifference measure_difference(const JoxComparison *c, const JoxSide *o
     return d;
 }
 
+/* Returns whether a figure has two different values in any runs of any sides. */
 static bool is_varied(const JoxComparison *c, const char *name) {
     double first = NAN;
     for (uint32_t s = 0; s < c->sides.count; s++) {
@@ -100,7 +103,8 @@ static bool is_varied(const JoxComparison *c, const char *name) {
     return false;
 }
 
-static bool same_values(const JoxComparison *c, const char *a, const char *b) {
+/* Returns whether two figures have the same value in every run of every side. */
+static bool have_equal_values(const JoxComparison *c, const char *a, const char *b) {
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
         const JoxSideFigure *f = jox_side_find_figure(side, a), *g = jox_side_find_figure(side, b);
@@ -117,7 +121,7 @@ static void demote_duplicates(JoxComparison *c) {
     for (uint32_t f = 1; f < c->count; f++)
         for (uint32_t g = 0; g < f && c->figures[f].words.is_key; g++)
             if (c->figures[g].words.is_key &&
-                same_values(c, c->figures[f].figure, c->figures[g].figure))
+                have_equal_values(c, c->figures[f].figure, c->figures[g].figure))
                 c->figures[f].words.is_key = false;
 }
 

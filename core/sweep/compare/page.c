@@ -16,10 +16,12 @@ static void put_mean(FILE *out, double value, const char *unit) {
 
 /* ---- in sentences ---- */
 
+/* Returns whether a figure is in the summary and in the table of percentiles. */
 static bool is_summarised(const JoxCompared *f) {
     return f->varies && f->words.is_key;
 }
 
+/* Appends a number with three digits, or all before the point; with `sign`, also "+". */
 static void add_number(JoxText *out, double value, bool sign) {
     if ((value == floor(value) || fabs(value) >= 100) && fabs(value) < 1e9)
         jox_text_printf(out, sign ? "%+.0f" : "%.0f", value);
@@ -168,6 +170,8 @@ static void put_sides_table(FILE *out, const JoxComparison *c) {
 
 /* ---- figures ---- */
 
+/* Writes a cell with the verdict; if the sides are not told apart, also with the number of runs
+   needed. */
 static void put_verdict_cell(FILE *out, const JoxDifference *d) {
     const char *verdict = jox_compare_verdict(d);
     char text[160];
@@ -180,6 +184,7 @@ static void put_verdict_cell(FILE *out, const JoxDifference *d) {
     fputs(strcmp(verdict, "differs") == 0 ? "</b>" : "", out);
 }
 
+/* Writes a row for each side that has the figure, except the base. */
 static void put_figure_rows(FILE *out, const JoxComparison *c, const JoxCompared *figure) {
     bool first = true;
     for (uint32_t s = 0; s < c->sides.count; s++) {
@@ -221,6 +226,7 @@ static void put_figure_rows(FILE *out, const JoxComparison *c, const JoxCompared
     }
 }
 
+/* Writes the table of all key figures that vary, or of all others. */
 static void put_figures_table(FILE *out, const JoxComparison *c, bool keys) {
     const JoxSide *base = &c->sides.items[c->base];
     const bool two = c->sides.count == 2;

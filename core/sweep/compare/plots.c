@@ -43,6 +43,7 @@ const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n) {
     return NULL;
 }
 
+/* Writes the data of curve-N.svg, a block for each side: time, mean, 5 % and 95 %. */
 static bool write_curve_data(const JoxComparison *c, uint32_t n, JoxText *why) {
     char name[40];
     snprintf(name, sizeof name, "curve-%u.dat", n + 1);
@@ -72,6 +73,7 @@ static void add_plot_part(FILE *script, bool *first, uint32_t n, uint32_t s, con
     *first = false;
 }
 
+/* Adds the commands of curve-N.svg to the script: bands first, lines over them. */
 static void draw_curve(const JoxComparison *c, uint32_t n, FILE *script) {
     const JoxSideCurve *curve = jox_compare_curve(c, n);
     char stem[40], how[160];
@@ -208,6 +210,7 @@ static void put_tic(FILE *script, const char *text) {
     jox_text_free(&label);
 }
 
+/* Adds the commands of effects.svg to the script: a row for each figure, a colour for each side. */
 static void draw_effects(const JoxComparison *c, FILE *script) {
     const uint32_t rows = jox_compare_count_effect_rows(c);
     const uint32_t each = 22 + 9 * (c->sides.count - 2);

@@ -47,6 +47,7 @@ typedef struct Samples {
     size_t cells;
 } Samples;
 
+/* Returns the place of a sample in `values`. */
 static double *get_sample(const Samples *s, int curve, int time, uint32_t run) {
     return &s->values[((size_t)curve * SAMPLES + (size_t)time) * s->side->runs + run];
 }
@@ -96,6 +97,7 @@ static void add_recording_field(Samples *s) {
     jox_side_add_field(s->side, true, &field, s->most);
 }
 
+/* Adds the curves to the side, at times for which at least half of the recordings have a value. */
 static void add_recording_curves(Samples *s) {
     const double every = s->length > 0 ? s->length / (SAMPLES - 1) : 1;
     for (int curve = 0; curve < CURVES; curve++) {
@@ -152,6 +154,7 @@ static bool measure_extent(Samples *s, const char *const *paths, const JoCompare
     return true;
 }
 
+/* Reads each recording again, samples it, and adds its field; the first one provides the plan. */
 static bool sample_all(Samples *s, const char *const *paths, const JoCompareDef *def,
                        JoError *error) {
     for (uint32_t run = 0; run < s->side->runs; run++) {

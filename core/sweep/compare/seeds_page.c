@@ -14,6 +14,7 @@
 
 /* ---- figures of all runs ---- */
 
+/* Writes a row with the spread of a figure over the runs. */
 static void put_spread_row(FILE *out, const char *title, const JoxSpread *s, const char *unit) {
     const double values[] = {s->mean, s->least, s->p5, s->median, s->p95, s->most};
     JoxText name = {0};
@@ -154,6 +155,7 @@ static void put_probe_tables(FILE *out, const JoxSide *side, const JoxSideDrawn 
 
 /* ---- runs and inputs ---- */
 
+/* Writes a row for each run, or the reason why it is left out. */
 static void put_runs_table(FILE *out, const JoxSide *side) {
     static const char *const COLUMNS[] = {
         "danger.left",        "danger.inside", "danger.leaving_s.p50",
@@ -202,6 +204,7 @@ static void put_sets(FILE *out, const char *lines) {
     }
 }
 
+/* Writes the command line that repeats the runs. */
 static void put_repeat_command(FILE *out, const JoxSide *side) {
     const char *duration = jox_side_find_note(side, "duration"),
                *step = jox_side_find_note(side, "step");

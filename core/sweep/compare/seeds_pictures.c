@@ -59,6 +59,7 @@ static bool write_spread_data(const JoxSide *side, const char *folder, JoxText *
     return jox_plot_close(out, "spread.dat", why);
 }
 
+/* Adds the plot of a curve with its bands: all runs, 5 to 95 %, median. */
 static void plot_bands(FILE *script, const JoxSide *side, const JoxSideCurve *curve) {
     const unsigned at = (unsigned)(curve - side->curves);
     fprintf(script,
@@ -68,6 +69,7 @@ static void plot_bands(FILE *script, const JoxSide *side, const JoxSideCurve *cu
             at, at, at);
 }
 
+/* Adds one plot with the curves of all exits. */
 static void plot_exits(FILE *script, const JoxSide *side) {
     static const char *const COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                           "#e69f00", "#56b4e9", "#555555", "#000000"};
@@ -89,6 +91,7 @@ static void plot_exits(FILE *script, const JoxSide *side) {
     fputc('\n', script);
 }
 
+/* Draws spread.svg and PNG, strips below each other; nothing if there are no curves. */
 static bool draw_spread(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
     const char *folder = drawn->subject.folder;
     int strips = 0;
@@ -149,6 +152,7 @@ static const struct {
              "% of the runs in which it ever was that dense here", JOX_FIELD_OFTEN, false}};
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
+/* Returns whether a map shows anything. */
 static bool has_map(const JoxSide *side, int map) {
     return side->fields[MAPS[map].kind].values &&
            (MAPS[map].density || jox_side_field_max(side, MAPS[map].kind) > 0);

@@ -143,6 +143,7 @@ static void read_part(Reading *r, const JoxJsonItem *item) {
     }
 }
 
+/* Takes an item of the JSON: the area, the beginning of a part, or a value of the part. */
 static bool read_item(void *context, const JoxJsonItem *item) {
     Reading *r = context;
     if (item->depth == 2 && item->kind == JOX_JSON_NUMBER && r->corners < 4 &&

@@ -31,6 +31,7 @@ static sqlite3_stmt *prepare_for_variant(const JoxSweepStore *store, const char 
     return s;
 }
 
+/* Reads the states of all runs of a variant; those that are done are compared. */
 static bool read_side_runs(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                            JoError *error) {
     sqlite3_stmt *s = prepare_for_variant(
@@ -71,6 +72,7 @@ static uint32_t find_run_by_seed(const JoxSide *side, uint64_t seed) {
     return low < side->runs && side->seeds[low] == seed ? low : side->runs;
 }
 
+/* Reads the figures of the compared runs. */
 static bool read_side_figures(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                               JoError *error) {
     sqlite3_stmt *s = prepare_for_variant(
@@ -108,6 +110,8 @@ static void add_moment(JoxSide *side, JoxSideCurve *curve, double time, double *
     jox_side_add_point(curve, time, values, count);
 }
 
+/* Reads the curves of the compared runs, point by point in order of time, and reduces each point
+   over the runs. */
 static bool read_curves(const JoxSweepStore *store, int64_t variant, JoxSide *side,
                         JoError *error) {
     sqlite3_stmt *s =
@@ -159,6 +163,7 @@ static bool read_notes(const JoxSweepStore *store, const char *sql, JoxSideNotes
     return finish_statement(store, s, code == SQLITE_ROW ? SQLITE_DONE : code, error);
 }
 
+/* Finds the title in the JSON of a plan. */
 static bool find_title(void *context, const JoxJsonItem *item) {
     JoxSide *side = context;
     if (item->kind == JOX_JSON_TEXT && !strcmp(item->path, "title") && !side->title)

@@ -8,6 +8,7 @@
 
 enum { WORDS = 46, NUMBER = 11 };
 
+/* Appends a number with four digits, right-aligned; "-" if it is not finite. */
 static void add_number_column(JoxText *out, double value, int width, bool sign) {
     char text[40];
     if (!isfinite(value))
@@ -67,6 +68,7 @@ static bool is_figure_listed(const JoxComparison *c, const JoxCompared *f) {
     return f->varies && (c->def->all || f->words.is_key);
 }
 
+/* Appends the differences of a side from the base, one figure a line. */
 static void add_differences(const JoxComparison *c, uint32_t s, JoxText *out) {
     uint32_t differ = 0, told = 0, thin = 0;
     jox_text_printf(out, "\n%s minus %s:\n%-*s%*s%*s%*s  %.0f %% interval\n",
@@ -149,6 +151,7 @@ static void add_spread_table(const JoxComparison *c, JoxText *out) {
 
 /* ---- percentiles ---- */
 
+/* Appends the percentile, the worst value and the bound of a figure of one side. */
 static void add_percentile_row(const JoxComparison *c, const JoxCompared *figure, uint32_t s,
                                JoxText *out) {
     const double q = c->def->percentile / 100;

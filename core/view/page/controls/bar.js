@@ -20,7 +20,7 @@ export class Bar {
         this.node = byId("bar");
         this.menu = byId("menu");
         this.units = [];
-        this.more = el("button", { type: "button", className: "iconed", id: "more", title: "More: what has no room in the bar",
+        this.more = el("button", { type: "button", className: "iconed", id: "more", title: "More: controls without room in the bar",
             "aria-expanded": "false", "aria-controls": "menu", onclick: () => this.open(this.menu.hidden) }, icon("more"), el("span", { className: "words" }, "More"));
         this.node.append(this.more);
         this.menu.addEventListener("keydown", (event) => {

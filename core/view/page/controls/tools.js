@@ -11,10 +11,10 @@ const HARDEST = 1500; // N
 const PERIOD = 50; // ms between commands of one gesture
 
 export const TOOLS = {
-    select: { name: "Look", key: "1", hint: "Click a person. Drag turns, right drag slides, wheel nears." },
-    throw: { name: "Throw", key: "2", hint: "Press where a box starts, draw to where it is to land, let go." },
-    drag: { name: "Drag", key: "3", hint: "Press a body and draw it along." },
-    push: { name: "Push", key: "4", hint: `Press a person and draw: ${NEWTONS} N for each metre.` },
+    select: { name: "Look", key: "1", hint: "Click a person. Drag turns, right drag pans, the wheel zooms." },
+    throw: { name: "Throw", key: "2", hint: "Press where a box starts, drag to where it should land, release." },
+    drag: { name: "Drag", key: "3", hint: "Press a body and drag it along." },
+    push: { name: "Push", key: "4", hint: `Press a person and drag: ${NEWTONS} N for each metre.` },
 };
 
 /** Velocity (m/s) with which a box thrown from `from` comes down at `to`; [x, y] in m. */

@@ -54,7 +54,7 @@ export class AgentPage {
             el("p", {}, el("strong", {}, message.last.from ? `${message.last.from} → ${message.last.to} at ${clock(message.last.time)}` : `In ${message.last.to} since ${clock(message.last.time)}`),
                 message.last.from ? null : ", which was before it was looked at"),
             message.last.why ? el("code", { className: "code" }, message.last.why) : null,
-        ] : el("p", { className: "faint" }, "None since it is looked at."));
+        ] : el("p", { className: "faint" }, "None since it was chosen."));
         drawVelocities(this.picture, message);
         this.unseen.hidden = message.max_speed > 0 || (message.planes ?? []).length > 0;
         fill(this.planes, Object.entries(KINDS).map(([kind, name]) => {
@@ -83,7 +83,7 @@ export class AgentPage {
         this.id = agent.id;
         this.state = el("div");
         this.failed = el("p", { hidden: true, className: "warning" },
-            "No velocity satisfies all half-planes: the one that breaks them least was taken.");
+            "No velocity satisfies all half-planes: the one that violates them least was taken.");
         this.last = el("div");
         this.picture = svg("svg", { class: "velocity", role: "img", "aria-label": "Velocities: forbidden half-planes, the preferred and the chosen one" });
         this.unseen = el("p", { className: "faint" }, "Known from the next step on.");

@@ -78,7 +78,7 @@ export class ChartsPage {
         this.choice = el("label", {}, "Machine", this.machine);
         const { failures, stages, ...crowd } = this.charts;
         fill(node, el("div", { className: "row" }, this.choice), Object.values(crowd).map((c) => c.node));
-        fill(engine, el("p", { className: "faint" }, "What a step costs, and how many people's programs have no solution: theirs is the velocity that breaks them least."),
+        fill(engine, el("p", { className: "faint" }, "The cost of a step, and the people whose linear program has no solution: they take the velocity that violates it least."),
             stages.node, failures.node);
     }
 
