@@ -272,7 +272,7 @@ static const JoxKey KEYS[] = {
      .meaning = "values in place of those that the group sets"},
 
     {"step", "to", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, to, to),
-     .meaning = "place to walk to, by whatever way gets there soonest; of a set, to the member that is reached soonest. Who waits in a polygon moves up to its front while there is room, and stands 0.9 m from others, or closer, to 0.53 m, where they are many; those for whom there is none wait behind it"},
+     .meaning = "place to walk to, by whatever way gets there soonest; of a set, to the member that is reached soonest. Who waits in a polygon moves up to its front while there is room, and stands 0.9 m from others, or closer, to 0.51 m, where they are many; those for whom there is none wait behind it"},
     {"step", "front", TEXT, "", 0, 0, "", READ_TO(jox_key_place, JoxJourneyStep, front, front), .example = "front: stage",
      .meaning = "place that people look at while they wait, and towards which they fill a polygon. Not given: its side away from where they come from, which is the place of the step before, or where they start"},
     {"step", "queue", NAMES, "", 0, 0, "", READ(jox_key_queues),

@@ -158,6 +158,22 @@ static void spots_keep_off_fixed_bodies(void **state) {
     assert_in_range(rest.moved, 0, 2);
 }
 
+/* `gather` leads there also from far away and from behind a wall. */
+static void people_far_away_come_by_routes(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own("jostle: 1\nplaces:\n"
+                 "  front: {polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
+                 "  far: {polygon: [[0, -14], [6, -14], [6, -11], [0, -11]]}\n"
+                 "walls: [{line: [[-8, 2], [-8, -6], [14, -6], [14, 6]]}]\n"
+                 "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
+                 HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
+                      " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
+    const Rest rest = settle(scene, 50);
+    assert_true(rest.inside >= 19); /* people in front shift about on its edge */
+    assert_in_range(rest.moved, 0, 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(people_go_round_walls_to_their_spots),
@@ -165,6 +181,7 @@ int main(void) {
         cmocka_unit_test(both_sides_of_a_wall_are_filled),
         cmocka_unit_test(people_without_room_stand_still_about_the_place),
         cmocka_unit_test(spots_keep_off_fixed_bodies),
+        cmocka_unit_test(people_far_away_come_by_routes),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
