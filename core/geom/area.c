@@ -97,7 +97,7 @@ static void polygon_edge(const JoxPlace *place, uint32_t e, JoxV2 *from, JoxV2 *
 }
 
 static Strips polygon_strips(const JoxPlace *place) {
-    if (place->kind != JOX_PLACE_POLYGON)
+    if (!jox_place_is_area(place))
         return (Strips){0};
     Range *ranges = jox_alloc(place->count + 1, sizeof *ranges);
     for (uint32_t e = 0; e < place->count; e++) {

@@ -14,31 +14,18 @@ static const double ALIKE = 0.9; /* of the greatest piece: those as large are al
 
 /* ---- the floor ---- */
 
-static double area_of(const JoxPlace *place) {
-    if (place->kind == JOX_PLACE_POINT)
-        return PI * (double)place->radius * (double)place->radius;
-    if (place->kind == JOX_PLACE_POLYGON)
-        return fabs(jox_polygon_area(place->points, place->count));
-    return 2.0 * (double)JOX_ENTRANCE_REACH *
-           (double)jox_length(jox_sub(place->points[1], place->points[0]));
-}
-
 /* A floor is no smaller than a circle of the reach: somebody has room there. */
 static void lay_floor(JoxEntrance *e, const JoxPlace *place) {
     const double circle = PI * (double)JOX_ENTRANCE_REACH * (double)JOX_ENTRANCE_REACH;
-    JOX_ASSERT(place->kind != JOX_PLACE_SET);
+    JOX_ASSERT(!jox_place_is_set(place));
     jox_place_copy(&e->floor, place);
-    e->area = area_of(place);
+    e->area = jox_place_floor(place);
     if (e->area < circle) {
         e->area = circle;
-        e->floor.kind = JOX_PLACE_POINT;
-        e->floor.points[0] = place->centre;
-        e->floor.radius = JOX_ENTRANCE_REACH;
+        jox_place_make_spot(&e->floor, place->centre, JOX_ENTRANCE_REACH);
+    } else if (!jox_place_is_area(place) && !jox_place_is_spot(place)) {
+        jox_place_make_line(&e->floor);
     }
-    if (e->floor.kind == JOX_PLACE_QUEUE)
-        e->floor.kind = JOX_PLACE_LINE;
-    if (e->floor.kind != JOX_PLACE_POLYGON)
-        e->floor.count = e->floor.kind == JOX_PLACE_LINE ? 2 : 1;
     jox_place_finish(&e->floor);
 }
 
@@ -48,9 +35,9 @@ static bool is_of_floor(const JoxEntrance *e, JoxV2 p) {
 
 /* Whether a point of the floor belongs to the place as it was given. */
 static bool is_given(const JoxPlace *place, float cell, JoxV2 p) {
-    if (place->kind == JOX_PLACE_POLYGON)
+    if (jox_place_is_area(place))
         return jox_polygon_contains(place->points, place->count, p);
-    if (place->kind == JOX_PLACE_POINT)
+    if (jox_place_is_spot(place))
         return jox_length(jox_sub(p, place->centre)) <= jox_maxf(place->radius, cell);
     const JoxV2 nearest = jox_segment_nearest(place->points[0], place->points[1], p);
     return jox_length(jox_sub(p, nearest)) <= CLEAR;
@@ -73,9 +60,9 @@ static uint32_t cell_at(const JoxEntrance *e, JoxV2 p) {
 /* Corners of the box about the floor. */
 static void find_box(const JoxEntrance *e, JoxV2 *low, JoxV2 *high) {
     const JoxPlace *floor = &e->floor;
-    const float beside = floor->kind == JOX_PLACE_POINT  ? floor->radius
-                         : floor->kind == JOX_PLACE_LINE ? JOX_ENTRANCE_REACH
-                                                         : 0.0f;
+    const float beside = jox_place_is_spot(floor)   ? floor->radius
+                         : jox_place_is_line(floor) ? JOX_ENTRANCE_REACH
+                                                    : 0.0f;
     jox_bounds(floor->points, floor->count, low, high);
     *low = jox_sub(*low, (JoxV2){beside, beside});
     *high = jox_add(*high, (JoxV2){beside, beside});
@@ -157,7 +144,7 @@ static bool is_preferred(const JoxEntrance *e, const uint32_t *list, Piece befor
     const JoxV2 a = middle_of(e, list[before.first]), b = middle_of(e, list[piece.first]);
     const uint32_t rooms_a = count_rooms(e->grid->walls, a),
                    rooms_b = count_rooms(e->grid->walls, b);
-    if (rooms_a != rooms_b || e->floor.kind != JOX_PLACE_LINE)
+    if (rooms_a != rooms_b || !jox_place_is_line(&e->floor))
         return rooms_b > rooms_a;
     const JoxV2 from = e->floor.points[0], way = jox_sub(e->floor.points[1], from);
     return jox_det(way, jox_sub(b, from)) > jox_det(way, jox_sub(a, from));

@@ -55,7 +55,7 @@ static bool is_clear(const JoxStandable *ground, JoxV2 p, float clear) {
 
 void jox_lattice_lay(JoxLattice *s, const JoxPlace *place, const JoxStandable *ground,
                      uint32_t part, JoxV2 ahead, float spacing, float clear) {
-    JOX_ASSERT(place->kind == JOX_PLACE_POLYGON && spacing > 0.0f);
+    JOX_ASSERT(jox_place_is_area(place) && spacing > 0.0f);
     const Frame l = make_frame(place, ahead, spacing);
     JOX_RESERVE(s->at, s->capacity, l.rows * l.columns);
     JOX_RESERVE(s->row_first, s->row_capacity, l.rows + 1);

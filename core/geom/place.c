@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "simd/four.h"
 
+static const double PI = 3.14159265358979323846;
 static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
 
 /* Principal direction of a ring's corners about `centre`: the eigenvector of the larger eigenvalue
@@ -27,7 +28,7 @@ static JoxV2 principal(const JoxPlace *place) {
 
 static void finish_axis(JoxPlace *place) {
     place->axis_a = place->axis_b = place->centre;
-    if (place->kind != JOX_PLACE_POLYGON) {
+    if (!jox_place_is_area(place)) {
         place->axis_radius = place->radius;
         return;
     }
@@ -157,6 +158,7 @@ static JoxV2 to_member(const JoxPlace *places, const JoxPlace *place, JoxV2 poin
 
 const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
     [JOX_PLACE_POINT] = {.name = "point",
+                         .form = JOX_FORM_SPOT,
                          .least_points = 1,
                          .most_points = 1,
                          .outline = JOX_OUTLINE_CIRCLE,
@@ -167,6 +169,7 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                          .meaning = "a spot with a `radius`. Agents are inside while they are "
                                     "nearer than that."},
     [JOX_PLACE_LINE] = {.name = "line",
+                        .form = JOX_FORM_LINE,
                         .least_points = 2,
                         .most_points = 2,
                         .outline = JOX_OUTLINE_OPEN,
@@ -178,6 +181,7 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                             "from the right of the line to its left, looking from the first point "
                             "to the second."},
     [JOX_PLACE_POLYGON] = {.name = "polygon",
+                           .form = JOX_FORM_AREA,
                            .least_points = 3,
                            .most_points = UINT32_MAX,
                            .outline = JOX_OUTLINE_RING,
@@ -187,6 +191,7 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                            .meaning = "an area. Agents go about it (`orbit`), and with a `start` "
                                       "line their circuits are counted, anti-clockwise."},
     [JOX_PLACE_QUEUE] = {.name = "queue",
+                         .form = JOX_FORM_QUEUE,
                          .least_points = 2,
                          .most_points = UINT32_MAX,
                          .outline = JOX_OUTLINE_OPEN,
@@ -197,6 +202,7 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                          .meaning = "a line with bends in which people stand one behind the "
                                     "other, `spacing` apart; its first point is the head."},
     [JOX_PLACE_SET] = {.name = "set",
+                       .form = JOX_FORM_SET,
                        .contains = in_member,
                        .nearest = to_member,
                        .meaning = "several places under one name: to be in one of them is to be "
@@ -232,15 +238,42 @@ void jox_place_finish(JoxPlace *place) {
     finish_axis(place);
 }
 
-/* m: how far from its points somebody may be inside it. */
+double jox_place_floor(const JoxPlace *place) {
+    switch (jox_place_form(place)) {
+    case JOX_FORM_SPOT:
+        return PI * (double)place->radius * (double)place->radius;
+    case JOX_FORM_AREA:
+        return fabs(jox_polygon_area(place->points, place->count));
+    case JOX_FORM_SET:
+        return INFINITY;
+    default:
+        return 2.0 * (double)LINE_REACH *
+               (double)jox_length(jox_sub(place->points[1], place->points[0]));
+    }
+}
+
+void jox_place_make_spot(JoxPlace *place, JoxV2 at, float radius) {
+    place->kind = JOX_PLACE_POINT;
+    place->points[0] = at;
+    place->count = 1;
+    place->radius = radius;
+}
+
+void jox_place_make_line(JoxPlace *place) {
+    JOX_ASSERT(place->count >= 2);
+    place->kind = JOX_PLACE_LINE;
+    place->count = 2;
+}
+
+/* Distance from its points within which people are at a place, m. */
 static float reach_of(const JoxPlace *place) {
     const float HAIR = 0.01f; /* m: more than distances are rounded by */
-    switch (place->kind) {
-    case JOX_PLACE_POINT:
+    switch (jox_place_form(place)) {
+    case JOX_FORM_SPOT:
         return place->radius + HAIR;
-    case JOX_PLACE_LINE:
+    case JOX_FORM_LINE:
         return LINE_REACH + HAIR;
-    case JOX_PLACE_QUEUE:
+    case JOX_FORM_QUEUE:
         return place->spacing / 2.0f + HAIR;
     default:
         return 0.0f;
@@ -248,7 +281,7 @@ static float reach_of(const JoxPlace *place) {
 }
 
 void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *boxes) {
-    JOX_ASSERT(set->kind == JOX_PLACE_SET);
+    JOX_ASSERT(jox_place_is_set(set));
     set->boxes = boxes;
     set->low = (JoxV2){INFINITY, INFINITY};
     set->high = (JoxV2){-INFINITY, -INFINITY};
@@ -257,7 +290,7 @@ void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *
         if (i < set->member_count) {
             const JoxPlace *member = &places[set->members[i]];
             const float reach = reach_of(member);
-            JOX_ASSERT(member->kind != JOX_PLACE_SET);
+            JOX_ASSERT(!jox_place_is_set(member));
             low = (JoxV2){member->low.x - reach, member->low.y - reach};
             high = (JoxV2){member->high.x + reach, member->high.y + reach};
         }
@@ -278,7 +311,7 @@ void jox_place_contains_each(const JoxPlace *places, uint32_t index, const JoxV2
                              uint32_t count, bool *in) {
     const JoxPlace *place = &places[index];
     /* Of few members one look at their boxes tells nearly everybody off. */
-    const bool boxed = place->kind == JOX_PLACE_SET && place->boxes && place->member_count <= 4;
+    const bool boxed = jox_place_is_set(place) && place->boxes && place->member_count <= 4;
     for (uint32_t k = 0; k < count; k++)
         in[k] = (!boxed || boxes_about(place->boxes, points[k])) &&
                 kind_of(place)->contains(places, place, points[k]);
@@ -286,13 +319,13 @@ void jox_place_contains_each(const JoxPlace *places, uint32_t index, const JoxV2
 
 float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
     const JoxPlace *place = &places[index];
-    if (place->kind == JOX_PLACE_SET) { /* the nearest member: it may be a polygon with the point */
+    if (jox_place_is_set(place)) { /* the nearest member: it may be a polygon with the point */
         float best = INFINITY;
         for (uint32_t i = 0; i < place->member_count; i++)
             best = jox_minf(best, jox_place_distance(places, (uint32_t)place->members[i], point));
         return best;
     }
-    if (place->kind == JOX_PLACE_POLYGON)
+    if (jox_place_is_area(place))
         return in_polygon(places, place, point)
                    ? 0.0f
                    : jox_polygon_distance(place->points, place->count, point, false);
@@ -375,7 +408,7 @@ static const JoxPlace *area_about(const JoxPlace *places, uint32_t count, JoxV2 
     double least = INFINITY;
     for (uint32_t p = 0; p < count; p++) {
         const JoxPlace *place = &places[p];
-        if (place->kind != JOX_PLACE_POLYGON || !place->name ||
+        if (!jox_place_is_area(place) || !place->name ||
             !jox_polygon_contains(place->points, place->count, at))
             continue;
         const double area = fabs(jox_polygon_area(place->points, place->count));
@@ -391,7 +424,7 @@ static const JoxPlace *place_near(const JoxPlace *places, uint32_t count, JoxV2 
     const JoxPlace *found = NULL;
     *away = NEAR;
     for (uint32_t p = 0; p < count; p++) {
-        if (places[p].kind == JOX_PLACE_SET || !places[p].name || places[p].count == 0)
+        if (jox_place_is_set(&places[p]) || !places[p].name || places[p].count == 0)
             continue;
         const float distance = jox_place_distance(places, p, at);
         if (distance < *away) {

@@ -39,7 +39,7 @@ typedef struct JoxPlace {
     float axis_radius;
 } JoxPlace;
 
-/* How a place is drawn, and which of its points are a goal. */
+/* How a place is drawn. */
 typedef enum JoxPlaceOutline {
     JOX_OUTLINE_NONE,   /* nothing of its own */
     JOX_OUTLINE_CIRCLE, /* of `radius` about points[0] */
@@ -47,10 +47,22 @@ typedef enum JoxPlaceOutline {
     JOX_OUTLINE_RING    /* a closed one */
 } JoxPlaceOutline;
 
-/* What a kind of place is: a scene is read, and places are drawn, by this. */
+/* What one can do with a place. All of the engine but the reader of scenes asks for the form, never
+   for the kind: several kinds may have one form. */
+typedef enum JoxPlaceForm {
+    JOX_FORM_SPOT,  /* a point with a radius: people stop at it */
+    JOX_FORM_LINE,  /* two points: people cross it, from its right to its left */
+    JOX_FORM_AREA,  /* a ring: people are in it, counted, gathered, mapped */
+    JOX_FORM_QUEUE, /* a polyline: people stand along it, from its head on */
+    JOX_FORM_SET    /* other places, its members */
+} JoxPlaceForm;
+
+/* Properties of a kind of place. A new kind is an enumerator above, its row in place.c, and its
+   keys in the table of scenes. */
 typedef struct JoxPlaceKindInfo {
     const char *name; /* its key in a scene */
     uint32_t least_points, most_points;
+    JoxPlaceForm form;
     JoxPlaceOutline outline;
     uint32_t goal_points; /* points[0 .. n - 1] are walked to; 0: all of them */
     JoxV2 (*centre)(const JoxPlace *place);
@@ -59,6 +71,32 @@ typedef struct JoxPlaceKindInfo {
     const char *meaning; /* for the reference */
 } JoxPlaceKindInfo;
 extern const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS];
+
+static inline JoxPlaceForm jox_place_form(const JoxPlace *place) {
+    return jox_place_kinds[place->kind].form;
+}
+static inline bool jox_place_is_spot(const JoxPlace *place) {
+    return jox_place_form(place) == JOX_FORM_SPOT;
+}
+static inline bool jox_place_is_line(const JoxPlace *place) {
+    return jox_place_form(place) == JOX_FORM_LINE;
+}
+static inline bool jox_place_is_area(const JoxPlace *place) {
+    return jox_place_form(place) == JOX_FORM_AREA;
+}
+static inline bool jox_place_is_queue(const JoxPlace *place) {
+    return jox_place_form(place) == JOX_FORM_QUEUE;
+}
+static inline bool jox_place_is_set(const JoxPlace *place) {
+    return jox_place_form(place) == JOX_FORM_SET;
+}
+/* Size of the floor on which people are at a place, m2: of a line or the first stretch of a queue,
+   half a metre to either side; INFINITY of a set. */
+double jox_place_floor(const JoxPlace *place);
+/* Makes a place that has room for its points a spot, or a line from points[0] to points[1]. Finish
+   it afterwards. */
+void jox_place_make_spot(JoxPlace *place, JoxV2 at, float radius);
+void jox_place_make_line(JoxPlace *place);
 
 JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 /* How many of its points, from the first, are walked to. */

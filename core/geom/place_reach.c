@@ -34,9 +34,9 @@ bool jox_place_is_reached(const JoxPlace *places, uint32_t index, const JoxWalls
     const JoxPlace *place = &places[index];
     if (!jox_place_contains(places, index, point))
         return false;
-    if (!walls || walls->ring_count == 0 || place->kind == JOX_PLACE_POLYGON)
+    if (!walls || walls->ring_count == 0 || jox_place_is_area(place))
         return true;
-    if (place->kind != JOX_PLACE_SET)
+    if (!jox_place_is_set(place))
         return !is_cut(walls, point, jox_place_nearest(places, index, point), true);
     for (uint32_t m = 0; m < place->member_count; m++)
         if (jox_place_is_reached(places, (uint32_t)place->members[m], walls, point))
@@ -58,7 +58,7 @@ bool jox_place_is_near(const JoxPlace *places, uint32_t index, const JoxWalls *w
         return false;
     if (!walls || walls->ring_count == 0)
         return true;
-    if (place->kind != JOX_PLACE_SET)
+    if (!jox_place_is_set(place))
         return !is_cut(walls, point, jox_place_nearest(places, index, point), false);
     for (uint32_t m = 0; m < place->member_count; m++)
         if (jox_place_is_near(places, (uint32_t)place->members[m], walls, point, distance))

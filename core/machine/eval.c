@@ -19,8 +19,8 @@ static double people_in(const JoxMachineRun *run, int32_t place) {
 
 /* Area over which a place's people are counted: the polygon's, else a disc of 2 m. */
 static double counted_area(const JoxPlace *place) {
-    return place->kind == JOX_PLACE_POLYGON ? jox_polygon_area(place->points, place->count)
-                                            : 4.0 * 3.14159265358979;
+    return jox_place_is_area(place) ? jox_polygon_area(place->points, place->count)
+                                    : 4.0 * 3.14159265358979;
 }
 
 static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int32_t place) {
@@ -66,7 +66,7 @@ static void cross(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
                   double *to) {
     const JoxAgents *a = run->agents;
     const JoxPlace *line = index < 0 ? NULL : &run->places[index];
-    const bool is_line = line && line->kind == JOX_PLACE_LINE;
+    const bool is_line = line && jox_place_is_line(line);
     const JoxV2 from = is_line ? line->points[0] : (JoxV2){0.0f, 0.0f};
     const JoxV2 end = is_line ? line->points[1] : (JoxV2){0.0f, 0.0f};
     for (uint32_t n = 0; n < count; n++) {

@@ -44,7 +44,7 @@ static bool find_area(JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term, 
     const JoxAgents *a = run->agents;
     const int32_t index = jox_target_place(run, i, term->target);
     const JoxV2 at = {a->x[i], a->y[i]};
-    if (index < 0 || run->places[index].kind != JOX_PLACE_POLYGON)
+    if (index < 0 || !jox_place_is_area(&run->places[index]))
         return false;
     const JoxV2 ahead = direction_of((float)term->args[0]);
     if (!a->turn[i])

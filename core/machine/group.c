@@ -337,7 +337,7 @@ static uint32_t people_about(const JoxMachineRun *run, uint32_t p) {
     const float REACH = 2.0f, HAIR = 0.01f; /* m; HAIR: more than distances are rounded by */
     const JoxAgents *a = run->agents;
     const JoxPlace *place = &run->places[p];
-    const bool area = place->kind == JOX_PLACE_POLYGON, boxed = place->kind != JOX_PLACE_SET;
+    const bool area = jox_place_is_area(place), boxed = !jox_place_is_set(place);
     const float wide = boxed ? REACH + HAIR : INFINITY;
     const JoxV2 low = {place->low.x - wide, place->low.y - wide};
     const JoxV2 high = {place->high.x + wide, place->high.y + wide};

@@ -20,7 +20,7 @@ static bool find_row(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
     *entry = (JoxRowEntry){.agent = i, .id = a->id[i], .spacing = (float)term->args[0]};
     if (index >= 0) {
         const JoxPlace *place = &run->places[index];
-        if (place->kind != JOX_PLACE_LINE)
+        if (!jox_place_is_line(place))
             return false;
         entry->row = (uint64_t)index;
         entry->middle = jox_scale(jox_add(place->points[0], place->points[1]), 0.5f);

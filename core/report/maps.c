@@ -106,7 +106,7 @@ bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
     JoxDrawnProbe *probes = list_drawn_probes(s, &probe_count);
     for (uint32_t i = 0; i < s->place_count; i++) {
         JoxV2 low, high;
-        if (s->places[i].kind == JOX_PLACE_SET || s->places[i].count == 0)
+        if (jox_place_is_set(&s->places[i]) || s->places[i].count == 0)
             continue;
         jox_bounds(s->places[i].points, s->places[i].count, &low, &high);
         if (jox_is_within(low, least, most) && jox_is_within(high, least, most))

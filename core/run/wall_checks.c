@@ -46,7 +46,7 @@ static const char *check_door(const JoScene *scene, const JoxAgentSource *source
 static void check_source(const JoScene *scene, const JoxAgentSource *source, JoxWallGrid *grid,
                          JoxDiagnostics *diagnostics) {
     const JoxPlace *place = &scene->world->model.places[source->place];
-    const bool set = place->kind == JOX_PLACE_SET;
+    const bool set = jox_place_is_set(place);
     const uint32_t doors = set ? place->member_count : 1;
     const char *cause = NULL;
     uint32_t shut = 0;
@@ -194,7 +194,7 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
 
 /* Whether walls fill an area: nobody is ever inside. Lines and queues are reached from beside. */
 static bool is_filled(JoxWallGrid *grid, const JoxPlace *place) {
-    if (place->kind != JOX_PLACE_POINT && place->kind != JOX_PLACE_POLYGON)
+    if (!jox_place_is_spot(place) && !jox_place_is_area(place))
         return false;
     JoxEntrance entrance;
     jox_entrance_make(&entrance, grid, place);
@@ -209,7 +209,7 @@ static void check_inside(const JoScene *scene, JoxPosition position, int32_t goa
     const JoxPlace *places = scene->world->model.places;
     if (goal < 0)
         return;
-    const bool set = places[goal].kind == JOX_PLACE_SET;
+    const bool set = jox_place_is_set(&places[goal]);
     for (uint32_t m = 0; m < (set ? places[goal].member_count : 1); m++) {
         const JoxPlace *place = set ? &places[places[goal].members[m]] : &places[goal];
         if (is_filled(grid, place))

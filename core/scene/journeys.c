@@ -51,7 +51,7 @@ void jox_key_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
         const int32_t place = jox_load_place(r, names[n]);
         if (place < 0)
             continue;
-        if (r->load->scene->places[place].kind != JOX_PLACE_QUEUE)
+        if (!jox_place_is_queue(&r->load->scene->places[place]))
             jox_scene_error(r, names[n], "bad-place", "gate: {queue: [[0, 0], [0, 5]]}",
                             "'%.60s' is no queue", names[n]->text);
         step->queues[step->queue_count++] = (uint32_t)place;
@@ -104,8 +104,8 @@ static const char *place_name(const Journey *j, int32_t place) {
     return j->reader->load->scene->places[place].name;
 }
 
-static JoxPlaceKind kind_of(const Journey *j, int32_t place) {
-    return j->reader->load->scene->places[place].kind;
+static const JoxPlace *place_of(const Journey *j, int32_t place) {
+    return &j->reader->load->scene->places[place];
 }
 
 /* What people do in a part of a step, and about what: names of states are unique by the step. */
@@ -126,7 +126,7 @@ static void state_name(const Journey *j, uint32_t step, Part part, uint32_t queu
 
 /* Whether those who wait in a step fill an area. */
 static bool gathers(const Journey *j, const JoxJourneyStep *s) {
-    return s->to >= 0 && kind_of(j, s->to) == JOX_PLACE_POLYGON && (s->wait || s->until || s->gate);
+    return s->to >= 0 && jox_place_is_area(place_of(j, s->to)) && (s->wait || s->until || s->gate);
 }
 
 /* The parts that a step has, in their order; of a queue only the choice. */
@@ -180,8 +180,8 @@ static void lead_on(Journey *j, uint32_t step, Part part, const char *when) {
 /* The condition of having come to a place: inside, or within reach of what has no inside. Exits are
    not reached while a gate on their line is closed; people may wait at such a line. */
 static void arrived(const Journey *j, int32_t place, bool leaves, char out[256]) {
-    const JoxPlaceKind kind = kind_of(j, place);
-    const bool thin = (kind == JOX_PLACE_LINE && !leaves) || kind == JOX_PLACE_QUEUE;
+    const JoxPlace *at = place_of(j, place);
+    const bool thin = (jox_place_is_line(at) && !leaves) || jox_place_is_queue(at);
     snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"", place_name(j, place));
 }
 

@@ -46,7 +46,7 @@ void jox_key_place_start(const JoxReader *r, const JoxKey *key, const JoxYaml *n
 static void link_start(const JoxReader *r, const JoxYaml *start, JoxPlace *place) {
     const JoxPlace *places = r->load->scene->places;
     place->start = jox_load_place(r, start);
-    if (place->start >= 0 && places[place->start].kind != JOX_PLACE_LINE)
+    if (place->start >= 0 && !jox_place_is_line(&places[place->start]))
         jox_scene_error(r, start, "bad-place", NULL, "circuits start at a line");
 }
 
@@ -58,7 +58,7 @@ static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place
     place->members = jox_arena_take(r->arena, count, sizeof *place->members);
     for (uint32_t n = 0; n < count; n++) {
         int32_t member = jox_load_place(r, names[n]);
-        if (member >= 0 && places[member].kind == JOX_PLACE_SET)
+        if (member >= 0 && jox_place_is_set(&places[member]))
             jox_scene_error(r, names[n], "bad-place", NULL, "a set cannot hold another set");
         else if (member >= 0 && places[member].count > 0)
             place->members[place->member_count++] = member;
@@ -76,7 +76,7 @@ void jox_link_place(const JoxReader *r, const JoxYaml *map, void *item) {
     JOX_ASSERT(place->start == -1);
     if (start && start->kind == JOX_YAML_SCALAR)
         link_start(r, start, place);
-    if (place->kind == JOX_PLACE_SET)
+    if (jox_place_is_set(place))
         link_members(r, map, place);
 }
 

@@ -45,7 +45,7 @@ static bool fit_along(const JoxReader *r, const JoxYaml *map, const JoxGroup *gr
 static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxPlace *place =
         r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
-    if (!place || place->kind != JOX_PLACE_POINT) {
+    if (!place || !jox_place_is_spot(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with point and radius",
                         "a circle is filled about one point");
         return;
@@ -66,7 +66,7 @@ static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
 static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxPlace *place =
         r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
-    if (!place || place->kind != JOX_PLACE_LINE) {
+    if (!place || !jox_place_is_line(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with line",
                         "`fill: line` goes along one line");
         return;

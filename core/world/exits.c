@@ -34,8 +34,8 @@ void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t cou
     world->model.sink_count = count;
     for (uint32_t s = 0; s < count; s++) {
         const JoxPlace *of = &world->model.places[sinks[s].place];
-        for (uint32_t m = 0; m < (of->kind == JOX_PLACE_SET ? of->member_count : 1); m++)
-            jox_exits_get(&world->state.exits, of->kind == JOX_PLACE_SET
+        for (uint32_t m = 0; m < (jox_place_is_set(of) ? of->member_count : 1); m++)
+            jox_exits_get(&world->state.exits, jox_place_is_set(of)
                                                    ? world->model.places[of->members[m]].name
                                                    : of->name);
     }
@@ -51,7 +51,7 @@ static void count_at(JoWorld *world, const JoxPlace *place) {
 /* Counts somebody who left at a point of a place: a set's member is the exit, not the set. */
 static void count_exit(JoWorld *world, uint32_t place, JoxV2 at) {
     const JoxPlace *places = world->model.places, *of = &places[place];
-    for (uint32_t m = 0; of->kind == JOX_PLACE_SET && m < of->member_count; m++)
+    for (uint32_t m = 0; jox_place_is_set(of) && m < of->member_count; m++)
         if (jox_place_is_reached(places, (uint32_t)of->members[m], &world->model.all_walls, at)) {
             of = &places[of->members[m]];
             break;
@@ -59,18 +59,8 @@ static void count_exit(JoWorld *world, uint32_t place, JoxV2 at) {
     count_at(world, of);
 }
 
-/* Roughly, m2; what cannot be an exit: infinite. */
-static double size_of(const JoxPlace *place) {
-    switch (place->kind) {
-    case JOX_PLACE_POINT:
-        return 3.14159 * (double)place->radius * place->radius;
-    case JOX_PLACE_LINE:
-        return jox_length(jox_sub(place->points[1], place->points[0]));
-    case JOX_PLACE_POLYGON:
-        return fabs(jox_polygon_area(place->points, place->count));
-    default:
-        return INFINITY;
-    }
+static bool can_be_exit(const JoxPlace *place) {
+    return !jox_place_is_set(place) && !jox_place_is_queue(place);
 }
 
 /* Who left where a behaviour said so left by the smallest place that they stood in. */
@@ -79,13 +69,13 @@ static void count_leavers(JoWorld *world) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < world->model.scene_places; p++) {
             const JoxPlace *place = &world->model.places[p];
-            if (isfinite(size_of(place)) &&
+            if (can_be_exit(place) &&
                 jox_place_is_reached(world->model.places, p, &world->model.all_walls,
                                      world->scratch.gone.items[g]) &&
-                (!of || size_of(place) < size_of(of)))
+                (!of || jox_place_floor(place) < jox_place_floor(of)))
                 of = place;
         }
-        JOX_ASSERT(!of || of->kind != JOX_PLACE_SET); /* a member is the exit */
+        JOX_ASSERT(!of || !jox_place_is_set(of)); /* a member is the exit */
         if (of)
             count_at(world, of);
     }

@@ -53,13 +53,9 @@ static const JoxProfile *pick_profile(const JoWorld *world, const JoxGroup *grou
 static int32_t add_point(JoWorld *world, JoxV2 at) {
     JOX_ASSERT(world->model.place_count < world->model.place_capacity);
     JoxPlace *place = &world->model.places[world->model.place_count];
-    *place = (JoxPlace){.name = jox_strdup("antipode"),
-                        .kind = JOX_PLACE_POINT,
-                        .points = jox_alloc(1, sizeof *place->points),
-                        .count = 1,
-                        .radius = 0.5f,
-                        .start = -1};
-    place->points[0] = at;
+    *place = (JoxPlace){
+        .name = jox_strdup("antipode"), .points = jox_alloc(1, sizeof *place->points), .start = -1};
+    jox_place_make_spot(place, at, 0.5f);
     jox_place_finish(place);
     return (int32_t)world->model.place_count++;
 }

@@ -19,13 +19,13 @@ static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded step
 
 uint32_t jox_source_doors(const JoWorld *world, uint32_t source) {
     const JoxPlace *place = &world->model.places[world->model.sources[source].place];
-    return place->kind == JOX_PLACE_SET ? place->member_count : 1;
+    return jox_place_is_set(place) ? place->member_count : 1;
 }
 
 uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number) {
     const uint32_t of = world->model.sources[source].place;
     const JoxPlace *place = &world->model.places[of];
-    return place->kind == JOX_PLACE_SET ? (uint32_t)place->members[number] : of;
+    return jox_place_is_set(place) ? (uint32_t)place->members[number] : of;
 }
 
 const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number) {
@@ -40,17 +40,17 @@ static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEn
                         uint32_t source, uint32_t n) {
     JoxV2 low = place->centre, high = place->centre, p = place->centre;
     double u = 0.0;
-    if (place->kind != JOX_PLACE_POINT)
+    if (!jox_place_is_spot(place))
         jox_bounds(place->points, place->count, &low, &high);
     for (uint32_t attempt = 0; attempt < ATTEMPTS; attempt++) {
         const uint32_t sub = (n * ATTEMPTS + attempt) * 2;
         const uint64_t seed = world->model.def.seed, tick = world->state.tick;
         u = jox_random_unit(seed, source, tick, JOX_DRAW_SOURCE, sub);
         const double v = jox_random_unit(seed, source, tick, JOX_DRAW_SOURCE, sub + 1);
-        if (place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE) {
+        if (jox_place_is_line(place) || jox_place_is_queue(place)) {
             p = jox_add(place->points[0],
                         jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
-        } else if (place->kind == JOX_PLACE_POINT) {
+        } else if (jox_place_is_spot(place)) {
             const double angle = 6.283185307179586 * u, r = place->radius * sqrt(v);
             p = (JoxV2){place->centre.x + (float)(r * jox_cos(angle)),
                         place->centre.y + (float)(r * jox_sin(angle))};
@@ -95,7 +95,7 @@ static bool floor_holds(const void *entrance, JoxV2 spot) {
 /* Who is wished for at a point of an entrance's floor, and stays on it. */
 static JoxBirthWish wish_on(const JoxEntrance *entrance, JoxV2 at, uint32_t number) {
     const JoxPlace *floor = &entrance->floor;
-    const float beside = floor->kind == JOX_PLACE_POINT ? floor->radius : JOX_ENTRANCE_REACH;
+    const float beside = jox_place_is_spot(floor) ? floor->radius : JOX_ENTRANCE_REACH;
     JoxBirthWish wish = {
         .at = at, .holds = floor_holds, .place = entrance, .place_number = number, .stays = true};
     jox_bounds(floor->points, floor->count, &wish.low, &wish.high);

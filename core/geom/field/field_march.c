@@ -55,7 +55,7 @@ static bool sees_goal(const JoxFieldWork *w, const JoxPlace *place, JoxV2 goal, 
     if (!jox_field_sees(w, goal, p, 0.85f * w->f->clearance))
         return false;
     JoxV2 beyond = jox_add(goal, jox_scale(jox_unit(jox_sub(goal, p)), inside));
-    return place->kind != JOX_PLACE_POLYGON || jox_field_sees(w, p, beyond, 0.0f);
+    return !jox_place_is_area(place) || jox_field_sees(w, p, beyond, 0.0f);
 }
 
 /* Seeds the nodes within `reach` of a place that is no set; returns how many see it. Those that do

@@ -19,7 +19,7 @@ JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
 /* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
 static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     const JoxPlace *place = &run->places[spot->place];
-    if (place->kind != JOX_PLACE_LINE)
+    if (!jox_place_is_line(place))
         return (JoxV2){spot->x, spot->y};
     double u =
         jox_random_unit(run->seed, run->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
@@ -31,7 +31,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxAgents *a = run->agents;
     JoxV2 from = {a->x[i], a->y[i]};
     const int32_t index = jox_target_place(run, i, target);
-    if (index >= 0 && run->places[index].kind == JOX_PLACE_POINT)
+    if (index >= 0 && jox_place_is_spot(&run->places[index]))
         return jox_steer_arrive(from, run->places[index].centre, jox_param(a, JOX_PARAM_speed, i));
     JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
@@ -42,20 +42,19 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
         return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
     const JoxPlace *place = &run->places[spot.place];
     JoxV2 to = aim(run, i, &spot);
-    if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
+    if (jox_place_is_line(place)) /* lines are passed, not stopped at */
         return jox_unit(jox_sub(to, from));
     if (jox_place_is_reached(run->places, (uint32_t)spot.place, run->walls, from))
         return (JoxV2){0.0f, 0.0f};
-    return place->kind == JOX_PLACE_POLYGON
-               ? jox_unit(jox_sub(to, from))
-               : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
+    return jox_place_is_area(place) ? jox_unit(jox_sub(to, from))
+                                    : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
 }
 
 static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     int32_t index = jox_target_place(run, i, term->target);
     uint32_t rank = run->scratch->rank[i];
-    if (index < 0 || rank == UINT32_MAX || run->places[index].kind != JOX_PLACE_QUEUE)
+    if (index < 0 || rank == UINT32_MAX || !jox_place_is_queue(&run->places[index]))
         return jox_steer_seek(run, i, term->target);
     const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);

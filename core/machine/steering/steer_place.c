@@ -14,7 +14,7 @@ static JoxV2 way_along(const JoxPlace *place, JoxV2 p) {
         const float d2 = one ? 0.0f : jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
         if (d2 < least) {
             least = d2;
-            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
+            best = jox_unit(jox_place_is_queue(place) ? jox_sub(a, b) : jox_sub(b, a));
         }
     }
     return best;
@@ -46,7 +46,7 @@ static void along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) 
 static void seek(const JoxMachineRun *run, const int32_t *places, int32_t target, JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
-        const bool arrives = place && place->kind == JOX_PLACE_POINT;
+        const bool arrives = place && jox_place_is_spot(place);
         JoxV2 way = {0.0f, 0.0f}, to = {0.0f, 0.0f};
         if (arrives)
             to = place->centre;

@@ -35,7 +35,7 @@ static void add_danger_area(JoxDangerAreas *areas, const char *name, const JoxV2
 void jox_danger_areas_add(JoxDangerAreas *areas, const JoxPlace *places, uint32_t place_count,
                           const JoxProbeDef *probes, uint32_t probe_count) {
     for (uint32_t p = 0; p < place_count; p++)
-        if (places[p].kind == JOX_PLACE_POLYGON && places[p].name)
+        if (jox_place_is_area(&places[p]) && places[p].name)
             add_danger_area(areas, places[p].name, places[p].points, places[p].count);
     for (uint32_t p = 0; p < probe_count; p++)
         if (probes[p].kind == JOX_PROBE_MEASURE)

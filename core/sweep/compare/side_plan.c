@@ -50,7 +50,7 @@ static void add_plan_place(Reading *r, const JoxV2 *points, uint32_t count) {
     while (kind < JOX_PLACE_KINDS &&
            (!part->kind || strcmp(part->kind, jox_place_kinds[kind].name) != 0))
         kind++;
-    if (kind == JOX_PLACE_KINDS || kind == JOX_PLACE_SET ||
+    if (kind == JOX_PLACE_KINDS || jox_place_kinds[kind].form == JOX_FORM_SET ||
         count < jox_place_kinds[kind].least_points || count > jox_place_kinds[kind].most_points)
         return;
     JOX_RESERVE(plan->places, r->place_capacity, plan->place_count + 1);
