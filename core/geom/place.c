@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "geom/place_kinds.h"
 #include "simd/four.h"
 
 static const double PI = 3.14159265358979323846;
@@ -208,6 +209,8 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                        .meaning = "several places under one name: to be in one of them is to be "
                                   "in the set."},
 };
+
+const uint32_t jox_place_kind_count = JOX_PLACE_KINDS;
 
 /* ---- calls ---- */
 

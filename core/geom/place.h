@@ -6,14 +6,8 @@
 #include "geom/polygon.h"
 #include "geom/walls.h"
 
-typedef enum JoxPlaceKind {
-    JOX_PLACE_POINT,   /* points[0]; inside means within `radius` */
-    JOX_PLACE_LINE,    /* points[0] -> points[1]; crossing counts from its right to its left */
-    JOX_PLACE_POLYGON, /* a closed ring, counter-clockwise */
-    JOX_PLACE_QUEUE,   /* a polyline, points[0] is the head; `spacing` metres a person */
-    JOX_PLACE_SET,     /* several places, one_of picks among `members` */
-    JOX_PLACE_KINDS
-} JoxPlaceKind;
+/* Number of a kind: an enumerator of place_kinds.h. */
+typedef int JoxPlaceKind;
 
 /* Boxes within which all lies that four members of a set hold, a row for each coordinate of a
    corner. Where there are fewer members the others hold nothing. */
@@ -70,7 +64,8 @@ typedef struct JoxPlaceKindInfo {
     JoxV2 (*nearest)(const JoxPlace *places, const JoxPlace *place, JoxV2 point);
     const char *meaning; /* for the reference */
 } JoxPlaceKindInfo;
-extern const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS];
+extern const JoxPlaceKindInfo jox_place_kinds[]; /* by kind */
+extern const uint32_t jox_place_kind_count;
 
 static inline JoxPlaceForm jox_place_form(const JoxPlace *place) {
     return jox_place_kinds[place->kind].form;

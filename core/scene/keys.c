@@ -1,4 +1,5 @@
 /* The table of the scene format, and of the files that describe mods. */
+#include "geom/place_kinds.h"
 #include "scene/internal.h"
 
 #define FAR JOX_FARTHEST

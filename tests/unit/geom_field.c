@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "geom/place_kinds.h"
 #include "geom_walk.h"
 
 /* ---- the open ---- */

@@ -1,5 +1,6 @@
 /* Ways round a crowd that is held up, and goals that lie along walls. */
 #include "geom/field/field_parts.h"
+#include "geom/place_kinds.h"
 #include "unit/geom_walk.h"
 
 enum { HELD = 60 };

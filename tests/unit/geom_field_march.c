@@ -2,6 +2,7 @@
    every way by its neighbours is tried. */
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
+#include "geom/place_kinds.h"
 #include "unit/geom_walk.h"
 
 enum { SIDE = 56, CELLS = SIDE * SIDE };

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "geom/place_kinds.h"
 #include "geom_walk.h"
 
 /* ---- margins, solids, thin walls ---- */

@@ -10,6 +10,7 @@
 
 #include "base/mem.h"
 #include "geom/fill.h"
+#include "geom/place_kinds.h"
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "geom/place.h"
+#include "geom/place_kinds.h"
 #include "geom/walls.h"
 
 static const JoxV2 SQUARE[] = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "geom/place_kinds.h"
 #include "geom/standable.h"
 
 static JoxV2 CORNERS[] = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};

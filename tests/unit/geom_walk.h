@@ -15,6 +15,7 @@
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "geom/field/field.h"
+#include "geom/place_kinds.h"
 
 static const double TURN = 6.283185307179586;
 

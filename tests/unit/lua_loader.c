@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "geom/place_kinds.h"
 #include "lua/loader.h"
 
 static JoxDiagnostics diagnostics;

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "geom/place_kinds.h"
 #include "machine/run.h"
 
 /* A small world about machines: agents without neighbours, places that a test gives. */

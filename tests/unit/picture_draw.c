@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "geom/place_kinds.h"
 #include "picture/draw.h"
 #include "picture/palette.h"
 

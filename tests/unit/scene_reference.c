@@ -186,7 +186,7 @@ static void every_key_has_a_destination(void **state) {
 /* Kinds of places are keys of a place by the same name. */
 static void kinds_of_places_are_keys(void **state) {
     (void)state;
-    for (int p = 0; p < JOX_PLACE_KINDS; p++) {
+    for (int p = 0; p < (int)jox_place_kind_count; p++) {
         const JoxKey *key = jox_key_find(&jox_scene_format, "place", jox_place_kinds[p].name);
         assert_non_null(key);
         assert_int_equal(key->kind, 1 + p);

@@ -46,11 +46,11 @@ static void add_plan_wall(Reading *r, const JoxV2 *points, uint32_t count) {
 static void add_plan_place(Reading *r, const JoxV2 *points, uint32_t count) {
     const Part *part = &r->part;
     JoxSidePlan *plan = r->plan;
-    int kind = 0;
-    while (kind < JOX_PLACE_KINDS &&
+    uint32_t kind = 0;
+    while (kind < jox_place_kind_count &&
            (!part->kind || strcmp(part->kind, jox_place_kinds[kind].name) != 0))
         kind++;
-    if (kind == JOX_PLACE_KINDS || jox_place_kinds[kind].form == JOX_FORM_SET ||
+    if (kind == jox_place_kind_count || jox_place_kinds[kind].form == JOX_FORM_SET ||
         count < jox_place_kinds[kind].least_points || count > jox_place_kinds[kind].most_points)
         return;
     JOX_RESERVE(plan->places, r->place_capacity, plan->place_count + 1);
