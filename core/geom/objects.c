@@ -143,6 +143,7 @@ void jox_objects_lay(JoxObjects *objects) {
     JOX_RESERVE(g->covers, g->cover_capacity, objects->count);
     g->laid = objects->count;
     g->columns = g->rows = 0;
+    g->hides_people = false;
     g->low = (JoxV2){INFINITY, INFINITY};
     g->high = (JoxV2){-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < objects->count; i++) {
@@ -154,6 +155,7 @@ void jox_objects_lay(JoxObjects *objects) {
         }
         g->low = jox_v2(jox_minf(g->low.x, c->low.x), jox_minf(g->low.y, c->low.y));
         g->high = jox_v2(jox_maxf(g->high.x, c->high.x), jox_maxf(g->high.y, c->high.y));
+        g->hides_people |= jox_object_hides_people(&objects->rows[i]);
         bodies++;
     }
     if (!bodies)

@@ -47,6 +47,15 @@ typedef struct JoxObject {
     float force_limit;
 } JoxObject;
 
+static const float JOX_EYE_LEVEL = 1.3f; /* m: lower walls and bodies are looked over */
+
+/* Whether a body is as tall as walls that are not looked over, and as wide as people are. */
+static inline bool jox_object_hides_people(const JoxObject *body) {
+    const float wide = 0.25f; /* m, bounding radius */
+    return body->live && body->in_band && body->low < JOX_EYE_LEVEL &&
+           body->high >= JOX_EYE_LEVEL && jox_maxf(body->disc, body->round) >= wide;
+}
+
 /* An impulse on a body at a point, both in world coordinates: N s and m. The share `lasting` acts
    evenly throughout the step, as the force of somebody who leans on what is held does; the rest at
    its beginning. */
@@ -97,6 +106,7 @@ typedef struct JoxObjectGrid {
     float cell;
     uint32_t laid;          /* rows that there were when it was laid */
     uint32_t columns, rows; /* 0: no body can be met */
+    bool hides_people;      /* some body does */
     uint32_t *starts;       /* per cell, and one more */
     uint32_t *members;      /* rows of bodies, ascending within a cell */
     JoxCover *covers;       /* per row of bodies */

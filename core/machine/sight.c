@@ -5,8 +5,6 @@
 #include "geom/wall_grid.h"
 #include "machine/internal.h"
 
-static const float EYES = 1.3f; /* m: walls below are looked over, and called over */
-
 /* Whether a box about the way from one point to another holds none of an edge. */
 static bool is_beside(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {
     return jox_maxf(a.x, b.x) < jox_minf(from.x, to.x) ||
@@ -33,7 +31,7 @@ static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, Jo
 }
 
 bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched) {
-    return stopping_edge(walls, but, from, to, touched ? 0.0f : EYES) >= 0;
+    return stopping_edge(walls, but, from, to, touched ? 0.0f : JOX_EYE_LEVEL) >= 0;
 }
 
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched) {
@@ -48,14 +46,6 @@ bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *norma
 }
 
 /* ---- bodies ---- */
-
-static const float WIDE = 0.25f; /* m: bounding radius of a body that can hide a person */
-
-/* Whether a body is as tall as walls that are not looked over, and as wide as people are. */
-static bool hides_people(const JoxObject *body) {
-    return body->live && body->in_band && body->low < EYES && body->high >= EYES &&
-           jox_maxf(body->disc, body->round) >= WIDE;
-}
 
 static bool is_across(const JoxObject *body, JoxV2 from, JoxV2 to) {
     if (jox_footprint_nearest(body, from).gap <= 0.0f ||
@@ -72,14 +62,14 @@ static bool is_across(const JoxObject *body, JoxV2 from, JoxV2 to) {
 }
 
 bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t but) {
-    if (!run->objects || run->objects->grid.columns == 0)
+    if (!run->objects || run->objects->grid.columns == 0 || !run->objects->grid.hides_people)
         return false;
     const JoxV2 middle = jox_scale(jox_add(from, to), 0.5f);
     JoxObjectWalk walk =
         jox_objects_near(run->objects, middle, 0.5f * jox_length(jox_sub(to, from)));
     uint32_t row;
     while (jox_objects_next(&walk, &row))
-        if ((int32_t)row != but && hides_people(&run->objects->rows[row]) &&
+        if ((int32_t)row != but && jox_object_hides_people(&run->objects->rows[row]) &&
             is_across(&run->objects->rows[row], from, to))
             return true;
     return false;
