@@ -344,6 +344,14 @@ static Search begin_search(JoxScript *script, const JoxKinds *kinds, uint32_t so
     return f;
 }
 
+/* Warns that a file was not searched: it asks for more work than the search may do. */
+static void warn_of_size(JoxScript *script, const JoxSource *source) {
+    jox_diag_warn(script->diagnostics, ((JoxPosition){source->path, 0, 0, 0}), "too-large",
+                  "Write less in one file, or fewer calls from one file to another",
+                  "it is too large to be searched for `and`, `or`, `not`, `==` and `~=` between "
+                  "conditions");
+}
+
 void jox_misuse_find(JoxBuild *b) {
     JoxScript *script = b->script;
     JOX_ASSERT(script->misuse_count == 0);
@@ -367,15 +375,13 @@ void jox_misuse_find(JoxBuild *b) {
         jox_free(searches[n].fields);
     }
     jox_free(searches);
-    if (!kinds->settled)
-        jox_diag_warn(
-            script->diagnostics, ((JoxPosition){b->source->path, 0, 0, 0}), "too-large",
-            "Write less in one file, or fewer calls from one file to another",
-            "it is too large to be searched for `and`, `or`, `not`, `==` and `~=` between "
-            "conditions");
+    if (!kinds->settled && jox_outline_syntax(b->source)->whole)
+        warn_of_size(script, b->source);
     jox_kinds_free(kinds);
     for (size_t n = 0; n < script->vm.source_count; n++) {
         const JoxSyntax *s = jox_outline_syntax(script->vm.sources[n]);
+        if (!s->whole)
+            warn_of_size(script, script->vm.sources[n]);
         for (size_t t = 0; s->whole && t < s->tree_count; t++)
             if (s->trees[t].kind == JOX_TREE_TABLE)
                 report_doubled(b, s, &s->trees[t]);

@@ -403,6 +403,31 @@ static void parser_reads_all_of_lua(void **state) {
     }
 }
 
+/* 3,000 names within 45 functions of 190 variables each: more than the search looks at. */
+static void file_that_is_not_searched_is_told_of(void **state) {
+    (void)state;
+    JoxText text = {0};
+    JoxDiagnostics diagnostics = {0};
+    for (int f = 0; f < 45; f++) {
+        jox_text_add(&text, "local function f() local a");
+        for (int v = 1; v < 190; v++)
+            jox_text_add(&text, ",a");
+        jox_text_add(&text, "\n");
+    }
+    jox_text_add(&text, "return { near");
+    for (int n = 0; n < 3000; n++)
+        jox_text_add(&text, ",near");
+    jox_text_add(&text, " }");
+    for (int f = 0; f < 45; f++)
+        jox_text_add(&text, " end");
+    jox_text_add(&text, BEHAVIOUR("", "after(1) and after(2)", ""));
+    assert_int_equal(errors_of(text.data, &diagnostics), 0);
+    assert_int_equal(diagnostics.count, 1);
+    assert_string_equal(diagnostics.items[0].code, "too-large");
+    jox_diag_free(&diagnostics);
+    jox_text_free(&text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(valid_lua_loads),
@@ -411,6 +436,7 @@ int main(void) {
         cmocka_unit_test(misuse_is_refused_at_its_place),
         cmocka_unit_test(library_function_is_judged_by_its_arguments),
         cmocka_unit_test(parser_reads_all_of_lua),
+        cmocka_unit_test(file_that_is_not_searched_is_told_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
