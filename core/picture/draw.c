@@ -66,6 +66,7 @@ static void lay_out_map(JoxDrawing *d) {
     d->high = jox_v2(high.x - spare.x, high.y - spare.y);
 }
 
+/* Draws the outlines of places; exits in a style of their own. */
 static void draw_places(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     JoxCanvas *c = d->canvas;
@@ -100,6 +101,7 @@ static void draw_places(JoxDrawing *d) {
     jox_canvas_close(c);
 }
 
+/* Draws ring r of the walls, unless it is the second side of a thin wall. */
 static void draw_wall_ring(const JoxDrawing *d, uint32_t r) {
     const JoxWalls *walls = d->picture->walls;
     const struct JoxWallRing *ring = &walls->rings[r];
@@ -113,6 +115,7 @@ static void draw_wall_ring(const JoxDrawing *d, uint32_t r) {
     jox_free(points);
 }
 
+/* Draws walls in four groups: solids, thin walls, closed gates and open gates. */
 static void draw_walls(JoxDrawing *d) {
     const JoxWalls *walls = d->picture->walls;
     float u = d->unit;
@@ -178,6 +181,7 @@ static void draw_body_layer(JoxDrawing *d, bool high) {
     jox_canvas_close(d->canvas);
 }
 
+/* Draws the trails of people and bodies, interrupted at points that are not finite. */
 static void draw_trails(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
@@ -204,6 +208,7 @@ static void draw_trails(JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
+/* Writes the title, shortened to fit, and the time at its right. */
 static void draw_title_line(const JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     char fit[256], time[64];

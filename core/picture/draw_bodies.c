@@ -9,8 +9,8 @@
 #include "picture/draw_parts.h"
 
 enum { RIM = 16, MOST_CORNERS = 256 }; /* points of a cylinder's rim; corners of a part */
-static const float UPRIGHT =
-    0.9999f; /* least cosine of a cylinder's tilt at which it is drawn as a disc */
+/* Least cosine of a cylinder's tilt at which it is drawn as a disc. */
+static const float UPRIGHT = 0.9999f;
 
 /* Rotates a vector by a unit quaternion (x, y, z, w). */
 static JoxV3 rotate_vector(const float q[4], JoxV3 v) {

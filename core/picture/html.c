@@ -163,6 +163,7 @@ void jox_html_panels_end(FILE *out) {
     fputs("</div>\n", out);
 }
 
+/* Returns whether a file of a folder exists and can be read. */
 static bool is_readable_in(const char *folder, const char *file) {
     JoxText path = {0};
     jox_text_printf(&path, "%s/%s", folder, file);
@@ -171,6 +172,7 @@ static bool is_readable_in(const char *folder, const char *file) {
     return there;
 }
 
+/* Writes a picture with its caption as a link to `link` (NULL: to itself). */
 static void put_picture(FILE *out, const char *file, const char *link, const char *caption,
                         bool wide) {
     fputs(wide ? "<figure class=wide><a href=\"" : "<figure><a href=\"", out);

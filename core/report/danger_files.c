@@ -181,6 +181,7 @@ static bool has_flows(const JoxDanger *d) {
     return d->lines.count > 0 && d->row_count > 0;
 }
 
+/* Writes the strips of danger.plt: measures, people over limits, and flows if there are lines. */
 static void write_time_strips(const JoxDanger *d, FILE *script) {
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         if (has_measure_strip(d, m))

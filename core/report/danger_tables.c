@@ -17,6 +17,7 @@ static void put_csv_value(FILE *out, double value) {
         fprintf(out, "%.9g", value);
 }
 
+/* Writes danger.csv: a row per sample. */
 static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger.csv", error);
     if (!out)
@@ -108,6 +109,7 @@ static bool write_danger_map(const JoxDanger *d, const char *folder, JoxText *er
     return jox_plot_close(out, "danger-map.csv", error);
 }
 
+/* Writes danger-limits.csv: a row per published limit; empty cells where it was not measured. */
 static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-limits.csv", error);
     if (!out)
@@ -211,6 +213,7 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger-lines.csv", error);
 }
 
+/* Writes danger-walls.csv: a row per piece of a side of a wall. */
 static bool write_danger_walls(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-walls.csv", error);
     if (!out)

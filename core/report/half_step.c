@@ -35,6 +35,8 @@ static bool start_danger_collection(JoScene *scene, JoError *error) {
     return jox_run_collect_danger(scene, error);
 }
 
+/* Returns the scene loaded at half the step and collecting danger, ready to run; NULL with an
+   error if people acted on the first run or files were edited. */
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
     JOX_REQUIRE(def && scene && !scene->def.dry, NULL);
     if (scene->input_path || scene->acted_on) {

@@ -155,6 +155,7 @@ static const struct Map {
 };
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
+/* Returns a map's value in a cell: the greatest of all times, or the mean density. */
 static float read_map_value(const JoxSubject *s, const struct Map *map, size_t cell) {
     const uint32_t columns = s->grid->columns;
     return map->greatest ? (float)jox_danger_cell_greatest(s->danger, (int)map->measure, cell)

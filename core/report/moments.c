@@ -13,6 +13,7 @@ static bool is_same_moment(const JoxSubject *s, int a, int b) {
     return m[a].taken && m[b].taken && m[a].time == m[b].time;
 }
 
+/* Writes the title of a moment's snapshot and its time. */
 static void write_moment_names(const JoxSubject *s, int kind, char title[128], char when[64]) {
     const JoxMoment *m = &s->story->moments[kind];
     char people[JOX_NOUN];

@@ -96,6 +96,8 @@ static void put_half_step_cells(FILE *out, const JoxPageFigure *a, void *context
     put_step_difference(out, a->value, b ? b->value : NAN);
 }
 
+/* Writes the table of all figures, beside those at half the step (`half`), or the reason `why`
+   the run was not repeated. */
 static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
     JoxPageFigures whole = collect_run_figures(scene), other = {0};
     char heads[128], text[512];
@@ -198,6 +200,7 @@ static void put_model_note(FILE *out, const JoScene *scene) {
     jox_diag_free(&notes);
 }
 
+/* Writes the command that repeats the run, and its input files with their hashes. */
 static void put_run_inputs(FILE *out, const JoScene *scene) {
     const JoSceneDef *def = &scene->def;
     const JoWorld *world = scene->world;

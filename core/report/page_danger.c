@@ -7,6 +7,7 @@
 
 /* ---- figures ---- */
 
+/* Appends the figures of lines: flow, stop-and-go and queue growth. */
 static void add_line_figures(JoxPageFigures *f, const JoxDanger *danger) {
     for (uint32_t l = 0; l < danger->lines.count; l++) {
         const JoxDangerLine *line = &danger->lines.items[l];
@@ -64,6 +65,7 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
 
 /* ---- parts of the page ---- */
 
+/* Writes a cell with a time and a place in words; a dash if the time is not finite. */
 static void put_time_and_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
     JoxText text = {0};
     if (isfinite(time)) {
@@ -121,6 +123,7 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         jox_html_paragraph(out, "Compression was not measured.");
 }
 
+/* Writes a table of the published limits: who was over them, for how long, and since when. */
 static void put_limit_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     jox_html_table(out, "limit|>people ever over it|>person-seconds|>longest of one "
@@ -144,6 +147,7 @@ static void put_limit_table(FILE *out, const JoxSubject *s) {
     jox_html_table_end(out);
 }
 
+/* Writes a table of the greatest value of each measure, with its time and place. */
 static void put_greatest_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     jox_html_table(out, "measure|>greatest|when and where");
@@ -178,6 +182,7 @@ static double dose_of_person(const JoxDanger *danger, uint32_t k) {
     return danger->people[k].dose;
 }
 
+/* Writes a table of the people with the greatest doses; nothing if there are none. */
 static void put_dose_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     uint32_t order[JOX_PAGE_SHOWN];

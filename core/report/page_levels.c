@@ -27,6 +27,7 @@ static void put_queue_levels(FILE *out, const JoxDanger *danger) {
     jox_html_table_end(out);
 }
 
+/* Writes a table of the areas with their time at each level of service. */
 static void put_area_levels(FILE *out, const JoxDanger *danger) {
     if (danger->areas.count == 0)
         return;
@@ -77,6 +78,7 @@ static void put_spell_cells(FILE *out, const JoxDanger *danger, const JoxDangerS
         jox_html_cell(out, "never");
 }
 
+/* Writes the section on regions of significant congestion. */
 static void put_congestion_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     JoxCongestionFound found = jox_congestion_find(&danger->congestion, danger->local->grid);
@@ -118,6 +120,7 @@ static void put_congestion_section(FILE *out, const JoxSubject *s) {
     jox_congestion_found_free(&found);
 }
 
+/* Writes the section on lines: widths, crossings, flows, levels and stop-and-go. */
 static void put_line_section(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     const JoxDangerLines *lines = &danger->lines;
@@ -204,6 +207,7 @@ static void put_wall_section(FILE *out, const JoxSubject *s) {
 
 /* ---- who left ---- */
 
+/* Writes a row of the times by which given shares of the people had left by an exit. */
 static void put_leaving_times(FILE *out, const JoxLeaving *leaving, int32_t exit,
                               const char *name) {
     static const double SHARES[] = {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};

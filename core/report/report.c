@@ -144,6 +144,7 @@ static void write_report_in_child(void *report, uint64_t job, JoxText *why) {
         jox_text_add(why, "writing failed");
 }
 
+/* Writes all files in a child process. Returns false with `error`. */
 static bool write_report(JoxReport *r, JoError *error) {
     JoxText why = {0}, ended = {0};
     if (!jox_children_do(write_report_in_child, r, &why, &ended))
@@ -197,6 +198,7 @@ static void set_leavers(JoxReport *r, uint32_t left, double time) {
     r->exits.left = left;
 }
 
+/* Passes all frames of the recording to the probes, the danger measures and the story. */
 static void measure_recording(JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
     uint32_t *left = count_leavers_by_frame(t);
@@ -259,6 +261,7 @@ static char *build_report_json(const JoxReport *r) {
     return out.data;
 }
 
+/* Loads, measures and writes a report. Returns its JSON, or NULL with `error`. */
 static char *make_report(const JoReportDef *def, JoError *error) {
     JoxReport r = {.def = def};
     char *text = NULL;

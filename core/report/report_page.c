@@ -16,6 +16,7 @@
 #include "report/page_parts.h"
 #include "report/report.h"
 
+/* Lists the figures of a recording. */
 static JoxPageFigures collect_recording_figures(const JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
     JoxPageFigures f = {0};
@@ -45,6 +46,7 @@ static void put_recording_figures(FILE *out, const JoxReport *r) {
     jox_page_release(&f);
 }
 
+/* Writes what the page is worth: forces are a model's, positions are those of the recording. */
 static void put_recording_validation(FILE *out, const JoxReport *r) {
     bool forces = jox_danger_reads(r->danger, JOX_DANGER_LOAD);
     jox_page_put_validation(out);
@@ -79,6 +81,7 @@ static void hash_file(const char *path, char out[65]) {
         close(file);
 }
 
+/* Writes the command that repeats the report, and its input files with their hashes. */
 static void put_recording_inputs(FILE *out, const JoxReport *r) {
     char hash[65];
     jox_html_heading(out, "How to repeat it");

@@ -33,6 +33,7 @@ typedef struct RunReport {
 
 static const JoxListenerKind REPORT;
 
+/* Locks the folder and starts the collection of danger. Returns false with `error`. */
 static bool begin_data_files(void *self, JoScene *scene, const void *folder, JoError *error) {
     RunReport *r = self;
     JoxText why = {0};
@@ -96,6 +97,7 @@ static bool sample_run(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+/* Draws paths.png with the area of the scene, widened to contain all paths. */
 static bool draw_paths(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
     const char *names[256];
     JoxColour colours[256];
@@ -106,7 +108,7 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
         colours[g] = scene->spec->groups[g].colour;
     }
     jox_run_area(scene, &low, &high);
-    for (uint32_t p = 0; p < r->paths->count; p++) /* widen the area to contain all paths */
+    for (uint32_t p = 0; p < r->paths->count; p++)
         for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
             const JoxPathPoint *point = &r->paths->items[p].points[i];
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
@@ -158,6 +160,7 @@ typedef struct RunDrawing {
     const JoxSubject *subject;
 } RunDrawing;
 
+/* Draws maps, snapshots, regions and paths, then writes the files of probes and danger. */
 static bool draw_run_report(const RunDrawing *d, JoxText *why) {
     const RunReport *r = d->report;
     const JoScene *scene = d->scene;
@@ -188,6 +191,7 @@ static void draw_report_in_child(void *drawing, uint64_t job, JoxText *why) {
         jox_text_add(why, "writing failed");
 }
 
+/* Draws the report in a child process. Returns false with `error`. */
 static bool end_run_report(void *self, JoScene *scene, JoError *error) {
     const RunReport *r = self;
     JoxText why = {0}, ended = {0};

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 
+/* Copies the outlines of the sample's bodies into a moment. */
 static void copy_bodies(JoxMoment *m, const JoxStorySample *sample) {
     m->bodies.count = 0;
     jox_draw_add_bodies(&m->bodies, sample->bodies);
@@ -13,6 +14,7 @@ static void copy_bodies(JoxMoment *m, const JoxStorySample *sample) {
         m->bodies.items[b].name = NULL; /* the names' owner may be freed before the story */
 }
 
+/* Copies a sample into a moment. */
 static void store_moment(JoxMoment *m, const JoxStorySample *sample) {
     const JoxFrame *frame = sample->frame;
     const JoxDensity *grid = sample->grid;

@@ -40,7 +40,7 @@ void jox_summary_crowd(FILE *out, const JoxSubject *subject);
    a sentence in `error`. */
 bool jox_maps_write(const JoxSubject *subject, JoxText *error);
 bool jox_moments_write(const JoxSubject *subject, JoxText *error);
-/* Write the page's figures of the plan, maps and snapshots that were drawn. */
+/* Write the HTML that shows the plan, maps and snapshots, as far as they were drawn. */
 void jox_maps_plan(FILE *out, const JoxSubject *subject);
 void jox_maps_fields(FILE *out, const JoxSubject *subject);
 void jox_maps_moments(FILE *out, const JoxSubject *subject);

@@ -17,6 +17,7 @@ static void put_statement(FILE *out, const char *lead, JoxText *text) {
 
 /* ---- who left ---- */
 
+/* Appends the number of people who left by each exit, and when the last did. */
 static void say_exits(const JoxSubject *s, JoxText *out) {
     const JoxExits *exits = s->exits;
     uint64_t known = 0;
@@ -35,6 +36,7 @@ static void say_exits(const JoxSubject *s, JoxText *out) {
         jox_text_add(out, ".");
 }
 
+/* Writes when people left, and whether all did. */
 static void put_leaving_summary(FILE *out, const JoxSubject *s) {
     const JoxLeaving *leaving = &s->danger->leaving;
     const uint64_t left = s->exits->left;
@@ -88,6 +90,7 @@ static const char *choose_verb(JoxDangerMeasure measure) {
     return borne ? "bore a" : "stood in a";
 }
 
+/* Appends how many people were over limit l, where and when first, and for how long. */
 static void say_limit(const JoxSubject *s, int l, JoxText *out) {
     const JoxDangerLimit *limit = &jox_danger_limits[l];
     const JoxDangerCount count = jox_danger_count(s->danger, l);
@@ -311,6 +314,7 @@ static void say_crowded_areas(const JoxDanger *d, JoxText *out) {
                         crowded - told == 1 ? "was" : "were");
 }
 
+/* Writes the share of time at levels E and F, and the areas concerned. */
 static void put_level_summary(FILE *out, const JoxSubject *s) {
     const JoxDanger *d = s->danger;
     double all = 0.0, crowded = 0.0;

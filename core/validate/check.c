@@ -134,6 +134,7 @@ static void note_library(const char *path, JoxDiagnostics *own) {
     jox_lua_free(lua);
 }
 
+/* Loads a behaviour and keeps its diagnostics. `scope` says which mods change it, or is NULL. */
 static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnostics *all) {
     JoxLua *lua = jox_lua_create(NULL);
     JoxDiagnostics own = {0};
@@ -167,6 +168,7 @@ static bool is_definition(const char *path) {
     return definition;
 }
 
+/* Loads a claim and checks that the scenes of its runs exist. */
 static void check_claim(const char *path, JoxDiagnostics *all) {
     JoxClaim *claim = jox_claim_load(path, false, all);
     for (uint32_t r = 0; claim && r < claim->run_count; r++)
@@ -234,6 +236,7 @@ static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics
     }
 }
 
+/* Loads a mod with the mods that it needs, and checks the files that its patches change. */
 static void check_mod(const char *folder, JoxDiagnostics *all) {
     char beside[1024];
     /* a path in the tree of the other mods, to find them */

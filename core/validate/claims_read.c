@@ -37,6 +37,7 @@ static const char **list_text_keys(lua_State *L, uint32_t *count) {
     return keys;
 }
 
+/* Reads `set` of the run on top: a table of PATH = VALUE. */
 static void read_sets(lua_State *L, JoxClaimRun *run) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "set");
     if (type != LUA_TTABLE && type != LUA_TNIL)
@@ -132,6 +133,7 @@ static void read_claim_runs(lua_State *L, JoxClaim *claim) {
     lua_settop(L, top);
 }
 
+/* Returns the run of a name, or fails with an error that names `what`. */
 static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *what,
                              const char *name) {
     for (uint32_t r = 0; r < claim->run_count; r++)
@@ -172,6 +174,7 @@ static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     lua_settop(L, top);
 }
 
+/* Reads an element of `expect` on top of the stack. */
 static void read_figure(lua_State *L, JoxClaimFigure *figure) {
     static const char *const KEYS[] = {"unit", "source", "band", "what", "reported"};
     if (!lua_istable(L, -1) || lua_rawgeti(L, -1, 1) != LUA_TSTRING)
@@ -217,6 +220,7 @@ static void read_claim_figures(lua_State *L, JoxClaim *claim) {
     lua_pop(L, 1);
 }
 
+/* Reads `pictures`: per run, a list of file names in its report. */
 static void read_pictures(lua_State *L, JoxClaim *claim) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "pictures");
     size_t capacity = 0;

@@ -115,6 +115,7 @@ static void add_no_claim_error(const char *asked, char *const *files, size_t cou
     jox_free(names);
 }
 
+/* Loads the selected claims of the folder, sorted by id, with errors for unknown selections. */
 static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
     JoxText ids = {0};
     size_t count, capacity = 0;
@@ -276,6 +277,7 @@ static void append_figure(JoxText *out, double value) {
     jox_text_printf(out, isfinite(value) ? "%.4g" : "-", value);
 }
 
+/* Prints a claim, and unless claims are only listed, its figures with their verdicts. */
 static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     JoxText out = {0};
@@ -366,6 +368,7 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
     return good;
 }
 
+/* Loads the claims, and lists them or runs and measures them. */
 static bool reproduce_claims(const JoReproduceDef *def, size_t *missed, JoError *error) {
     JoxReproduction all = {.def = def};
     JoxDiagnostics diagnostics = {0};

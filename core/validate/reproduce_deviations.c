@@ -98,6 +98,8 @@ static bool is_engine_default(const JoxMachine *machine, int p, const JoxValue *
            (value->kind == JOX_VALUE_CONST && value->number == jox_parameters[p].value);
 }
 
+/* Adds a deviation if a machine's value of parameter p is not the default; `owner` is the state,
+   NULL for the machine's defaults. */
 static void compare_value(Deviations *d, const JoxMachine *machine, const char *file,
                           const char *owner, int p, const JoxValue *value) {
     char path[200], where[700];
@@ -111,6 +113,7 @@ static void compare_value(Deviations *d, const JoxMachine *machine, const char *
     jox_text_free(&text);
 }
 
+/* Compares all parameters of a behaviour, which is loaded at its first use. */
 static void compare_behaviour(Deviations *d, const char *path) {
     char file[512];
     Behaviour *behaviour = NULL;
@@ -135,6 +138,7 @@ static void compare_behaviour(Deviations *d, const char *path) {
 
 /* ---- scenes ---- */
 
+/* Compares the behaviours and settings of a scene's group. */
 static void compare_group(Deviations *d, const char *scene, const JoxGroup *group) {
     char where[700];
     snprintf(where, sizeof where, "%s, group %.100s", scene, group->name);
@@ -153,6 +157,7 @@ static void compare_group(Deviations *d, const char *scene, const JoxGroup *grou
     }
 }
 
+/* Compares the scene of a run, with the run's settings. */
 static void compare_claim_run(Deviations *d, const JoxClaimRun *run) {
     char file[512];
     JoxDiagnostics unread = {0}; /* a scene that does not load has already failed as a run */

@@ -100,6 +100,7 @@ void jox_reproduce_describe_run(const JoxReproduction *all, char *out, size_t si
 
 /* ---- the page ---- */
 
+/* Writes a table of a claim's figures with their bands and verdicts. */
 static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
     fputs("<div class=scroll><table><tr><th>figure<th>source<th>mean<th>95&nbsp;% "
           "bound<th>seeds<th>least "
@@ -165,6 +166,7 @@ void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const Jox
         }
 }
 
+/* Writes the commands of a claim's runs and the text of their scenes. */
 static void put_claim_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     fputs("<details><summary>Runs and their scenes</summary>\n", out);
     for (uint32_t r = 0; r < outcome->claim->run_count; r++) {
@@ -240,6 +242,7 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
     put_claim_runs(out, all, outcome);
 }
 
+/* Writes a table of the engine's default parameters. */
 static void put_defaults(FILE *out) {
     JoxForceOptions force = jox_force_default_options();
     fputs("<h2>Defaults of the engine</h2>\n<p>Common to all claims; the next table lists what "
@@ -299,6 +302,7 @@ static void put_markdown_cell(FILE *out, const char *text) {
     fputs(" | ", out);
 }
 
+/* Writes table.md: a row per figure, and below it what was tried for claims that miss. */
 static bool write_claims_table(const JoxReproduction *all, const char *when, JoxText *error) {
     FILE *out = jox_plot_open(all->def->out, "table.md", error);
     if (!out)
@@ -352,6 +356,7 @@ static bool write_claims_table(const JoxReproduction *all, const char *when, Jox
     return jox_plot_close(out, "table.md", error);
 }
 
+/* Writes results.json: verdicts by claim and figure. */
 static bool write_claims_json(const JoxReproduction *all, JoxText *error) {
     JoxText text = {0};
     JoxJson json = jox_json_begin(&text, 1);

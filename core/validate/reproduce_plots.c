@@ -84,6 +84,7 @@ static void add_plot_element(FILE *out, const char *name, bool *first, uint32_t 
     *first = false;
 }
 
+/* Writes the commands that draw the curves of a plot, with their bands behind them. */
 static void write_curve_plot(const JoxClaim *claim, const JoxClaimPlot *plot, const char *name,
                              FILE *out) {
     static const char *const COLOURS[] = {"#3b528b", "#d55e00", "#21918c",
@@ -160,6 +161,7 @@ static void write_map_data(const JoxOutcome *outcome, const JoxClaimCurve *map, 
     }
 }
 
+/* Writes an axis with one labelled tick per cell. */
 static void put_ticks(FILE *out, char axis, const double *values, uint32_t count) {
     fprintf(out, "set %ctics (", axis);
     for (uint32_t k = 0; k < count; k++)

@@ -209,6 +209,7 @@ static void show_run_progress(const JoxReproduction *all, double begun, bool las
         fputs("\n", stderr);
 }
 
+/* Returns whether job a must start before job b: long runs go first. */
 static bool goes_before(const JoxJob *a, const JoxJob *b) {
     return a->run->first && !b->run->first;
 }

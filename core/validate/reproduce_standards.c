@@ -29,6 +29,7 @@ static const struct Standard {
 };
 enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
 
+/* Returns the standard that a claim tests, or NULL. */
 static const struct Standard *find_standard(const JoxClaim *claim) {
     for (int s = 0; s < STANDARD_COUNT; s++)
         if (*claim->id == STANDARDS[s].letter)
@@ -85,6 +86,7 @@ static void put_test_plan(FILE *out, const JoxReproduction *all, const JoxOutcom
 
 /* ---- the page ---- */
 
+/* Writes a table of standards: tests passed and failed, and tests not covered. */
 static void put_standards_summary(FILE *out, const JoxReproduction *all) {
     jox_html_table(out, "standard|tests|pass|fail|not covered");
     for (int s = 0; s < STANDARD_COUNT; s++) {
@@ -109,6 +111,7 @@ static void put_test_verdict(FILE *out, bool inside, bool thin) {
             thin ? ", thin" : "");
 }
 
+/* Writes a table of all tests with links and verdicts. */
 static void put_overview(FILE *out, const JoxReproduction *all) {
     jox_html_table(out, "test|what|verdict");
     for (uint32_t o = 0; o < all->outcome_count; o++) {
@@ -142,6 +145,7 @@ static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVe
         put_test_verdict(out, v->inside, v->thin);
 }
 
+/* Writes the section of a test: text, source, plan, figures and pictures. */
 static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     fprintf(out, "<h2 id=\"t%u\">", (unsigned)(outcome - all->outcomes));

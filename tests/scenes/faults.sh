@@ -194,7 +194,7 @@ told "  and is told" " of 4,500 people due came: source 'yard' (scene.yaml:9) wa
 came=$(sed -n 's/.*"yard": {"due": 4500, "came": \([0-9]*\), "waiting": 0, "did_not_come": \([0-9]*\)}.*/\1 \2/p' "$work/demand.json")
 [ "${came% *}" -gt 1000 ] && [ $((${came% *} + ${came#* })) = 4500 ]; verdict "  and counted: $came" $?
 told "  as people who did not come before it ended" "It has ended:"
-[ "$(tail -1 "$work/demand/danger-sources.csv")" = "yard,4500,${came% *},0,${came#* }" ] && grep -q "people who were due at yard" "$work/demand/index.html"; verdict "  in the report, too" $?
+[ "$(tail -1 "$work/demand/danger-sources.csv")" = "yard,4500,${came% *},0,${came#* }" ] && grep -q "people due at yard" "$work/demand/index.html"; verdict "  in the report, too" $?
 
 # ---- memory that runs out ----
 # LIMIT COMMAND...: with so many KiB of address space; 127 is the loader's, which has no libraries then
