@@ -218,9 +218,8 @@ static bool write_svg(JoxCanvas *c, const char *path, JoxText *error) {
     bool good = file && fwrite(svg->out.data, 1, svg->out.length, file) == svg->out.length;
     if (file && good)
         good = jox_file_close(file) == 0;
-    /* after running out of memory: drops the file, which does not know of the error */
     else if (file)
-        jox_file_drop(file);
+        jox_file_drop(file); /* if memory ran out, the stream's error flag may not be set */
     if (!good)
         jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
     return good;

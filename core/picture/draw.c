@@ -9,20 +9,20 @@
 #include "picture/draw_parts.h"
 
 /* px at the usual size: height of the title line, width of the legend, margin around the map */
-static const float HEAD = 46, PANEL = 206, EDGE = 16;
+static const float HEAD = 46, LEGEND = 206, EDGE = 16;
 static const float WIDE = 1280, LOW = 480; /* px: usual width, least height */
 
 static const JoxInk FLOOR = {0xf8, 0xf8, 0xf6, 1};
 
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
-    float wide = WIDE - PANEL - 2 * EDGE;
+    float wide = WIDE - LEGEND - 2 * EDGE;
     float tall = wide * (high.y - low.y) / (high.x - low.x);
     if (tall > 960.0f) { /* a tall area makes a narrow picture */
         wide = jox_maxf(wide * 960.0f / tall, 420.0f);
         tall = 960.0f;
     }
     tall = jox_maxf(tall, LOW - HEAD - EDGE);
-    *width = (uint32_t)(wide + PANEL + 2 * EDGE + 1.0f) / 2 * 2;
+    *width = (uint32_t)(wide + LEGEND + 2 * EDGE + 1.0f) / 2 * 2;
     *height = (uint32_t)(tall + HEAD + EDGE + 1.0f) / 2 * 2;
 }
 
@@ -56,9 +56,9 @@ static void lay_out_map(JoxDrawing *d) {
     if (p->panel)
         d->unit = panel_unit(wide);
     float u = d->unit;
-    d->panel = wide - (p->panel ? 0 : PANEL * u);
+    d->legend_left = wide - (p->panel ? 0 : LEGEND * u);
     JoxV2 low = {EDGE * u, HEAD * u};
-    JoxV2 high = {d->panel - EDGE * u, tall - (p->panel ? JOX_DRAW_STRIP : EDGE) * u};
+    JoxV2 high = {d->legend_left - EDGE * u, tall - (p->panel ? JOX_DRAW_STRIP : EDGE) * u};
     JoxV2 size = jox_sub(p->high, p->low);
     d->scale = jox_minf((high.x - low.x) / size.x, (high.y - low.y) / size.y);
     JoxV2 spare = jox_scale(jox_sub(jox_sub(high, low), jox_scale(size, d->scale)), 0.5f);

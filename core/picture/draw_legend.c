@@ -308,7 +308,7 @@ void jox_draw_legend(JoxDrawing *d) {
     }
     Legend l = {.d = d,
                 .bar = BAR,
-                .x = d->panel,
+                .x = d->legend_left,
                 .y = 46 * u,
                 .right = (float)d->canvas->width - 16 * u,
                 .end = (float)d->canvas->height - 180 * u};

@@ -15,13 +15,13 @@ enum { JOX_DRAW_BINS = 32, JOX_DRAW_LABELS = 256 };
 typedef struct JoxDrawing {
     JoxCanvas *canvas;
     const JoxPicture *picture;
-    float unit;       /* scale of type and line widths: px per px of a picture of the usual size */
-    float scale;      /* px/m */
-    JoxV2 low, high;  /* px: the map's upper left and lower right corner */
-    float panel;      /* px: left edge of the legend */
-    JoxInk *inks;     /* colour per class; NULL where colours stand for values */
-    uint32_t *people; /* number of people per class */
-    uint32_t classes; /* number of classes */
+    float unit;        /* scale of type and line widths: px per px of a picture of the usual size */
+    float scale;       /* px/m */
+    JoxV2 low, high;   /* px: the map's upper left and lower right corner */
+    float legend_left; /* px: left edge of the legend */
+    JoxInk *inks;      /* colour per class; NULL where colours stand for values */
+    uint32_t *people;  /* number of people per class */
+    uint32_t classes;  /* number of classes */
     struct {
         JoxV2 low, high;
     } labels[JOX_DRAW_LABELS]; /* px: boxes taken by names so far */

@@ -76,7 +76,7 @@ static pid_t start_gnuplot(const char *folder, const char *script, int errors) {
 
 /* Waits until a pipe has data or is closed, for at most `seconds` of time in which this process
    runs: counting one-second waits leaves out the time that the machine sleeps. Returns whether
-   it is so. */
+   the pipe is ready. */
 static bool wait_for_input(int pipe, int seconds) {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     int ready = 0;
