@@ -144,7 +144,7 @@ static void write_scene(Mix *m) {
 /* Agents take and throw the bodies that they reach, and hold on to others at times. */
 static void write_behaviour(Mix *m) {
     const double speed = draw(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
-    const double spread = draw(m, 0.0, 1.5), kick = draw(m, 0.0, 30.0), thrown = draw(m, 0.0, 40.0);
+    const double spread = draw(m, 0.0, 1.5), kick = draw(m, 0.0, 30.0), thrown = draw(m, 0.1, 40.0);
     m->lua.length = 0;
     jox_text_printf(
         &m->lua,
