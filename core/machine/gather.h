@@ -1,9 +1,9 @@
-/* Shared by gather.c, gather_ground.c and gather_move.c: agents that wait in areas, the ground of
-   these areas, and the spots on it. */
+/* Shared by gather_ground.c, steering/gather.c and steering/gather_move.c: agents that wait in
+   areas, the ground of these areas, and the spots on it. */
 #ifndef JOX_MACHINE_GATHER_H
 #define JOX_MACHINE_GATHER_H
 
-#include "geom/lattice.h"
+#include "geom/ground/lattice.h"
 #include "machine/internal.h"
 
 /* One agent that gathers. */
@@ -51,7 +51,7 @@ JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t place);
 JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, uint32_t need,
                                  float least);
 
-/* gather_move.c: finds the way of an agent to its spot. */
+/* steering/gather_move.c: finds the way of an agent to its spot. */
 void jox_gather_find_way(const JoxMachineRun *run, JoxStandable *ground, JoxGathering *entry);
 /* Swaps the turns of agents that are hindered with those of neighbours, where this shortens ways.
  */

@@ -14,6 +14,13 @@ static const float CLEAR = 0.25f;      /* m between a spot and walls */
 static const float ABOUT = 3.0f;       /* m: ground about a place that belongs to it */
 static const double DEGREE = 3.141592653589793 / 180.0;
 
+const JoxSteerTerm *jox_gather_term(const JoxState *state) {
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        if (state->steer[t].kind == JOX_STEER_GATHER)
+            return &state->steer[t];
+    return NULL;
+}
+
 static uint64_t hash_ground(const JoxMachineRun *run, int32_t index) {
     const JoxPlace *place = &run->places[index];
     JoxHash hash = jox_hash_begin();

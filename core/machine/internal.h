@@ -128,11 +128,13 @@ float jox_headway(const JoxMachineRun *run, uint32_t agent);
 JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t agent, const JoxSteerTerm *term);
 /* About, turning gradually; back from walls, and into the place that it keeps to. */
 JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t agent, int32_t target);
-/* rows.c: finds for all who stand in rows where in them that is, into the scratch's `row`. */
+/* steering/rows.c: finds for all who stand in rows where in them that is, into the scratch's `row`.
+ */
 void jox_rows_form(JoxMachineRun *run);
-/* gather.c: the term by which those in a state gather in a place, or NULL. */
+/* gather_ground.c: the term by which those in a state gather in a place, or NULL. */
 const JoxSteerTerm *jox_gather_term(const JoxState *state);
-/* gather.c: finds for all who gather in a place where to stand, into the scratch's `row`. */
+/* steering/gather.c: finds for all who gather in a place where to stand, into the scratch's `row`.
+ */
 void jox_gatherings_form(JoxMachineRun *run);
 /* gather_ground.c */
 void jox_gatherings_free(JoxMachineScratch *scratch);

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
+#include "geom/ground/standable.h"
 #include "geom/place_kinds.h"
-#include "geom/standable.h"
 
 static JoxV2 CORNERS[] = {{0, 0}, {10, 0}, {10, 6}, {0, 6}};
 static const JoxPlace HALL = {

@@ -1,5 +1,5 @@
 /* Spots to stand on in a polygon. */
-#include "geom/lattice.h"
+#include "geom/ground/lattice.h"
 
 #include <math.h>
 

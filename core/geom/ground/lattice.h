@@ -1,10 +1,10 @@
 /* Spots to stand on in a polygon: a staggered lattice, row by row from the polygon's front, clear
-   of walls. Behaviours gather people on them (machine/gather.c). */
+   of walls. Behaviours gather people on them (machine/steering/gather.c). */
 #ifndef JOX_GEOM_LATTICE_H
 #define JOX_GEOM_LATTICE_H
 
+#include "geom/ground/standable.h"
 #include "geom/place.h"
-#include "geom/standable.h"
 
 typedef struct JoxLattice {
     JoxV2 *at; /* m, row by row, in a row from right to left as one looks to the front */

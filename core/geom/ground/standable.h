@@ -1,5 +1,6 @@
 /* Cells of an area and its surroundings in which people can stand, the parts into which walls and
-   fixed bodies divide them, and ways over them. Behaviours gather people there (machine/gather.c).
+   fixed bodies divide them, and ways over them. Behaviours gather people there
+   (machine/steering/gather.c).
  */
 #ifndef JOX_GEOM_STANDABLE_H
 #define JOX_GEOM_STANDABLE_H

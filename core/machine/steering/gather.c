@@ -16,13 +16,6 @@ static const double TURN_TIME =
 static const float BREADTHS = 1.2f; /* least spacing, in mean breadths of agents */
 static const double DEGREE = 3.141592653589793 / 180.0;
 
-const JoxSteerTerm *jox_gather_term(const JoxState *state) {
-    for (uint32_t t = 0; t < state->steer_count; t++)
-        if (state->steer[t].kind == JOX_STEER_GATHER)
-            return &state->steer[t];
-    return NULL;
-}
-
 static JoxV2 direction_of(float degrees) {
     return jox_v2((float)jox_cos(degrees * DEGREE), (float)jox_sin(degrees * DEGREE));
 }

@@ -1,6 +1,6 @@
 /* Cells in which people can stand: found by their distance from walls. Neighbours on the grid are
    less than two clearances apart, so that no wall lies between two that are free. */
-#include "geom/standable.h"
+#include "geom/ground/standable.h"
 
 #include <math.h>
 #include <string.h>
