@@ -24,7 +24,6 @@
     X(render)                                                                                      \
     X(view)                                                                                        \
     X(check)                                                                                       \
-    X(migrate)                                                                                     \
     X(test)                                                                                        \
     X(new)                                                                                         \
     X(mod)                                                                                         \

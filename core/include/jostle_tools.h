@@ -300,14 +300,6 @@ JO_API char *jo_compare(const JoCompareDef *def, char **json, JoError *error);
    errors, or SIZE_MAX with `error` if it could not be done. */
 JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                        void *context, JoError *error);
-/* Rewrites, in scenes and behaviours (or folders of them), the names that are called otherwise now:
-   words and shipped behaviours of earlier versions, and what behaviours say was `renamed`. Every
-   other byte stays; files that are read besides are not changed. `write` false: nothing is. What is
-   renamed goes to `message`, a line each, and so does what cannot be read; the number of names to
-   `names`, and how many errors of another kind are left, which jo_check says, to `errors`. False
-   with `error` where a file cannot be written; those before it are. */
-JO_API bool jo_migrate(const char *const *paths, size_t count, bool write, JoMessage *message,
-                       void *context, size_t *names, size_t *errors, JoError *error);
 /* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not
    NULL, is part of a test's name. Each result goes to `message`, as text or, at the end, as one
    JSON array. Counts what passed and failed; false with what is wrong sent to `message` if a file

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/old_names.h"
 #include "base/format/path.h"
 #include "base/overlay.h"
 #include "base/text.h"
@@ -25,15 +24,6 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     if (jox_path_find(from, name, ".lua", folders, path)) {
         jox_path_clean(path);
         return jox_arena_text(arena, path);
-    }
-    char stem[64];
-    const char *slash = strrchr(name, '/');
-    snprintf(stem, sizeof stem, "%s", slash ? slash + 1 : name);
-    stem[strcspn(stem, ".")] = 0;
-    const char *now = jox_old_name(JOX_OLD_BEHAVIOUR, stem);
-    if (now) {
-        jox_diag_renamed(l->reader.diagnostics, position, stem, now);
-        return NULL;
     }
     jox_diag_error(l->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",

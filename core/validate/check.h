@@ -1,5 +1,4 @@
-/* Static checks of scenes, behaviours, claims and mods, shared by jo_check (check.c) and
-   jo_migrate (migrate.c). */
+/* Static checks of scenes, behaviours, claims and mods (check.c). */
 #ifndef JOX_VALIDATE_CHECK_H
 #define JOX_VALIDATE_CHECK_H
 

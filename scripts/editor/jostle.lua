@@ -79,7 +79,7 @@ function Target:where(name, ...) end
 ---@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group may set them
 ---@field public? string|string[] memory that others may ask for, by `theirs` and `:where`
 ---@field counts? table memory that counts by itself, in all states
----@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one, and `jostle migrate` writes it
+---@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one
 ---@field states? table<string, jostle.State> name = state
 
 ---@class jostle.State

@@ -18,7 +18,6 @@ scene=$PWD/scenes/running-through.yaml log=$PWD/tests/data/session.input
 "$program" run "$scene" --steps 4 --quiet --record "$work/a.sqlite" --checkpoint 0.05 --checkpoint-dir "$work/saved" || exit 1
 cp -r "$work/saved" "$work/saved.first"
 "$program" sweep "$scene" --set groups.runner.set.mass=60,70 --seeds 2 --steps 2 --quiet --out "$work/runs.sqlite" || exit 1
-sed 's/runner.lua/passer.lua/' "$scene" >"$work/old.yaml" # which migrate rewrites
 mkdir -p "$work/claims" # of one that runs a scene for two steps
 cp "$scene" "$work/scene.yaml"
 cp behaviours/*.lua "$work/"
@@ -42,7 +41,6 @@ commands=(
     "report report $work/a.sqlite --summary out/s.json"
     "render render $work/a.sqlite --at 0.05 --out out/a.svg"
     "check check $scene $PWD/behaviours/walker.lua"
-    "migrate migrate out/old.yaml"
     "test test $PWD/tests/lua/customer_test.lua"
     "new new scene mine"
     "mods mod list $scene"

@@ -17,11 +17,11 @@ expect "a picture of a scene by its name" 0 "circle.svg" env -C "$work" "$PWD/$J
 expect "a command that is misspelt" 2 "jostle: unknown command 'runn'. Did you mean 'run'?" "$JOSTLE" runn
 expect "a scene in place of a command" 2 "jostle run office" "$JOSTLE" office
 for command in "run ofice" "render ofice" "sweep ofice --set duration=1 --out $work/no.sqlite" "compare ofice --out $work/no" "bench ofice" "check ofice" \
-    "migrate ofice" "mod list ofice" "mod why a.b ofice" "reference mods ofice" "run scenes/ofice.yaml" "check scenes/ofice.yaml"; do
+    "mod list ofice" "mod why a.b ofice" "reference mods ofice" "run scenes/ofice.yaml" "check scenes/ofice.yaml"; do
     expect "one message of a scene that is misspelt: $command" 3 "office" "$JOSTLE" $command
     [ "$(grep -c . "$work/out")" = 1 ] || grep -q '^Try' "$work/out" && grep -q "Did you mean '\(scenes/\)*office\(.yaml\)*'?" "$work/out"; verdict "  with what may be meant" $?
 done
-for command in "check circle" "mod list circle" "mod why step circle" "bench circle --steps 1 --warm-up 0" "reference mods circle" "migrate circle --check"; do
+for command in "check circle" "mod list circle" "mod why step circle" "bench circle --steps 1 --warm-up 0" "reference mods circle"; do
     expect "a scene by its name: $command" 0 "" env -C "$work" "$PWD/$JOSTLE" $command
 done
 expect "bench: a name that is misspelt" 3 "Did you mean 'running-through'?" "$JOSTLE" bench runing-through
@@ -290,40 +290,12 @@ printf 'return machine { name = "asks", start = "A", states = { A = { steer = ho
 printf 'jostle: 1\ngroups: {g: {behaviour: asks.lua, at: [[0, 0], [3, 0]], tags: [people]}}\n' >"$work/asks.yaml"
 expect "a state that no machine of the scene has is warned of, where it is named" 0 "asks.lua:2:54: warning: no machine of the scene has a state 'Aa'. Did you mean 'A'?" "$JOSTLE" check "$work/asks.yaml"
 
-# ---- names that are called otherwise now ----
-mkdir -p "$work/old/behaviours" "$work/old/scenes"
-cat >"$work/old/behaviours/lib.lua" <<'LUA'
-local mine = memory { hits = 0 }
-return machine {
-  name = "lib", start = "A",
-  own = { bravery = 0.5 }, renamed = { courage = "bravery", blows = "hits" },
-  states = { A = { steer = hold, { to = "B", when = (held + mine.hits):above(0) & held:above(1) } }, -- held
-             B = { steer = hold, set = { hits = mine.hits + own.bravery } } } }
-LUA
-printf '\xef\xbb\xbf# courage\r\njostle: 1\r\ngroups:\r\n  \xc3\xa4: {behaviour: lib.lua, at: [[0, 0]], set: {courage: 0.7}, memory: {blows: 2}} # courage\r\n  b: {behaviour: lib.lua, at: [[1, 0]], set: {"courage": "uniform(0, 1)"}}\r\n' >"$work/old/scenes/a.yaml"
-chmod 640 "$work/old/scenes/a.yaml"
-cp -r "$work/old" "$work/kept"
-expect "a word that was renamed has its new name in the error" 3 "lib.lua:5:54: 'held' is called 'holders' now. \`jostle migrate FILE\` writes the new name" "$JOSTLE" check "$work/old/behaviours"
-expect "a key of a scene has, too" 3 "'width_eager' is called 'room_eager' now" "$JOSTLE" run scenes/bottleneck.yaml --set walking.width_eager=0.2
-expect "a shipped behaviour has, too" 3 "'passer' is called 'walker' now" "$JOSTLE" run scenes/bottleneck.yaml --set groups.people.behaviour=passer.lua
-expect "migrate --check changes nothing" 1 "2 names to be renamed" "$JOSTLE" migrate --check "$work/old/behaviours"
-diff -r "$work/old" "$work/kept" >/dev/null; verdict "  indeed" $?
-expect "  nor are names in files that were not given to be renamed: they are errors" 3 "2 errors left" "$JOSTLE" migrate --check "$work/old/scenes"
-expect "migrate renames words, and values that a behaviour says were renamed" 0 "5 names renamed" "$JOSTLE" migrate "$work/old"
-sed -i 's/(held/(holders/; s/& held/\& holders/' "$work/kept/behaviours/lib.lua"
-sed -i 's/{courage:/{bravery:/; s/{"courage":/{"bravery":/; s/blows/hits/' "$work/kept/scenes/a.yaml"
-diff -r "$work/old" "$work/kept"; verdict "  there alone: comments, BOM and ends of lines stay" $?
-[ "$(stat -c %a "$work/old/scenes/a.yaml")" = 640 ]; verdict "  and the file's mode" $?
-expect "  and once more there is nothing to do" 0 "0 names renamed" "$JOSTLE" migrate "$work/old"
-expect "what was renamed loads" 0 "nothing wrong" "$JOSTLE" check "$work/old"
-sed -i 's/bravery:/courage:/' "$work/old/scenes/a.yaml"
-ln -s a.yaml "$work/old/scenes/link.yaml"
-"$JOSTLE" migrate "$work/old/scenes/link.yaml" >/dev/null; [ -L "$work/old/scenes/link.yaml" ] && ! grep -q 'courage:' "$work/old/scenes/a.yaml"; verdict "what a link leads to is rewritten, the link stays" $?
+# ---- folders and files that cannot be read ----
 mkdir -p "$work/linked" "$work/deep/2/3/4/5/6/7/8/9"; ln -s / "$work/linked/away"; ln -s itself "$work/linked/itself"
-for command in check "migrate --check" migrate; do
+for command in check; do
     expect "$command: a folder that cannot be read is told" 3 "linked/away: the folder cannot be read: Permission denied. Give its path" "$JOSTLE" $command "$work/linked"
     grep -q "linked/itself: Too many levels of symbolic links" "$work/out"; verdict "  and a file" $?
     expect "  and a folder that lies too deep" 0 "/8/9: warning: folders are checked 8 levels deep, so not this one" "$JOSTLE" $command "$work/deep"
 done
 mkfifo "$work/pipe.yaml"; head -c 100000 /dev/urandom >"$work/noise.yaml"
-expect "migrate: a pipe, noise and nothing" 3 "3 errors left" timeout 20 "$JOSTLE" migrate "$work/pipe.yaml" "$work/noise.yaml" "$work/nothing.yaml"
+expect "check: a pipe, noise and nothing" 3 "3 errors" timeout 20 "$JOSTLE" check "$work/pipe.yaml" "$work/noise.yaml" "$work/nothing.yaml"

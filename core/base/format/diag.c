@@ -76,11 +76,10 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
 
 void jox_diag_renamed(JoxDiagnostics *d, JoxPosition position, const char *was, const char *now) {
     const size_t before = d->count;
-    jox_diag_error(d, position, "renamed", "`jostle migrate FILE` writes the new name",
+    jox_diag_error(d, position, "renamed", "Write the new name",
                    "'%.100s' is called '%.100s' now", was, now);
     if (d->count == before) /* there was no room */
         return;
-    d->items[before].was = jox_strdup(was);
     d->items[before].now = jox_strdup(now);
 }
 
@@ -197,7 +196,6 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
         jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
                      item->source, "%s", item->message);
         if (to->count > before && item->now) {
-            to->items[before].was = jox_strdup(item->was);
             to->items[before].now = jox_strdup(item->now);
         }
     }
@@ -217,7 +215,6 @@ void jox_diag_free(JoxDiagnostics *d) {
         jox_free(d->items[i].hint);
         jox_free(d->items[i].context);
         jox_free(d->items[i].source);
-        jox_free(d->items[i].was);
         jox_free(d->items[i].now);
     }
     jox_free(d->items);

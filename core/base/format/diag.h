@@ -24,7 +24,7 @@ typedef struct JoxDiagnostic {
     char *hint;       /* the way out, or NULL */
     char *context;    /* "machine tawaf > state ToStone > transition 2", or NULL */
     char *source;     /* the line of source, or NULL */
-    char *was, *now;  /* of a name that is called otherwise now, else NULL */
+    char *now;        /* the new name, where a behaviour's author renamed one; else NULL */
 } JoxDiagnostic;
 
 /* Zero-initialise. Keeps the first `limit` errors and as many others; counts all. */
@@ -50,7 +50,7 @@ void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition
 #define jox_diag_error(diagnostics, position, code, hint, ...)                                     \
     jox_diag_add(diagnostics, JOX_SEVERITY_ERROR, position, code, hint, NULL, NULL, __VA_ARGS__)
 
-/* An error at a name that is called otherwise now: `jostle migrate` writes the new one there. */
+/* An error at a name that a behaviour's author has renamed. */
 void jox_diag_renamed(JoxDiagnostics *diagnostics, JoxPosition position, const char *was,
                       const char *now);
 #define jox_diag_warn(diagnostics, position, code, hint, ...)                                      \

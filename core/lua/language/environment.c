@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/old_names.h"
 #include "lua/language/script.h"
 
 /* Why a name of Lua's own libraries is missing; NULL for any other. */
@@ -63,9 +62,6 @@ static int env_index(lua_State *L) {
     }
     if (!script->vm.loading)
         return luaL_error(L, "unknown name '%s'", name);
-    const char *now = jox_old_name(JOX_OLD_WORD, name);
-    if (now)
-        return jox_word_renamed(L, name, now);
     const char *names[128];
     size_t count = jox_word_names(names, 128);
     char hint[JOX_HINT];

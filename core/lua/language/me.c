@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/old_names.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -241,9 +240,7 @@ static int me_index(lua_State *L) {
         return lua_pushcfunction(L, me_signal), 1;
     if (push_number(L, machines, i, name))
         return 1;
-    const char *now = jox_old_name(JOX_OLD_WORD, name);
-    if (!now)
-        now = jox_machine_renamed(m, JOX_PART_MEMORY, name);
+    const char *now = jox_machine_renamed(m, JOX_PART_MEMORY, name);
     if (now)
         return luaL_error(L, "me.%s is called me.%s now", name, now);
     const char *names[96];

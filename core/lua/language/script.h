@@ -259,8 +259,6 @@ JoxCallFact *jox_calls_find(const JoxScript *script, uint32_t source, int first_
 /* Reports an error at a word's place in the running chunk and pushes an error value; returns 1. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
-/* The same of a word that has another name now. */
-int jox_word_renamed(lua_State *L, const char *word, const char *now);
 JoxPosition jox_word_position(lua_State *L, const char *word);
 JoxNamePlace jox_word_written(lua_State *L, const char *word);
 

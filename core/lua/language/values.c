@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/old_names.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -163,10 +162,7 @@ static int now_index(lua_State *L) {
             node->arg = i;
             return 1;
         }
-    const char *now = jox_old_name(JOX_OLD_WORD, name);
     char hint[JOX_HINT];
-    if (now && jox_vm_of(L)->loading)
-        return jox_word_renamed(L, name, now);
     return jox_word_error(L, name, "unknown-word",
                           jox_did_you_mean(name, NAMES, JOX_NOW_COUNT, hint),
                           "nothing called '%s' is measured now", name);

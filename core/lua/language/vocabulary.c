@@ -209,7 +209,7 @@ const JoxTableKey jox_table_keys[] = {
      "public = { \"laps\" }", 0, 0},
     {"machine", "counts", "table", "", "memory that counts by itself, in all states",
      "counts = { laps = circuits \"yard\" }", 0, 0},
-    {"machine", "renamed", "table of names", "", "old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one, and `jostle migrate` writes it",
+    {"machine", "renamed", "table of names", "", "old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one",
      "renamed = { Old = \"Start\" }", 0, 0},
     {"machine", "states", "table of states", "", "name = state", "states = { Start = { steer = hold } }", 0, 0},
     {"state", "steer", "steering or function", "", "where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s",

@@ -50,10 +50,3 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     jox_node_push(L, JOX_NODE_ERROR);
     return 1;
 }
-
-int jox_word_renamed(lua_State *L, const char *word, const char *now) {
-    JoxScript *script = jox_script_of(L);
-    jox_diag_renamed(script->diagnostics, jox_word_position(L, word), word, now);
-    jox_node_push(L, JOX_NODE_ERROR);
-    return 1;
-}

@@ -7,7 +7,6 @@
 
 #include "base/assert.h"
 #include "base/format/noun.h"
-#include "base/format/old_names.h"
 
 enum { MOST_KEYS = 64 }; /* of an owner */
 
@@ -86,11 +85,6 @@ bool jox_keys_check(const JoxReader *reader, const JoxYaml *map, const char *own
     JOX_ASSERT(count > 0);
     for (uint32_t k = 0; k < map->count; k++)
         if (!jox_key_find(reader->format, owner, map->keys[k])) {
-            const char *now = jox_old_name(JOX_OLD_KEY, map->keys[k]);
-            if (now && jox_key_find(reader->format, owner, now)) { /* elsewhere it may be a slip */
-                jox_diag_renamed(reader->diagnostics, map->key_positions[k], map->keys[k], now);
-                continue;
-            }
             const char *hint = jox_scene_suggest(reader, map->keys[k], names, count);
             jox_diag_error(reader->diagnostics, map->key_positions[k], "unknown-key", hint,
                            "unknown key '%s' of %s %s", map->keys[k], article(owner), owner);
