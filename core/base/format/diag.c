@@ -76,8 +76,8 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
 
 void jox_diag_renamed(JoxDiagnostics *d, JoxPosition position, const char *was, const char *now) {
     const size_t before = d->count;
-    jox_diag_error(d, position, "renamed", "Write the new name",
-                   "'%.100s' is called '%.100s' now", was, now);
+    jox_diag_error(d, position, "renamed", "Write the new name", "'%.100s' is called '%.100s' now",
+                   was, now);
     if (d->count == before) /* there was no room */
         return;
     d->items[before].now = jox_strdup(now);

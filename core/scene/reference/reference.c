@@ -176,7 +176,8 @@ void jox_scene_reference_markdown(JoxText *out) {
         }
         for (int p = 0; !strcmp(owner->name, "place") && p < (int)jox_place_kind_count; p++)
             jox_text_printf(out, "- `%s`: %s%s", jox_place_kinds[p].name,
-                            jox_place_kinds[p].meaning, p + 1 < (int)jox_place_kind_count ? "\n" : "\n\n");
+                            jox_place_kinds[p].meaning,
+                            p + 1 < (int)jox_place_kind_count ? "\n" : "\n\n");
         table(owner->name, out);
         alternatives(owner->name, out);
         for (size_t e = 0; e < jox_scene_example_count; e++)
