@@ -210,15 +210,16 @@ typedef enum CliSent {
     CLI_LOADED,  /* the last message of a child: one of these three */
     CLI_REFUSED,
     CLI_OUT_OF_MEMORY,
-    CLI_ENDED, /* from the keeper: the child was ended, at which file and why */
-    CLI_WHOLE, /* to the keeper: read the whole scene */
-    CLI_EDITED,
-    CLI_STOP, /* to the keeper: give up the present request */
+    CLI_ENDED,  /* from the keeper: the child was ended, at which file and why */
+    CLI_WHOLE,  /* to the keeper: read the whole scene */
+    CLI_EDITED, /* to the keeper: read edited files. Name: not empty if the scene's file is one of
+                   them; text: paths of behaviours, each zero-terminated */
+    CLI_STOP,   /* to the keeper: give up the present request */
     CLI_SENT_COUNT
 } CliSent;
 typedef struct CliHead {
-    uint32_t kind;
-    uint64_t name, text;
+    uint32_t kind;       /* CliSent */
+    uint64_t name, text; /* bytes */
 } CliHead;
 
 /* Sends a message; false if the other end is closed. */
@@ -228,7 +229,7 @@ bool cli_send(int out, CliSent kind, const char *name, const char *text, size_t 
 typedef struct CliSource {
     int from, stop;    /* descriptors: messages come from `from`; reading is given up once `stop` is
                           readable, -1: never */
-    double until;      /* s of wall time at which reading is given up; 0: never */
+    double until;      /* s of jox_clock_wall at which reading is given up; 0: never */
     size_t taken;      /* bytes received so far; limited */
     const char *fault; /* why reading was given up; NULL: it was not */
 } CliSource;

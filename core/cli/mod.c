@@ -118,8 +118,8 @@ static int why(const JoSceneDef *def, const char *path) {
     return JO_OK;
 }
 
-/* s between two questions about an agent. One that is not asked about for longer is no longer
-   watched, and the writers of its values are not known (jo_agent_why). */
+/* Interval, s, at which the agent is asked about. One that is not asked about for longer is no
+   longer watched, and the writers of its values are not known (jo_agent_why). */
 static const double ASKED_EACH = 2.0;
 
 /* Prints that there is no such agent: when it left, if it was there, and the ids of those

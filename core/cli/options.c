@@ -110,7 +110,7 @@ static int read_whole_number(const Reading *r, const CliOption *o, const char *t
         return refuse_option(r->command, o, why);
     }
     const uint64_t wide = value;
-    /* also for int: its allowed values have the same bits */
+    /* An int has the same bits, as its allowed values are not negative. */
     const uint32_t narrow = (uint32_t)value;
     if (o->kind == CLI_U64)
         memcpy(r->options + o->at, &wide, sizeof wide);
@@ -234,7 +234,7 @@ bool cli_read_isa(JoIsa *isa, const char *text, char why[160]) {
 int cli_finish_run(const CliCommand *command, JoScene *scene, bool ok, JoError *error,
                    CliRunFiles *files) {
     JoError ending = {0};
-    /* also after an error: what was recorded is kept */
+    /* Finished also after an error, so that what was recorded is kept. */
     const bool ended = jo_scene_finish(scene, &ending);
     if (!ended)
         files->data = NULL;

@@ -9,7 +9,7 @@
 
 #include "cli/cli.h"
 
-/* exit status of a process that a signal ended, minus its number; as in shells */
+/* Exit statuses as in shells: this plus the number of the signal that ended the process. */
 enum { STATUS = 128 };
 
 volatile int cli_signal;
@@ -30,13 +30,13 @@ bool cli_request_end(int number) {
 }
 
 void cli_catch_signals(bool has_files) {
-    /* no SA_RESTART: calls that wait are interrupted */
+    /* No SA_RESTART: calls that wait are interrupted */
     const struct sigaction action = {.sa_handler = handle_signal};
     holds = has_files;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     struct sigaction before;
-    /* ignored by nohup */
+    /* SIGHUP stays ignored if nohup set that. */
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
 }

@@ -152,7 +152,8 @@ bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *err
 
 void jox_sweep_close(JoxSweepStore *store) {
     jox_database_close(store->db);
-    /* after the database: closing any descriptor of a file drops the process's locks on it */
+    /* Closed after the database, because closing any descriptor of a file drops the process's locks
+       on it. */
     if (store->claim)
         jox_file_close(store->claim);
     jox_free(store->path);

@@ -132,7 +132,7 @@ static bool insert_plan(RunWriter *p, const char *plan) {
     return p->good = jox_sweep_step_once(p->store, s, p->error);
 }
 
-/* tables whose rows belong to a run */
+/* Tables whose rows belong to a run */
 static const char *const TABLES[] = {"figure", "curve_point", "field", "run"};
 enum { TABLE_COUNT = sizeof TABLES / sizeof *TABLES };
 

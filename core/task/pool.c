@@ -166,7 +166,7 @@ static bool spin_turn(Spin *wait) {
     return now < wait->until;
 }
 
-/* Waits until a loop starts that is not the last one seen; returns its number. */
+/* Waits until the number of the loop differs from `seen`; returns it. */
 static unsigned await_round(JoxPool *pool, unsigned seen) {
     Spin wait = {.most = pool->spin};
     do {
@@ -175,7 +175,7 @@ static unsigned await_round(JoxPool *pool, unsigned seen) {
             return round;
     } while (spin_turn(&wait));
     pthread_mutex_lock(&pool->lock);
-    /* before reading `round`: start_round reads `asleep` after changing it */
+    /* Counted before `round` is read: start_round changes `round` before it reads `asleep`. */
     atomic_fetch_add(&pool->asleep, 1);
     while (atomic_load(&pool->round) == seen)
         pthread_cond_wait(&pool->wake, &pool->lock);

@@ -67,10 +67,10 @@ static void variants_are_named_by_what_differs(void **state) {
     (void)state;
     check_names((const char *const[]){"x.a=1\nx.b=2", "x.a=1\nx.b=3"},
                 (const char *const[]){"b=2", "b=3"}, 2);
-    /* the short names would be equal */
+    /* The short names would be equal */
     check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"},
                 (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
-    /* equal short names, but only one varies */
+    /* Equal short names, but only one varies */
     check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"},
                 (const char *const[]){"n=1", "n=2"}, 2);
     check_names((const char *const[]){"walls.3.open=true", "walls.3.open=false"},

@@ -23,7 +23,7 @@ static void page_is_served_with_security_headers(void **state) {
     assert_non_null(strstr(answer, expected));
     assert_int_equal(fetch_page("/parts/one.js"), 200);
     assert_non_null(strstr(answer, "content-type: text/javascript"));
-    /* a link to a file in the same folder */
+    /* A link to a file in the same folder */
     assert_int_equal(fetch_page("/three/build/three.module.js"), 200);
     assert_string_equal(get_body(), "three");
 }
@@ -170,7 +170,7 @@ static void sockets_of_other_pages_are_refused(void **state) {
         fetch_with_headers("GET", "/", "Upgrade: h2c\r\nHTTP2-Settings: AAMAAABkAAQ\r\n"), 101);
     uint32_t client;
     char text[JOX_VIEW_MOST_COMMAND + 1];
-    /* only the first socket was accepted */
+    /* Only the first socket was accepted */
     assert_int_equal(take_event(&client, text), JOX_VIEW_JOINED);
     assert_int_equal(take_event(&client, text), JOX_VIEW_LEFT);
     assert_int_equal(jox_view_take(view, &client, text, sizeof text), JOX_VIEW_NOTHING);
@@ -304,7 +304,7 @@ static void silent_connections_do_not_block_others(void **state) {
         assert_true((idle[i] = connect_to(port)) >= 0);
     assert_int_equal(fetch_page("/"), 200);
     leave_page(join_page(&client));
-    /* the page that was connected before stays */
+    /* The page that was connected before stays */
     assert_true(put_text(page, "{\"do\": \"pause\"}"));
     char text[JOX_VIEW_MOST_COMMAND + 1];
     assert_int_equal(take_event(&client, text), JOX_VIEW_COMMAND);
@@ -377,14 +377,14 @@ static void servers_started_at_once_find_different_ports(void **state) {
                 char c;
                 close(begin[1]);
                 close(done[1]);
-                /* waits until the parent closes the pipe */
+                /* Waits until the parent closes the pipe */
                 bool waited = read(begin[0], &c, 1) == 0;
                 JoxText why = {0};
                 JoxViewOptions options = {.page = "page", .three = "three"};
                 JoxView *opened = waited && !chdir(folder) ? jox_view_open(&options, &why) : NULL;
                 if (!opened)
                     fprintf(stderr, "%s\n", why.data ? why.data : "no view");
-                /* keeps the port until all children have theirs */
+                /* Keeps the port until all children have theirs */
                 bool kept = opened && read(done[0], &c, 1) == 0;
                 _exit(kept ? 0 : 1);
             }

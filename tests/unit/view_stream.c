@@ -21,7 +21,7 @@ static void commands_above_the_rate_are_dropped(void **state) {
         heard++;
     double took = clock_now() - begun;
     assert_int_equal(heard + (int)jox_view_dropped(view), SAID);
-    /* a burst of 200, and 200 per second */
+    /* A burst of 200, and 200 per second */
     assert_true(heard >= 200 && heard <= 200 + 200 * took + 1);
     leave_page(fd);
 }
@@ -78,7 +78,7 @@ static void half_open_connections_are_closed(void **state) {
     double begun = clock_now();
     assert_int_equal(fetch_page("/"), 200); /* served at once */
     char first;
-    /* the half-open ones are still connected */
+    /* The half-open ones are still connected */
     assert_int_equal(receive_bytes(half[HALF - 1], &first, 1, 0.0), -1);
     int gone = 0;
     for (int i = 0; i < HALF; i++) {

@@ -26,11 +26,10 @@ typedef struct BenchCase {
     JoStats last;      /* statistics of the last round: agents, bodies */
     uint64_t measured; /* rounds measured so far */
     double steps_per_s[BENCH_ROUNDS], times_real_time[BENCH_ROUNDS];
-    double ns[BENCH_ROUNDS];                     /* processor time per agent-step */
-    double stages[JO_STAGE_COUNT][BENCH_ROUNDS]; /* wall time per agent-step */
-    double bullet[BENCH_ROUNDS]; /* wall time per agent-step, in Bullet's own steps */
-    double bodies[BENCH_ROUNDS]; /* wall time per agent-step of all that moves bodies and shows them
-                                    to agents */
+    double ns[BENCH_ROUNDS];                     /* ns of processor time per agent-step */
+    double stages[JO_STAGE_COUNT][BENCH_ROUNDS]; /* ns of wall time per agent-step */
+    double bullet[BENCH_ROUNDS];                 /* the same, in Bullet's own steps */
+    double bodies[BENCH_ROUNDS]; /* the same, for all that moves bodies and shows them to agents */
 } BenchCase;
 
 /* Adds a round to a case, from the statistics at its beginning and end. */

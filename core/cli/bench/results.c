@@ -170,7 +170,8 @@ bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases
 
 bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoError *error) {
     JoTiming *timings = jox_alloc(count, sizeof *timings);
-    /* cases with a measurable time; the clock of processor time may advance in milliseconds */
+    /* Leaves out cases without a measurable time: the clock of processor time may advance in
+       milliseconds. */
     size_t told = 0;
     for (size_t k = 0; k < count; k++) {
         const BenchCase *c = &cases[k];
