@@ -122,8 +122,8 @@ bool cli_request_end(int number);
 int cli_add_signal_status(int status);
 
 /* Flushes standard output. Returns true if all was written, or if text for people goes to a pipe
-   whose reader closed it, as `head` does. On false the program ends with JO_FAILED and a message
-   about the first errno, kept in cli_output_errno. */
+   whose reader closed it, as `head` does. If false, the first errno is kept in cli_output_errno,
+   and main ends the program with a message and JO_FAILED. */
 bool cli_flush(void);
 /* Declares the output as data, such as a summary: a closed pipe is then an error, too. */
 void cli_output_is_data(void);

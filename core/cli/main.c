@@ -23,7 +23,7 @@ static void print_help(FILE *out) {
 
 /* Returns the status of a command, or JO_FAILED with a message if its output could not be
    written. */
-static int finish_output(int status) {
+static int finish_standard_output(int status) {
     if (cli_flush())
         return status;
     fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(cli_output_errno));
@@ -75,7 +75,7 @@ int main(int argc, char **argv) {
     const char *word = argv[1];
     if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
         print_help(stdout);
-        return finish_output(JO_OK);
+        return finish_standard_output(JO_OK);
     }
     if (!strcmp(word, "--version")) {
         const JoxConfining can = jox_confine_can();
@@ -83,10 +83,10 @@ int main(int argc, char **argv) {
         printf("scenes are read by a process with %s and %s\n",
                can.files ? "Landlock" : "no Landlock in this kernel",
                can.calls ? "seccomp" : "no seccomp");
-        return finish_output(JO_OK);
+        return finish_standard_output(JO_OK);
     }
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))
-            return finish_output(guard_command(cli_commands[c], argc - 1, argv + 1));
+            return finish_standard_output(guard_command(cli_commands[c], argc - 1, argv + 1));
     return print_unknown_command(word);
 }

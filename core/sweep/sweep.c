@@ -50,7 +50,7 @@ static bool is_stopped(const Sweep *s) {
     return s->def->stop && __atomic_load_n(s->def->stop, __ATOMIC_RELAXED);
 }
 
-static void pass_message(const Sweep *s, const char *text) {
+static void pass_sweep_message(const Sweep *s, const char *text) {
     jox_run_message(s->def->message, s->def->message_context, text);
 }
 
@@ -115,7 +115,7 @@ static bool list_jobs(Sweep *s, JoError *error) {
 static bool refuse_file(const Sweep *s, const JoxText *differences, JoError *error) {
     JoxText text = {0};
     jox_text_printf(&text, "%s:\n%s", s->def->out, differences->data);
-    pass_message(s, text.data);
+    pass_sweep_message(s, text.data);
     jox_text_free(&text);
     jox_error(error, JO_INPUT,
               "%s was begun with other inputs, so its runs cannot be compared with these: give "
@@ -204,7 +204,7 @@ static void report_run(Sweep *s, const Job *job, JoxSweepState state, const char
                         reason ? reason : "it is not known why");
     }
     if (text.length)
-        pass_message(s, text.data);
+        pass_sweep_message(s, text.data);
     jox_text_free(&text);
 }
 

@@ -42,7 +42,7 @@ static const float FLOATS[] = {0.0f,
 static const int32_t INTS[] = {0, 1, -1, 7, -8, 0x12345678, INT32_MAX, INT32_MIN};
 enum { FLOAT_COUNT = sizeof FLOATS / sizeof *FLOATS, INT_COUNT = sizeof INTS / sizeof *INTS };
 
-static uint32_t bits_of(float x) {
+static uint32_t get_float_bits(float x) {
     uint32_t bits;
     memcpy(&bits, &x, sizeof bits);
     return bits;
@@ -54,7 +54,7 @@ static void assert_floats(JoxFloats lanes, const float *expected) {
     jf_store(is, lanes);
     for (int l = 0; l < JOX_WIDTH; l++)
         if (!isnan(is[l]) || !isnan(expected[l]))
-            assert_int_equal(bits_of(is[l]), bits_of(expected[l]));
+            assert_int_equal(get_float_bits(is[l]), get_float_bits(expected[l]));
 }
 static void assert_ints(JoxInts lanes, const int32_t *expected) {
     uint32_t is[JOX_WIDTH];
@@ -118,7 +118,7 @@ static void check_float_operations(const float *fa, const float *fb) {
     MASK_IS(jm_or(jf_lt(a_, b_), jf_lt(b_, a_)), a < b || b < a);
     MASK_IS(jm_without(jf_le(a_, b_), jf_lt(a_, b_)), a == b);
     INTS_GIVE(jf_to_ints(a_), a >= -2147483648.0f && a < 2147483648.0f ? (int32_t)a : INT32_MIN);
-    INTS_GIVE(jf_bits(a_), bits_of(a));
+    INTS_GIVE(jf_bits(a_), get_float_bits(a));
 }
 
 static void check_int_operations(const int32_t *ia, const int32_t *ib) {

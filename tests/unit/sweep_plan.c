@@ -54,7 +54,8 @@ static void malformed_lists_are_refused(void **state) {
     }
 }
 
-static void check_names(const char *const *keys, const char *const *wanted, uint32_t count) {
+static void check_variant_names(const char *const *keys, const char *const *wanted,
+                                uint32_t count) {
     char *names[8];
     jox_sweep_name_variants(keys, count, names);
     for (uint32_t k = 0; k < count; k++) {
@@ -65,20 +66,21 @@ static void check_names(const char *const *keys, const char *const *wanted, uint
 
 static void variants_are_named_by_what_differs(void **state) {
     (void)state;
-    check_names((const char *const[]){"x.a=1\nx.b=2", "x.a=1\nx.b=3"},
-                (const char *const[]){"b=2", "b=3"}, 2);
+    check_variant_names((const char *const[]){"x.a=1\nx.b=2", "x.a=1\nx.b=3"},
+                        (const char *const[]){"b=2", "b=3"}, 2);
     /* The short names would be equal */
-    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"},
-                (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
+    check_variant_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"},
+                        (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
     /* Equal short names, but only one varies */
-    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"},
-                (const char *const[]){"n=1", "n=2"}, 2);
-    check_names((const char *const[]){"walls.3.open=true", "walls.3.open=false"},
-                (const char *const[]){"walls.3.open=true", "walls.3.open=false"}, 2);
-    check_names((const char *const[]){"3.open=1", "3.open=2"},
-                (const char *const[]){"3.open=1", "3.open=2"}, 2);
-    check_names((const char *const[]){"a=1", "a=1\nb=2"}, (const char *const[]){"", "b=2"}, 2);
-    check_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
+    check_variant_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"},
+                        (const char *const[]){"n=1", "n=2"}, 2);
+    check_variant_names((const char *const[]){"walls.3.open=true", "walls.3.open=false"},
+                        (const char *const[]){"walls.3.open=true", "walls.3.open=false"}, 2);
+    check_variant_names((const char *const[]){"3.open=1", "3.open=2"},
+                        (const char *const[]){"3.open=1", "3.open=2"}, 2);
+    check_variant_names((const char *const[]){"a=1", "a=1\nb=2"}, (const char *const[]){"", "b=2"},
+                        2);
+    check_variant_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
 }
 
 /* Comparing each name with every other would take minutes. */

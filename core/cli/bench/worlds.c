@@ -16,8 +16,8 @@ typedef struct Worlds {
     uint32_t count;
 } Worlds;
 
-static JoWorld *create_world(const BenchWorlds *def, JoIsa isa, uint32_t number, JoBody *ball,
-                             JoError *error) {
+static JoWorld *create_bench_world(const BenchWorlds *def, JoIsa isa, uint32_t number, JoBody *ball,
+                                   JoError *error) {
     JoWorldDef world_def = jo_default_world_def();
     world_def.seed = number;
     world_def.isa = isa;
@@ -105,7 +105,7 @@ int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, 
     bool good = true;
     double cpu = 0.0, wall = 0.0, unused[2] = {0.0, 0.0};
     for (uint32_t k = 0; good && k < def->worlds; k++) {
-        w.worlds[k] = create_world(def, c->isa, k, &w.balls[k], error);
+        w.worlds[k] = create_bench_world(def, c->isa, k, &w.balls[k], error);
         good = w.worlds[k] != NULL;
         w.count += good;
     }

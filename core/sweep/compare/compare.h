@@ -226,7 +226,7 @@ void jox_compare_put_percentiles(FILE *out, const JoxComparison *c);
 /* seeds_page.c: writes index.html for a single variant. */
 bool jox_seeds_write_page(const JoxComparison *c, JoxText *why);
 enum { JOX_COMPARE_CURVES = 24 }; /* most curves that are drawn */
-/* Returns the n-th curve to draw, as the first side that has it holds it; NULL after the last. */
+/* Returns the n-th curve to draw, taken from the first side that has it; NULL after the last. */
 const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n);
 /* Returns whether effects.svg shows a figure of a side: key figures with an interval and a base
    that is not 0. jox_compare_count_effect_rows counts the figures that are shown for any side. */

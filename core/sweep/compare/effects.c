@@ -104,7 +104,7 @@ static bool is_varied(const JoxComparison *c, const char *name) {
 }
 
 /* Returns whether two figures have the same value in every run of every side. */
-static bool have_equal_values(const JoxComparison *c, const char *a, const char *b) {
+static bool are_figures_equal(const JoxComparison *c, const char *a, const char *b) {
     for (uint32_t s = 0; s < c->sides.count; s++) {
         const JoxSide *side = &c->sides.items[s];
         const JoxSideFigure *f = jox_side_find_figure(side, a), *g = jox_side_find_figure(side, b);
@@ -121,7 +121,7 @@ static void demote_duplicates(JoxComparison *c) {
     for (uint32_t f = 1; f < c->count; f++)
         for (uint32_t g = 0; g < f && c->figures[f].words.is_key; g++)
             if (c->figures[g].words.is_key &&
-                have_equal_values(c, c->figures[f].figure, c->figures[g].figure))
+                are_figures_equal(c, c->figures[f].figure, c->figures[g].figure))
                 c->figures[f].words.is_key = false;
 }
 

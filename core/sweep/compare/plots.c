@@ -44,7 +44,7 @@ const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n) {
 }
 
 /* Writes the data of curve-N.svg, a block for each side: time, mean, 5 % and 95 %. */
-static bool write_curve_data(const JoxComparison *c, uint32_t n, JoxText *why) {
+static bool write_comparison_curve(const JoxComparison *c, uint32_t n, JoxText *why) {
     char name[40];
     snprintf(name, sizeof name, "curve-%u.dat", n + 1);
     FILE *out = jox_plot_open(c->def->out, name, why);
@@ -252,7 +252,7 @@ bool jox_compare_draw_plots(const JoxComparison *c, JoxText *why) {
     uint32_t n = 0;
     bool good = true;
     for (; good && n < JOX_COMPARE_CURVES && jox_compare_curve(c, n); n++)
-        good = write_curve_data(c, n, why);
+        good = write_comparison_curve(c, n, why);
     const bool effects = jox_compare_count_effect_rows(c) > 0;
     good = good && (!effects || write_effects(c, why));
     FILE *script = good && (n || effects) ? jox_plot_open(c->def->out, "compare.plt", why) : NULL;

@@ -8,12 +8,12 @@
 #include "record/danger/danger.h"
 #include "sweep/compare/compare.h"
 
-static void put_statement(FILE *out, const char *lead, JoxText *text) {
+static void put_seeds_statement(FILE *out, const char *lead, JoxText *text) {
     jox_html_statement(out, lead, text->data ? text->data : "");
     jox_text_free(text);
 }
 
-static void put_run_statement(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+static void put_what_was_run(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     const char *settings = side->settings ? side->settings : "";
     const JoxSpread people = jox_spread_of(side, "events.spawned");
     JoxText text = {0};
@@ -43,7 +43,7 @@ static void put_run_statement(FILE *out, const JoxSide *side, const JoxSideDrawn
                                          "nine in ten lie between (5 to 95 %), and the greatest "
                                          "with its seed."
                                        : "");
-    put_statement(out, "What was run.", &text);
+    put_seeds_statement(out, "What was run.", &text);
 }
 
 static void put_failures_statement(FILE *out, const JoxSide *side) {
@@ -60,7 +60,7 @@ static void put_failures_statement(FILE *out, const JoxSide *side) {
         if (side->all[r].state != JOX_SWEEP_DONE)
             jox_text_printf(&text, "%s seed %llu: %.300s", told++ ? ";" : "",
                             (unsigned long long)side->all[r].seed, side->all[r].reason);
-    put_statement(out, "What went wrong.", &text);
+    put_seeds_statement(out, "What went wrong.", &text);
 }
 
 static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
@@ -72,7 +72,7 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
     JoxText text = {0};
     if (last.runs == 0) {
         jox_text_printf(&text, "In no run did anybody leave within %.4g s.", drawn->subject.until);
-        put_statement(out, "Who got out when.", &text);
+        put_seeds_statement(out, "Who got out when.", &text);
         return;
     }
     jox_text_add(&text, "Half of those who left had done so by ");
@@ -94,7 +94,7 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
             jox_text_printf(&text, ", the last at %.1f s", then.median);
     }
     jox_text_add(&text, drawn->exits.count ? "." : "");
-    put_statement(out, "Who got out when.", &text);
+    put_seeds_statement(out, "Who got out when.", &text);
     if (inside.most > 0) {
         jox_text_printf(&text, "%s in %u of %u runs. At the end, %.4g s, ",
                         clear.runs ? "Not always:" : "No:", clear.runs, side->runs,
@@ -107,7 +107,7 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
         jox_spread_add_text(&clear, "s", false, &text);
         jox_text_add(&text, " on.");
     }
-    put_statement(out, "Cleared?", &text);
+    put_seeds_statement(out, "Cleared?", &text);
 }
 
 /* Appends the place at which the greatest density, as a mean over runs, is greatest. */
@@ -165,14 +165,14 @@ static void put_danger_statements(FILE *out, const JoxSide *side, const JoxSideD
         add_densest_place(side, drawn, &text);
         add_exceeded_limits(side, JOX_DANGER_DENSITY, &text);
         add_exceeded_limits(side, JOX_DANGER_VORONOI, &text);
-        put_statement(out, "Where it was dense.", &text);
+        put_seeds_statement(out, "Where it was dense.", &text);
     }
     if (load.runs) {
         jox_text_add(&text, "The greatest load from one side was ");
         jox_spread_add_text(&load, "N", false, &text);
         jox_text_add(&text, ".");
         add_exceeded_limits(side, JOX_DANGER_LOAD, &text);
-        put_statement(out, "What people bore.", &text);
+        put_seeds_statement(out, "What people bore.", &text);
     }
     if (pressure.runs) {
         jox_text_printf(&text, "Crowd pressure was measured in %u of %u runs; the greatest was ",
@@ -184,7 +184,7 @@ static void put_danger_statements(FILE *out, const JoxSide *side, const JoxSideD
         jox_text_add(&text, "Not measured: in no run was the crowd dense enough for long enough (5 "
                             "per m\xc2\xb2 or more on 12 m\xc2\xb2 for 20 s).");
     }
-    put_statement(out, "Crowd turbulence.", &text);
+    put_seeds_statement(out, "Crowd turbulence.", &text);
 }
 
 /* Writes what is validated, and what the spread of the runs does not cover. */
@@ -209,13 +209,13 @@ static void put_validity_statement(FILE *out, const JoxSide *side) {
             " It takes %zu runs until the worst of them lies above the true 95 %% value "
             "with a probability of 95 %% (Wilks 1941).",
             many);
-    put_statement(out, "What is validated, and what is not.", &text);
+    put_seeds_statement(out, "What is validated, and what is not.", &text);
 }
 
 void jox_seeds_put_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    put_run_statement(out, side, drawn);
+    put_what_was_run(out, side, drawn);
     put_failures_statement(out, side);
     if (side->runs) {
         put_leaving_statements(out, side, drawn);
