@@ -1,5 +1,4 @@
 /* The command `resume`: continues a run from its newest checkpoint, in the same files. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "base/format/quote.h"
-#include "base/mem.h"
 #include "cli/cli.h"
 
 typedef struct Sweep {

@@ -6,7 +6,6 @@
 #include "base/file.h"
 #include "base/format/quote.h"
 #include "base/guard.h"
-#include "base/sort.h"
 #include "sweep/store.h"
 
 typedef struct Names {

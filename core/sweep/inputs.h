@@ -4,6 +4,7 @@
 #ifndef JOX_SWEEP_INPUTS_H
 #define JOX_SWEEP_INPUTS_H
 
+#include "base/overlay.h"
 #include "sweep/store.h"
 
 /* Returns the scene of one run: that of `def`, with the variant's settings and the seed. The caller

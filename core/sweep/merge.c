@@ -1,6 +1,5 @@
 /* Merges the files of a sweep whose runs were spread over machines: `jostle sweep --merge`. Each
    part is attached to the output as the database `part`, and its runs are copied. */
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"

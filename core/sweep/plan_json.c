@@ -1,6 +1,5 @@
 /* Writes the plan of a scene as JSON, so that the results of a sweep can be drawn without its
    scene. compare/side_plan.c reads it. */
-#include <math.h>
 
 #include "base/format/json_writer.h"
 #include "base/mem.h"

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/format/pieces.h"
-#include "base/mem.h"
 #include "run/run.h"
 #include "sweep/sweep.h"
 

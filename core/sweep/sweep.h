@@ -7,7 +7,6 @@
 #include <stdint.h>
 
 #include "base/format/json_writer.h"
-#include "base/overlay.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "jostle_tools.h"

@@ -1,7 +1,6 @@
 /* The stepping thread's side of the server: publishing, sending, and taking what browsers sent.
    Also the queues between the two threads, and creation of the view. */
 #include <poll.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>

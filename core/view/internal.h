@@ -4,7 +4,6 @@
 #ifndef JOX_VIEW_INTERNAL_H
 #define JOX_VIEW_INTERNAL_H
 
-#include <pthread.h>
 #include <stdatomic.h>
 
 #include "base/mem.h"

@@ -4,6 +4,7 @@
 #define JOX_VIEW_LWS_SERVER_H
 
 #include <libwebsockets.h>
+#include <pthread.h>
 
 #include "view/internal.h"
 

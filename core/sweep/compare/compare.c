@@ -2,7 +2,6 @@
    page. */
 #include "sweep/compare/compare.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
    runs would detect them. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/mem.h"
 #include "base/sort.h"

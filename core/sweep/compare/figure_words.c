@@ -1,5 +1,4 @@
 /* Words and units for the figures of summaries, and the order in which they are shown. */
-#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/format/quote.h"
-#include "base/mem.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "report/maps.h"

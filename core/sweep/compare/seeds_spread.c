@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "base/mem.h"
-#include "picture/html.h"
 #include "sweep/compare/compare.h"
 
 JoxSpread jox_spread_of(const JoxSide *side, const char *name) {

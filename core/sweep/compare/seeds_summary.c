@@ -1,7 +1,5 @@
 /* Writes the summary of a sweep of one variant in sentences: the first section of its page. */
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/format/noun.h"
 #include "picture/html.h"
