@@ -52,7 +52,7 @@ static bool fail_with_text(JoError *error, JoxText *why) {
     return false;
 }
 
-static void pass_message(const JoRenderDef *def, const char *format, const char *what) {
+static void forward_message(const JoRenderDef *def, const char *format, const char *what) {
     char text[1200];
     snprintf(text, sizeof text, format, what);
     jox_run_message(def->message, def->message_context, text);
@@ -214,7 +214,8 @@ static bool prepare_output(Job *job, JoError *error) {
     if (job->kind == VIDEO && !jox_video_available()) {
         snprintf(job->folder, sizeof job->folder, "%.*s-frames",
                  (int)(strrchr(def->out, '.') - def->out), def->out);
-        pass_message(def, "there is no ffmpeg to make a video; its frames go to %s\n", job->folder);
+        forward_message(def, "there is no ffmpeg to make a video; its frames go to %s\n",
+                        job->folder);
     } else if (job->kind == FRAMES) {
         snprintf(job->folder, sizeof job->folder, "%s", def->out);
     }
@@ -254,7 +255,7 @@ static bool write_next_picture(Job *job, JoError *error) {
 
 /* Closes the video and reports which files were written. Fails if a video was asked for and
    there is no ffmpeg. */
-static bool finish_output(Job *job, double fps, bool good, JoError *error) {
+static bool finish_pictures(Job *job, double fps, bool good, JoError *error) {
     const JoRenderDef *def = job->render.def;
     JoxText why = {0};
     if (job->video && !jox_video_close(job->video, &why) && good)
@@ -269,7 +270,7 @@ static bool finish_output(Job *job, double fps, bool good, JoError *error) {
         snprintf(path, sizeof path, "%s/frame-000001.png to frame-%06u.png", job->folder,
                  job->done);
     }
-    pass_message(def, "pictures: %s\n", *job->folder ? path : def->out);
+    forward_message(def, "pictures: %s\n", *job->folder ? path : def->out);
     if (job->kind == VIDEO && *job->folder) {
         jox_error(error, JO_FAILED,
                   "no video was made, as there is no ffmpeg (Debian: apt-get install ffmpeg); its "
@@ -313,7 +314,7 @@ static bool render_pictures(const JoRenderDef *def, JoError *error) {
         show_render_progress(job, n + 1 == job->count && good);
     }
     if (began)
-        good = finish_output(job, fps, good, error);
+        good = finish_pictures(job, fps, good, error);
     jox_canvas_free(job->canvas);
     jox_render_free(&job->render);
     jox_free(job);

@@ -126,7 +126,7 @@ static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half
 /* ---- the summary ---- */
 
 /* Writes what was run: the scene, its people by group, duration, step, seed and version. */
-static void put_run_statement(FILE *out, const JoScene *scene, const JoxSubject *subject) {
+static void put_scene_statement(FILE *out, const JoScene *scene, const JoxSubject *subject) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     JoxText text = {0}, demand = {0};
@@ -175,7 +175,7 @@ static void put_caveats(FILE *out, const JoScene *scene) {
 static void put_run_summary(FILE *out, const JoScene *scene, const JoxSubject *subject) {
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    put_run_statement(out, scene, subject);
+    put_scene_statement(out, scene, subject);
     jox_summary_crowd(out, subject);
     put_caveats(out, scene);
     fputs("</div>\n", out);

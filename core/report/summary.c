@@ -10,7 +10,7 @@
 #include "record/danger/trust.h"
 #include "report/subject.h"
 
-static void put_statement(FILE *out, const char *lead, JoxText *text) {
+static void put_summary_statement(FILE *out, const char *lead, JoxText *text) {
     jox_html_statement(out, lead, text->data ? text->data : "");
     jox_text_free(text);
 }
@@ -48,7 +48,7 @@ static void put_leaving_summary(FILE *out, const JoxSubject *s) {
                             ? "1 person was"
                             : (jox_noun(people, s->inside, "person|people were"), people),
                         s->until);
-        put_statement(out, "Who got out when.", &text);
+        put_summary_statement(out, "Who got out when.", &text);
         return;
     }
     if (s->inside)
@@ -61,7 +61,7 @@ static void put_leaving_summary(FILE *out, const JoxSubject *s) {
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.5),
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.95), s->exits->last);
     say_exits(s, &text);
-    put_statement(out, "Who got out when.", &text);
+    put_summary_statement(out, "Who got out when.", &text);
     if (s->inside)
         jox_text_printf(&text, "No. %s still inside at %.1f s, the end of what was measured.",
                         s->inside == 1 ? "1 person was"
@@ -69,7 +69,7 @@ static void put_leaving_summary(FILE *out, const JoxSubject *s) {
                         s->until);
     else
         jox_text_printf(&text, "Yes, at %.1f s: from then on nobody is inside.", s->exits->last);
-    put_statement(out, "Cleared?", &text);
+    put_summary_statement(out, "Cleared?", &text);
 }
 
 /* ---- where it was dangerous ---- */
@@ -150,7 +150,7 @@ static void put_density_summary(FILE *out, const JoxSubject *s) {
         jox_text_printf(&text,
                         "Voronoi densities were not measured: nobody stood in %g per m\xc2\xb2.",
                         (double)JOX_VORONOI_LEAST);
-    put_statement(out, "Where it was dense.", &text);
+    put_summary_statement(out, "Where it was dense.", &text);
     jox_text_free(&people);
 }
 
@@ -159,7 +159,7 @@ static void put_load_summary(FILE *out, const JoxSubject *s) {
     if (!jox_danger_reads(s->danger, JOX_DANGER_LOAD))
         return;
     say_measure(s, JOX_DANGER_LOAD, &text);
-    put_statement(out, "What people bore.", &text);
+    put_summary_statement(out, "What people bore.", &text);
 }
 
 static void put_pressure_summary(FILE *out, const JoxSubject *s) {
@@ -179,7 +179,7 @@ static void put_pressure_summary(FILE *out, const JoxSubject *s) {
             jox_text_printf(&text, " Nobody stood in a %s or more, where turbulence sets in.",
                             jox_danger_limits[l].title);
     }
-    put_statement(out, "Crowd turbulence.", &text);
+    put_summary_statement(out, "Crowd turbulence.", &text);
 }
 
 /* Writes the regions of significant congestion (JOX_CONGESTION_DENSITY for JOX_CONGESTION_SHARE
@@ -223,7 +223,7 @@ static void put_congestion_summary(FILE *out, const JoxSubject *s) {
     if (found.count > MOST)
         jox_text_printf(&text, " %u more %s so for less time; danger-congestion.csv has all.",
                         found.count - MOST, found.count - MOST == 1 ? "was" : "were");
-    put_statement(out, "Congestion.", &text);
+    put_summary_statement(out, "Congestion.", &text);
     jox_congestion_found_free(&found);
 }
 
@@ -275,7 +275,7 @@ static void put_line_summary(FILE *out, const JoxSubject *s) {
         jox_text_add(&text, ".");
     }
     if (text.length)
-        put_statement(out, "Doors and other lines.", &text);
+        put_summary_statement(out, "Doors and other lines.", &text);
 }
 
 /* ---- levels of service ---- */
@@ -330,7 +330,7 @@ static void put_level_summary(FILE *out, const JoxSubject *s) {
         "than %.1f per m\xc2\xb2 " JOX_DENSITY_BY ".",
         100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
     say_crowded_areas(d, &text);
-    put_statement(out, "Levels of service.", &text);
+    put_summary_statement(out, "Levels of service.", &text);
 }
 
 static void put_trust_summary(FILE *out, const JoxSubject *s) {
@@ -338,7 +338,7 @@ static void put_trust_summary(FILE *out, const JoxSubject *s) {
     JoxText text = {0};
     jox_trust_say(s->overlap_p99, density, &text);
     if (text.length)
-        put_statement(out, "Too dense to trust.", &text);
+        put_summary_statement(out, "Too dense to trust.", &text);
 }
 
 void jox_summary_crowd(FILE *out, const JoxSubject *s) {

@@ -183,8 +183,8 @@ static void check_claim(const char *path, JoxDiagnostics *all) {
 
 /* Searches the file that a patch changes: in a mod for "mod:name"; else in the tree that
    contains the mods, then in the library. Returns false if there is none. */
-static bool search_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
-                          char path[1024]) {
+static bool search_patched_file(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                                char path[1024]) {
     const char *kind = patch->lua ? "behaviours" : "scenes", *end = patch->lua ? "lua" : "yaml";
     const char *colon = strchr(patch->target, ':');
     for (uint32_t m = 0; colon && m < mods->found_count; m++) {
@@ -208,9 +208,9 @@ static bool search_target(const JoxMods *mods, const JoxMod *mod, const JoxModPa
     return is_file(path);
 }
 
-static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
-                        char path[1024]) {
-    const bool found = search_target(mods, mod, patch, path);
+static bool find_patched_file(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                              char path[1024]) {
+    const bool found = search_patched_file(mods, mod, patch, path);
     jox_path_clean(path);
     return found;
 }
@@ -222,7 +222,7 @@ static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics
         char path[1024];
         if (!patch->target)
             continue;
-        if (!find_target(mods, mod, patch, path)) {
+        if (!find_patched_file(mods, mod, patch, path)) {
             jox_diag_error(all, patch->position, "unknown-target",
                            "A file of behaviours/ or scenes/ by its name, or mod:name of a mod",
                            "there is no %s '%s' to change", patch->lua ? "behaviour" : "scene",
