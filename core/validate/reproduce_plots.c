@@ -31,7 +31,7 @@ static void put_plot_number(FILE *out, double value) {
 
 /* Writes the data of all curves, separated by two blank lines: per point x, and for figures
    mean, least, greatest and band, else y. */
-static void write_curve_data(const JoxOutcome *outcome, const JoxClaimPlot *plot, FILE *out) {
+static void write_claim_curves(const JoxOutcome *outcome, const JoxClaimPlot *plot, FILE *out) {
     for (uint32_t c = 0; c < plot->curve_count; c++) {
         const JoxClaimCurve *curve = &plot->curves[c];
         for (uint32_t p = 0; p < curve->count; p++) {
@@ -212,7 +212,7 @@ static bool draw_claim_plot(const JoxOutcome *outcome, const JoxClaimPlot *plot,
     if (map)
         write_map_data(outcome, &plot->curves[0], out);
     else
-        write_curve_data(outcome, plot, out);
+        write_claim_curves(outcome, plot, out);
     if (!jox_plot_close(out, file, error))
         return false;
     snprintf(file, sizeof file, "%s.plt", name);
