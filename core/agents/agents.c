@@ -442,16 +442,18 @@ void jox_agents_free(JoxAgents *a) {
     *a = (JoxAgents){0};
 }
 
+JoxV2 jox_agents_wrapped(const JoxAgents *a, JoxV2 at) {
+    if (a->period.x > 0.0f)
+        at.x -= floorf((at.x - a->origin.x) / a->period.x) * a->period.x;
+    if (a->period.y > 0.0f)
+        at.y -= floorf((at.y - a->origin.y) / a->period.y) * a->period.y;
+    return at;
+}
+
 bool jox_agents_wrap(JoxAgents *a, uint32_t i) {
-    JoxV2 before = {a->x[i], a->y[i]};
-    if (a->period.x > 0.0f) {
-        float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
-        a->x[i] -= turns * a->period.x;
-    }
-    if (a->period.y > 0.0f) {
-        float turns = floorf((a->y[i] - a->origin.y) / a->period.y);
-        a->y[i] -= turns * a->period.y;
-    }
+    const JoxV2 before = {a->x[i], a->y[i]}, at = jox_agents_wrapped(a, before);
+    a->x[i] = at.x;
+    a->y[i] = at.y;
     JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
     JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
     JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);

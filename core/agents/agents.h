@@ -277,6 +277,8 @@ void jox_agents_forget(JoxAgents *agents);
 void jox_agents_check(const JoxAgents *agents);
 void jox_agents_free(JoxAgents *agents);
 
+/* Where a point lies within joined edges. */
+JoxV2 jox_agents_wrapped(const JoxAgents *agents, JoxV2 at);
 /* Who has left over a periodic edge comes in at the other side, with where the step began beyond
    the edge. Whether agent i has, or is at no place. */
 bool jox_agents_wrap(JoxAgents *agents, uint32_t i);

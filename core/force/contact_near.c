@@ -61,7 +61,7 @@ static bool edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxFound
         const JoxWallVertex *before = &walls->vertices[a->previous];
         JoxV2 from_start = jox_sub(p, before->point);
         float reached = jox_dot(from_start, before->direction);
-        if (!a->convex || reached < jox_length(jox_sub(a->point, before->point)))
+        if (a->continued || !a->convex || reached < jox_length(jox_sub(a->point, before->point)))
             return false;
     }
     JoxV2 out_of = jox_sub(p, at);
@@ -86,6 +86,8 @@ uint32_t jox_contacts_walls_of(const JoxForces *f, uint32_t i,
         JoxFoundWall contact;
         if (!edge_contact(f->step.walls->walls, edges[k], at, &contact))
             continue;
+        if (f->images) /* what presses on an image presses on its wall */
+            contact.edge = jox_wall_images_origin(f->images, edges[k], &contact.along);
         contact.gap -= radius;
         if (contact.gap > most)
             continue;

@@ -14,6 +14,7 @@
 #include "agents/neighbours.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
+#include "geom/wall_images.h"
 #include "jostle.h"
 #include "task/pool.h"
 #include "task/stage_memory.h"
@@ -83,8 +84,9 @@ void jox_forces_set_isa(JoxForces *forces, JoIsa isa);
 /* Memory that push, from jox_force_begin on, shares with other stages; at first its own. */
 void jox_forces_set_memory(JoxForces *forces, JoxStageMemory *memory);
 
-/* The walls whose loads are told; not copied; call again when they change. NULL: none. */
-void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls);
+/* The walls whose loads are told, and their images beyond joined edges, which count for them; not
+   copied; call again when they change. NULL: none. */
+void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls, const JoxWallImages *images);
 /* The greatest gap over which a braced person passes a force on, m. */
 float jox_force_passing_reach(const JoxForces *forces);
 /* Lists what outlasts a step: the impulses from which the next solve of contacts starts. */

@@ -96,8 +96,9 @@ struct JoxForces {
     JoxContactPlanes planes;
 
     const JoxWalls *walls;
-    JoxWallLoad *pieces;   /* of all edges */
-    uint32_t *piece_first; /* per edge, and one more */
+    const JoxWallImages *images; /* of these, beyond joined edges; NULL: none */
+    JoxWallLoad *pieces;         /* of all edges */
+    uint32_t *piece_first;       /* per edge, and one more */
     uint32_t piece_count;
     size_t piece_capacity, piece_first_capacity;
 

@@ -157,8 +157,9 @@ static float edge_length(const JoxWalls *walls, uint32_t edge) {
     return jox_length(jox_sub(walls->vertices[v->next].point, v->point));
 }
 
-void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls) {
+void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls, const JoxWallImages *images) {
     f->walls = walls;
+    f->images = images;
     uint32_t edges = walls ? walls->count : 0, pieces = 0;
     JOX_RESERVE(f->piece_first, f->piece_first_capacity, (size_t)edges + 1);
     for (uint32_t e = 0; e < edges; e++) {

@@ -92,8 +92,8 @@ static void lay_ring(JoxHands *h, const JoxObject *body) {
     lay_circle(h->ring, jox_v2(0.0f, 0.0f), body->disc + CLEARANCE);
 }
 
-void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxObjects *objects, uint32_t row,
-                    JoxV2 from, float reach) {
+void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxWalls *images,
+                    const JoxObjects *objects, uint32_t row, JoxV2 from, float reach) {
     JOX_ASSERT(objects && row < objects->count && reach >= 0.0f);
     const JoxObject *body = &objects->rows[row];
     const float middle = jox_maxf(JOX_HAND_HEIGHT, body->position.z);
@@ -102,6 +102,8 @@ void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxObjects *ob
     lay_ring(hands, body);
     if (walls)
         add_walls(hands, walls, lowest, from, reach);
+    if (images)
+        add_walls(hands, images, lowest, from, reach);
     add_objects(hands, objects, row, lowest, highest, from, reach);
 }
 

@@ -23,9 +23,10 @@ typedef struct JoxHands {
 /* Lists what is in the way of hands that hold body `row` within `reach` m of a point: walls, and
    bodies that are static, driven or heavier than 200 kg, unless they lie about the point. What is
    lower than the body's lowest point is reached over; the body's middle is at JOX_HAND_HEIGHT, or
-   where it lies if that is higher. Either of `walls` and `objects` may be NULL. */
-void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxObjects *objects, uint32_t row,
-                    JoxV2 from, float reach);
+   where it lies if that is higher. `images`: of walls, beyond joined edges. All three may be NULL.
+ */
+void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxWalls *images,
+                    const JoxObjects *objects, uint32_t row, JoxV2 from, float reach);
 /* Whether nothing that was listed crosses the way from a point to another. */
 bool jox_hands_reach(const JoxHands *hands, JoxV2 from, JoxV2 to);
 /* Whether nothing that was listed lies between a point and any part of the body, whose middle is at

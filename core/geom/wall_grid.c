@@ -62,6 +62,8 @@ static void size_grid(JoxWallGrid *g) {
 
 /* Puts an edge into the cells that it comes near; counts them as long as there is no list. */
 static void enter_edge(JoxWallGrid *g, uint32_t edge) {
+    if (g->walls->vertices[edge].covered)
+        return;
     CellRange r = cells_near_edge(g, edge);
     JOX_ASSERT(r.x0 <= r.x1 && r.x1 < g->columns && r.y0 <= r.y1 && r.y1 < g->rows);
     for (uint32_t y = r.y0; y <= r.y1; y++)

@@ -13,8 +13,11 @@ typedef struct JoxWallVertex {
     JoxV2 point;
     JoxV2 direction; /* unit vector to next */
     uint32_t next, previous;
-    bool convex; /* the ring turns left here (ends of polylines count as convex) */
-    bool came;   /* the edge rose after people were last cleared out of walls that came */
+    bool convex;    /* the ring turns left here (ends of polylines count as convex) */
+    bool came;      /* the edge rose after people were last cleared out of walls that came */
+    bool covered;   /* of an image: an edge lies there already, and grids leave this one out */
+    bool continued; /* no corner to touch: a wall goes on in one line with an image, see
+                       wall_images.h */
 } JoxWallVertex;
 
 typedef struct JoxWalls {

@@ -131,7 +131,8 @@ JO_API JoCast jo_world_cast(const JoWorld *world, const double from[2], const do
                             double radius, uint32_t kinds);
 
 /* The way that somebody who is 0.25 m in radius walks from (x, y) to a place of the scene, round
-   walls that stand, not round people or bodies: points x0, y0, x1, y1, ... about 0.25 m apart from
+   walls that stand, not round people or bodies; where edges are joined, perhaps over one, with the
+   next point at the other side: points x0, y0, x1, y1, ... about 0.25 m apart from
    (x, y) on. Writes up to `capacity` points (2 numbers each) and the length of the whole way, m
    (INFINITY: there is none). Returns how many points there are. The first question about a place
    after walls changed takes as long as the making of a distance field, milliseconds to seconds. */

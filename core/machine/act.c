@@ -148,7 +148,7 @@ static void add_grip(JoxMachineRun *run, JoxGrip grip) {
 static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *body) {
     const JoxV2 from = {run->agents->x[i], run->agents->y[i]}, to = {body->x, body->y};
     JoxHands *hands = &run->scratch->hands;
-    jox_hands_look(hands, run->walls, run->objects, (uint32_t)body->object, from,
+    jox_hands_look(hands, run->walls, run->wall_images, run->objects, (uint32_t)body->object, from,
                    jox_length(jox_sub(to, from)));
     return jox_hands_reach(hands, from, to);
 }

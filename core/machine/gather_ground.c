@@ -57,7 +57,7 @@ JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t index) {
         return ground;
     const uint64_t from = hash_ground(run, index);
     if (!ground->cells.part || ground->from != from)
-        jox_standable_lay(&ground->cells, place, ABOUT, run->walls, run->objects);
+        jox_standable_lay(&ground->cells, place, ABOUT, run->walls, run->wall_images, run->objects);
     ground->from = from;
     ground->checked = true;
     return ground;

@@ -189,7 +189,7 @@ bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched)
    least, in which neither lies; not that of row `but`. */
 bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t but);
 /* Whether a wall of another ring than `but` hides one point from another. */
-bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched);
+bool jox_is_hidden_by(const JoxMachineRun *run, uint32_t but, JoxV2 from, JoxV2 to, bool touched);
 /* The first wall that stands on the way from one point to another: true with its unit normal. */
 bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal);
 /* Whether agent j, whom agent i sees, is what a target of i's machine asks for. */

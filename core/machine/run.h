@@ -173,8 +173,9 @@ typedef struct JoxMachineRun {
     const JoxObjects *objects;
     const JoxPlace *places;
     uint32_t place_count;
-    const JoxWalls *walls;  /* all, gates that are open too; NULL: none */
-    uint32_t walls_version; /* counts their changes */
+    const JoxWalls *walls;       /* all, gates that are open too; NULL: none */
+    const JoxWalls *wall_images; /* of standing walls, beyond joined edges; NULL: none */
+    uint32_t walls_version;      /* counts their changes */
     uint64_t seed;
     uint32_t tick;      /* number of this step, or of the last one, from 0 */
     double dt, gravity; /* s; m/s2, for throws */

@@ -72,15 +72,18 @@ static const float AT_PLACE = 0.5f; /* m: a gate nearer to a place than that bel
 static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint32_t gate) {
     const JoxWalls *walls = run->walls;
     const struct JoxWallRing *ring = &walls->rings[gate];
-    const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
+    const JoxV2 agent = {run->agents->x[i], run->agents->y[i]};
     const float perception = jox_param(run->agents, JOX_PARAM_perception, i);
     for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
         const JoxV2 a = walls->vertices[v].point,
                     b = walls->vertices[walls->vertices[v].next].point;
         const JoxV2 middle = jox_scale(jox_add(a, b), 0.5f);
+        const JoxV2 away = jox_sub(agent, middle), near = jox_wrap(run->agents, away);
+        /* On the nearer side, where edges are joined. */
+        const JoxV2 at = jox_add(agent, jox_sub(near, away));
         if (jox_length(jox_sub(jox_segment_nearest(a, b, at), at)) <= perception &&
             jox_place_distance(run->places, place, middle) <= AT_PLACE &&
-            !jox_is_hidden_by(walls, gate, at, middle, false))
+            !jox_is_hidden_by(run, gate, at, middle, false))
             return true;
     }
     return false;

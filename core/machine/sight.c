@@ -30,19 +30,27 @@ static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, Jo
     return -1;
 }
 
-bool jox_is_hidden_by(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to, bool touched) {
-    return stopping_edge(walls, but, from, to, touched ? 0.0f : JOX_EYE_LEVEL) >= 0;
+bool jox_is_hidden_by(const JoxMachineRun *run, uint32_t but, JoxV2 from, JoxV2 to, bool touched) {
+    const float least_height = touched ? 0.0f : JOX_EYE_LEVEL;
+    return (run->walls && stopping_edge(run->walls, but, from, to, least_height) >= 0) ||
+           (run->wall_images &&
+            stopping_edge(run->wall_images, UINT32_MAX, from, to, least_height) >= 0);
 }
 
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched) {
-    return run->walls && jox_is_hidden_by(run->walls, UINT32_MAX, from, to, touched);
+    return jox_is_hidden_by(run, UINT32_MAX, from, to, touched);
 }
 
 bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal) {
-    const int64_t edge = run->walls ? stopping_edge(run->walls, UINT32_MAX, from, to, 0.0f) : -1;
-    if (edge >= 0)
-        *normal = jox_left(run->walls->vertices[edge].direction);
-    return edge >= 0;
+    const JoxWalls *lists[] = {run->walls, run->wall_images};
+    for (int k = 0; k < 2; k++) {
+        const int64_t edge = lists[k] ? stopping_edge(lists[k], UINT32_MAX, from, to, 0.0f) : -1;
+        if (edge < 0)
+            continue;
+        *normal = jox_left(lists[k]->vertices[edge].direction);
+        return true;
+    }
+    return false;
 }
 
 /* ---- bodies ---- */

@@ -101,6 +101,7 @@ typedef struct JoxMove {
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
     const float *clear2;             /* m2: of where they come from, or NULL */
+    float served;                    /* m: walls are known so far from where they come from */
     float dt;                        /* s */
     float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
                                         step, and its mean over the step */
@@ -108,6 +109,10 @@ typedef struct JoxMove {
     JoxV2 *position[2];              /* m: before a sweep, and behind it */
     int from;                        /* which of them a sweep reads */
 } JoxMove;
+
+/* Returns where walls let a disc of `radius` m get on its way to a point. A way that is longer than
+   `served` is cut into pieces, and each is moved to within joined edges. */
+JoxV2 jox_nav_way(const JoxMove *move, JoxV2 from, JoxV2 to, float radius);
 
 #define JOX_STILL_REACH 0.25f /* m: less than this counts as not having moved */
 

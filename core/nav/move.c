@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "geom/wall_images.h"
 #include "nav/kernels.h"
 
 #define X(name, isa) [isa] = {jox_move_integrate_##name, jox_move_settle_##name},
@@ -122,6 +123,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                     .objects = objects,
                     .touched = touched && touched->agents ? touched : NULL,
                     .clear2 = jox_nav_clear2(nav),
+                    .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period)),
                     .dt = (float)dt,
                     .response = (float)response,
                     .on_the_way = (float)on_the_way};

@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "geom/wall_grid_lanes.h"
-#include "geom/wall_way.h"
 #include "nav/kernels.h"
 #include "simd/vectors.h"
 
@@ -51,7 +50,7 @@ static inline uint32_t near_walls(const JoxMove *m, uint32_t first, JoxVector fr
     const JoxWallGrid *grid = &m->nav->grid;
     if (!grid->first)
         return 0;
-    const JoxFloats way2 = jv_dot(way, way), served = jf_set(grid->reach);
+    const JoxFloats way2 = jv_dot(way, way), served = jf_set(m->served);
     const JoxFloats reach = jf_sqrt(way2) + jf_load(m->agents->breadth + first);
     const JoxMask far = jf_lt(served * served, way2);
     const JoxMask clear =
@@ -100,7 +99,6 @@ static inline JoxDrift drift_of(const Ways *w, uint32_t lanes) {
 
 JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
     JoxAgents *a = m->agents;
-    const JoxWallGrid *grid = &m->nav->grid;
     Ways ways = no_ways();
     float farthest = 0.0f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
@@ -115,9 +113,8 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         for (uint32_t lane = 0; walled >> lane; lane++) {
             if (!(walled >> lane & 1))
                 continue;
-            const JoxV2 at =
-                jox_way_by_walls(grid, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
-                                 (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
+            const JoxV2 at = jox_nav_way(m, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
+                                         (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
             x[lane] = at.x;
             y[lane] = at.y;
         }

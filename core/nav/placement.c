@@ -62,7 +62,9 @@ static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirth
 
 JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *a, const JoxBirthWish *wish,
                                 JoxV2 *spot) {
-    return find_by(spots_of_all(nav, a, wish->radius), &nav->grid, wish, spot);
+    const JoxBirthSpot found = find_by(spots_of_all(nav, a, wish->radius), &nav->grid, wish, spot);
+    *spot = jox_agents_wrapped(a, *spot);
+    return found;
 }
 
 void jox_nav_born(JoxNav *nav, const JoxAgents *a, uint32_t agent) {
@@ -171,6 +173,7 @@ static bool clear_agent(JoxSpots *t, JoxNav *nav, JoxAgents *a, uint32_t i, NewS
     JOX_ASSERT(!jox_walls_lie_between(walls, wish.at, spot, wish.passable));
     a->x[i] = a->prev_x[i] = a->still_x[i] = spot.x;
     a->y[i] = a->prev_y[i] = a->still_y[i] = spot.y;
+    jox_agents_wrap(a, i);
     return true;
 }
 

@@ -12,6 +12,13 @@
 static const double WORTH =
     0.02; /* share of a place: less is no more than how finely it is drawn */
 
+/* Lays the walls that are no gates, as gates may open, and their images beyond joined edges. */
+static void lay_lasting_walls(const JoScene *scene, JoxWalls *walls) {
+    const JoxAgents *a = &scene->world->state.agents;
+    jox_walls_standing(walls, &scene->world->model.all_walls, false);
+    jox_wall_images_add(walls, a->origin, a->period, (JoxV2){0.0f, 0.0f});
+}
+
 /* What takes a share of a place from those who come in there. */
 static const char *cause_of(const JoxEntrance *entrance) {
     return entrance->outside == 0.0                 ? "in a wall or beyond one"
@@ -68,7 +75,7 @@ void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxWallGrid grid = {.walls = &walls};
     if (scene->spec->source_count == 0)
         return;
-    jox_walls_standing(&walls, &scene->world->model.all_walls, false); /* gates may open */
+    lay_lasting_walls(scene, &walls);
     for (uint32_t s = 0; s < scene->spec->source_count; s++)
         check_source(scene, &scene->spec->sources[s], &grid, diagnostics);
     jox_wall_grid_free(&grid);
@@ -222,7 +229,7 @@ static void check_inside(const JoScene *scene, JoxPosition position, int32_t goa
 static void check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxWalls walls = {0};
     JoxWallGrid grid = {.walls = &walls};
-    jox_walls_standing(&walls, &scene->world->model.all_walls, false); /* gates may open */
+    lay_lasting_walls(scene, &walls);
     for (uint32_t g = 0; g < scene->spec->group_count; g++) {
         const JoxGroup *group = &scene->spec->groups[g];
         for (uint32_t s = 0; s < group->journey_count; s++) {

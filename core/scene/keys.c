@@ -72,7 +72,7 @@ static const JoxKey KEYS[] = {
     {"scene", "bounds", POINTS, "m", -FAR, FAR, "", READ(jox_key_bounds), .of = "xy[2]",
      LATER("agents are placed within them at the start"), .meaning = "two opposite corners; every agent must start between them"},
     {"scene", "periodic", TEXT, "", 0, 0, "none", READ(jox_key_periodic), .choices = "none|x|y|both",
-     LATER("the world is made with them"), .meaning = "axes along which the bounds are joined: who leaves at one edge comes in at the other"},
+     LATER("the world is made with them"), .meaning = "axes along which the bounds are joined: people who leave at one edge come in at the other, and people and walls near one are met on both sides; bodies and signals do not go over"},
     {"scene", "input", TEXT, "", 0, 0, "", READ(jox_key_input),
      LATER("a log is played from the first step on"), .meaning = "file of an input log that is played (see input.md)"},
     {"scene", "mods", TABLE, "", 0, 0, "", EARLIER("scene/mods.c"), .of = "quantity**",

@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "geom/fill.h"
+#include "geom/wall_images.h"
 #include "scene/internal.h"
 
 enum { MOST_AGENTS = 1000000 };
@@ -177,6 +178,45 @@ static void take_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) 
     check_bounds(r, at, group);
 }
 
+/* Period of the bounds, m; 0 along an axis that is not joined. */
+static JoxV2 period_of(const JoxSceneSpec *s) {
+    return (JoxV2){s->periodic_x ? s->high.x - s->low.x : 0.0f,
+                   s->periodic_y ? s->high.y - s->low.y : 0.0f};
+}
+
+/* Copies the walls that agents keep clear of at the start: open gates too, and images. */
+static JoxWalls copy_shut_walls(const JoxSceneSpec *s) {
+    JoxWalls shut = s->walls, walls = {0};
+    shut.rings = jox_alloc((size_t)shut.ring_count + 1, sizeof *shut.rings);
+    for (uint32_t r = 0; r < shut.ring_count; r++) {
+        shut.rings[r] = s->walls.rings[r];
+        shut.rings[r].open = false;
+    }
+    jox_walls_standing(&walls, &shut, true);
+    jox_wall_images_add(&walls, (JoxV2){s->low.x, s->low.y}, period_of(s), (JoxV2){0.0f, 0.0f});
+    jox_free(shut.rings);
+    return walls;
+}
+
+/* Sets the positions of a group's agents in its places. */
+static void fill_places(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxGroup *group) {
+    const struct JoxLoadFill *fill = &r->load->fill;
+    if (group->fill == JOX_FILL_CIRCLE) {
+        circle(r, map, group);
+        return;
+    }
+    if (group->fill == JOX_FILL_LINE) {
+        line(r, map, group);
+        return;
+    }
+    area(r, map, a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
+         r->load->scene->group_count, group);
+    group->in = fill->in;
+    group->in_count = fill->in_count;
+    group->outside = fill->outside;
+    group->outside_count = fill->outside_count;
+}
+
 void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
     const JoxYaml *density = jox_yaml_get(map, "density");
@@ -205,30 +245,21 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
         group->count = 0;
         return;
     }
+    JoxWalls walls = copy_shut_walls(s);
     JoxArea a = {.places = s->places,
                  .in = fill->in,
                  .out = fill->outside,
                  .in_count = fill->in_count,
                  .out_count = fill->outside_count,
-                 .walls = &s->walls,
+                 .walls = &walls,
                  .clear = 0.2f,
-                 .period = {s->periodic_x ? s->high.x - s->low.x : 0.0f,
-                            s->periodic_y ? s->high.y - s->low.y : 0.0f}};
+                 .period = period_of(s)};
     group->count = number_of(r, map, &a, group);
+    if (group->count > 0)
+        fill_places(r, map, &a, group);
+    jox_walls_free(&walls);
     if (group->count == 0)
         return;
-    if (group->fill == JOX_FILL_CIRCLE)
-        circle(r, map, group);
-    else if (group->fill == JOX_FILL_LINE)
-        line(r, map, group);
-    else {
-        area(r, map, &a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
-             s->group_count, group);
-        group->in = fill->in;
-        group->in_count = fill->in_count;
-        group->outside = fill->outside;
-        group->outside_count = fill->outside_count;
-    }
     JOX_ASSERT(group->positions || r->diagnostics->errors > 0);
     check_bounds(r, map, group);
 }

@@ -1,6 +1,5 @@
 /* Walls of a scene, drawn in it or in files. */
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -122,54 +121,6 @@ static void add_wall(const JoxReader *r, const JoxYaml *map) {
         jox_walls_name(walls, first, wall.name, wall.open);
 }
 
-/* m: extent of the part of an edge across an axis that lies within a band about `at` on the axis.
- */
-static double extent_at(JoxV2 from, JoxV2 to, bool x, double at, double band) {
-    const double a = x ? from.x : from.y, b = x ? to.x : to.y;
-    const double across = x ? (double)to.y - from.y : (double)to.x - from.x;
-    if (fabs(b - a) < 1e-6)
-        return fabs(a - at) < band ? fabs(across) : 0.0;
-    const double low = fmax(fmin(a, b), at - band), high = fmin(fmax(a, b), at + band);
-    return high > low ? fabs(across) * (high - low) / fabs(b - a) : 0.0;
-}
-
-/* Whether an edge is drawn once more, moved by so much. */
-static bool is_repeated(const JoxWalls *walls, JoxV2 from, JoxV2 to, JoxV2 by, float band) {
-    const JoxV2 a = jox_add(from, by), b = jox_add(to, by);
-    for (uint32_t v = 0; v < walls->count; v++) {
-        const JoxV2 p = walls->vertices[v].point,
-                    q = walls->vertices[walls->vertices[v].next].point;
-        if ((jox_length(jox_sub(p, a)) < band && jox_length(jox_sub(q, b)) < band) ||
-            (jox_length(jox_sub(p, b)) < band && jox_length(jox_sub(q, a)) < band))
-            return true;
-    }
-    return false;
-}
-
-/* Warns of a wall at an edge that is joined to another, beyond which it is not there. */
-static void check_joined(const JoxReader *r, const JoxYaml *list, bool x) {
-    static const float BAND = 0.1f; /* m: people come over an edge by less in a step */
-    const JoxSceneSpec *s = r->load->scene;
-    const double low = x ? s->low.x : s->low.y, high = x ? s->high.x : s->high.y;
-    for (uint32_t v = 0; v < s->walls.count; v++) {
-        const JoxV2 from = s->walls.vertices[v].point;
-        const JoxV2 to = s->walls.vertices[s->walls.vertices[v].next].point;
-        for (int side = 0; side < 2; side++) {
-            const float by = (float)(side ? low - high : high - low);
-            if (extent_at(from, to, x, side ? high : low, BAND) <= BAND ||
-                is_repeated(&s->walls, from, to, x ? jox_v2(by, 0.0f) : jox_v2(0.0f, by), BAND))
-                continue;
-            jox_diag_warn(r->diagnostics, list->position, "wall-at-joined-edge",
-                          "Draw it at both edges, or move the bounds away from it",
-                          "the wall from (%g, %g) to (%g, %g) stands at an edge that is joined to "
-                          "%c = %g: who comes from there walks through it",
-                          (double)from.x, (double)from.y, (double)to.x, (double)to.y, x ? 'x' : 'y',
-                          side ? low : high);
-            return; /* one is enough */
-        }
-    }
-}
-
 void jox_key_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
     const size_t errors = r->diagnostics->errors;
     (void)item;
@@ -188,8 +139,4 @@ void jox_key_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *list, v
         }
     }
     r->load->walls_wrong = r->diagnostics->errors > errors;
-    if (list && !r->load->walls_wrong && r->load->scene->periodic_x)
-        check_joined(r, list, true);
-    if (list && !r->load->walls_wrong && r->load->scene->periodic_y)
-        check_joined(r, list, false);
 }

@@ -149,6 +149,15 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
     return count;
 }
 
+static bool has_joined_edges(const JoWorld *world) {
+    const JoxV2 period = world->state.agents.period;
+    return period.x > 0.0f || period.y > 0.0f;
+}
+
+const JoxWalls *jox_world_met_walls(const JoWorld *world) {
+    return has_joined_edges(world) ? &world->scratch.images.walls : &world->scratch.walls;
+}
+
 void jox_world_raise_walls(JoWorld *world) {
     if (world->state.walls_set)
         return;
@@ -157,9 +166,16 @@ void jox_world_raise_walls(JoWorld *world) {
         return;
     jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
     JOX_ASSERT(world->scratch.walls.count <= world->model.all_walls.count);
+    const bool joined = has_joined_edges(world);
+    if (joined) {
+        jox_wall_images_lay(&world->scratch.images, &world->scratch.walls,
+                            world->state.agents.origin, world->state.agents.period);
+        world->scratch.images_only = jox_wall_images_only(&world->scratch.images);
+    }
     jox_entrances_renew(&world->scratch.entrances);
-    jox_nav_set_walls(world->scratch.nav, &world->scratch.walls);
-    jox_forces_set_walls(world->scratch.forces, &world->scratch.walls);
+    jox_nav_set_walls(world->scratch.nav, jox_world_met_walls(world));
+    jox_forces_set_walls(world->scratch.forces, &world->scratch.walls,
+                         joined ? &world->scratch.images : NULL);
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
 
@@ -183,6 +199,7 @@ static void clear_new_walls(JoWorld *world) {
     }
     jox_walls_clear_came(&world->model.all_walls);
     jox_walls_clear_came(&world->scratch.walls);
+    jox_walls_clear_came(&world->scratch.images.walls);
     for (uint32_t m = 0; m < world->state.made_count; m++)
         world->state.made[m].came = 0;
     world->state.walls_came = false;

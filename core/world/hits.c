@@ -175,7 +175,8 @@ static bool find_hold(const JoxBodyStage *s, uint32_t i, uint32_t row, JoxV2 way
     const JoxV2 from = {a->x[i], a->y[i]};
     const float gap = jox_param(a, JOX_PARAM_radius, i) + object->disc + APART;
     JoxV2 found;
-    jox_hands_look(s->hands, s->machines->walls, s->objects, row, from, gap + object->disc + ABOUT);
+    jox_hands_look(s->hands, s->machines->walls, s->machines->wall_images, s->objects, row, from,
+                   gap + object->disc + ABOUT);
     if (!jox_hands_find(s->hands, from, way, gap, around, &found))
         return false;
     *at = (JoxV3){found.x, found.y, jox_maxf(JOX_HAND_HEIGHT, object->below)};

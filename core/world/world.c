@@ -38,6 +38,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->machines.gravity = def->gravity;
     world->machines.isa = world->model.def.isa;
     world->machines.walls = &world->model.all_walls;
+    world->machines.wall_images = &world->scratch.images_only;
     world->state.routes = jox_routes_create();
     world->state.walls_set = true;
     return world;
@@ -69,6 +70,7 @@ static void free_world(JoWorld *world) {
     jox_agents_free(&world->state.agents);
     jox_walls_free(&world->model.all_walls);
     jox_walls_free(&world->scratch.walls);
+    jox_wall_images_free(&world->scratch.images);
     jox_free(world->state.made);
     jox_input_free(&world->state.input);
     jox_inspection_free(&world->scratch.inspection);

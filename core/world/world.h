@@ -88,7 +88,7 @@ typedef struct JoxWorldState {
     JoxMadeWall *made;      /* walls that were added to those of the model, in order */
     uint32_t made_count;
     size_t made_capacity;
-    bool walls_set;  /* scratch.walls, nav and bodies are as all_walls says */
+    bool walls_set;  /* scratch.walls, its images, nav and bodies are as all_walls says */
     bool walls_came; /* some edges of walls are marked as such, and people may stand there */
     JoxExits exits;  /* figures of the run, which no step reads */
     JoxStatistics statistics; /* likewise */
@@ -103,7 +103,9 @@ typedef struct JoxWorldScratch {
     JoxStageMemory memory; /* of nav and forces */
     JoxNav *nav;
     JoxForces *forces;
-    JoxWalls walls; /* those that stand */
+    JoxWalls walls;       /* those that stand */
+    JoxWallImages images; /* of `walls`; laid only if edges are joined */
+    JoxWalls images_only; /* view of the images, read by machines */
     JoxEntrances entrances;
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
@@ -158,6 +160,8 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
 void jox_world_settle_walls(JoWorld *world);
 /* Brings the walls that stand into effect, unless they are. */
 void jox_world_raise_walls(JoWorld *world);
+/* Returns the standing walls and, if edges are joined, their images. */
+const JoxWalls *jox_world_met_walls(const JoWorld *world);
 /* Brings the last ring of all_walls into effect, which was added before the first step: who stands
    there is moved out with it. */
 void jox_world_wall_came(JoWorld *world);

@@ -1,14 +1,18 @@
 /* No person passes a wall: random scenes with gates, doors, walls that come, sources, births and
-   reloads. JOSTLE_PASSAGES: how many scenes. */
+   reloads, a third of them with joined edges. JOSTLE_PASSAGES: how many scenes. */
 #include <math.h>
 
 #include "base/number/random.h"
+#include "geom/polygon.h"
 #include "geom/wall_way.h"
 #include "unit/run_acted.h"
 
 enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };
 
-/* A hall of 12 x 8 m, sealed; nothing is built where x is below 3 m. */
+/* A hall of 12 x 8 m, sealed where its edges are not joined; nothing is built where x is below 3 m,
+   but at joined edges. */
+static const JoxV2 SIZE = {12, 8};
+static const double FAR = 3.5; /* m: over joined edges, a longer step may have gone the other way */
 static const double STEPS[] = {0.01, 0.02, 0.05, 0.1, 0.2};
 
 typedef struct Passage {
@@ -17,6 +21,7 @@ typedef struct Passage {
     JoxText yaml, lua;
     JoScene *scene;
     double dt;
+    JoxV2 period;
     uint32_t made; /* walls added live */
     /* Of the agents before the step, by id. */
     struct Before {
@@ -54,11 +59,47 @@ static void add_wall(Passage *p, const char *more) {
         x + w, y + slant * w, x + w - slant * h, y + slant * w + h, x - slant * h, y + h, more);
 }
 
+/* Adds a line or solid at a joined edge or across it. */
+static void add_wall_at_edges(Passage *p, bool x, const char *more) {
+    static const double OFF[] = {0.0, 0.0, 0.2, -0.4};
+    const double edge = (x ? SIZE.x : SIZE.y) * (chance(p, 0.5) ? 1.0 : 0.0);
+    const double from = edge + OFF[(int)draw(p, 0.0, 4.0)], other = x ? SIZE.y : SIZE.x;
+    const double a = draw(p, 0.0, other), b = draw(p, 0.0, other), slant = draw(p, -0.5, 0.5);
+    const int kind = (int)draw(p, 0.0, 3.0);
+    const double along[4] = {from, kind == 1 ? from : from + 0.7 + slant, from + 0.6, from};
+    const double across[4] = {a, b, b, b + (a > b ? -0.8 : 0.8)};
+    const int count = kind == 2 ? 4 : 2;
+    jox_text_printf(&p->yaml, "  - {%s: [", count == 4 ? "solid" : "line");
+    for (int k = 0; k < count; k++) {
+        const double at[2] = {x ? along[k] : across[k], x ? across[k] : along[k]};
+        jox_text_printf(&p->yaml, "%s[%.3f, %.3f]", k ? ", " : "", at[0], at[1]);
+    }
+    jox_text_printf(&p->yaml, "]%s}\n", more);
+}
+
+/* Writes walls that seal the hall along edges that are not joined, and walls at joined edges. */
+static void write_edges(Passage *p) {
+    const bool x = p->period.x > 0.0f, y = p->period.y > 0.0f;
+    if (!x && !y)
+        jox_text_add(&p->yaml, "  - {line: [[0, 0], [12, 0], [12, 8], [0, 8]], closed: true}\n");
+    else if (!y)
+        jox_text_add(&p->yaml, "  - {line: [[0, 0], [12, 0]]}\n"
+                               "  - {line: [[-1, 8], [13, 8]]}\n");
+    else if (!x)
+        jox_text_add(&p->yaml, "  - {line: [[0, -2], [0, 8]]}\n"
+                               "  - {line: [[12, 0], [12, 8]]}\n");
+    for (int k = 0; k < 2 && x; k++)
+        add_wall_at_edges(p, true, k ? ", name: gate" : "");
+    for (int k = 0; k < 2 && y; k++)
+        add_wall_at_edges(p, false, k ? ", name: door, open: true" : "");
+}
+
 /* The same walls for the same `seed`, of which the last `others` are others in each version. */
 static void write_walls(Passage *p, uint32_t seed, uint32_t count, uint32_t others) {
     const uint32_t drawn = p->drawn;
-    jox_text_add(&p->yaml, "walls:\n"
-                           "  - {line: [[0, 0], [12, 0], [12, 8], [0, 8]], closed: true}\n");
+    jox_text_add(&p->yaml, "walls:\n");
+    p->drawn = seed + 2000;
+    write_edges(p);
     p->drawn = seed;
     for (uint32_t w = 0; w < count; w++) {
         if (w == count - others)
@@ -81,6 +122,11 @@ static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
                     "  west: {polygon: [[0.3, 0.3], [2.7, 0.3], [2.7, 7.7], [0.3, 7.7]]}\n"
                     "  east: {point: [11, 4], radius: 0.5}\n",
                     p->dt);
+    if (p->period.x > 0.0f || p->period.y > 0.0f)
+        jox_text_printf(&p->yaml, "bounds: [[0, 0], [12, 8]]\nperiodic: %s\n",
+                        p->period.y == 0.0f   ? "x"
+                        : p->period.x == 0.0f ? "y"
+                                              : "both");
     write_walls(p, 5000, walls, others);
     if (jox_bodies_available())
         jox_text_add(&p->yaml,
@@ -112,11 +158,13 @@ static void write_behaviour(Passage *p) {
     const double speed = FAST[p->number % 4];
     p->lua.length = 0;
     jox_text_printf(&p->lua,
-                    HEAD
-                    "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
-                    "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
-                    "  states = { A = { steer = seek(own.goal) } }, own = { goal = \"east\" } }\n",
-                    speed, 1.2 * speed, chance(p, 0.5) ? 800.0 : 0.0, chance(p, 0.5) ? 1.0 : 0.0);
+                    HEAD "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
+                         "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
+                         "  states = { A = { steer = %s } }, own = { goal = \"east\" } }\n",
+                    speed, 1.2 * speed, chance(p, 0.5) ? 800.0 : 0.0, chance(p, 0.5) ? 1.0 : 0.0,
+                    p->period.y > 0.0f   ? "drift(-1, -0.7)"
+                    : p->period.x > 0.0f ? "drift(1, 0.1)"
+                                         : "seek(own.goal)");
 }
 
 /* ---- what people do to it ---- */
@@ -175,10 +223,19 @@ static void note_before(Passage *p) {
             p->before[a->id[i]] = (struct Before){.there = true, .at = {a->x[i], a->y[i]}};
 }
 
+/* Shift of the n-th of nine images of the walls, m; zero along an axis that is not joined. */
+static JoxV2 shift_of(const Passage *p, int n) {
+    return (JoxV2){(float)(n % 3 - 1) * p->period.x, (float)(n / 3 - 1) * p->period.y};
+}
+
 /* The solids that hold a point: whoever stood in one when it came may leave it. */
-static void note_solids(const JoxWalls *walls, JoxV2 at, bool inside[MOST_RINGS]) {
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        inside[r] = walls->rings[r].solid && jox_walls_ring_holds(walls, r, at);
+static void note_solids(const Passage *p, const JoxWalls *walls, JoxV2 at,
+                        bool inside[MOST_RINGS]) {
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        inside[r] = false;
+        for (int n = 0; n < 9 && walls->rings[r].solid; n++)
+            inside[r] |= jox_walls_ring_holds(walls, r, jox_sub(at, shift_of(p, n)));
+    }
 }
 
 /* m: from one point to another round the end of an edge. */
@@ -196,10 +253,10 @@ static bool bends_round(const Passage *p, const JoxWalls *walls, uint32_t ring, 
     return false;
 }
 
-static void watch_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
-                      double most, const char *what) {
+/* Checks a way against the walls as they are drawn; false if it leads through one. */
+static bool watch_way_by_own(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
+                             double most, const char *what) {
     const bool *inside = p->before[id].inside;
-    p->checked++;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t i = 0; i < ring->count && !inside[r]; i++) {
@@ -216,8 +273,28 @@ static void watch_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from
                           (double)from.x, (double)from.y, (double)to.x, (double)to.y,
                           (double)v->point.x, (double)v->point.y, (double)end.x, (double)end.y, r,
                           ring->solid ? ", solid" : "");
-            return;
+            return false;
         }
+    }
+    return true;
+}
+
+/* Checks the shorter way between two points against the walls and their images. */
+static void watch_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
+                      double most, const char *what) {
+    const JoxV2 way = jox_wrap(&p->scene->world->state.agents, jox_sub(to, from));
+    const bool joined = p->period.x > 0.0f || p->period.y > 0.0f;
+    if (joined && (double)jox_length(way) > FAR)
+        return;
+    p->checked++;
+    if (!joined) {
+        watch_way_by_own(p, walls, id, from, to, most, what);
+        return;
+    }
+    bool clear = true;
+    for (int n = 0; n < 9 && clear; n++) {
+        const JoxV2 start = jox_sub(from, shift_of(p, n));
+        clear = watch_way_by_own(p, walls, id, start, jox_add(start, way), most, what);
     }
 }
 
@@ -228,7 +305,7 @@ static void watch_step(Passage *p) {
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t id = a->id[i];
         const JoxV2 now = {a->x[i], a->y[i]}, last = {a->prev_x[i], a->prev_y[i]};
-        const bool in_hall = now.x > 0.0f && now.x < 12.0f && now.y > 0.0f && now.y < 8.0f;
+        const bool in_hall = jox_is_within(now, jox_v2(0, 0), SIZE);
         if (!in_hall) {
             p->crossings++;
             print_message("scene %llu: agent %u outside, at (%g, %g)\n",
@@ -238,13 +315,13 @@ static void watch_step(Passage *p) {
             continue;
         const JoxV2 before = p->before[id].at;
         const double speed = hypot((double)a->vx[i], (double)a->vy[i]);
-        note_solids(walls, before, p->before[id].inside);
+        note_solids(p, walls, before, p->before[id].inside);
         if (p->dt > 0.05) {
             watch_way(p, walls, id, before, now, 2.0 * p->dt * fmax(speed, 30.0), "went");
             continue;
         }
         watch_way(p, walls, id, before, last, 0.0, "was moved");
-        note_solids(walls, last, p->before[id].inside);
+        note_solids(p, walls, last, p->before[id].inside);
         watch_way(p, walls, id, last, now, 0.0, "went");
     }
 }
@@ -258,6 +335,8 @@ static void run_passage(Passage *p) {
     JoError error = {0};
     p->drawn = p->made = 0;
     p->dt = STEPS[p->number % 5];
+    p->period = jox_v2(p->number % 9 == 4 || p->number % 9 == 7 ? SIZE.x : 0.0f,
+                       p->number % 9 == 1 || p->number % 9 == 7 ? SIZE.y : 0.0f);
     write_behaviour(p);
     write_scene(p, walls, 0);
     write_file("own.lua", p->lua.data);

@@ -46,15 +46,20 @@ static void append_body_edges(JoxStandable *s, const JoxObject *o, JoxV2 low, Jo
         append_edge(s, ring[k], ring[(k + 1) % count], low, high);
 }
 
-static void collect_edges(JoxStandable *s, JoxV2 low, JoxV2 high, const JoxWalls *walls,
-                          const JoxObjects *objects) {
-    s->edge_count = 0;
+static void append_wall_edges(JoxStandable *s, JoxV2 low, JoxV2 high, const JoxWalls *walls) {
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++)
             append_edge(s, walls->vertices[v].point, walls->vertices[walls->vertices[v].next].point,
                         low, high);
     }
+}
+
+static void collect_edges(JoxStandable *s, JoxV2 low, JoxV2 high, const JoxWalls *walls,
+                          const JoxWalls *images, const JoxObjects *objects) {
+    s->edge_count = 0;
+    append_wall_edges(s, low, high, walls);
+    append_wall_edges(s, low, high, images);
     for (uint32_t row = 0; objects && row < objects->count; row++)
         if (jox_standable_is_fixed(&objects->rows[row]))
             append_body_edges(s, &objects->rows[row], low, high);
@@ -138,7 +143,7 @@ static void number_parts(JoxStandable *s, const JoxPlace *place) {
 }
 
 void jox_standable_lay(JoxStandable *s, const JoxPlace *place, float about, const JoxWalls *walls,
-                       const JoxObjects *objects) {
+                       const JoxWalls *images, const JoxObjects *objects) {
     const JoxV2 low = jox_sub(place->low, jox_v2(about, about));
     const JoxV2 high = jox_add(place->high, jox_v2(about, about));
     const float width = high.x - low.x, height = high.y - low.y;
@@ -148,7 +153,7 @@ void jox_standable_lay(JoxStandable *s, const JoxPlace *place, float about, cons
     s->rows = (uint32_t)(height / s->cell) + 1;
     const uint32_t cells = s->columns * s->rows;
     const JoxV2 reach = {2.0f * s->cell, 2.0f * s->cell};
-    collect_edges(s, jox_sub(low, reach), jox_add(high, reach), walls, objects);
+    collect_edges(s, jox_sub(low, reach), jox_add(high, reach), walls, images, objects);
     JOX_RESERVE(s->part, s->part_capacity, cells);
     JOX_RESERVE(s->nodes, s->node_capacity, cells);
     JOX_RESERVE(s->open, s->open_capacity, 2 * (size_t)cells);

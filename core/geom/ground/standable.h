@@ -49,9 +49,10 @@ typedef struct JoxStandable {
 } JoxStandable;
 
 /* Divides a polygon and what lies up to `about` m about it into cells of 0.28 m, or wider where
-   there would be over 262,144. Walls that are open and bodies that can be moved do not count. */
+   there would be over 262,144. Walls that are open and bodies that can be moved do not count.
+   `images`: of walls, beyond joined edges; it, walls and objects may be NULL. */
 void jox_standable_lay(JoxStandable *standable, const JoxPlace *place, float about,
-                       const JoxWalls *walls, const JoxObjects *objects);
+                       const JoxWalls *walls, const JoxWalls *images, const JoxObjects *objects);
 void jox_standable_free(JoxStandable *standable);
 /* Whether a body is fixed and stands where people walk. */
 bool jox_standable_is_fixed(const JoxObject *object);

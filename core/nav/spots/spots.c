@@ -79,13 +79,32 @@ static bool is_taken_in(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float 
 }
 
 /* Its own cell first: of a spot that is taken it mostly tells. */
-static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
+static bool is_taken_at(const JoxSpots *t, JoxV2 p, float radius) {
     static const int8_t AROUND[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
                                         {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
     const int32_t x = cell_of(t, p.x), y = cell_of(t, p.y);
     for (int k = 0; k < 9; k++)
         if (is_taken_in(t, x + AROUND[k][0], y + AROUND[k][1], p, radius))
             return true;
+    return false;
+}
+
+/* Returns whether a disc lies deep in an agent or in an image of one. */
+static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
+    const JoxV2 period = t->agents->period, low = t->agents->origin;
+    if (!(period.x > 0.0f || period.y > 0.0f))
+        return is_taken_at(t, p, radius);
+    const JoxV2 reach = {t->cell, t->cell}, within = jox_agents_wrapped(t->agents, p);
+    const JoxV2 from = jox_sub(low, reach), to = jox_add(jox_add(low, period), reach);
+    const int turns_x = period.x > 0.0f, turns_y = period.y > 0.0f;
+    for (int x = -turns_x; x <= turns_x; x++)
+        for (int y = -turns_y; y <= turns_y; y++) {
+            const JoxV2 image = jox_add(within, (JoxV2){(float)x * period.x, (float)y * period.y});
+            const bool beside = (turns_x && (image.x < from.x || image.x > to.x)) ||
+                                (turns_y && (image.y < from.y || image.y > to.y));
+            if (!beside && is_taken_at(t, image, radius))
+                return true;
+        }
     return false;
 }
 

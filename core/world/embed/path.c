@@ -6,6 +6,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "world/routes/over_edges.h"
 #include "world/world.h"
 
 static const float CLEARANCE = 0.25f, CELL = 0.2f, STRIDE = 0.25f, AROUND = 10.0f; /* m */
@@ -34,14 +35,27 @@ static const JoxField *field_to(JoWorld *w, uint32_t place, JoxV2 from) {
         return h->field;
     JoxWalls standing = {0};
     JoxV2 low, high;
+    const JoxAgents *a = &w->state.agents;
     jox_walls_standing(&standing, &w->model.all_walls, true);
     box_of(w, &standing, from, &low, &high);
+    JoxPlace *places = w->model.places;
+    uint32_t count = w->model.place_count, goal = place;
+    const bool over_edges = jox_routes_lead_over_edges(a, &standing);
+    if (over_edges) {
+        jox_routes_add_wall_images(a, &standing);
+        jox_routes_box_over_edges(a, CELL, &low, &high);
+        places = jox_routes_copy_goal(w->model.places, place, &count);
+        jox_routes_add_goal_images(a, &places, &count);
+        goal = 0;
+    }
     jox_field_free(h->field);
     jox_field_marks_free(h->marks);
     h->field = NULL;
     h->marks = NULL;
-    h->field = jox_field_create(&standing, w->model.places, place, low, high, CELL, CLEARANCE, NULL,
-                                &h->marks);
+    h->field =
+        jox_field_create(&standing, places, goal, low, high, CELL, CLEARANCE, NULL, &h->marks);
+    if (over_edges)
+        jox_routes_free_goal(places, count);
     h->field_place = place;
     h->field_walls = w->state.walls_version;
     jox_walls_free(&standing);
@@ -72,14 +86,14 @@ static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t 
         const bool last = left <= STRIDE || jox_length2(way) == 0.0f;
         const JoxV2 next = last ? goal : jox_add(at, jox_scale(way, STRIDE));
         walked += (double)jox_length(jox_sub(next, at));
-        at = next;
+        at = jox_agents_wrapped(&w->state.agents, next);
     }
     return 0; /* it leads round and round */
 }
 
 static uint32_t walk_to(JoWorld *w, double x, double y, const char *place, double *xy,
                         uint32_t capacity, double *length) {
-    const JoxV2 at = {(float)x, (float)y};
+    const JoxV2 at = jox_agents_wrapped(&w->state.agents, (JoxV2){(float)x, (float)y});
     const int found = jox_place_find(w->model.places, w->model.scene_places, place);
     if (found >= 0)
         return walk(w, (uint32_t)found, at, xy, capacity, length);

@@ -5,6 +5,7 @@
 #include "base/guard.h"
 #include "base/number/elementary.h"
 #include "geom/wall_grid.h"
+#include "geom/wall_images.h"
 #include "world/world.h"
 
 static const double PI = 3.141592653589793;
@@ -57,10 +58,59 @@ uint32_t jo_world_neighbours(const JoWorld *world, double x, double y, double ra
     return found;
 }
 
+/* Shift of the images of walls beyond joined edges, in periods. */
+typedef struct Turns {
+    int x, y, most_x, most_y;
+} Turns;
+
+static Turns first_turns(const JoWorld *world) {
+    const JoxV2 period = world->state.agents.period;
+    const int x = jox_wall_images_turns(period.x), y = jox_wall_images_turns(period.y);
+    return (Turns){-x, -y, x, y};
+}
+
+/* Advances to the next shift; false after the last. */
+static bool next_turns(Turns *t) {
+    if (t->x++ < t->most_x)
+        return true;
+    t->x = -t->most_x;
+    return t->y++ < t->most_y;
+}
+
+/* m */
+static JoxV2 shift_of_turns(const JoWorld *world, const Turns *t) {
+    const JoxV2 period = world->state.agents.period;
+    return (JoxV2){(float)t->x * period.x, (float)t->y * period.y};
+}
+
+/* Returns whether a standing wall lies between two points. */
+static bool is_walled_off(const JoWorld *world, JoxV2 from, JoxV2 to) {
+    const JoxWalls *walls = &world->model.all_walls;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t k = 0; !ring->open && k < ring->count; k++) {
+            const JoxWallVertex *v = &walls->vertices[ring->first + k];
+            if (jox_segments_cross(from, to, v->point, walls->vertices[v->next].point))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Returns whether a standing wall or an image of one lies between two points. */
+static bool is_behind_wall(const JoWorld *world, JoxV2 from, JoxV2 to) {
+    Turns turns = first_turns(world);
+    do {
+        const JoxV2 shift = shift_of_turns(world, &turns);
+        if (is_walled_off(world, jox_sub(from, shift), jox_sub(to, shift)))
+            return true;
+    } while (next_turns(&turns));
+    return false;
+}
+
 double jo_world_density(const JoWorld *world, double x, double y) {
     JOX_REQUIRE(world && isfinite(x) && isfinite(y), 0.0);
     const JoxAgents *a = &world->state.agents;
-    const JoxWalls *walls = &world->model.all_walls;
     double sum = 0.0;
     if (jox_heap_has_failed(world->heap))
         return 0.0;
@@ -71,15 +121,7 @@ double jo_world_density(const JoWorld *world, double x, double y) {
         if (d2 > 16.0) /* m2: less than 1e-7 of it is left */
             continue;
         const JoxV2 from = {(float)x, (float)y}, to = jox_add(from, d);
-        bool seen = true;
-        for (uint32_t ring = 0; seen && ring < walls->ring_count; ring++) {
-            const struct JoxWallRing *wall = &walls->rings[ring];
-            for (uint32_t k = 0; seen && !wall->open && k < wall->count; k++) {
-                const JoxWallVertex *v = &walls->vertices[wall->first + k];
-                seen = !jox_segments_cross(from, to, v->point, walls->vertices[v->next].point);
-            }
-        }
-        sum += seen ? jox_exp(-d2) / PI : 0.0;
+        sum += is_behind_wall(world, from, to) ? 0.0 : jox_exp(-d2) / PI;
     }
     return sum;
 }
@@ -178,16 +220,25 @@ static void meet_bodies(const JoWorld *world, Sweep *s) {
     }
 }
 
-static void meet_walls(const JoWorld *world, Sweep *s) {
+/* Meets the standing walls, moved by `shift` m. */
+static void meet_walls_at(const JoWorld *world, Sweep *s, JoxV2 shift) {
     const JoxWalls *walls = &world->model.all_walls;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t k = 0; !ring->open && k < ring->count; k++) {
             const JoxWallVertex *v = &walls->vertices[ring->first + k];
-            meet_segment(s, v->point, walls->vertices[v->next].point, JO_TOUCHED_WALL,
+            meet_segment(s, jox_add(v->point, shift),
+                         jox_add(walls->vertices[v->next].point, shift), JO_TOUCHED_WALL,
                          ring->first + k);
         }
     }
+}
+
+static void meet_walls(const JoWorld *world, Sweep *s) {
+    Turns turns = first_turns(world);
+    do
+        meet_walls_at(world, s, shift_of_turns(world, &turns));
+    while (next_turns(&turns));
 }
 
 JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to[2], double radius,

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "task/worker.h"
 #include "world/routes/obstacles.h"
+#include "world/routes/over_edges.h"
 
 enum { MOST_FIELDS = 64 };
 /* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
@@ -89,9 +90,7 @@ static const char *fault(const JoxRouteStage *w) {
 /* ---- making one ---- */
 
 static void free_making(Making *making) {
-    for (uint32_t p = 0; p < making->place_count; p++)
-        jox_place_free(&making->places[p]);
-    jox_free(making->places);
+    jox_routes_free_goal(making->places, making->place_count);
     jox_walls_free(&making->walls);
     jox_free(making->crowd.at);
     jox_free(making->crowd.held);
@@ -111,18 +110,6 @@ static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     Making **makings = context;
     for (uint32_t i = begin; i < end; i++)
         make(&makings[i]->item);
-}
-
-static void copy_places(const JoxRouteStage *w, uint32_t place, Making *making) {
-    const JoxPlace *from = &w->places[place];
-    making->place_count = 1 + from->member_count;
-    making->places = jox_alloc(making->place_count, sizeof *making->places);
-    jox_place_copy(&making->places[0], from);
-    for (uint32_t m = 0; m < from->member_count; m++) {
-        JOX_ASSERT((uint32_t)from->members[m] < w->place_count);
-        jox_place_copy(&making->places[m + 1], &w->places[from->members[m]]);
-        making->places[0].members[m] = (int32_t)m + 1;
-    }
 }
 
 /* ---- crowds ---- */
@@ -199,10 +186,15 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
     }
     low = jox_sub(low, (JoxV2){MARGIN, MARGIN});
     high = jox_add(high, (JoxV2){MARGIN, MARGIN});
+    const bool over_edges = jox_routes_lead_over_edges(w->agents, walls);
+    if (over_edges)
+        jox_routes_box_over_edges(w->agents, 0.0f, &low, &high);
     int c = 0;
     while (c < 3 && (high.x - low.x) * (high.y - low.y) > most_cells * CELLS[c] * CELLS[c])
         c++;
     float cell = CELLS[c];
+    if (over_edges)
+        jox_routes_box_over_edges(w->agents, cell, &low, &high);
     JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
     if (is_room(before, low, high, cell)) {
         jox_field_box(before, &making->low, &making->high, &making->cell);
@@ -210,9 +202,12 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
     }
     const float spare = before ? SPARE : 0.0f;
     low = jox_sub(low, (JoxV2){spare, spare});
+    high = jox_add(high, (JoxV2){spare, spare});
+    if (over_edges)
+        jox_routes_box_over_edges(w->agents, cell, &low, &high);
     making->cell = cell;
     making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
-    making->high = jox_add(high, (JoxV2){spare, spare});
+    making->high = high;
 }
 
 /* What a field is made of: what stands where now. `before`: the field that it replaces, or NULL. */
@@ -222,7 +217,11 @@ static Making *prepare(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind
     making->item.run = make;
     jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
     jox_obstacles_add(&w->routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
-    copy_places(w, place, making);
+    making->places = jox_routes_copy_goal(w->places, place, &making->place_count);
+    if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
+        jox_routes_add_wall_images(w->agents, &making->walls);
+        jox_routes_add_goal_images(w->agents, &making->places, &making->place_count);
+    }
     lay_out(w, before, kind == JOX_ROUTE_CROWD ? MOST_CROWD_CELLS : MOST_CELLS, making);
     return making;
 }
@@ -245,6 +244,8 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     Making *making = prepare(w, place, kind, routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (kind == JOX_ROUTE_CROWD) {
         copy_crowd(w, place, &making->crowd);
+        if (jox_routes_lead_over_edges(w->agents, w->all_walls))
+            jox_routes_add_crowd_images(w->agents, &making->crowd);
         making->keeps_marks = true;
         making->marks = route->marks;
     }
