@@ -58,6 +58,7 @@ static void print_lua_cost(const JoLuaCost *cost, double stepping) {
 
 void cli_print_lua_costs(const JoScene *scene) {
     JoLuaCosts *costs = jo_scene_lua_costs(scene);
+    double all = 0.0;
     if (costs && costs->count)
         fprintf(stderr,
                 "Plain Lua functions, each with its share of the %.2f ms that the steps took, with "
@@ -73,6 +74,7 @@ void cli_print_lua_costs(const JoScene *scene) {
             calls += items[last].calls;
             seconds += items[last].seconds;
         }
+        all += seconds;
         fprintf(stderr, "%s (%s): %s, %s, %.2f ms, %.2f %% of the steps\n", items[first].behaviour,
                 items[first].file, jox_noun(functions, last - first, "plain function"),
                 jox_noun(told, calls, "call"), seconds * 1e3,
@@ -80,6 +82,10 @@ void cli_print_lua_costs(const JoScene *scene) {
         for (uint32_t k = first; k < last; k++)
             print_lua_cost(&items[k], costs->stepping);
     }
+    if (costs && costs->count)
+        fprintf(stderr, "the rest of the steps, without plain functions: %.2f ms, %.2f %%\n",
+                (costs->stepping - all) * 1e3,
+                costs->stepping > 0.0 ? 100.0 * (1.0 - all / costs->stepping) : 100.0);
     if (costs && costs->count == 0)
         fputs("no behaviour has a plain function\n", stderr);
     jo_free(costs);

@@ -112,7 +112,8 @@ typedef struct JoLuaCost {
     const char *behaviour, *file; /* its name; its file */
     const char *where;            /* "state Circle > on_enter" */
     uint64_t calls, failures;
-    double seconds; /* of processor time, estimated from one call in 16 */
+    double seconds; /* of processor time, estimated from one call in 16; all together at most
+                       `stepping` */
     bool suspended;
 } JoLuaCost;
 typedef struct JoLuaCosts {

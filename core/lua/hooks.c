@@ -10,7 +10,14 @@
 #include "lua/language/script.h"
 #include "lua/loader.h"
 
-enum { TIMED = 16 }; /* the first so many calls are timed, then one in so many */
+enum { TIMED = 16 }; /* first calls that are timed; of later ones, one in as many is */
+
+/* One number in 16, by Fibonacci hashing: evenly many of the numbers that leave any one remainder,
+   as those of one person's calls do where as many people are in a state as one in so many is timed.
+ */
+bool jox_lua_is_timed(uint64_t call) {
+    return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> 60 == 0;
+}
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     JOX_ASSERT(!machines || machines->agents);
@@ -136,7 +143,7 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         return false;
     JoxHook *hook = &script->hooks[number];
     lua_State *L = script->vm.L;
-    const bool first = hook->calls < TIMED, timed = first || hook->calls % TIMED == 0;
+    const bool first = hook->calls < TIMED, timed = jox_lua_is_timed(hook->calls);
     const double begun = timed ? jox_clock_thread() : 0.0;
     hook->calls++;
     script->machine = machine;
@@ -280,10 +287,6 @@ static double estimate(const JoxHook *hook) {
                               : 0.0);
 }
 
-double jox_lua_arriving(const JoxLua *lua) {
-    return lua->arriving;
-}
-
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
     const JoxScript *script = jox_lua_script(lua, machine);
     double seconds = 0.0;
@@ -294,6 +297,21 @@ double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *c
         seconds += estimate(hook);
     }
     return seconds;
+}
+
+JoxLuaTotal jox_lua_total(const JoxLua *lua, double stepped) {
+    const JoxMachineSet *set = lua->machines->set;
+    JoxLuaTotal total = {.stepping = stepped + lua->arriving, .cut = 1.0};
+    for (uint32_t m = 0; m < set->count; m++) {
+        uint64_t calls;
+        total.seconds += jox_lua_seconds(lua, set->items[m], &calls);
+        total.calls += calls;
+    }
+    if (total.seconds > total.stepping) {
+        total.cut = total.stepping / total.seconds;
+        total.seconds = total.stepping;
+    }
+    return total;
 }
 
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost) {

@@ -102,11 +102,19 @@ void jox_lua_bracket(void *lua, bool begins);
 /* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, how often they
    have failed in the present second and, outside of the hash, were called and failed in all. */
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
-/* Processor time of the calls as people come in, s: no step has it. */
-double jox_lua_arriving(const JoxLua *lua);
+/* Whether a function's call of that number, from 0, is timed. */
+bool jox_lua_is_timed(uint64_t call);
 /* Processor time that a machine's functions took, s, estimated from the first 16 calls of each and
    one in 16 of the others, and how many there were. */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
+/* Cost of all plain functions. Their time is estimated; where it would pass that of the steps, that
+   of each is multiplied by `cut`, which is 1 else. */
+typedef struct JoxLuaTotal {
+    uint64_t calls;
+    double seconds, stepping, cut; /* s; s, of the steps with the calls as people come in; share */
+} JoxLuaTotal;
+/* stepped: s, that the steps took. */
+JoxLuaTotal jox_lua_total(const JoxLua *lua, double stepped);
 /* What its n-th function cost, with texts of the machine; false behind the last. */
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);
 /* Whether so many of its calls failed that the run did not go as its behaviour says. */

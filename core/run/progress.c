@@ -40,19 +40,13 @@ static bool show(void *self, JoScene *scene, JoError *error) {
 
 /* That plain functions ran, and what they cost: their authors should know without asking. */
 static bool say_costs(void *self, JoScene *scene, JoError *error) {
-    const JoWorld *world = scene->world;
-    double seconds = 0.0, wall = world->state.statistics.wall_s;
-    uint64_t calls = 0;
+    const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
     char told[JOX_NOUN];
     (void)self, (void)error;
-    for (uint32_t m = 0; m < world->model.machines.count; m++) {
-        uint64_t machine_calls;
-        seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &machine_calls);
-        calls += machine_calls;
-    }
-    if (calls > 0)
+    if (total.calls > 0)
         jox_run_say(scene, "plain Lua functions: %s, %.2f %% of the steps' time\n",
-                    jox_noun(told, calls, "call"), wall > 0.0 ? 100.0 * seconds / wall : 0.0);
+                    jox_noun(told, total.calls, "call"),
+                    total.stepping > 0.0 ? 100.0 * total.seconds / total.stepping : 0.0);
     return true;
 }
 

@@ -191,6 +191,27 @@ expect "a trace has the whole condition" 1 'when near(anyone:in_state("Go"), 3) 
 grep -qF "told.lua:4: a signal is a name and carries no value" "$work/out"; verdict "a signal with a value is refused, with its line" $?
 "$JOSTLE" run "$work/s/told.yaml" --steps 1 --quiet --profile-lua 2>&1 | sed -n "s/.*told.lua): .* \([0-9.]*\) % of the steps/\1/p" | awk '{exit !($1 > 0 && $1 <= 100)}'
 verdict "shares of functions add up, also those called as people come in" $?
+# Sixteen people, one of whom costs a thousand times what another does, as does the order of the calls that are timed.
+cat >"$work/s/work.lua" <<'END'
+local lib = {}
+local function count(n) local s = 0 for i = 1, n do s = s + i end return s end
+function lib.wait(me) return count(me.id == 0 and 5000 or 5) < 0 end
+return lib
+END
+cat >"$work/s/odd.lua" <<'END'
+local lib = require "work"
+return machine { name = "odd", start = "Go", states = {
+  Go = { steer = hold, on_enter = function(me) lib.wait(me) end,
+    { to = "Stay", when = lib.wait }, { to = "Go", when = function(me) return lib.wait(me) end } },
+  Stay = { steer = hold } } }
+END
+printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\ngroups: {g: {behaviour: odd.lua, count: 16, fill: grid, in: yard}}\n' >"$work/s/odd.yaml"
+for threads in 1 2 4; do
+    "$JOSTLE" run "$work/s/odd.yaml" --steps 100 --threads $threads --quiet --profile-lua 2>&1 |
+        awk '/ calls .* ns each .* %/ {sum += $(NF - 1); n++} /^the rest of the steps/ {rest = $(NF - 1)}
+            END {exit !(n == 3 && rest >= 0 && sum + rest > 99.9 && sum + rest < 100.1)}'
+    verdict "shares of functions and of the rest of the steps sum to 100 %, $threads threads" $?
+done
 expect "a value in a table that the scene leaves out" 0 "speed of agent 1 at 0.00 s, in state Go: 1" "$JOSTLE" mod why speed "$work/s/told.yaml" --agent 1
 expect "  is set" 0 '"agents": 30' "$JOSTLE" run "$work/s/told.yaml" --for 0.1 --quiet --summary - --set groups.g.set.speed=2
 expect "  or refused as any, with its name" 3 "Did you mean 'speed'" "$JOSTLE" run "$work/s/told.yaml" --for 0.1 --quiet --set groups.g.set.sped=2

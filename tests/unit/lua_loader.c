@@ -260,8 +260,23 @@ static void shipped_behaviours_load_and_their_prefixes_do_no_harm(void **state) 
     jox_lua_free(lua);
 }
 
+/* Of the calls of one person among any number who are called in turn, one in 16 is timed. */
+static void timed_calls_are_shared_evenly(void **state) {
+    (void)state;
+    for (uint64_t people = 1; people <= 64; people++)
+        for (uint64_t one = 0; one < people; one++) {
+            uint32_t timed = 0;
+            for (uint64_t round = 0; round < 1600; round++)
+                timed += jox_lua_is_timed(round * people + one);
+            if (timed < 80 || timed > 125) /* 100, and the first 16 calls of all */
+                fail_msg("%u of 1600 calls of number %u of %u", timed, (unsigned)one,
+                         (unsigned)people);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(timed_calls_are_shared_evenly),
         cmocka_unit_test(every_mistake_has_its_place),
         cmocka_unit_test(all_mistakes_of_a_file_are_reported_at_once),
         cmocka_unit_test(names_are_checked_against_the_scene),

@@ -165,19 +165,11 @@ static void add_danger(JoxJson *json, const JoScene *scene) {
 
 /* What plain functions cost: share of the stepping, calls, and what failed. */
 static void add_lua(JoxJson *json, const JoScene *scene) {
-    const JoWorld *world = scene->world;
-    double seconds = 0.0;
-    uint64_t calls = 0;
-    for (uint32_t m = 0; m < world->model.machines.count; m++) {
-        uint64_t own;
-        seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &own);
-        calls += own;
-    }
-    double wall = world->state.statistics.wall_s + jox_lua_arriving(scene->lua);
+    const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
     jox_json_object(json, "lua");
-    jox_json_whole(json, "calls", calls);
-    jox_json_digits(json, "seconds", seconds, 6);
-    jox_json_digits(json, "share", wall > 0.0 ? seconds / wall : 0.0, 6);
+    jox_json_whole(json, "calls", total.calls);
+    jox_json_digits(json, "seconds", total.seconds, 6);
+    jox_json_digits(json, "share", total.stepping > 0.0 ? total.seconds / total.stepping : 0.0, 6);
     jox_json_end(json);
 }
 

@@ -74,13 +74,15 @@ JoLuaCosts *jo_scene_lua_costs(const JoScene *scene) {
     JoxPack pack = {0};
     JoLuaCosts *head = jox_pack_add(&pack, HEAD, sizeof *head);
     jox_pack_list(&pack, HEAD, &head->items, ITEMS);
-    head->stepping = scene->world->state.statistics.wall_s + jox_lua_arriving(scene->lua);
+    const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
+    head->stepping = total.stepping;
     for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         JoLuaCost cost;
         for (uint32_t h = 0;
              jox_lua_cost(scene->lua, scene->world->model.machines.items[m], h, &cost); h++) {
             JoLuaCost *item = jox_pack_add(&pack, ITEMS, sizeof *item);
             *item = cost;
+            item->seconds *= total.cut;
             jox_pack_text(&pack, ITEMS, &item->behaviour, cost.behaviour);
             jox_pack_text(&pack, ITEMS, &item->file, cost.file);
             jox_pack_text(&pack, ITEMS, &item->where, cost.where);
