@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/format/name.h"
 #include "base/mem.h"
+#include "lua/kinds.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 
@@ -202,11 +203,12 @@ static void check_renamed(JoxBuild *b) {
     }
 }
 
-void jox_build(JoxScript *script, const JoxSource *source) {
+static void build_machine(JoxBuild *build) {
+    JoxScript *script = build->script;
+    const JoxSource *source = build->source;
     lua_State *L = script->vm.L;
-    JoxBuild build = {.script = script, .source = source};
     JoxNode *node = jox_node_get(L, -1);
-    jox_misuse_find(&build);
+    jox_misuse_find(build);
     if (!node || node->kind != JOX_NODE_MACHINE) {
         if (!node || node->kind != JOX_NODE_ERROR)
             jox_diag_error(
@@ -218,7 +220,7 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         return;
     }
     size_t errors = script->diagnostics->errors;
-    JoxMachine *m = build.machine = script->built = jox_alloc(1, sizeof *m);
+    JoxMachine *m = build->machine = script->built = jox_alloc(1, sizeof *m);
     m->version = (double)NAN;
     m->vm = -1;
     m->path = jox_strdup(source->path);
@@ -228,35 +230,41 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
     int table = lua_gettop(L);
     for (uint32_t i = 0; i < script->memory_count; i++) {
-        int32_t slot = jox_build_memory(&build, script->memory[i].name);
+        int32_t slot = jox_build_memory(build, script->memory[i].name);
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
     }
-    read_renamed(&build, table); /* first: what follows may be an old name */
+    read_renamed(build, table); /* first: what follows may be an old name */
     const char *known[16];
-    jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),
+    jox_read_check(build, table, "", known, jox_table_key_names("machine", false, known, 16),
                    false);
     jox_read_field(L, table, "name");
     m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
     if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))
-        jox_build_error(&build, jox_read_at(&build, "name"), "bad-name", JOX_NAME_RULE,
+        jox_build_error(build, jox_read_at(build, "name"), "bad-name", JOX_NAME_RULE,
                         "'%.60s' is no name for a machine", lua_tostring(L, -1));
     else if (!is_name(L, -1))
-        jox_build_error(&build, jox_read_at(&build, "name"), "missing-key", "name = \"walker\"",
+        jox_build_error(build, jox_read_at(build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);
-    read_version(&build, table);
-    read_defaults(&build, table);
-    jox_read_own(&build, table);
-    read_states(&build, table);
-    read_start(&build, table);
-    jox_read_counts(&build, table, "", -1);
-    jox_read_public(&build, table);
-    check_renamed(&build);
+    read_version(build, table);
+    read_defaults(build, table);
+    jox_read_own(build, table);
+    read_states(build, table);
+    read_start(build, table);
+    jox_read_counts(build, table, "", -1);
+    jox_read_public(build, table);
+    check_renamed(build);
     m->belongings = script->belongings;
     m->belonging_count = script->belonging_count;
     script->belongings = NULL;
     script->belonging_count = 0;
     if (script->diagnostics->errors == errors)
-        jox_lint(&build);
+        jox_lint(build);
+}
+
+void jox_build(JoxScript *script, const JoxSource *source) {
+    JoxBuild build = {.script = script, .source = source};
+    build_machine(&build);
+    jox_kinds_free(build.kinds);
 }

@@ -131,6 +131,16 @@ static bool same_text(const JoxToken *a, const JoxToken *b) {
     return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
 }
 
+/* Whether a key may be a name: it is written as one or as a text in brackets, or is computed; one
+   of an item of a list is not. */
+static bool may_be_named(const JoxSyntax *s, const JoxTree *t, int32_t in_brackets,
+                         const JoxToken *name) {
+    if (t->named)
+        return same_text(&s->source->tokens[t->at], name);
+    return in_brackets != JOX_NO_TREE && (s->trees[in_brackets].kind != JOX_TREE_CONSTANT ||
+                                          same_text(jox_syntax_token(s, in_brackets), name));
+}
+
 /* What a table that is written out has by a name; by any, where `name` is NULL. */
 static JoxKind field_of(JoxKinds *k, JoxKind table, const JoxToken *name) {
     const JoxSyntax *s = syntax_of(k, table.source);
@@ -138,7 +148,7 @@ static JoxKind field_of(JoxKinds *k, JoxKind table, const JoxToken *name) {
     for (int32_t f = s->trees[table.tree].items; f >= 0; f = s->trees[f].next) {
         const JoxTree *field = &s->trees[f];
         k->looks++;
-        if (!name || (field->named && same_text(jox_syntax_token(s, f), name)))
+        if (!name || may_be_named(s, field, field->a, name))
             all = join(all, k->trees[table.source][field->b]);
     }
     for (uint32_t o = 0; o < k->source_count; o++) {
@@ -151,8 +161,7 @@ static JoxKind field_of(JoxKinds *k, JoxKind table, const JoxToken *name) {
                 continue;
             const JoxKind to = k->trees[o][target->a];
             if (to.site == JOX_SITE_TREE && to.source == table.source && to.tree == table.tree &&
-                (!name || !target->named ||
-                 same_text(jox_syntax_token(other, bound->target), name)))
+                (!name || may_be_named(other, target, target->b, name)))
                 all = join(all, k->trees[o][bound->value]);
         }
     }

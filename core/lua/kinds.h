@@ -28,12 +28,22 @@ typedef struct JoxKinds {
     uint32_t source_count;
     JoxKind **trees, **variables; /* of each source; NULL of those that cannot be parsed */
     uint64_t looks;
+    uint32_t followed;     /* steps of jox_part_find, which are bounded in all */
     bool changed, settled; /* settled: all of it holds; false: too large to tell */
 } JoxKinds;
 
 /* Of all files of a script that has run. */
 JoxKinds *jox_kinds_read(const JoxScript *script);
 void jox_kinds_free(JoxKinds *kinds);
+/* Where a part of a machine is written: tokens of a source, `last` exclusive. */
+typedef struct JoxPartOrigin {
+    uint32_t source, key, first, last; /* of the key, and of the value */
+} JoxPartOrigin;
+
+/* part_origin.c: finds where a part of the machine that the script returns is written, by its path
+   as in "states.Wait.2.when". False where it cannot be followed there. */
+bool jox_part_find(JoxKinds *kinds, const char *path, JoxPartOrigin *found);
+
 /* Whether a value of the language, and nothing else, gets there: Lua takes it for true. */
 static inline bool jox_kind_is_value(JoxKind kind) {
     return kind.bits != 0 && (kind.bits & ~(JOX_KIND_CONDITION | JOX_KIND_VALUE)) == 0;

@@ -19,9 +19,9 @@ typedef struct Search {
     const JoxSyntax *s;
     const JoxKind *kinds; /* of its trees */
     uint32_t source;
-    int32_t *fields; /* of each tree: the field of a table whose value it is, or JOX_NO_TREE */
-    bool *hooks;     /* of each function: it runs with the crowd */
-    uint32_t *looks; /* that may_lack has made, of all sources */
+    int32_t *fields; /* by tree: the table field that has it as its value, or JOX_NO_TREE */
+    bool *hooks;     /* by function: it runs with the crowd */
+    uint32_t *looks; /* made by may_lack in all sources */
 } Search;
 
 static void add_misuse(const Search *f, uint32_t at, bool certain) {
@@ -355,7 +355,7 @@ static void warn_of_size(JoxScript *script, const JoxSource *source) {
 void jox_misuse_find(JoxBuild *b) {
     JoxScript *script = b->script;
     JOX_ASSERT(script->misuse_count == 0);
-    JoxKinds *kinds = jox_kinds_read(script);
+    JoxKinds *kinds = b->kinds = jox_kinds_read(script);
     Search *searches = jox_alloc(kinds->source_count + 1, sizeof *searches);
     uint32_t looks = 0;
     for (uint32_t n = 0; n < kinds->source_count; n++) {
@@ -377,7 +377,6 @@ void jox_misuse_find(JoxBuild *b) {
     jox_free(searches);
     if (!kinds->settled && jox_outline_syntax(b->source)->whole)
         warn_of_size(script, b->source);
-    jox_kinds_free(kinds);
     for (size_t n = 0; n < script->vm.source_count; n++) {
         const JoxSyntax *s = jox_outline_syntax(script->vm.sources[n]);
         if (!s->whole)

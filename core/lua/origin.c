@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "lua/kinds.h"
 #include "lua/read.h"
 
 void jox_origin_keep(JoxScript *script, const char *path, const char *number,
@@ -42,20 +43,53 @@ static const JoxSource *locate(const JoxBuild *b, const char *path, char there[5
     return b->script->vm.sources[origin->source];
 }
 
-JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
+/* Finds a part that the file does not write out in its table, or the nearest part around it: the
+   position, and the number of the source. False where the table has the nearest one. */
+static bool follow_part(JoxBuild *b, const char *path, JoxPosition *at, uint32_t *number) {
+    char shorter[256];
+    snprintf(shorter, sizeof shorter, "%s", path);
+    for (char *dot = shorter; *shorter && !jox_outline_find(b->source, shorter); *dot = 0) {
+        JoxPartOrigin found;
+        if (!b->kinds)
+            b->kinds = jox_kinds_read(b->script);
+        if (jox_part_find(b->kinds, shorter, &found)) {
+            const JoxSource *source = b->script->vm.sources[found.source];
+            const JoxToken *t = &source->tokens[found.key];
+            *at = (JoxPosition){source->path, t->line, t->column, t->end_column};
+            *number = found.source;
+            return true;
+        }
+        dot = strrchr(shorter, '.');
+        if (!dot)
+            break;
+    }
+    return false;
+}
+
+/* The position of a path, and the number of its source. */
+static JoxPosition find_position(JoxBuild *b, const char *path, uint32_t *number) {
     char there[512];
+    JoxPosition at;
     const JoxSource *source = locate(b, path, there);
+    if (source == b->source && strcmp(there, path) == 0 && follow_part(b, path, &at, number))
+        return at;
+    *number = 0;
+    for (uint32_t s = 0; s < b->script->vm.source_count; s++)
+        if (b->script->vm.sources[s] == source)
+            *number = s;
     return jox_outline_at(source, there);
 }
 
-int32_t jox_read_line(const JoxBuild *b, const char *path, uint16_t *source) {
-    char there[512];
-    const JoxSource *in = locate(b, path, there);
-    *source = 0;
-    for (size_t s = 0; s < b->script->vm.source_count; s++)
-        if (b->script->vm.sources[s] == in)
-            *source = (uint16_t)s;
-    return jox_outline_at(in, there).line;
+JoxPosition jox_read_at(JoxBuild *b, const char *path) {
+    uint32_t number;
+    return find_position(b, path, &number);
+}
+
+int32_t jox_read_line(JoxBuild *b, const char *path, uint16_t *source) {
+    uint32_t number;
+    const JoxPosition at = find_position(b, path, &number);
+    *source = (uint16_t)number;
+    return at.line;
 }
 
 const JoxPath *jox_read_span(const JoxBuild *b, const char *path, const JoxSource **source) {

@@ -9,6 +9,7 @@ typedef struct JoxBuild {
     JoxScript *script;
     const JoxSource *source;
     JoxMachine *machine;
+    struct JoxKinds *kinds; /* of the script's files; made on first use */
     size_t expression_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
         state_capacity, name_capacity;
 } JoxBuild;
@@ -30,9 +31,9 @@ bool jox_patch_behaviour(JoxScript *script);
 void jox_build(JoxScript *script, const JoxSource *source);
 
 /* Position of a path in the source: "states.Circle.2.when". */
-JoxPosition jox_read_at(const JoxBuild *build, const char *path);
+JoxPosition jox_read_at(JoxBuild *build, const char *path);
 /* The line of that, and the number of its file. */
-int32_t jox_read_line(const JoxBuild *build, const char *path, uint16_t *source);
+int32_t jox_read_line(JoxBuild *build, const char *path, uint16_t *source);
 /* The tokens of a path's value, and the source they are in; NULL where it is not written out. */
 const JoxPath *jox_read_span(const JoxBuild *build, const char *path, const JoxSource **source);
 /* misuse.c: finds where Lua's own operators and tests decide by values of the language, in all

@@ -159,7 +159,7 @@ static bool id_taken(const JoxState *state, const JoxTransition *t, const char *
 }
 
 /* Where the value of a key begins; where no text says so, the key. */
-static JoxPosition value_at(const JoxBuild *b, const char *path) {
+static JoxPosition value_at(JoxBuild *b, const char *path) {
     const JoxSource *source;
     const JoxPath *span = jox_read_span(b, path, &source);
     if (!span || span->first >= source->token_count)

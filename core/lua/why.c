@@ -4,17 +4,28 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "lua/kinds.h"
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 
 enum { LONGEST = 400 }; /* bytes of a value that are told */
 
+/* One place that set a path. */
+typedef struct Setting {
+    const JoxSource *source;
+    uint32_t first, last; /* tokens of the value */
+    const JoxToken *key;
+    int32_t mod; /* index of the mod, or -1: the behaviour itself */
+    bool removes;
+} Setting;
+
 /* The text of a value as written, on one line and without comments; cut after `most` bytes. */
-static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {
-    JOX_ASSERT(path->first <= path->last && path->last <= source->token_count);
+static void print_value(const Setting *setting, size_t most, JoxText *out) {
+    const JoxSource *source = setting->source;
+    JOX_ASSERT(setting->first <= setting->last && setting->last <= source->token_count);
     size_t begin = out->length;
     const char *before = NULL; /* where the last token ended */
-    for (uint32_t t = path->first; t < path->last && t < source->token_count; t++) {
+    for (uint32_t t = setting->first; t < setting->last && t < source->token_count; t++) {
         const JoxToken *token = &source->tokens[t];
         bool quoted = token->kind == JOX_TOKEN_STRING;
         if (before && token->text - quoted > before)
@@ -33,19 +44,12 @@ static void print_value(const JoxSource *source, const JoxPath *path, size_t mos
     jox_text_add(out, "...");
 }
 
-/* One place that set a path. */
-typedef struct Setting {
-    const JoxSource *source;
-    const JoxPath *path;
-    const JoxToken *key;
-    int32_t mod; /* index of the mod, or -1: the behaviour itself */
-    bool removes;
-} Setting;
-
 /* What is done with the places that are found: each is told to `visit` where that is given, and
    the last one is kept. */
 typedef struct Settings {
     const JoxScope *scope;
+    JoxKinds *kinds; /* made on first use, where `follows` */
+    bool follows;    /* also what a file builds, and not only what it writes out */
     JoSetVisit *visit;
     void *context;
     Setting last;
@@ -55,7 +59,7 @@ static void tell(const Setting *setting, const Settings *to) {
     JoxText value = {0};
     const bool is_mod = setting->mod >= 0 && (uint32_t)setting->mod < to->scope->mod_count;
     if (!setting->removes)
-        print_value(setting->source, setting->path, LONGEST, &value);
+        print_value(setting, LONGEST, &value);
     to->visit(to->context,
               &(JoSetting){.by = is_mod ? JO_SET_MOD : JO_SET_BEHAVIOUR,
                            .value = value.data,
@@ -75,7 +79,31 @@ static bool take_place(const JoxScript *script, uint32_t source, const char *pat
     if (!found || found->key >= script->vm.sources[source]->token_count)
         return false;
     const JoxToken *key = &script->vm.sources[source]->tokens[found->key];
-    to->last = (Setting){script->vm.sources[source], found, key, mod, removes};
+    to->last = (Setting){script->vm.sources[source], found->first, found->last, key, mod, removes};
+    if (to->visit)
+        tell(&to->last, to);
+    return true;
+}
+
+/* Adds the places of a path that the behaviour's own file does not write out in its table: what is
+   written there of the part around it, as `A = lib.stand(2)` of the speed of A, and where that
+   leads. */
+static bool take_followed(const JoxScript *script, const char *path, Settings *to) {
+    JoxPartOrigin found;
+    if (to->follows && !to->kinds)
+        to->kinds = jox_kinds_read(script);
+    if (!to->kinds || !jox_part_find(to->kinds, path, &found))
+        return false;
+    char around[256];
+    snprintf(around, sizeof around, "%s", path);
+    for (char *dot; (dot = strrchr(around, '.'));) {
+        *dot = 0;
+        if ((found.source != 0 || strcmp(around, "states") != 0) &&
+            take_place(script, 0, around, -1, false, to))
+            break;
+    }
+    const JoxSource *source = script->vm.sources[found.source];
+    to->last = (Setting){source, found.first, found.last, &source->tokens[found.key], -1, false};
     if (to->visit)
         tell(&to->last, to);
     return true;
@@ -108,7 +136,7 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
                  strstr(canonical, script->changes.items[o].path) == canonical;
     by_number(machine, canonical, own);
     if (!named)
-        count += take_place(script, 0, own, -1, false, to);
+        count += take_place(script, 0, own, -1, false, to) || take_followed(script, own, to);
     for (size_t o = 0; o < script->changes.count; o++) {
         const JoxPatchChange *change = &script->changes.items[o];
         char path[512];
@@ -123,8 +151,34 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
     return count;
 }
 
-/* Whether the machine has what a path names: a state, a transition of it, or a parameter that the
-   state sets. */
+/* Whether a state sets a key that is no parameter. */
+static bool sets_key(const JoxState *state, const char *key) {
+    const struct {
+        const char *key;
+        bool set;
+    } KEYS[] = {{"steer", state->steer_count > 0},
+                {"lasts", state->has_lasts},
+                {"removes", state->removes},
+                {"face", state->face >= 0},
+                {"approach", state->approach >= 0},
+                {"kick", state->kick >= 0},
+                {"take", state->take >= 0},
+                {"throw", state->toss >= 0},
+                {"become", state->become != NULL},
+                {"on_enter", state->on_enter >= 0},
+                {"on_exit", state->on_exit >= 0},
+                {"push_when", state->push_when >= 0},
+                {"ignore", state->ignore != 0},
+                {"push_only", state->push_only != 0},
+                {"push_toward", state->push_toward >= 0}};
+    for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
+        if (strcmp(KEYS[k].key, key) == 0)
+            return KEYS[k].set;
+    return false;
+}
+
+/* Whether the machine has what a path names: a state, a transition of it, or a key that the state
+   sets. */
 static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
     char state[128], id[128];
     const size_t n = strcspn(path, ".");
@@ -136,6 +190,8 @@ static bool has_part(const JoxMachine *machine, const char *path, int parameter)
     if (!path[n] || (parameter >= 0 && of->param[parameter].kind != JOX_VALUE_UNSET))
         return true;
     snprintf(id, sizeof id, "%.*s", (int)strcspn(path + n + 1, "."), path + n + 1);
+    if (sets_key(of, id))
+        return true;
     for (uint32_t t = 0; t < of->transition_count; t++)
         if (strcmp(of->transitions[t].id, id) == 0)
             return true;
@@ -156,27 +212,23 @@ static int take_nearest(const JoxScript *script, const JoxMachine *machine, cons
     return count;
 }
 
-bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
-                 const JoxScope *scope, JoSetVisit *visit, void *context) {
-    const JoxScript *script = jox_lua_script(lua, machine);
+static bool explain_path(const JoxScript *script, const JoxMachine *machine, const char *path,
+                         Settings *to) {
     char canonical[256];
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
-    if (!script)
-        return false;
-    Settings to = {.scope = scope, .visit = visit, .context = context};
-    int count = take_all(script, machine, path, &to);
+    int count = take_all(script, machine, path, to);
     snprintf(canonical, sizeof canonical, "states.%.240s", path);
     if (!count)
-        count = take_all(script, machine, canonical, &to);
+        count = take_all(script, machine, canonical, to);
     snprintf(canonical, sizeof canonical, "states.%.*s.@%.120s", (int)(n < 100 ? n : 100), path,
              rest ? rest + 1 : "");
     if (!count && rest)
-        count = take_all(script, machine, canonical, &to);
+        count = take_all(script, machine, canonical, to);
     int parameter = jox_parameter_find(last ? last + 1 : path);
     if (!count && has_part(machine, path, parameter)) {
         snprintf(canonical, sizeof canonical, "states.%.240s", path);
-        count = take_nearest(script, machine, canonical, &to);
+        count = take_nearest(script, machine, canonical, to);
     }
     if (parameter < 0)
         return count > 0;
@@ -186,19 +238,28 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
         snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
         if (jox_machine_state(machine, state) < 0 && strncmp(path, "defaults.", 9) != 0)
             return false;
-        count = take_all(script, machine, canonical, &to);
+        count = take_all(script, machine, canonical, to);
         if (!count && machine->defaults[parameter].line > 0)
-            count = take_nearest(script, machine, canonical, &to);
+            count = take_nearest(script, machine, canonical, to);
     }
     if (!count) {
         char number[32];
         snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
-        visit(context, &(JoSetting){.by = JO_SET_DEFAULT,
-                                    .value = number,
-                                    .unit = jox_parameters[parameter].unit});
+        to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
+                                            .value = number,
+                                            .unit = jox_parameters[parameter].unit});
         count = 1;
     }
     return true;
+}
+
+bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                 const JoxScope *scope, JoSetVisit *visit, void *context) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    Settings to = {.scope = scope, .visit = visit, .context = context, .follows = true};
+    const bool found = script && explain_path(script, machine, path, &to);
+    jox_kinds_free(to.kinds);
+    return found;
 }
 
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
@@ -208,7 +269,7 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
     *out = (JoxWritten){0};
     if (!script || take_all(script, machine, path, &to) == 0 || to.last.removes)
         return false;
-    print_value(to.last.source, to.last.path, LONGEST, &out->text);
+    print_value(&to.last, LONGEST, &out->text);
     out->file = to.last.source->path;
     out->line = to.last.key->line;
     out->column = to.last.key->column;

@@ -315,6 +315,64 @@ sed -i '1a mods: {bb: {x: 99}}' "$tree/scenes/yard.yaml"
 says "a setting out of range by the scene: the scene's line" 0 "scenes/yard.yaml:2:16: setting 'x' of mod bb must be from 1 to 8, not 99" bash -c run
 says "by the command line: there" 0 "--set:1:1: setting 'x' of mod bb must be from 1 to 8, not 77" bash -c "run --set mods.bb.x=77"
 
+# mod why of machines that no table writes out as a whole.
+mkdir -p "$work/parts"
+cat >"$work/parts/lib.lua" <<'END'
+local mine = memory { laps = 0 }
+local lib = {}
+function lib.wait(seconds)
+  return { steer = hold, lasts = seconds, face = "post", speed = 1.5,
+    { to = "B", when = lasted } }
+end
+function lib.whole(name)
+  return machine { name = name, start = "A", defaults = { perception = 5 },
+    counts = { laps = circuits "post" },
+    states = { A = { steer = seek "post", speed = 1, { to = "B", when = after(3), chance = 0.5 } },
+      B = { steer = hold, { to = "A", id = "back", set = { laps = 0 }, when = after(9) } } } }
+end
+return lib
+END
+printf 'return require("lib").whole("whole")\n' >"$work/parts/whole.lua"
+printf 'local lib = require "lib"\nreturn machine { name = "one", start = "A", states = { A = lib.wait(2), B = { removes = true } } }\n' >"$work/parts/one.lua"
+printf 'local all = {}\nfor i = 1, 2 do\n  all[i == 1 and "A" or "B"] = { lasts = i, steer = hold,\n    { to = i == 1 and "B" or "A", when = lasted } }\nend\nreturn machine { name = "loop", start = "A", states = all }\n' >"$work/parts/loop.lua"
+cat >"$work/parts/set.lua" <<'END'
+local m = { name = "set", start = "A", states = {} }
+m.states.A = { steer = hold, speed = 2 }
+m.states.A.speed = 0.4
+m.states.A[1] = { to = "B", when = after(2) }
+local last = { removes = true }
+m.states["B"] = last
+return machine(m)
+END
+{ printf 'jostle: 1\nplaces: {post: {point: [0, 0], radius: 5}}\ngroups:\n'
+    for name in whole one loop set; do printf '  %s: {behaviour: %s.lua, count: 1, in: post}\n' $name $name; done; } >"$work/parts/scene.yaml"
+while read -r path place; do
+    told=$("$JOSTLE" mod why "$path" "$work/parts/scene.yaml" 2>/dev/null | sed -n "s|^ *$work/parts/||p" | tail -1)
+    [ "$told" = "$place" ] || echo "$path: '$told' for '$place'"
+done >"$work/out" <<'END'
+whole.A.steer lib.lua:10:22: seek "post"
+whole.A.speed lib.lua:10:43: 1
+whole.A.B.chance lib.lua:10:83: 0.5
+whole.B.back.set.laps lib.lua:11:60: 0
+whole.A.perception lib.lua:8:59: 5
+whole.counts.laps lib.lua:9:16: circuits "post"
+whole.start lib.lua:8:33: "A"
+one.A.steer lib.lua:4:12: hold
+one.A.lasts lib.lua:4:26: seconds
+one.A.speed lib.lua:4:58: 1.5
+one.A.B.when lib.lua:5:17: lasted
+one.B.removes one.lua:2:79: true
+loop.A.lasts loop.lua:3:34: i
+loop.B.A.when loop.lua:4:35: lasted
+set.A.speed set.lua:3:12: 0.4
+set.A.steer set.lua:2:16: hold
+set.A.B.when set.lua:4:29: after(2)
+set.B.removes set.lua:5:16: true
+END
+[ ! -s "$work/out" ]; verdict "mod why finds parts that functions, loops and assignments make" $?
+[ ! -s "$work/out" ] || cat "$work/out"
+says "a key that a state lacks has no place" 3 "nothing sets 'one.A.kick'" "$JOSTLE" mod why one.A.kick "$work/parts/scene.yaml"
+
 # jostle new: what it writes passes the check and runs.
 mkdir "$work/new"
 (cd "$work/new" && "$program" new behaviour shy && "$program" new scene hall && "$program" new mod calm) >"$work/out" 2>&1; verdict "new writes a behaviour, a scene and a mod" $?

@@ -111,7 +111,7 @@ static const char *const IDIOMS[] = {
     BEHAVIOUR(
         "local opts = { when = after(9) }\nlocal w = opts.when\nif w then w = w | stuck(3) end",
         "w", ""),
-    /* what was chosen by `or` */
+    /* values that `or` chooses */
     BEHAVIOUR("local maybe\nlocal w = maybe or after(3)\nlocal c = stuck(1)\n"
               "if w then c = c | w end",
               "c", ""),

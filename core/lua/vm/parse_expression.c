@@ -199,6 +199,7 @@ static int binding_power(const JoxToken *t, int *right) {
 }
 
 int32_t jox_parse_expression(JoxParser *p, int limit) {
+    const uint32_t first = (uint32_t)p->at;
     int32_t left;
     int right = 0, power;
     if (++p->level > JOX_PARSE_LEVELS)
@@ -223,5 +224,9 @@ int32_t jox_parse_expression(JoxParser *p, int limit) {
         left = whole;
     }
     p->level--;
+    if (!p->failed) {
+        jox_parse_tree(p, left)->first = first;
+        jox_parse_tree(p, left)->last = (uint32_t)p->at;
+    }
     return left;
 }

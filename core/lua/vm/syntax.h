@@ -26,10 +26,12 @@ typedef enum {
 /* An expression. Its parts have lower numbers than itself, except for the body of a function. */
 typedef struct JoxTree {
     JoxTreeKind kind;
-    uint32_t at;   /* token */
-    int32_t a, b;  /* parts; JOX_NO_TREE: none */
-    int32_t items; /* first argument or field */
-    int32_t next;  /* in the list of the same parent */
+    uint32_t at;          /* token */
+    uint32_t first, last; /* tokens of the whole of it, last exclusive; of values in lists, tables,
+                             assignments and returns */
+    int32_t a, b;         /* parts; JOX_NO_TREE: none */
+    int32_t items;        /* first argument or field */
+    int32_t next;         /* in the list of the same parent */
     int32_t variable;
     int32_t function; /* in which it stands */
     bool named;       /* INDEX, FIELD: the key is the name at `at` */
