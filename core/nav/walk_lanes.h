@@ -35,6 +35,7 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, 
                                             const JoxFloats heading[4], JoxVector offset) {
     const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way + first);
     const JoxVector own = {jf_load(a->aim_x + first), jf_load(a->aim_y + first)};
+    // cppcheck-suppress ctuArrayIndex
     const JoxVector aim = {heading[0], heading[1]};
     const JoxMask stands = jf_le(jf_abs(aim.x) + jf_abs(aim.y), zero);
     const JoxInts bound = ji_load(a->bound + first);
