@@ -14,7 +14,6 @@
 #include "base/mem.h"
 #include "jostle_tools.h"
 #include "run/run.h"
-#include "validate/check.h"
 #include "validate/claims.h"
 
 enum { DEEPEST = 8, MOST_ERRORS = 10000 }; /* greatest depth of nested folders */
@@ -285,13 +284,13 @@ static char **list_folder(const char *path, int depth, JoxDiagnostics *own) {
     static const char *const HINT = "Give its path, too, to have it checked";
     const JoxPosition at = {path, 0, 0, 0};
     if (depth >= DEEPEST) {
-        jox_diag_warn(own, at, JOX_CHECK_UNREAD, HINT,
+        jox_diag_warn(own, at, "unread-folder", HINT,
                       "folders are checked %d levels deep, so not this one", DEEPEST);
         return NULL;
     }
     char **names = jox_folder_names(path, false);
     if (!names)
-        jox_diag_error(own, at, JOX_CHECK_UNREAD, depth ? HINT : NULL,
+        jox_diag_error(own, at, "unread-folder", depth ? HINT : NULL,
                        "the folder cannot be read: %s", strerror(errno));
     return names;
 }
@@ -303,7 +302,7 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     JoxDiagnostics own = {0};
     char **names = NULL;
     if (stat(path, &info) != 0) {
-        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), JOX_CHECK_UNREADABLE, NULL, "%s",
+        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL, "%s",
                        errno == ENOENT ? "there is no such file" : strerror(errno));
     } else if (!S_ISDIR(info.st_mode)) {
         check_file(path, named, mod, &own);
@@ -398,17 +397,13 @@ static void check_named(const char *path, JoxDiagnostics *all) {
         check_path(path, true, 0, mod, all);
 }
 
-JoxDiagnostics jox_check_paths(const char *const *paths, size_t count) {
-    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps its first 20 */
-    for (size_t p = 0; p < count; p++)
-        check_named(paths[p], &all);
-    return all;
-}
-
+/* Checks the paths, reports the diagnostics as text or JSON, and returns the number of errors. */
 static size_t check_all(const char *const *paths, size_t count, bool json, JoMessage *message,
                         void *context) {
-    JoxDiagnostics all = jox_check_paths(paths, count);
+    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps its first 20 */
     JoxText text = {0};
+    for (size_t p = 0; p < count; p++)
+        check_named(paths[p], &all);
     if (json)
         jox_diag_json(&all, &text);
     else
