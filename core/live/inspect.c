@@ -1,4 +1,5 @@
-/* One agent as JSON, for who looks at it. */
+/* One agent as JSON: state, parameters with the places that set them, memory, own values,
+   half-planes and forces of the last step. Called by the live page and by jo_scene_inspect. */
 #include <math.h>
 #include <string.h>
 
@@ -11,26 +12,26 @@
 
 enum { DIGITS = 6 };
 
-static void add_figure(JoxJson *json, const char *key, double number) {
+static void add_rounded(JoxJson *json, const char *key, double number) {
     jox_json_digits(json, key, number, DIGITS);
 }
 
-static void add_vector(JoxJson *json, const char *key, JoxV2 v) {
+static void add_rounded_vector(JoxJson *json, const char *key, JoxV2 v) {
     jox_json_numbers_of(json, key, (double[]){(double)v.x, (double)v.y}, 2, DIGITS);
 }
 
-/* ---- what the agent is ---- */
+/* ---- state, parameters and memory ---- */
 
-static const JoxMachine *machine_of(const JoScene *scene, uint32_t i) {
+static const JoxMachine *find_agent_machine(const JoScene *scene, uint32_t i) {
     const JoxMachineRun *machines = &scene->world->machines;
     const uint16_t machine = machines->agents->machine[i];
     return machine == JOX_NO_MACHINE ? NULL : machines->set->items[machine];
 }
 
-static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
+static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    const JoxMachine *machine = machine_of(scene, i);
+    const JoxMachine *machine = find_agent_machine(scene, i);
     bool grouped = a->group[i] < scene->spec->group_count;
     uint64_t since = world->state.tick > a->entered[i] ? world->state.tick - a->entered[i] : 0;
     jox_json_object(json, "agent");
@@ -39,18 +40,18 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     jox_json_string(json, "group", grouped ? scene->spec->groups[a->group[i]].name : "");
     jox_json_string(json, "machine", machine ? machine->name : "");
     jox_json_string(json, "state", machine ? machine->states[a->state[i]].name : "");
-    add_figure(json, "since", (double)since * world->model.def.dt);
-    add_figure(json, "x", (double)a->x[i]);
-    add_figure(json, "y", (double)a->y[i]);
-    add_figure(json, "vx", (double)a->vx[i]);
-    add_figure(json, "vy", (double)a->vy[i]);
-    add_figure(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
-    add_figure(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
+    add_rounded(json, "since", (double)since * world->model.def.dt);
+    add_rounded(json, "x", (double)a->x[i]);
+    add_rounded(json, "y", (double)a->y[i]);
+    add_rounded(json, "vx", (double)a->vx[i]);
+    add_rounded(json, "vy", (double)a->vy[i]);
+    add_rounded(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
+    add_rounded(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
     jox_json_end(json);
 }
 
-/* Who set a value, in a few words: "state Circle behaviours/tawaf.lua:21". */
-static void print_setting(const JoSetting *by, JoxText *out) {
+/* Appends the place that set a value in a few words: "state Circle behaviours/tawaf.lua:21". */
+static void print_setting_place(const JoSetting *by, JoxText *out) {
     switch (by->by) {
     case JO_SET_DEFAULT:
         jox_text_add(out, "engine");
@@ -81,20 +82,21 @@ static void add_setter(JoScene *scene, uint32_t i, const JoxWatched *watched, in
     JoSettings *settings = jox_run_parameter_why(scene, i, watched, parameter);
     JoxText text = {0};
     JOX_ASSERT(settings->count > 0);
-    print_setting(&settings->items[settings->count - 1], &text);
+    print_setting_place(&settings->items[settings->count - 1], &text);
     jox_json_string(json, "set", text.data);
     jox_text_free(&text);
     jox_free(settings);
 }
 
-static void add_parameters(JoScene *scene, uint32_t i, const JoxWatched *watched, JoxJson *json) {
+static void add_agent_parameters(JoScene *scene, uint32_t i, const JoxWatched *watched,
+                                 JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
-    const JoxMachine *machine = machine_of(scene, i);
+    const JoxMachine *machine = find_agent_machine(scene, i);
     jox_json_array(json, "parameters");
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_json_object(json, NULL);
         jox_json_string(json, "name", jox_parameters[p].name);
-        add_figure(json, "value", jox_parameter_value((JoxParameter)p, jox_param(a, p, i)));
+        add_rounded(json, "value", jox_parameter_value((JoxParameter)p, jox_param(a, p, i)));
         jox_json_string(json, "unit", jox_parameters[p].unit);
         if (machine)
             add_setter(scene, i, watched, p, json);
@@ -105,9 +107,9 @@ static void add_parameters(JoScene *scene, uint32_t i, const JoxWatched *watched
     jox_json_end(json);
 }
 
-static void add_memory(const JoScene *scene, uint32_t i, JoxJson *json) {
+static void add_memory_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
-    const JoxMachine *machine = machine_of(scene, i);
+    const JoxMachine *machine = find_agent_machine(scene, i);
     jox_json_object(json, "memory");
     for (uint32_t s = 0; machine && s < machine->memory_count; s++) {
         const JoxMemorySlot *slot = &machine->memory[s];
@@ -117,16 +119,16 @@ static void add_memory(const JoScene *scene, uint32_t i, JoxJson *json) {
         if (slot->kind == JOX_MEMORY_BOOLEAN)
             jox_json_bool(json, slot->name, value != 0.0);
         else
-            add_figure(json, slot->name, value);
+            add_rounded(json, slot->name, value);
     }
     jox_json_end(json);
 }
 
-/* Own values that are no parameters, by name. */
+/* Adds the agent's own values by name, except those that set a parameter: "parameters" has them. */
 static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    const JoxMachine *machine = machine_of(scene, i);
+    const JoxMachine *machine = find_agent_machine(scene, i);
     jox_json_object(json, "own");
     for (uint32_t s = 0; machine && s < machine->own_count; s++) {
         const JoxOwnSlot *slot = &machine->own[s];
@@ -137,16 +139,19 @@ static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
         if (place && world->model.places[(uint32_t)value].name)
             jox_json_string(json, slot->name, world->model.places[(uint32_t)value].name);
         else
-            add_figure(json, slot->name, value);
+            add_rounded(json, slot->name, value);
     }
     jox_json_end(json);
 }
 
-/* ---- what its last step was ---- */
+/* ---- the last transition and the last step ---- */
 
-static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched, JoxJson *json) {
+/* Adds the agent's last transition. If it happened before the agent was watched, only the state
+   that it led to and the time are known. */
+static void add_last_transition(const JoScene *scene, uint32_t i, const JoxWatched *watched,
+                                JoxJson *json) {
     const JoWorld *world = scene->world;
-    const JoxMachine *machine = machine_of(scene, i);
+    const JoxMachine *machine = find_agent_machine(scene, i);
     const uint32_t entered = world->state.agents.entered[i];
     if (!machine) {
         jox_json_null(json, "last");
@@ -157,38 +162,39 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
     jox_json_string(json, "from", known ? watched->from : NULL);
     jox_json_string(json, "to",
                     known ? watched->to : machine->states[world->state.agents.state[i]].name);
-    add_figure(json, "time", (known ? watched->tick : entered) * world->model.def.dt);
+    add_rounded(json, "time", (known ? watched->tick : entered) * world->model.def.dt);
     jox_json_string(json, "why", known ? watched->why.data : NULL);
     jox_json_end(json);
 }
 
-static void add_step(const JoxInspected *seen, double compression, double load, JoxJson *json) {
+static void add_last_step(const JoxInspected *seen, double compression, double load,
+                          JoxJson *json) {
     static const char *const PLANES[] = {"wall", "contact", "agent", "body", "force"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
         const JoxConstraint *plane = &seen->planes[p];
         jox_json_object(json, NULL);
         jox_json_string(json, "kind", PLANES[plane->kind]);
-        add_vector(json, "point", jox_scale(plane->normal, plane->offset));
-        add_vector(json, "direction", (JoxV2){plane->normal.y, -plane->normal.x});
+        add_rounded_vector(json, "point", jox_scale(plane->normal, plane->offset));
+        add_rounded_vector(json, "direction", (JoxV2){plane->normal.y, -plane->normal.x});
         jox_json_end(json);
     }
     jox_json_end(json);
-    add_vector(json, "preferred", seen->preferred);
-    add_vector(json, "chosen", seen->chosen);
-    add_figure(json, "max_speed", (double)seen->speed_limit);
+    add_rounded_vector(json, "preferred", seen->preferred);
+    add_rounded_vector(json, "chosen", seen->chosen);
+    add_rounded(json, "max_speed", (double)seen->speed_limit);
     jox_json_bool(json, "failed", seen->failed);
     jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {
         jox_json_object(json, NULL);
         jox_json_string(json, "kind", jox_force_part_names[f]);
-        add_figure(json, "fx", (double)seen->forces[f].x);
-        add_figure(json, "fy", (double)seen->forces[f].y);
+        add_rounded(json, "fx", (double)seen->forces[f].x);
+        add_rounded(json, "fy", (double)seen->forces[f].y);
         jox_json_end(json);
     }
     jox_json_end(json);
-    add_figure(json, "compression", compression);
-    add_figure(json, "load", load);
+    add_rounded(json, "compression", compression);
+    add_rounded(json, "load", load);
 }
 
 bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
@@ -200,13 +206,13 @@ bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
         return false;
     }
     uint32_t i = a->slot_index[slot];
-    add_agent(scene, i, json);
-    add_parameters(scene, i, watched, json);
-    add_memory(scene, i, json);
+    add_inspected_agent(scene, i, json);
+    add_agent_parameters(scene, i, watched, json);
+    add_memory_values(scene, i, json);
     add_own_values(scene, i, json);
-    add_last(scene, i, watched, json);
+    add_last_transition(scene, i, watched, json);
     jox_json_bool(json, "seen", seen->seen);
-    add_step(seen, (double)a->compression[i], (double)a->load[i], json);
+    add_last_step(seen, (double)a->compression[i], (double)a->load[i], json);
     return true;
 }
 

@@ -1,5 +1,6 @@
-/* The machines of a scene as JSON: states with their parameters, who set each and where, and
-   transitions as they are written. Also the line of Lua that would set a parameter. */
+/* The machines of a scene as JSON: states with their parameters and the place that set each, and
+   transitions as they are written. Also the line of Lua that would set a parameter. Called for the
+   scene message (live_scene.c) and the command `lua` (scene_verbs.c). */
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
@@ -7,10 +8,11 @@
 #include "base/mem.h"
 #include "live/inspect.h"
 
-/* ---- who set a value ---- */
+/* ---- the place that set a value ---- */
 
-/* `kind` is "defaults" or "state Circle". */
-static void print_setting(const char *kind, const JoxWritten *written, JoxText *out) {
+/* Appends "KIND FILE:LINE", or the mod that set the value. `kind` is "defaults" or "state Circle".
+ */
+static void print_written_place(const char *kind, const JoxWritten *written, JoxText *out) {
     if (written->mod)
         jox_text_printf(out, "mod %s %s:%d", written->mod, written->file, written->line);
     else
@@ -36,10 +38,10 @@ JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, co
         jox_text_add(&by.where, "program or page");
     } else if (value->line > 0) {
         found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
-        if (!found) /* made by a function: no text says so */
+        if (!found) /* the value was computed by a function, so its path is not in the text */
             written =
                 (JoxWritten){.file = jox_machine_file(machine, value->source), .line = value->line};
-        print_setting(kind, &written, &by.where);
+        print_written_place(kind, &written, &by.where);
     } else {
         jox_text_add(&by.where, "engine");
     }
@@ -66,8 +68,8 @@ void jox_live_set_by_free(JoxLiveSetBy *by) {
 
 /* ---- the graph ---- */
 
-static void add_parameters(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                           JoxJson *json, const char *key) {
+static void add_parameter_list(const JoScene *scene, const JoxMachine *machine,
+                               const JoxState *state, JoxJson *json, const char *key) {
     jox_json_array(json, key);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
@@ -86,67 +88,67 @@ static void add_parameters(const JoScene *scene, const JoxMachine *machine, cons
     jox_json_end(json);
 }
 
-/* Adds what is written at a path, as a text; "" where nothing is. */
-static void add_written(const JoScene *scene, const JoxMachine *machine, const char *path,
-                        JoxJson *json, const char *key) {
+/* Adds the text that the machine's files have at a path, or "" if they have none. */
+static void add_source_text(const JoScene *scene, const JoxMachine *machine, const char *path,
+                            JoxJson *json, const char *key) {
     JoxWritten written;
     bool found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
     jox_json_string(json, key, found && written.text.data ? written.text.data : "");
     jox_text_free(&written.text);
 }
 
-static void add_state(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                      JoxJson *json) {
+static void add_machine_state(const JoScene *scene, const JoxMachine *machine,
+                              const JoxState *state, JoxJson *json) {
     char path[256];
     jox_json_object(json, NULL);
     jox_json_string(json, "name", state->name);
     jox_json_integer(json, "line", state->line);
     snprintf(path, sizeof path, "states.%.200s.steer", state->name);
-    add_written(scene, machine, path, json, "steer");
+    add_source_text(scene, machine, path, json, "steer");
     if (state->removes)
         jox_json_bool(json, "removes", true);
     if (state->become)
         jox_json_string(json, "become", state->become);
-    add_parameters(scene, machine, state, json, "parameters");
+    add_parameter_list(scene, machine, state, json, "parameters");
     jox_json_end(json);
 }
 
-static void add_transition(const JoScene *scene, const JoxMachine *machine, const JoxState *from,
-                           const JoxTransition *t, JoxJson *json) {
+static void add_machine_transition(const JoScene *scene, const JoxMachine *machine,
+                                   const JoxState *from, const JoxTransition *t, JoxJson *json) {
     char path[300];
     jox_json_object(json, NULL);
     jox_json_string(json, "id", t->id);
     jox_json_string(json, "from", from->name);
     jox_json_string(json, "to", machine->states[t->to].name);
     snprintf(path, sizeof path, "states.%.120s.@%.120s.when", from->name, t->id);
-    add_written(scene, machine, path, json, "text");
+    add_source_text(scene, machine, path, json, "text");
     jox_json_integer(json, "line", t->line);
     jox_json_number(json, "chance",
                     t->chance.kind == JOX_VALUE_CONST ? t->chance.number : (double)NAN);
     if (t->chance.kind != JOX_VALUE_CONST && t->chance.kind != JOX_VALUE_UNSET) {
         snprintf(path, sizeof path, "states.%.120s.@%.120s.chance", from->name, t->id);
-        add_written(scene, machine, path, json, "chance_text");
+        add_source_text(scene, machine, path, json, "chance_text");
     }
     jox_json_end(json);
 }
 
-static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxJson *json) {
+static void add_machine_graph(const JoScene *scene, const JoxMachine *machine, JoxJson *json) {
     jox_json_object(json, NULL);
     jox_json_string(json, "name", machine->name);
     jox_json_string(json, "path", machine->path);
     jox_json_number(json, "version", machine->version);
     jox_json_whole(json, "reloads", machine->reloads);
     jox_json_string(json, "start", machine->states[machine->start].name);
-    add_parameters(scene, machine, NULL, json, "defaults");
+    add_parameter_list(scene, machine, NULL, json, "defaults");
     jox_json_array(json, "states");
     for (uint32_t s = 0; s < machine->state_count; s++)
-        add_state(scene, machine, &machine->states[s], json);
+        add_machine_state(scene, machine, &machine->states[s], json);
     jox_json_end(json);
     jox_json_array(json, "transitions");
     for (uint32_t s = 0; s < machine->state_count; s++)
         for (uint32_t k = 0; k < machine->states[s].transition_count; k++)
-            add_transition(scene, machine, &machine->states[s], &machine->states[s].transitions[k],
-                           json);
+            add_machine_transition(scene, machine, &machine->states[s],
+                                   &machine->states[s].transitions[k], json);
     jox_json_end(json);
     jox_json_end(json);
 }
@@ -155,7 +157,7 @@ void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key) {
     const JoxMachineRun *machines = &scene->world->machines;
     jox_json_array(json, key);
     for (uint32_t m = 0; m < machines->set->count; m++)
-        add_machine(scene, machines->set->items[m], json);
+        add_machine_graph(scene, machines->set->items[m], json);
     jox_json_end(json);
 }
 

@@ -1,6 +1,8 @@
-/* What a live page is shown of a running scene, or of a recording: JSON objects, and packed frames
-   of little-endian binary. Everything is by slot (JoxAgents.slot), which a person keeps while
-   alive. Reads the world between two steps and changes nothing of it. */
+/* The messages of a live page: JSON objects and packed little-endian frames, made of a running
+   scene (jox_live_scene ... jox_live_field) or of any crowd in columns (jox_live_pack_...), as
+   replay.h does for recordings. People are numbered by slot (JoxAgents.slot), which an agent keeps
+   while it is in the world. The functions read the world between two steps and change nothing of
+   it. */
 #ifndef JOX_LIVE_LIVE_H
 #define JOX_LIVE_LIVE_H
 
@@ -10,26 +12,27 @@
 #include "geom/walls.h"
 #include "jostle_tools.h"
 
-/* Of the messages: a page of another number asks to be loaded anew. */
+/* Version of the messages: a page that was loaded with another version reloads itself. */
 enum { JOX_LIVE_PROTOCOL = 3 };
 
-/* Growing bytes; zero-initialise, `length = 0` to use again, free by jox_bytes_free. */
+/* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
     uint8_t *data;
     size_t length, capacity;
 } JoxBytes;
 void jox_bytes_free(JoxBytes *bytes);
 
-/* What a frame's `value` measures; scaled so that 255 is the frame's value_most. */
+/* X(name, most, unit): the quantities that people can be coloured by. A frame has one byte `value`
+   per slot, 0 to 255 for 0 to `most`. */
 #define JOX_LIVE_COLOURS(X)                                                                        \
-    X(state, 0, "") /* value is 0: the frame has the state */                                      \
+    X(state, 0, "") /* value is 0: a frame has the state besides */                                \
     X(speed, 2, "m/s")                                                                             \
     X(force, 500, "N") /* magnitude of the net force */                                            \
     X(compression, 1000, "N/m")                                                                    \
     X(load, 1112, "N") /* greatest push from any one direction */                                  \
     X(density, 8, "1/m2")                                                                          \
-    X(group, 255, "")     /* value is the number of the group */                                   \
-    X(direction, 0, "")   /* value is 0: the frame has the heading */                              \
+    X(group, 255, "")     /* value is the index of the group */                                    \
+    X(direction, 0, "")   /* value is 0: a frame has the heading besides */                        \
     X(service, 8, "1/m2") /* density, shown by levels of service */
 typedef enum JoxLiveColour {
 #define X(name, most, unit) JOX_LIVE_COLOUR_##name,
@@ -42,7 +45,7 @@ typedef struct JoxLiveColourInfo {
     float most;
 } JoxLiveColourInfo;
 extern const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT];
-/* Number of a colour by name, or -1. */
+/* JoxLiveColour of a name, or -1. */
 int jox_live_colour(const char *name);
 
 typedef enum JoxLiveField {
@@ -50,111 +53,123 @@ typedef enum JoxLiveField {
     JOX_LIVE_PRESSURE, /* density times the local variance of velocity, 1/s2 */
     JOX_LIVE_FIELDS    /* none */
 } JoxLiveField;
-/* Number of a field by name, JOX_LIVE_FIELDS for "none", or -1. */
+/* JoxLiveField of a name (JOX_LIVE_FIELDS for "none"), or -1. */
 int jox_live_field_named(const char *name);
 const char *jox_live_field_name(JoxLiveField field);
 
-/* What of a session only the one who steps knows. */
+/* State of the page's loop that the status message reports: neither the scene nor the recording has
+   it. */
 typedef struct JoxLiveSession {
     bool paused;
-    double speed;     /* wanted, simulated seconds in a second */
-    uint64_t dropped; /* messages that were refused */
-    uint64_t jumps;   /* of a recording: how often it went elsewhere than to the next frame */
+    double speed;     /* wanted pace, simulated seconds per second */
+    uint64_t dropped; /* commands of browsers that the server refused so far */
+    uint64_t jumps;   /* recordings: how often playback jumped to a frame other than the next */
 } JoxLiveSession;
 
+/* ---- messages of a running scene ---- */
+
+/* Listener that collects the figures of a scene's messages; the scene owns it. */
 typedef struct JoxLive JoxLive;
-/* {"type": "scene", ...}: all that stays as it is for a while. */
+/* Writes {"type": "scene", ...}: the parts of a scene that rarely change. */
 void jox_live_scene(JoScene *scene, JoxText *out);
-/* What people are coloured by until a page asks for something else. */
+/* The colour that a page begins with: the scene's `view`, else one that suits it. */
 JoxLiveColour jox_live_first_colour(const JoScene *scene);
-/* Another number whenever that message is due again: machines, walls, places or bodies changed. */
+/* Returns a hash that changes when the scene message must be sent again: machines, walls, places or
+   bodies have changed. */
 uint64_t jox_live_version(const JoScene *scene);
-/* {"type": "status", ...}. `fired`, times and failures are those since the last second or status.
- */
+/* Writes {"type": "status", ...}. `fired` counts the transitions of the last second; stage times
+   and failures are means over the steps since the last status. */
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out);
-/* Binary, in place of what `out` held. A frame (kind 1); radii and groups of everybody (kind 2;
-   true if they differ from what `out` held); a field (kind 3). */
+/* Binary messages, each in place of the content of `out`: a frame (kind 1); radii and groups of all
+   people (kind 2; returns true if they differ from those that `out` held); a field (kind 3). */
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out);
 bool jox_live_people(JoScene *scene, JoxBytes *out);
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
 
-/* ---- packing, from whatever source ---- */
+/* ---- packing of crowds, running or recorded ---- */
 
+/* Bytes of a frame's head, of a slot and of a body; the state of an empty slot. */
 enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBODY = 255 };
-/* State of those who are none of the scene message's list names. */
+/* State of people whose state is not in the scene message's list. */
 enum { JOX_LIVE_OTHER_STATE = 254 };
-/* Flags. Above them stands how somebody leans under pushes: 0, or 1 + the way (eighths of a turn
-   from the east) + 8 times the step, of which each begins with so many N. */
+/* The flags byte of a slot. Bit 0 flips when the position jumps (a new person in the slot, a
+   periodic edge), so that the page does not draw a movement. The upper 5 bits say how the person
+   leans under pushes: 0 not at all, else 1 + direction (eighths of a turn from the east) + 8 *
+   level, where level k begins at jox_live_leans[k] N. */
 enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
 enum { JOX_LIVE_LEAN_SHIFT = 3, JOX_LIVE_LEANS = 3 };
-enum { JOX_LIVE_LIES = 31 << JOX_LIVE_LEAN_SHIFT }; /* in place of a lean */
+enum { JOX_LIVE_LIES = 31 << JOX_LIVE_LEAN_SHIFT }; /* lies on the floor; replaces the lean */
 extern const float jox_live_leans[JOX_LIVE_LEANS];
 
-/* The area that positions are counted over; it only grows. */
+/* The rectangle that packed positions are fractions of; it only grows. */
 typedef struct JoxLiveArea {
     JoxV2 low, high; /* m */
-    JoxV2 steps;     /* of a position, per metre */
-    bool known;
+    JoxV2 steps;     /* units of a packed position per metre */
+    bool known;      /* false: empty, nothing was covered yet */
 } JoxLiveArea;
-/* Makes room for a box. One that is known grows by at least a quarter at the side where it must. */
+/* Extends the area to hold a box. A side that must move moves by at least a quarter of the size, so
+   that a spreading crowd does not move it in each frame. */
 void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high);
 
 typedef struct JoxLiveHead {
     uint32_t tick;
-    double time; /* s */
-    uint32_t bodies;
+    double time;     /* s */
+    uint32_t bodies; /* rows of bodies, gone ones included */
     const JoxLiveArea *area;
 } JoxLiveHead;
-/* People as columns, in any order. Those that may be NULL are not known then. */
+/* People as columns, in any order. A column that may be NULL is unknown then. */
 typedef struct JoxLiveCrowd {
-    uint32_t count, slots; /* slots: one more than the greatest that anybody had */
+    uint32_t count, slots; /* people; slots: 1 + the greatest slot ever used */
     const uint32_t *slot;
     const float *x, *y, *vx, *vy; /* m, m/s */
-    const float *face_x, *face_y; /* the way they look, of any length; 0 or NULL: as they go */
-    const float *value;           /* of the colours that are not made of the other columns */
+    const float *face_x, *face_y; /* direction of view, any length; 0 or NULL: the velocity's */
+    const float *value;           /* the colour's quantity; NULL where it follows from the rest */
     const float *radius;          /* m; or NULL */
-    bool one_radius;              /* it is one number, that of all */
+    bool one_radius;              /* `radius` has one item, which holds for all */
     const uint16_t *group;        /* or NULL */
-    const uint8_t *state, *flags; /* number in the scene message's list; JOX_LIVE_PARITY ... */
-    JoxV2 period;                 /* m: of periodic edges; 0 without */
-    const JoxWalls *walls;        /* as they stand; or NULL */
+    const uint8_t *state, *flags; /* index in the scene message's "states"; JOX_LIVE_PARITY ... */
+    JoxV2 period;                 /* m, size of a periodic world; 0 along an axis without edges */
+    const JoxWalls *walls;        /* that stand (gates closed); or NULL */
 } JoxLiveCrowd;
-/* Makes the area hold everybody. */
+/* Extends the area to hold all people. */
 void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);
-/* m/s; 0 of nobody. */
+/* Mean speed, m/s; 0 for an empty crowd. */
 double jox_live_mean_speed(const JoxLiveCrowd *crowd);
-/* Sizes `out` for the frame and its head's bodies, writes the head and the people; slots that
-   nobody has are empty. */
+/* Writes the frame's head and people, with free slots marked as empty, and makes room for the
+   head's bodies, which jox_live_put_body writes. */
 void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, JoxLiveColour colour,
                          JoxBytes *out);
-/* `slots`: as of the frame's head. */
+/* Writes a body into a packed frame: position of its origin, m; rotation, a quaternion x y z w.
+   `slots`: the crowd's, as the frame was packed. */
 void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
                        const float turn[4]);
-/* True if that changed the bytes: radii and groups. */
+/* Writes radii and groups by slot over those in `out`; true if a byte of them changed. */
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
 
-/* Densities of a crowd over an area. Zero-initialise. */
+/* Densities of a crowd over an area, as last spread. Zero-initialise, free by jox_live_free_grid.
+ */
 typedef struct JoxLiveGrid {
     struct JoxDensity *grid;
-    JoxV2 low, high;
+    JoxV2 low, high; /* m, the area that the grid was made for */
 } JoxLiveGrid;
-/* Spreads the crowd, which the area is made to hold. */
+/* Extends the area to hold the crowd, and computes the crowd's density on the grid. */
 void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *crowd);
-/* As last spread, 1/m2: at a point, and the greatest. */
+/* Density at a point (0 outside the grid), and the greatest, 1/m2. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 float jox_live_density_max(const JoxLiveGrid *grid);
-/* R of its Gaussian, m: 1 but on wide cells; NAN before the first. */
+/* R of the Gaussian, m: 1, more where the cells are wider than that; NAN before the first spread.
+ */
 float jox_live_density_r(const JoxLiveGrid *grid);
-/* Values of a grid's cells. */
+/* Writes a field message (kind 3) of values by cell of the grid. */
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,
                          JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
 
-/* Walls of a scene or a recording: the member "walls", a list. */
+/* Adds the member "walls" of a scene message, an array of chains. `height`, m: of walls without. */
 void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json);
-/* Which walls of a name stand open: the member "walls" of a status, an object. */
+/* Adds the member "walls" of a status, an object: for each name of a wall, whether it is open. */
 void jox_live_add_gates(const JoxWalls *walls, JoxJson *json);
-/* The member "colours", an object. */
+/* Adds the member "colours", an object: unit and greatest value by name of a colour. */
 void jox_live_add_colours(JoxJson *json);
 
 #endif

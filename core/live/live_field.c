@@ -1,5 +1,5 @@
-/* Fields for the floor: densities of record/fields/density.h on cells of 0.5 m, or wider where the
-   area is large; and crowd pressure, of which whoever shows it has the samples. */
+/* Fields that the page draws on the floor: density by record/fields/density.h on cells of 0.5 m,
+   wider on large areas; and the packing of any field, crowd pressure too, into bytes. */
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +8,7 @@
 #include "live/live.h"
 #include "record/fields/density.h"
 
+/* Cells of the density's grid; cells of a message; bytes of its head; its kind. */
 enum { MOST_CELLS = 65536, MOST_SHOWN = 78000, HEAD = 32, FIELD = 3 };
 static const float KERNEL = JOX_DENSITY_KERNEL, CELL = 0.5f; /* m */
 
@@ -29,8 +30,8 @@ void jox_live_free_grid(JoxLiveGrid *g) {
     *g = (JoxLiveGrid){0};
 }
 
-/* Grid over the area, made again where that has grown. */
-static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
+/* Makes the grid over the area, again if the area has grown. */
+static void make_density_grid(JoxLiveGrid *g, const JoxLiveArea *area) {
     if (g->grid && jox_length(jox_sub(g->low, area->low)) == 0.0f &&
         jox_length(jox_sub(g->high, area->high)) == 0.0f)
         return;
@@ -40,13 +41,13 @@ static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
     JoxV2 size = jox_sub(area->high, area->low);
     float cell = jox_maxf(CELL, sqrtf(size.x * size.y / MOST_CELLS));
     float kernel = jox_maxf(KERNEL, cell);
-    JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* all of everybody is on it */
+    JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* so that no kernel is cut at the border */
     g->grid = jox_density_create(jox_sub(area->low, edge), jox_add(area->high, edge), cell, kernel);
 }
 
 void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crowd) {
     jox_live_cover_crowd(area, crowd);
-    make(g, area);
+    make_density_grid(g, area);
     g->grid->most = 0.0f;
     jox_density_walls(g->grid, crowd->walls);
     jox_density_add(g->grid, crowd->period, crowd->x, crowd->y, crowd->count, 0.0);
@@ -65,7 +66,7 @@ float jox_live_density_r(const JoxLiveGrid *g) {
     return g->grid ? g->grid->kernel * sqrtf(2.0f) : NAN;
 }
 
-static uint8_t *put(uint8_t *at, const void *number) {
+static uint8_t *put_little_endian(uint8_t *at, const void *number) {
     uint32_t bits;
     memcpy(&bits, number, sizeof bits);
     for (int i = 0; i < 4; i++)
@@ -73,9 +74,9 @@ static uint8_t *put(uint8_t *at, const void *number) {
     return at + 4;
 }
 
-/* The greatest of `by` times `by` cells; 0 where nothing was measured. */
-static float block(const JoxDensity *d, const float *values, uint32_t column, uint32_t row,
-                   uint32_t by) {
+/* Returns the greatest value of a block of `by` times `by` cells; 0 if none was measured (NAN). */
+static float find_block_maximum(const JoxDensity *d, const float *values, uint32_t column,
+                                uint32_t row, uint32_t by) {
     float most = 0.0f;
     for (uint32_t r = row * by; r < (row + 1) * by && r < d->rows; r++)
         for (uint32_t c = column * by; c < (column + 1) * by && c < d->columns; c++) {
@@ -102,10 +103,10 @@ void jox_live_pack_field(const JoxDensity *d, const float *values, JoxLiveField 
     JOX_RESERVE(out->data, out->capacity, out->length);
     uint8_t *at = out->data;
     for (int i = 0; i < 4; i++)
-        at = put(at, &head[i]);
+        at = put_little_endian(at, &head[i]);
     for (int i = 0; i < 4; i++)
-        at = put(at, &more[i]);
+        at = put_little_endian(at, &more[i]);
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t c = 0; c < columns; c++)
-            *at++ = (uint8_t)(block(d, values, c, r, by) / most * 255.0f + 0.5f);
+            *at++ = (uint8_t)(find_block_maximum(d, values, c, r, by) / most * 255.0f + 0.5f);
 }

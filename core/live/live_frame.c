@@ -1,4 +1,5 @@
-/* Frames of a running scene: who is where, by slot. */
+/* Frames of a running scene: positions, states and flags of its people by slot, and its bodies. The
+   listener JoxLive is made here. */
 #include <math.h>
 #include <string.h>
 
@@ -6,9 +7,9 @@
 #include "base/mem.h"
 #include "live/live_parts.h"
 
-static const float MARGIN = 2.0f; /* m about everything that a scene names */
+static const float MARGIN = 2.0f; /* m around everything that a scene names */
 static const double LEAN_TIME =
-    0.3; /* s over which the pushes that people lean under are averaged */
+    0.3; /* s, time constant of the averaged push that people lean under */
 
 const float jox_live_leans[JOX_LIVE_LEANS] = {60.0f, 150.0f, 300.0f};
 
@@ -18,7 +19,8 @@ static void cover_points(JoxLiveArea *area, const JoxV2 *points, uint32_t count,
         jox_live_cover(area, jox_sub(points[i], edge), jox_add(points[i], edge));
 }
 
-/* Where anybody can be as far as the scene tells: what it names, and who is there. */
+/* Extends the area to hold all that the scene names (walls, places, positions) and all its people
+   and bodies. */
 static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
@@ -46,7 +48,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     cover_points(area, (JoxV2[]){all.low, all.high}, 2, MARGIN);
 }
 
-static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_live_listener(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxLive *live = self;
     (void)options, (void)error;
     cover_scene(&live->area, scene);
@@ -61,7 +63,7 @@ static bool count_transitions(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static void release(void *self) {
+static void release_live_listener(void *self) {
     JoxLive *live = self;
     for (uint32_t m = 0; m < live->machine_count; m++)
         jox_free(live->state_begins[m]);
@@ -77,9 +79,9 @@ static void release(void *self) {
 
 static const JoxListenerKind LIVE = {.name = "live page",
                                      .size = sizeof(JoxLive),
-                                     .begin = begin,
+                                     .begin = begin_live_listener,
                                      .frame = count_transitions,
-                                     .release = release};
+                                     .release = release_live_listener};
 
 JoxLive *jox_live_of(JoScene *scene) {
     JoxLive *live = jox_run_listener(scene, &LIVE);
@@ -90,13 +92,13 @@ uint32_t jox_live_player(const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     if (spec->player_group < 0)
         return JOX_NO_INDEX;
-    uint32_t id = spec->player_agent; /* agents of the groups come first, in their order */
+    uint32_t id = spec->player_agent; /* ids begin with the agents of the groups, in their order */
     for (int32_t g = 0; g < spec->player_group; g++)
         id += spec->groups[g].count;
     return id;
 }
 
-static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
+static void pack_scene_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     static const JoxV3 NOWHERE = {0.0f, 0.0f, -1000.0f};
     for (uint32_t o = 0; o < jox_bodies_rows(scene->world->state.bodies); o++) {
@@ -107,16 +109,17 @@ static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     }
 }
 
-/* A change of parity where somebody came round a periodic edge, so that nobody is seen to fly
-   across. */
-static void note_edge(struct JoxLiveSeen *seen, JoxV2 now, JoxV2 period) {
+/* Flips the slot's parity if the agent crossed a periodic edge, so that the page does not draw a
+   movement across the whole world. */
+static void flip_parity_at_edge(struct JoxLiveSeen *seen, JoxV2 now, JoxV2 period) {
     const JoxV2 way = jox_sub(now, seen->at);
     if ((period.x > 0.0f && fabsf(way.x) > 0.5f * period.x) ||
         (period.y > 0.0f && fabsf(way.y) > 0.5f * period.y))
         seen->flips ^= JOX_LIVE_PARITY;
 }
 
-/* Everybody as of this frame: where they are, and the pushes that they have borne of late. */
+/* Notes position and averaged push of all agents as of this frame, once per tick. The average
+   decays by exp(-time / LEAN_TIME); a new agent in a slot begins anew. */
 static void note_people(JoxLive *live, const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     const double passed = jo_world_time(world) - live->seen_time;
@@ -134,18 +137,18 @@ static void note_people(JoxLive *live, const JoWorld *world) {
         const float old = seen->generation == generation ? kept : 0.0f;
         JOX_ASSERT(a->slot[i] < a->slot_count && isfinite(now.x) && isfinite(now.y));
         if (seen->generation == generation)
-            note_edge(seen, now, a->period);
+            flip_parity_at_edge(seen, now, a->period);
         seen->pushed = jox_add(jox_scale(seen->pushed, old), jox_scale(pushed, 1.0f - old));
         seen->at = now;
         seen->generation = generation;
     }
 }
 
-/* How somebody who is pushed leans, for the flags: which of eight ways, counted from the east, and
-   which of three steps; 0: not. */
-static uint32_t lean_of(JoxV2 pushed) {
+/* Returns the lean bits of the flags for an averaged push (N): one of eight directions, counted
+   from the east, and one of three levels; 0 below the first level. */
+static uint32_t encode_lean(JoxV2 pushed) {
     static const uint8_t WAYS[3][3] = {{5, 6, 7}, {4, 0, 0}, {3, 2, 1}}; /* [y + 1][x + 1] */
-    static const float DIAGONAL = 0.41421356f; /* the tangent of 22.5 degrees */
+    static const float DIAGONAL = 0.41421356f; /* tangent of 22.5 degrees */
     const float force = jox_length(pushed), across = fabsf(pushed.x), up = fabsf(pushed.y);
     uint32_t step = 0;
     while (step < JOX_LIVE_LEANS && force >= jox_live_leans[step])
@@ -157,7 +160,7 @@ static uint32_t lean_of(JoxV2 pushed) {
     return (1 + WAYS[y + 1][x + 1] + 8 * (step - 1)) << JOX_LIVE_LEAN_SHIFT;
 }
 
-/* Numbers of states in the scene message, and flags. */
+/* Fills the columns of states, as indices in the scene message, and of flags. */
 static void fill_states(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -177,7 +180,7 @@ static void fill_states(JoxLive *live, const JoScene *scene) {
         JOX_ASSERT(a->slot_index[slot] == i);
         live->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
         live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ seen->flips) & JOX_LIVE_PARITY) |
-                                   (lies ? JOX_LIVE_LIES : lean_of(seen->pushed)) |
+                                   (lies ? JOX_LIVE_LIES : encode_lean(seen->pushed)) |
                                    (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
                                    (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
     }
@@ -190,8 +193,8 @@ static const float *fill_forces(JoxLive *live, const JoxAgents *a) {
     return live->force;
 }
 
-/* Everybody, without states, flags and values. */
-static JoxLiveCrowd crowd_of(const JoScene *scene) {
+/* Returns the scene's people as columns; states, flags and values are still NULL. */
+static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
     return (JoxLiveCrowd){.count = a->count,
                           .slots = a->slot_count,
@@ -213,7 +216,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    JoxLiveCrowd crowd = crowd_of(scene);
+    JoxLiveCrowd crowd = list_scene_crowd(scene);
     jox_live_cover_crowd(&live->area, &crowd);
     note_people(live, world);
     fill_states(live, scene);
@@ -230,22 +233,22 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
                               .bodies = jox_bodies_rows(world->state.bodies),
                               .area = &live->area};
     jox_live_pack_frame(&head, &crowd, colour, out);
-    put_bodies(scene, a->slot_count, out);
+    pack_scene_bodies(scene, a->slot_count, out);
 }
 
 bool jox_live_people(JoScene *scene, JoxBytes *out) {
-    const JoxLiveCrowd crowd = crowd_of(scene);
+    const JoxLiveCrowd crowd = list_scene_crowd(scene);
     return jox_live_pack_people(&crowd, out);
 }
 
 double jox_live_speed(const JoScene *scene) {
-    const JoxLiveCrowd crowd = crowd_of(scene);
+    const JoxLiveCrowd crowd = list_scene_crowd(scene);
     return jox_live_mean_speed(&crowd);
 }
 
 void jox_live_spread_crowd(JoScene *scene) {
     JoxLive *live = jox_live_of(scene);
-    const JoxLiveCrowd crowd = crowd_of(scene);
+    const JoxLiveCrowd crowd = list_scene_crowd(scene);
     if (live->spread == scene->world->state.tick + 1)
         return;
     live->spread = scene->world->state.tick + 1;
@@ -253,7 +256,7 @@ void jox_live_spread_crowd(JoScene *scene) {
 }
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
-    if (field == JOX_LIVE_PRESSURE) { /* the run's own, from here on */
+    if (field == JOX_LIVE_PRESSURE) { /* the run samples it from the first time it is shown */
         const JoxLocal *local = jox_run_want_pressure(scene);
         jox_live_pack_field(local->grid, jox_pressure_now(local->pressure), field, out);
         return;

@@ -1,4 +1,5 @@
-/* Frames as bytes: positions as 16-bit steps over an area, headings as 256ths of a turn. */
+/* Packing of frames and people into bytes, of a running scene or of a recording: positions as
+   16-bit fractions of an area, headings as 256ths of a turn. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
-static const float RADIUS = 0.2f; /* m, of people whose radius is not known */
+static const float RADIUS = 0.2f; /* m, for people whose radius is unknown */
 
 const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT] = {
 #define X(name, most, unit) {#name, unit, most},
@@ -28,13 +29,14 @@ void jox_bytes_free(JoxBytes *bytes) {
     *bytes = (JoxBytes){0};
 }
 
-static void resize(JoxBytes *bytes, size_t length) {
+static void resize_bytes(JoxBytes *bytes, size_t length) {
     JOX_RESERVE(bytes->data, bytes->capacity, length);
     bytes->length = length;
 }
 
 /* ---- little-endian numbers, whatever the machine's order ---- */
 
+/* Each writes a number at `at` and returns the address behind it. */
 static inline uint8_t *put16(uint8_t *at, uint16_t value) {
     at[0] = (uint8_t)value;
     at[1] = (uint8_t)(value >> 8);
@@ -66,7 +68,7 @@ static void cover_axis(float *low, float *high, float from, float to, bool known
 
 void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
     if (!(low.x <= high.x && low.y <= high.y))
-        return; /* nothing, or not a number */
+        return; /* an empty box, or NAN */
     if (!area->known) {
         area->low = low;
         area->high = high;
@@ -74,7 +76,7 @@ void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
     cover_axis(&area->low.x, &area->high.x, low.x, high.x, area->known);
     cover_axis(&area->low.y, &area->high.y, low.y, high.y, area->known);
     area->known = true;
-    /* an area without width has steps all the same */
+    /* at least 1 m, so that an area without width does not divide by zero */
     area->steps = (JoxV2){STEPS / jox_maxf(area->high.x - area->low.x, 1.0f),
                           STEPS / jox_maxf(area->high.y - area->low.y, 1.0f)};
 }
@@ -90,11 +92,11 @@ void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
 
 /* ---- frames ---- */
 
-/* Writes the head, and makes every slot empty. `most`: value that 255 stands for. */
-static void begin_frame(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most) {
+/* Writes the head, and marks all slots as empty. `most`: the value that byte 255 stands for. */
+static void write_frame_head(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most) {
     const JoxLiveArea *area = head->area;
     size_t people = (size_t)slots * JOX_LIVE_SLOT;
-    resize(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY);
+    resize_bytes(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY);
     uint8_t *at = put32(put32(out->data, FRAME), head->tick);
     at = put_double(at, head->time);
     at = put32(put32(at, slots), head->bodies);
@@ -106,9 +108,9 @@ static void begin_frame(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, 
         memcpy(at, NOBODY, JOX_LIVE_SLOT);
 }
 
-/* Angle of (x, y) in 256ths of a turn, to within a hundredth of one: atan by a polynomial on the
-   octant. */
-static inline uint8_t heading(float x, float y) {
+/* Returns the angle of (x, y) in 256ths of a turn, with an error below 0.01 of them: arctangent by
+   a polynomial on one octant. */
+static inline uint8_t encode_heading(float x, float y) {
     float across = fabsf(x), up = fabsf(y);
     float longer = jox_maxf(across, up), shorter = jox_minf(across, up);
     float t = longer > 0.0f ? shorter / longer : 0.0f, s = t * t;
@@ -119,25 +121,25 @@ static inline uint8_t heading(float x, float y) {
     return (uint8_t)(int)(angle * (256.0f / 6.28318531f) + 256.5f);
 }
 
-static inline uint16_t steps(float away, float per_metre) {
+static inline uint16_t encode_position(float away, float per_metre) {
     return (uint16_t)jox_clampf(away * per_metre + 0.5f, 0.0f, STEPS);
 }
 
-static inline float speed_of(const JoxLiveCrowd *crowd, uint32_t i) {
+static inline float compute_person_speed(const JoxLiveCrowd *crowd, uint32_t i) {
     return sqrtf(crowd->vx[i] * crowd->vx[i] + crowd->vy[i] * crowd->vy[i]);
 }
 
 double jox_live_mean_speed(const JoxLiveCrowd *crowd) {
     double sum = 0.0;
     for (uint32_t i = 0; i < crowd->count; i++)
-        sum += (double)speed_of(crowd, i);
+        sum += (double)compute_person_speed(crowd, i);
     return crowd->count ? sum / crowd->count : 0.0;
 }
 
-static inline float value_of(const JoxLiveCrowd *crowd, uint32_t i, JoxLiveColour colour) {
+static inline float find_colour_value(const JoxLiveCrowd *crowd, uint32_t i, JoxLiveColour colour) {
     switch (colour) {
     case JOX_LIVE_COLOUR_speed:
-        return speed_of(crowd, i);
+        return compute_person_speed(crowd, i);
     case JOX_LIVE_COLOUR_group:
         return crowd->group ? crowd->group[i] : 0.0f;
     default:
@@ -150,16 +152,16 @@ void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, Jox
     const JoxLiveArea *area = head->area;
     const float most = jox_live_colours[colour].most, scale = most > 0.0f ? 1.0f / most : 0.0f;
     JOX_ASSERT(area->known && area->steps.x > 0.0f && area->steps.y > 0.0f);
-    begin_frame(out, head, crowd->slots, most);
+    write_frame_head(out, head, crowd->slots, most);
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots && crowd->state[i] != JOX_LIVE_NOBODY);
         uint8_t *at = out->data + JOX_LIVE_HEAD + (size_t)crowd->slot[i] * JOX_LIVE_SLOT;
         const bool faces = crowd->face_x && (crowd->face_x[i] != 0.0f || crowd->face_y[i] != 0.0f);
-        const float value = value_of(crowd, i, colour) * scale;
-        at = put16(at, steps(crowd->x[i] - area->low.x, area->steps.x));
-        at = put16(at, steps(crowd->y[i] - area->low.y, area->steps.y));
-        at[0] = faces ? heading(crowd->face_x[i], crowd->face_y[i])
-                      : heading(crowd->vx[i], crowd->vy[i]);
+        const float value = find_colour_value(crowd, i, colour) * scale;
+        at = put16(at, encode_position(crowd->x[i] - area->low.x, area->steps.x));
+        at = put16(at, encode_position(crowd->y[i] - area->low.y, area->steps.y));
+        at[0] = faces ? encode_heading(crowd->face_x[i], crowd->face_y[i])
+                      : encode_heading(crowd->vx[i], crowd->vy[i]);
         at[1] = crowd->state[i];
         at[2] = (uint8_t)(jox_clampf(value, 0.0f, 1.0f) * 255.0f + 0.5f);
         at[3] = crowd->flags[i];
@@ -177,10 +179,11 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 posi
 
 /* ---- people ---- */
 
-/* Makes room for so many slots; who was there already is compared. */
-static void begin_people(JoxBytes *out, uint32_t slots) {
+/* Sizes the message for `slots` and writes its head. Bytes of slots that were there stay, so that
+   the caller can compare them. */
+static void write_people_head(JoxBytes *out, uint32_t slots) {
     size_t before = out->length, length = PEOPLE_HEAD + 2 * (size_t)slots;
-    resize(out, length);
+    resize_bytes(out, length);
     if (length > before)
         memset(out->data + before, 0, length - before);
     put32(put32(put32(put32(out->data, PEOPLE), 0), slots), 0);
@@ -188,7 +191,7 @@ static void begin_people(JoxBytes *out, uint32_t slots) {
 
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out) {
     const size_t before = out->length;
-    begin_people(out, crowd->slots);
+    write_people_head(out, crowd->slots);
     bool differs = out->length != before;
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots);

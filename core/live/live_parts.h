@@ -1,91 +1,95 @@
-/* What the files live_*.c keep of a running scene. */
+/* State of a running scene's messages, and parts of messages that recordings have too. Shared by
+   the files live_*.c and replay*.c. */
 #ifndef JOX_LIVE_LIVE_PARTS_H
 #define JOX_LIVE_LIVE_PARTS_H
 
 #include "live/live.h"
 #include "run/run.h"
 
-/* A transition that somebody took. */
+/* A transition that an agent took. */
 typedef struct JoxLiveTaken {
     uint64_t tick;
-    uint32_t which; /* of all transitions of all machines */
+    uint32_t which; /* its number: transitions of all machines are numbered in one sequence */
 } JoxLiveTaken;
 
 struct JoxLive {
     JoxLiveArea area;
     JoxLiveGrid grid;
-    uint64_t spread; /* tick of the crowd in the grid, plus 1 */
-    /* Transitions of the last second: a ring, the oldest at `first`. Those of machine m begin with
-       number `begins[m]`; of state s of it with state_begins[m][s]. */
+    uint64_t spread; /* 1 + the tick whose crowd is in the grid; 0: none */
+    /* Transitions taken in the last second: a ring buffer whose oldest item is at `first`. */
     JoxLiveTaken *taken;
     uint32_t first, count, capacity;
+    /* Numbers of transitions: those of machine m begin at begins[m], those of its state s at
+       state_begins[m][s]. `machines`: the ones that were numbered. */
     const JoxMachine *machines[JOX_MOST_MACHINES];
     uint32_t machine_count, begins[JOX_MOST_MACHINES + 1];
     uint32_t *state_begins[JOX_MOST_MACHINES];
-    uint32_t *fired; /* by number: how many in the last second */
-    uint64_t noted;  /* tick after the last step that was counted */
-    /* As of the last status. */
+    uint32_t *fired; /* by number: how often it was taken in the last second */
+    uint64_t noted;  /* the tick up to which transitions were counted */
+    /* Figures as of the last status: wall time and simulated time, s; time of each stage, s; failed
+       solves; steps of agents. */
     double wall, time, stage_s[JO_STAGE_COUNT];
     uint64_t failures, agent_steps;
-    /* People as of the last frame, by slot: where they were, the mean push that they bore of late
-       (N), and a parity that changes whenever they came round a periodic edge. */
+    /* People as of the last frame, by slot: position, push averaged over LEAN_TIME (N), generation
+       of the slot, and a bit that flips when the agent crosses a periodic edge. */
     struct JoxLiveSeen {
         JoxV2 at, pushed;
         uint32_t generation;
         uint8_t flips;
     } * seen;
     size_t seen_capacity;
-    uint64_t seen_tick; /* of that frame, plus 1 */
-    double seen_time;   /* s */
-    /* Scratch: people by state; states, flags and forces of a frame's people. */
+    uint64_t seen_tick; /* 1 + the tick of that frame; 0: none */
+    double seen_time;   /* simulated time of that frame, s */
+    /* Scratch: number of people by state; states, flags and forces (N) of a frame's people. */
     uint32_t *people;
     uint8_t *state, *flags;
     float *force;
     size_t people_capacity, state_capacity, flag_capacity, force_capacity;
 };
 
-/* Attached to the scene on first use. */
+/* Returns the scene's listener; the first call attaches it. */
 JoxLive *jox_live_of(JoScene *scene);
-/* live_transitions.c: numbers the transitions anew where machines have changed. */
+/* live_transitions.c: numbers the transitions again if the machines were replaced. */
 void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines);
-/* After each step: counts the transitions that were taken. */
+/* Counts the transitions of a step, and drops those that are older than a second. Called after each
+   step. */
 void jox_live_count(JoxLive *live, const JoScene *scene);
-/* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
+/* Id of the agent that the scene's player drives; JOX_NO_INDEX: none. */
 uint32_t jox_live_player(const JoScene *scene);
-/* Brings the grid up to date. */
+/* Computes the density of the present crowd, once per tick. */
 void jox_live_spread_crowd(JoScene *scene);
 
-/* m/s, of everybody. */
+/* Mean speed of all agents, m/s. */
 double jox_live_speed(const JoScene *scene);
 
-/* live_scene.c. What a live scene and a recording begin with. */
+/* live_scene.c: the first members of a scene message, of a running scene or of a recording. */
 typedef struct JoxLiveSceneHead {
-    const char *session, *title, *about, *file;
-    double dt, duration; /* s */
+    const char *session, *title, *about, *file; /* session: "live" or "replay" */
+    double dt, duration;                        /* s */
     uint64_t seed;
     JoxLiveArea area;
 } JoxLiveSceneHead;
-/* Each adds members to an open object. */
+/* Each adds members of a scene message to an open object. */
 void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json);
 void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json);
 void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json);
-/* NULL: none. */
+/* `spec` may be NULL: the camera is null then. */
 void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json);
 /* A group, or a state of a machine. */
 typedef struct JoxLiveNamed {
     const char *name;
     JoxColour given;  /* 0: none */
-    uint32_t machine; /* of a state; JOX_NO_INDEX: of a group */
+    uint32_t machine; /* index of the state's machine; JOX_NO_INDEX: a group */
 } JoxLiveNamed;
-/* An array of {"name": ..., "colour": "#rrggbb"}, of states with their machine's number: the
-   colours that they were given, else such as pictures take. */
+/* Adds an array of {"name": ..., "colour": "#rrggbb"}; states have "machine" besides. Items without
+   a given colour get one by picture/palette.h, as in pictures. */
 void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t count, JoxJson *json);
 /* Each adds an object to an open array: one part of a body; one body, {"name": ..., "mass": ...,
-   "parts": [...]}, without parts where there is none in the row. */
+   "parts": [...]}, without parts if the row's body is gone. */
 void jox_live_add_part(const JoxBodyLook *look, JoxJson *json);
 void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json);
-/* live_status.c: the state of the session. */
+/* live_status.c: adds type, time and the session's members to a status. */
 void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *session, JoxJson *json);
 
 #endif

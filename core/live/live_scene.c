@@ -1,4 +1,5 @@
-/* The scene message: all of a scene that stays as it is for a while. */
+/* The scene message: the parts of a scene that rarely change. Its members that recordings have too
+   are functions of live_parts.h, which replay_messages.c calls. */
 #include <math.h>
 #include <string.h>
 
@@ -8,25 +9,26 @@
 #include "live/live_parts.h"
 #include "picture/palette.h"
 
-enum { DIGITS = 7 }; /* of positions and sizes, which are floats */
+enum { DIGITS = 7 }; /* significant digits of positions and sizes, which are floats */
 
-static void add_point(JoxJson *json, JoxV2 p) {
+static void add_position(JoxJson *json, JoxV2 p) {
     jox_json_numbers_of(json, NULL, (double[]){(double)p.x, (double)p.y}, 2, DIGITS);
 }
 
 static void add_points(JoxJson *json, const char *key, const JoxV2 *points, uint32_t count) {
     jox_json_array(json, key);
     for (uint32_t i = 0; i < count; i++)
-        add_point(json, points[i]);
+        add_position(json, points[i]);
     jox_json_end(json);
 }
 
-/* A name that may be missing: null then. */
-static void add_name(JoxJson *json, const char *name) {
+/* Adds the member "name", null for NULL and "". */
+static void add_optional_name(JoxJson *json, const char *name) {
     jox_json_string(json, "name", name && *name ? name : NULL);
 }
 
-static void add_names(JoxJson *json, const char *key, const char *const *names, uint32_t count) {
+static void add_name_list(JoxJson *json, const char *key, const char *const *names,
+                          uint32_t count) {
     jox_json_array(json, key);
     for (uint32_t n = 0; n < count; n++)
         jox_json_string(json, NULL, names[n]);
@@ -49,14 +51,14 @@ void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json) {
         bool closed, twin;
         const uint32_t n = jox_walls_given(walls, r, &closed, &twin);
         jox_json_object(json, NULL);
-        add_name(json, ring->name);
+        add_optional_name(json, ring->name);
         jox_json_bool(json, "solid", ring->solid);
         jox_json_bool(json, "open", ring->open);
         jox_json_digits(json, "height", (double)(isfinite(ring->height) ? ring->height : height),
                         DIGITS);
         jox_json_array(json, "points");
-        for (uint32_t i = 0; i < n + twin; i++) /* a closed line ends where it began */
-            add_point(json, walls->vertices[ring->first + i % n].point);
+        for (uint32_t i = 0; i < n + twin; i++) /* a closed line repeats its first point */
+            add_position(json, walls->vertices[ring->first + i % n].point);
         jox_json_end(json);
         jox_json_end(json);
         r += twin;
@@ -86,7 +88,7 @@ void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson
     jox_json_end(json);
 }
 
-/* ---- bodies: by row, those that are gone without parts ---- */
+/* ---- bodies, by row; bodies that are gone have no parts ---- */
 
 void jox_live_add_part(const JoxBodyLook *look, JoxJson *json) {
     static const char *const KINDS[] = {"box", "sphere", "cylinder", "hull"};
@@ -109,7 +111,7 @@ void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json) {
     JoxBodyLook look;
     bool live = jox_bodies_pose(bodies, row, &pose);
     jox_json_object(json, NULL);
-    add_name(json, live ? jox_bodies_name(bodies, row) : NULL);
+    add_optional_name(json, live ? jox_bodies_name(bodies, row) : NULL);
     jox_json_digits(json, "mass", live ? (double)pose.mass : 0.0, DIGITS);
     jox_json_array(json, "parts");
     for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++)
@@ -118,7 +120,7 @@ void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json) {
     jox_json_end(json);
 }
 
-static void add_bodies(JoxJson *json, const JoxBodies *bodies) {
+static void add_scene_bodies(JoxJson *json, const JoxBodies *bodies) {
     jox_json_array(json, "bodies");
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++)
         jox_live_add_body(bodies, row, json);
@@ -149,7 +151,7 @@ void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t cou
     jox_free(given);
 }
 
-static void add_groups(JoxJson *json, const JoxSceneSpec *spec) {
+static void add_scene_groups(JoxJson *json, const JoxSceneSpec *spec) {
     JoxLiveNamed *named = jox_alloc(spec->group_count + 1, sizeof *named);
     for (uint32_t g = 0; g < spec->group_count; g++)
         named[g] = (JoxLiveNamed){spec->groups[g].name, spec->groups[g].colour, JOX_NO_INDEX};
@@ -157,7 +159,7 @@ static void add_groups(JoxJson *json, const JoxSceneSpec *spec) {
     jox_free(named);
 }
 
-static void add_states(JoxJson *json, const JoxMachineRun *machines) {
+static void add_scene_states(JoxJson *json, const JoxMachineRun *machines) {
     JoxLiveNamed *named = NULL;
     size_t capacity = 0;
     uint32_t count = 0;
@@ -198,8 +200,9 @@ static uint32_t add_unique(const char **names, uint32_t count, const char *name)
     return count;
 }
 
-/* What people may do: what the scene lets them, where there is something to do it with. */
-static void add_tools(JoxJson *json, const JoScene *scene) {
+/* Adds the tools that the page offers: those that the scene allows and that have something to act
+   on, with the names of walls and signals. */
+static void add_scene_tools(JoxJson *json, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const uint32_t allowed = scene->spec->view.tools;
     const char *walls[MOST_NAMES], *signals[MOST_NAMES];
@@ -228,8 +231,8 @@ static void add_tools(JoxJson *json, const JoScene *scene) {
     if (offered[JOX_TOOL_PLAYER] && (allowed >> JOX_TOOL_PLAYER & 1))
         jox_json_whole(json, NULL, jox_live_player(scene));
     jox_json_end(json);
-    add_names(json, "walls", walls, wall_count);
-    add_names(json, "signal_names", signals, signal_count);
+    add_name_list(json, "walls", walls, wall_count);
+    add_name_list(json, "signal_names", signals, signal_count);
     jox_json_end(json);
 }
 
@@ -301,11 +304,11 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
     jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
-    add_groups(&json, spec);
-    add_states(&json, &world->machines);
+    add_scene_groups(&json, spec);
+    add_scene_states(&json, &world->machines);
     jox_live_graph(scene, &json, "machines");
-    add_bodies(&json, world->state.bodies);
-    add_tools(&json, scene);
+    add_scene_bodies(&json, world->state.bodies);
+    add_scene_tools(&json, scene);
     jox_live_add_camera(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field, &json);
@@ -325,7 +328,7 @@ uint64_t jox_live_version(const JoScene *scene) {
     for (uint32_t m = 0; m < world->model.machines.count; m++)
         jox_hash_add(&hash, &world->model.machines.items[m], sizeof world->model.machines.items[m]);
     jox_hash_add(&hash, &world->machines.edits_made, sizeof world->machines.edits_made);
-    for (uint32_t v = 0; v < walls->count; v++) /* opening and closing is in the status */
+    for (uint32_t v = 0; v < walls->count; v++) /* the status tells whether a wall is open */
         jox_hash_add(&hash, &walls->vertices[v].point, sizeof(JoxV2));
     for (uint32_t p = 0; p < world->model.place_count; p++)
         jox_hash_add(&hash, world->model.places[p].points,

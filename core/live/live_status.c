@@ -1,12 +1,14 @@
-/* What a live page is told a few times a second: figures of the moment, and what happened since. */
+/* The status message of a running scene, sent four times a second: present figures, and those of
+   the steps since the last status. */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "live/live_parts.h"
 
-/* "states": [[people in each state] of each machine], and "fired" alike by transition. */
-static void add_machines(JoxJson *json, JoxLive *live, const JoxMachineRun *machines) {
+/* Adds "states": for each machine an array of the number of people in each state; and "fired": for
+   each machine an array of how often each transition was taken in the last second. */
+static void add_machine_counts(JoxJson *json, JoxLive *live, const JoxMachineRun *machines) {
     jox_json_array(json, "states");
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const uint32_t count = machines->set->items[m]->state_count;
@@ -40,8 +42,8 @@ void jox_live_add_gates(const JoxWalls *walls, JoxJson *json) {
     jox_json_end(json);
 }
 
-/* Passages of flow probes, and which walls of a name stand open. */
-static void add_doors(JoxJson *json, const JoScene *scene) {
+/* Adds the passages that flow probes counted, and which named walls are open. */
+static void add_flows_and_gates(JoxJson *json, const JoScene *scene) {
     const JoxProbe *probe;
     jox_json_object(json, "flows");
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
@@ -51,7 +53,8 @@ static void add_doors(JoxJson *json, const JoScene *scene) {
     jox_live_add_gates(&scene->world->model.all_walls, json);
 }
 
-/* What of the behaviours came to nothing so far, a sentence each with its file and line. */
+/* Adds "hints": parts of behaviours that had no effect so far, a sentence each with file and line.
+ */
 static void add_hints(JoxJson *json, const JoScene *scene) {
     JoHints *hints = jo_scene_hints(scene);
     jox_json_array(json, "hints");
@@ -64,8 +67,8 @@ static void add_hints(JoxJson *json, const JoScene *scene) {
     jo_free(hints);
 }
 
-/* What the steps since the last status came to: how fast, what failed, and time by stage in ns per
-   agent-step. Where there was none: since loading. */
+/* Adds pace, share of failed solves, and time by stage in ns per agent-step, of the steps since the
+   last status; of all steps if none was made since. */
 static void add_costs(JoxJson *json, JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxStatistics *s = &world->state.statistics;
@@ -112,12 +115,12 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     jox_live_add_session(world->state.tick, jo_world_time(world), session, &json);
     jox_json_whole(&json, "agents", world->state.agents.count);
     jox_json_whole(&json, "bodies", jox_bodies_count(world->state.bodies));
-    add_machines(&json, live, &world->machines);
+    add_machine_counts(&json, live, &world->machines);
     jox_json_number(&json, "mean_speed", jox_live_speed(scene));
     jox_json_number(&json, "density_max", jox_live_density_max(&live->grid));
     jox_json_digits(&json, "density_r", (double)jox_live_density_r(&live->grid), 3);
     add_costs(&json, live, scene);
-    add_doors(&json, scene);
+    add_flows_and_gates(&json, scene);
     add_hints(&json, scene);
     jox_json_end(&json);
 }

@@ -1,17 +1,17 @@
-/* Transitions of the last second, counted for the live page. */
+/* Counts of the transitions taken in the last second, for the status message. */
 #include "base/assert.h"
 #include "base/mem.h"
 #include "live/live_parts.h"
 
-static bool same_machines(const JoxLive *live, const JoxMachineRun *machines) {
+static bool has_numbered_machines(const JoxLive *live, const JoxMachineRun *machines) {
     bool same = live->machine_count == machines->set->count;
     for (uint32_t m = 0; same && m < machines->set->count; m++)
         same = live->machines[m] == machines->set->items[m];
     return same;
 }
 
-/* Numbers the transitions of all machines; those that were counted under other numbers are
-   forgotten. */
+/* Numbers the transitions of all machines in one sequence, and drops the counts, which have the old
+   numbers. */
 static void number_transitions(JoxLive *live, const JoxMachineRun *machines) {
     for (uint32_t m = 0; m < live->machine_count; m++)
         jox_free(live->state_begins[m]);
@@ -32,8 +32,8 @@ static void number_transitions(JoxLive *live, const JoxMachineRun *machines) {
     live->fired = jox_alloc(live->begins[live->machine_count] + 1, sizeof *live->fired);
 }
 
-static void push_taken(JoxLive *live, JoxLiveTaken taken) {
-    if (live->count == live->capacity) { /* a ring: straightened when it grows */
+static void count_taken_transition(JoxLive *live, JoxLiveTaken taken) {
+    if (live->count == live->capacity) { /* copied in order, so that the new ring begins at 0 */
         uint32_t wider = live->capacity ? 2 * live->capacity : 256;
         JoxLiveTaken *ring = jox_alloc(wider, sizeof *ring);
         for (uint32_t n = 0; n < live->count; n++)
@@ -49,7 +49,7 @@ static void push_taken(JoxLive *live, JoxLiveTaken taken) {
 }
 
 void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines) {
-    if (!same_machines(live, machines) || !live->fired)
+    if (!has_numbered_machines(live, machines) || !live->fired)
         number_transitions(live, machines);
 }
 
@@ -72,6 +72,6 @@ void jox_live_count(JoxLive *live, const JoScene *scene) {
         JOX_ASSERT(taken->machine < live->machine_count &&
                    taken->from < live->machines[taken->machine]->state_count);
         const uint32_t which = live->state_begins[taken->machine][taken->from] + taken->transition;
-        push_taken(live, (JoxLiveTaken){world->state.tick, which});
+        count_taken_transition(live, (JoxLiveTaken){world->state.tick, which});
     }
 }

@@ -1,5 +1,5 @@
-/* The live page's loop: what browsers ask is done, the source advances, and what is due is sent:
-   frames as they come, figures and fields four times a second. */
+/* The live page's loop: handles commands of browsers, advances the source, and sends messages that
+   are due: frames as they come, figures and fields four times a second. */
 #include "live/page.h"
 
 #include <assert.h>
@@ -11,15 +11,15 @@
 #include "world/world.h"
 
 static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
-static const double STATUS = 0.25;      /* s between figures */
-static const double IDLE = 0.05;        /* s, after which it is seen that it is to end */
+static const double STATUS = 0.25;      /* s between status messages */
+static const double IDLE = 0.05;        /* s, longest wait before `stop` is read again */
 
 static_assert(JOX_VIEW_FRAMES + JOX_LIVE_COLOUR_COUNT <= JOX_VIEW_FIELDS, "a channel a colour");
 static_assert(JOX_VIEW_FIELDS + JOX_LIVE_FIELDS <= JOX_LIVE_PEOPLE_CHANNEL, "and a field");
 
-/* ---- what browsers are shown ---- */
+/* ---- sending ---- */
 
-/* The scene message describes everything: whatever was sent before is of another scene. */
+/* Sends the scene message, after which the client has nothing else: people and a frame follow. */
 static void send_scene(JoxLivePage *page, uint32_t client) {
     page->text.length = 0;
     page->source->scene(page->self, &page->text);
@@ -39,7 +39,7 @@ void jox_live_page_begin(JoxLivePage *page) {
         send_scene(page, JOX_VIEW_ALL);
 }
 
-/* Frames in every colour that somebody wants. */
+/* Publishes a frame for each colour that some browser has chosen. */
 static void publish_frames(JoxLivePage *page) {
     bool wanted[JOX_LIVE_COLOUR_COUNT] = {false};
     for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
@@ -80,7 +80,8 @@ static void publish_status(JoxLivePage *page, double now) {
     jox_view_publish(page->server, JOX_VIEW_STATUS, page->text.data, page->text.length);
 }
 
-static void show(JoxLivePage *page) {
+/* Sends the messages that are due to the browsers that are connected. */
+static void send_due_messages(JoxLivePage *page) {
     const double now = jox_clock_wall();
     if (!jox_view_clients(page->server))
         return;
@@ -104,9 +105,9 @@ static void show(JoxLivePage *page) {
     page->last_status = now;
 }
 
-/* ---- what browsers ask ---- */
+/* ---- commands ---- */
 
-/* Row of a client, or of none (0: a free row); NULL if there is no such. */
+/* Returns the row of a client (0: a free row), or NULL if there is none. */
 static JoxLiveWatcher *find_watcher(JoxLivePage *page, uint32_t client) {
     for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
         if (page->watchers[w].client == client)
@@ -116,7 +117,7 @@ static JoxLiveWatcher *find_watcher(JoxLivePage *page, uint32_t client) {
 
 static void add_watcher(JoxLivePage *page, uint32_t client) {
     JoxLiveWatcher *watcher = find_watcher(page, 0);
-    JOX_ASSERT(client && watcher); /* the server admits no more than there are rows */
+    JOX_ASSERT(client && watcher); /* the server admits JOX_VIEW_CLIENTS, as many as rows */
     *watcher = (JoxLiveWatcher){.client = client,
                                 .colour = page->source->colour(page->self),
                                 .field = page->source->field(page->self)};
@@ -130,7 +131,7 @@ static void remove_watcher(JoxLivePage *page, JoxLiveWatcher *watcher) {
         page->source->left(page->self, watcher->client);
     *watcher = (JoxLiveWatcher){0};
     if (jox_view_clients(page->server) == 0)
-        jox_view_forget(page->server); /* who comes next is not shown what was */
+        jox_view_forget(page->server); /* the next browser must not get stale messages */
 }
 
 static void take_commands(JoxLivePage *page) {
@@ -149,7 +150,7 @@ static void take_commands(JoxLivePage *page) {
     }
 }
 
-/* ---- the whole ---- */
+/* ---- opening, closing, running ---- */
 
 bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
                         const char *three, JoError *error) {
@@ -178,8 +179,8 @@ void jox_live_page_run(JoxLivePage *page, const volatile int *stop) {
         take_commands(page);
         double wait = fmin(page->source->advance(page->self, jox_clock_wall()), IDLE);
         JOX_ASSERT(wait >= 0.0 && page->session.speed > 0.0);
-        show(page);
-        if (page->changed && jox_view_clients(page->server)) /* a frame is to be sent */
+        send_due_messages(page);
+        if (page->changed && jox_view_clients(page->server)) /* a frame is still to be sent */
             wait = fmin(wait, fmax(page->last_frame + FRAME - jox_clock_wall(), 0.001));
         jox_view_wait(page->server, wait);
     }

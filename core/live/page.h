@@ -1,55 +1,61 @@
-/* The live page: the browsers that look at a source, what each of them is shown, and when. */
+/* The live page: the loop over a source (source.h), the browsers that are connected, and what each
+   of them is sent. scene_page.c and replay_page.c open, run and close it; all is on one thread,
+   that of the caller; the server (view/view.h) has its own. */
 #ifndef JOX_LIVE_PAGE_H
 #define JOX_LIVE_PAGE_H
 
 #include "live/source.h"
 #include "view/view.h"
 
-/* Channels of the server, beside those that it names. */
+/* Channels of the server in addition to those of view.h. */
 enum {
     JOX_LIVE_PEOPLE_CHANNEL = JOX_VIEW_FIRST_TEXT - 1,
-    JOX_LIVE_TIME_CHANNEL = JOX_VIEW_STATUS + 1 /* of recordings */
+    JOX_LIVE_TIME_CHANNEL = JOX_VIEW_STATUS + 1 /* used by recordings alone */
 };
 
-/* What a browser wants to be shown. */
+/* A connected browser, and the colour and field that it asked for. */
 typedef struct JoxLiveWatcher {
-    uint32_t client; /* 0: this row is free */
+    uint32_t client; /* the server's number of it; 0: this row is free */
     JoxLiveColour colour;
     JoxLiveField field;
 } JoxLiveWatcher;
 
 typedef struct JoxLivePage {
     const JoxLiveSource *source;
-    void *self; /* the source's own */
+    void *self; /* passed to the source's functions */
     JoxView *server;
     JoxLiveSession session;
     JoxLiveWatcher watchers[JOX_VIEW_CLIENTS];
-    uint64_t version;               /* of the scene message that was sent last */
-    double last_frame, last_status; /* s of wall time; 0: the next is due at once */
-    bool changed;                   /* what is shown is not what is there */
-    bool people_sent;               /* since the last scene message */
-    JoxBytes bytes, people;
-    JoxText text;
+    uint64_t version;               /* the source's version when the scene was last sent */
+    double last_frame, last_status; /* wall time, s; 0: the next is due at once */
+    bool changed;                   /* the source has changed since the last frame was sent */
+    bool people_sent;               /* the people message was sent since the last scene message */
+    JoxBytes bytes, people;         /* scratch; the last people message */
+    JoxText text;                   /* scratch */
 } JoxLivePage;
 
-/* Serves the page. `folder`, `three`: NULL, or where its files and three.js are. */
+/* Starts the server. `folder`, `three`: folders of the page's files and of three.js; NULL: those of
+   the installation. False with `error` if the address cannot be served. */
 bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
                         const char *three, JoError *error);
-/* Ends all connections, and frees what the page holds; of one that was not opened too. */
+/* Ends all connections and frees the page's buffers. A page that was not opened is fine. */
 void jox_live_page_close(JoxLivePage *page);
-/* Does what browsers ask, advances the source, and shows it, until `*stop` (NULL: for ever). */
+/* Runs the loop until `*stop` is set (NULL: for ever): handles the commands of browsers, advances
+   the source, and sends what is due. */
 void jox_live_page_run(JoxLivePage *page, const volatile int *stop);
-/* What was sent before is of another scene: browsers get the whole anew. */
+/* Sends all browsers the scene message, and forgets what was sent before: the source shows another
+   scene or run from now on. */
 void jox_live_page_begin(JoxLivePage *page);
 
-/* {"type": "say", ...} to a client or JOX_VIEW_ALL; `level` is "info", "warning" or "error". */
+/* Sends {"type": "say", ...} to a client or JOX_VIEW_ALL; `level` is "info", "warning" or "error".
+ */
 void jox_live_say(JoxLivePage *page, uint32_t client, const char *level, const char *text);
-/* {"type": "refused", ...}: the answer to a command that cannot be done. */
+/* Answers a command that cannot be carried out by {"type": "refused", ...}. */
 void jox_live_refuse(const JoxLiveRequest *request, const char *why);
 
-/* page_verbs.c: does a command of a watcher, as it came. */
+/* page_verbs.c: parses a browser's command and carries it out, or refuses it. */
 void jox_live_do(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json);
-/* Tells the server which channels a browser is to get. */
+/* Tells the server which channels a browser receives. */
 void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher);
 
 #endif

@@ -1,8 +1,8 @@
-/* Lines for people who look at a live page, and refusals. */
+/* Lines of text for the people at a live page, and answers to commands that are refused. */
 #include "base/format/json_writer.h"
 #include "live/page.h"
 
-/* Sends an object of texts: its type, and two members. */
+/* Sends a JSON object with its type and two members, {name, value}, all strings. */
 static void send_texts(JoxView *server, uint32_t client, const char *type,
                        const char *const members[2][2]) {
     JoxText text = {0};

@@ -1,12 +1,12 @@
-/* Commands of live pages: those that every source has in the same way, and the way to the others.
- */
+/* Commands of browsers: carries out those that are the same for all sources, and hands the others
+   to the source. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "live/page.h"
 
-static const double SLOWEST = 0.01, FASTEST = 1000.0; /* of real time */
+static const double SLOWEST = 0.01, FASTEST = 1000.0; /* simulated seconds per second */
 
 static const struct {
     const char *name, *needs;
@@ -25,7 +25,7 @@ void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher) {
     jox_view_listen(page->server, watcher->client, channels);
 }
 
-static void do_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+static void handle_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     const int colour = jox_live_colour(jox_command_text(request->command, "by", ""));
     if (colour < 0) {
         jox_live_refuse(
@@ -38,7 +38,7 @@ static void do_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     jox_live_listen(request->page, watcher);
 }
 
-static void do_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+static void handle_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     const int field = jox_live_field_named(jox_command_text(request->command, "of", ""));
     if (field < 0) {
         jox_live_refuse(request, "of is density, pressure or none");
@@ -49,7 +49,7 @@ static void do_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     jox_live_listen(request->page, watcher);
 }
 
-static void do_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+static void handle_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     const double factor = jox_command_number(request->command, "factor", NAN);
     (void)watcher;
     if (factor >= SLOWEST && factor <= FASTEST)
@@ -59,17 +59,17 @@ static void do_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     request->page->last_status = 0.0;
 }
 
-/* The same for every source. */
+/* Commands that are the same for all sources, by verb. */
 static void (*const COMMON[JOX_LIVE_VERB_COUNT])(JoxLiveWatcher *, const JoxLiveRequest *) = {
-    [JOX_LIVE_VERB_colour] = do_colour,
-    [JOX_LIVE_VERB_field] = do_field,
-    [JOX_LIVE_VERB_speed] = do_speed,
+    [JOX_LIVE_VERB_colour] = handle_colour,
+    [JOX_LIVE_VERB_field] = handle_field,
+    [JOX_LIVE_VERB_speed] = handle_speed,
 };
 
 void jox_live_do(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json) {
     JoxCommand command = {0};
     if (!jox_command_read(json, &command))
-        return; /* the server has dropped those */
+        return; /* not reached: the server drops messages that are no commands */
     const JoxLiveRequest request = {page, watcher->client, &command};
     int verb = 0;
     while (verb < JOX_LIVE_VERB_COUNT && strcmp(VERBS[verb].name, command.verb) != 0)

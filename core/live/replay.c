@@ -1,3 +1,5 @@
+/* Frames of a recording for the live page: opening, reading a frame, packing its people, bodies and
+   fields. replay_page.c decides which frame is shown. */
 #include "live/replay.h"
 
 #include <math.h>
@@ -7,13 +9,15 @@
 #include "base/mem.h"
 #include "live/replay_parts.h"
 
+/* Ids beyond these are left out: of bodies; of people, for crowd pressure. */
 enum { MOST_BODIES = 1 << 20, MOST_KEYS = 1 << 24 };
-static const double LONGEST = 0.3; /* s over which displacements are taken for velocities */
-static const float MARGIN = 2.0f;  /* m about everything */
+static const double LONGEST = 0.3; /* s between frames whose displacements give velocities */
+static const float MARGIN = 2.0f;  /* m around walls and places */
 
 /* ---- opening ---- */
 
-static uint32_t find_machine(JoxReplayNames *n, const char *machine) {
+/* Returns the index of a machine's name, which is added if it is new. */
+static uint32_t number_machine_name(JoxReplayNames *n, const char *machine) {
     uint32_t m = 0;
     while (m < n->machine_count && strcmp(n->machines[m], machine) != 0)
         m++;
@@ -27,7 +31,7 @@ static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info)
     n->states = jox_alloc(info->state_count + 1, sizeof *n->states);
     n->state_of = jox_alloc(info->state_count + 1, sizeof *n->state_of);
     for (uint32_t row = 0; row < info->state_count; row++) {
-        const uint32_t machine = find_machine(n, info->states[row].machine);
+        const uint32_t machine = number_machine_name(n, info->states[row].machine);
         uint32_t s = 0;
         while (s < n->state_count && (n->states[s].machine != machine ||
                                       strcmp(n->states[s].name, info->states[row].name) != 0))
@@ -36,12 +40,12 @@ static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info)
             n->states[s] = (JoxLiveNamed){.name = info->states[row].name, .machine = machine};
             n->state_count++;
         }
-        n->states[s].given = info->states[row].colour; /* the newest */
+        n->states[s].given = info->states[row].colour; /* the last reload's counts */
         n->state_of[row] = s;
     }
 }
 
-/* The shapes of the scene's bodies: they have the first ids, in their order. */
+/* Makes the scene's bodies, for their shapes. Their ids are those of a run: 0, 1, ... in order. */
 static void make_bodies(JoxReplay *r) {
     JoxBodiesDef def = jox_bodies_def();
     r->bodies = jox_bodies_create(&def);
@@ -52,22 +56,24 @@ static void make_bodies(JoxReplay *r) {
     }
 }
 
-static uint32_t frame_of(const JoxReplay *r) {
+static uint32_t choose_walls_frame(const JoxReplay *r) {
     return r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown;
 }
 
 const JoxWalls *jox_replay_walls(const JoxReplay *r) {
-    return r->spec && !r->info.has_walls ? &r->spec->walls
-                                         : jox_trajectory_reader_walls(r->reader, frame_of(r));
+    return r->spec && !r->info.has_walls
+               ? &r->spec->walls
+               : jox_trajectory_reader_walls(r->reader, choose_walls_frame(r));
 }
 
-/* Those that stand in the frame that is shown. */
-static const JoxWalls *standing_walls(const JoxReplay *r) {
-    return r->spec && !r->info.has_walls ? &r->spec->walls
-                                         : jox_trajectory_reader_standing(r->reader, frame_of(r));
+/* Walls that stand in the shown frame: without open gates. */
+static const JoxWalls *find_standing_walls(const JoxReplay *r) {
+    return r->spec && !r->info.has_walls
+               ? &r->spec->walls
+               : jox_trajectory_reader_standing(r->reader, choose_walls_frame(r));
 }
 
-static void cover(JoxReplay *r) {
+static void cover_recording(JoxReplay *r) {
     const JoxWalls *walls = jox_replay_walls(r);
     JoxLiveArea all = {0};
     if (r->info.bounded)
@@ -103,7 +109,7 @@ JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics)
     r->people = jox_alloc(r->names.state_count + 1, sizeof *r->people);
     if (r->spec && r->spec->body_count)
         make_bodies(r);
-    cover(r);
+    cover_recording(r);
     return r;
 }
 
@@ -121,7 +127,7 @@ uint32_t jox_replay_find(const JoxReplay *r, double time) {
 
 /* ---- frames ---- */
 
-static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
+static void number_body_rows(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
     for (uint32_t b = 0; b < f->body_count; b++) {
         const uint32_t id = f->bodies[b].id;
         const size_t had = r->row_of_capacity;
@@ -147,8 +153,9 @@ void jox_replay_forget(JoxReplay *r) {
     r->spread = false;
 }
 
-/* s from the frame that is shown to one that follows it, the next or a near one; else 0. */
-static double since(const JoxReplay *r, uint32_t frame) {
+/* Returns the time from the shown frame to `frame`, s, if that is the next frame or follows within
+   LONGEST; else 0. */
+static double measure_time_since_shown(const JoxReplay *r, uint32_t frame) {
     if (r->shown == JOX_REPLAY_NOBODY || frame <= r->shown)
         return 0.0;
     const double spent = jox_trajectory_reader_time(r->reader, frame) -
@@ -156,15 +163,15 @@ static double since(const JoxReplay *r, uint32_t frame) {
     return frame == r->shown + 1 || spent <= LONGEST ? spent : 0.0;
 }
 
-static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
-    const double spent = since(r, frame);
+static bool read_recorded_frame(JoxReplay *r, uint32_t frame, JoxText *why) {
+    const double spent = measure_time_since_shown(r, frame);
     if (!jox_trajectory_reader_read(r->reader, frame, &r->frame, why)) {
         jox_replay_forget(r);
         return false;
     }
     jox_replay_widen(r, r->frame.count);
     jox_replay_give_slots(r, &r->frame, spent);
-    note_bodies(r, &r->frame);
+    number_body_rows(r, &r->frame);
     r->shown = frame;
     r->timed = spent > 0.0;
     r->spread = false;
@@ -172,14 +179,15 @@ static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
 }
 
 bool jox_replay_show(JoxReplay *r, uint32_t frame, JoxText *why) {
-    /* Speeds are those since the frame before, which may have to be read for them. */
-    if (frame > 0 && since(r, frame) == 0.0 && !take(r, frame - 1, why))
+    /* Velocities need a frame shortly before this one; after a jump it is read first. */
+    if (frame > 0 && measure_time_since_shown(r, frame) == 0.0 &&
+        !read_recorded_frame(r, frame - 1, why))
         return false;
-    return take(r, frame, why);
+    return read_recorded_frame(r, frame, why);
 }
 
-/* Everybody, without states, flags and values. */
-static JoxLiveCrowd crowd_of(const JoxReplay *r) {
+/* Returns the shown people as columns; states, flags and values are still NULL. */
+static JoxLiveCrowd list_recorded_crowd(const JoxReplay *r) {
     return (JoxLiveCrowd){.count = r->count,
                           .slots = r->slot_count,
                           .slot = r->slot,
@@ -192,11 +200,11 @@ static JoxLiveCrowd crowd_of(const JoxReplay *r) {
                           .group = r->frame.group,
                           .radius = r->frame.radius,
                           .period = r->period,
-                          .walls = standing_walls(r)};
+                          .walls = find_standing_walls(r)};
 }
 
 void jox_replay_spread(JoxReplay *r) {
-    const JoxLiveCrowd crowd = crowd_of(r);
+    const JoxLiveCrowd crowd = list_recorded_crowd(r);
     if (r->spread)
         return;
     jox_live_spread(&r->grid, &r->area, &crowd);
@@ -204,7 +212,7 @@ void jox_replay_spread(JoxReplay *r) {
 }
 
 double jox_replay_speed(const JoxReplay *r) {
-    const JoxLiveCrowd crowd = crowd_of(r);
+    const JoxLiveCrowd crowd = list_recorded_crowd(r);
     return r->timed && r->count ? jox_live_mean_speed(&crowd) : NAN;
 }
 
@@ -221,7 +229,7 @@ static const float *fill_densities(JoxReplay *r) {
     return r->density;
 }
 
-static void put_bodies(const JoxReplay *r, JoxBytes *out) {
+static void pack_recorded_bodies(const JoxReplay *r, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     const JoxTrajectoryReaderFrame *f = &r->frame;
     for (uint32_t row = 0; row < r->row_count; row++)
@@ -238,7 +246,7 @@ static void put_bodies(const JoxReplay *r, JoxBytes *out) {
 }
 
 void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
-    JoxLiveCrowd crowd = crowd_of(r);
+    JoxLiveCrowd crowd = list_recorded_crowd(r);
     jox_replay_spread(r);
     for (uint32_t i = 0; i < r->count; i++) {
         const uint32_t state = jox_replay_state(r, i);
@@ -258,15 +266,16 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
                               .bodies = r->row_count,
                               .area = &r->area};
     jox_live_pack_frame(&head, &crowd, colour, out);
-    put_bodies(r, out);
+    pack_recorded_bodies(r, out);
 }
 
 bool jox_replay_people(const JoxReplay *r, JoxBytes *out) {
-    const JoxLiveCrowd crowd = crowd_of(r);
+    const JoxLiveCrowd crowd = list_recorded_crowd(r);
     return jox_live_pack_people(&crowd, out);
 }
 
-/* Takes the frame that is shown, where it is a sample. Who has no small number is left out. */
+/* Adds the shown frame to the samples of crowd pressure, if one is due. People whose id is negative
+   or too large to be a key are left out. */
 static void sample_pressure(JoxReplay *r) {
     JoxFrame frame = {.time = r->frame.time,
                       .period = r->period,
@@ -275,7 +284,7 @@ static void sample_pressure(JoxReplay *r) {
                       .y = r->y,
                       .vx = r->vx,
                       .vy = r->vy,
-                      .walls = standing_walls(r)};
+                      .walls = find_standing_walls(r)};
     if (!r->local) {
         r->local = jox_local_create(r->area.low, r->area.high);
         jox_local_want_pressure(r->local);

@@ -1,4 +1,5 @@
-/* A recording as a live page is shown it: the messages of live.h from the frames of a reader. */
+/* A recording on a live page: reads frames (record/trajectory_reader.h) and makes the messages of
+   live.h of them. Called by replay_page.c: open, then show a frame, then ask for messages of it. */
 #ifndef JOX_LIVE_REPLAY_H
 #define JOX_LIVE_REPLAY_H
 
@@ -8,33 +9,35 @@
 
 typedef struct JoxReplayDef {
     const char *recording;
-    const char *scene; /* whose walls, places and bodies are drawn; or NULL */
+    const char *scene; /* scene file for what the recording lacks: walls, places, bodies; or NULL */
     JoxTrajectoryOptions options;
 } JoxReplayDef;
 typedef struct JoxReplay JoxReplay;
 
-/* NULL with errors. */
+/* Opens a recording; NULL with errors. The caller closes it. */
 JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics);
 uint32_t jox_replay_frames(const JoxReplay *replay);
-/* s; of a frame. */
+/* Time of a frame, s. */
 double jox_replay_time(const JoxReplay *replay, uint32_t frame);
-/* The last frame at or before a time. */
+/* Returns the last frame at or before a time, s. */
 uint32_t jox_replay_find(const JoxReplay *replay, double time);
-/* Reads a frame; the messages below are of the one that was read last. People who were in the frame
-   before it keep their slots. False with a sentence in `why` where the file is damaged. */
+/* Reads a frame; the messages below are of the frame that was read last. People who were in the
+   frame shown before keep their slots. False with a sentence in `why` if the file is damaged. */
 bool jox_replay_show(JoxReplay *replay, uint32_t frame, JoxText *why);
-/* Nobody is shown: whoever comes next has a slot of its own. */
+/* Empties the shown frame: people of the next one get new slots, so that the page does not draw
+   their movement from where they were. */
 void jox_replay_forget(JoxReplay *replay);
 void jox_replay_scene(const JoxReplay *replay, JoxText *out);
-/* Another number whenever the scene message is due again: other bodies came. */
+/* Returns a number that changes when the scene message must be sent again: bodies or walls have
+   changed. */
 uint64_t jox_replay_version(const JoxReplay *replay);
-/* `factor`: simulated seconds in a second, as measured. */
+/* `factor`: the measured pace, simulated seconds per second. */
 void jox_replay_status(JoxReplay *replay, const JoxLiveSession *session, double factor,
                        JoxText *out);
 void jox_replay_frame(JoxReplay *replay, JoxLiveColour colour, JoxBytes *out);
 bool jox_replay_people(const JoxReplay *replay, JoxBytes *out);
 void jox_replay_field(JoxReplay *replay, JoxLiveField field, JoxBytes *out);
-/* What the scene wants to be shown first. */
+/* The colour and field that a page begins with: the scene's `view`, else defaults. */
 JoxLiveColour jox_replay_colour(const JoxReplay *replay);
 JoxLiveField jox_replay_first_field(const JoxReplay *replay);
 void jox_replay_close(JoxReplay *replay);

@@ -1,16 +1,15 @@
-/* What a live page is told of a recording. */
+/* The scene message and the status message of a recording. */
 #include <math.h>
 #include <string.h>
 
+#include "base/format/path.h"
 #include "base/mem.h"
 #include "live/replay_parts.h"
 
-#include "base/format/path.h"
+static const float BODY_SIZE = 0.4f; /* m, edge of the box drawn for a body of unknown shape */
 
-static const float BODY_SIZE = 0.4f; /* m: of a body whose shape nothing says */
-
-/* A machine of which only the states' names are known. */
-static void add_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine) {
+/* Adds a machine with the names of its states; a recording has nothing else of it. */
+static void add_recorded_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine) {
     static const char *const EMPTY[] = {"defaults", "transitions"};
     jox_json_object(json, NULL);
     jox_json_string(json, "name", n->machines[machine]);
@@ -36,7 +35,7 @@ static void add_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine
     jox_json_end(json);
 }
 
-static void add_names(JoxJson *json, const JoxReplay *r) {
+static void add_recorded_names(JoxJson *json, const JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
     JoxLiveNamed *groups = jox_alloc(r->info.group_count + 1, sizeof *groups);
     for (uint32_t g = 0; g < r->info.group_count; g++) {
@@ -48,13 +47,13 @@ static void add_names(JoxJson *json, const JoxReplay *r) {
     jox_live_add_named("states", n->states, n->state_count, json);
     jox_json_array(json, "machines");
     for (uint32_t m = 0; m < n->machine_count; m++)
-        add_machine(json, n, m);
+        add_recorded_machine(json, n, m);
     jox_json_end(json);
 }
 
-/* A body as the recording has it in the frame that is shown; a box where nothing is known but where
-   it is. */
-static void add_recorded(JoxJson *json, const JoxReplay *r, uint32_t id, bool known) {
+/* Adds a body with the shape that the recording has in the shown frame, or (`known` false) with a
+   box. */
+static void add_recorded_body(JoxJson *json, const JoxReplay *r, uint32_t id, bool known) {
     JoxBodyLook look = {.kind = JOX_SHAPE_BOX,
                         .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
                         .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
@@ -71,8 +70,8 @@ static void add_recorded(JoxJson *json, const JoxReplay *r, uint32_t id, bool kn
     jox_json_end(json);
 }
 
-/* By the recording, else by the scene. */
-static void add_bodies(JoxJson *json, const JoxReplay *r) {
+/* Adds the bodies by row, with the shapes of the recording, else of the scene. */
+static void add_recorded_bodies(JoxJson *json, const JoxReplay *r) {
     jox_json_array(json, "bodies");
     for (uint32_t row = 0; row < r->row_count; row++) {
         const uint32_t id = r->body_id[row];
@@ -83,13 +82,13 @@ static void add_bodies(JoxJson *json, const JoxReplay *r) {
         if (!recorded && of_scene != JOX_NO_BODY)
             jox_live_add_body(r->bodies, of_scene, json);
         else
-            add_recorded(json, r, id, recorded);
+            add_recorded_body(json, r, id, recorded);
     }
     jox_json_end(json);
 }
 
-/* Nothing can be done in a recording. */
-static void add_tools(JoxJson *json) {
+/* Adds tools that are all off: a recording cannot be acted on. */
+static void add_disabled_tools(JoxJson *json) {
     static const char *const EMPTY[] = {"players", "walls", "signal_names"};
     jox_json_object(json, "tools");
     for (int t = 0; t < JOX_TOOL_COUNT; t++)
@@ -118,9 +117,9 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     jox_live_add_places(spec ? spec->places : NULL, spec ? spec->place_count : 0, &json);
     jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
     jox_json_bool(&json, "periodic", r->period.x > 0.0f || r->period.y > 0.0f);
-    add_names(&json, r);
-    add_bodies(&json, r);
-    add_tools(&json);
+    add_recorded_names(&json, r);
+    add_recorded_bodies(&json, r);
+    add_disabled_tools(&json);
     jox_live_add_camera(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r), &json);
@@ -137,7 +136,7 @@ uint64_t jox_replay_version(const JoxReplay *r) {
     return (uint64_t)(changes + walls) << 32 | r->row_count;
 }
 
-static void add_machines(JoxJson *json, JoxReplay *r) {
+static void add_recorded_counts(JoxJson *json, JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
     memset(r->people, 0, n->state_count * sizeof *r->people);
     for (uint32_t i = 0; i < r->count; i++) {
@@ -173,7 +172,7 @@ void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double facto
     jox_json_digits(&json, "real_time_factor", factor, 6);
     jox_json_whole(&json, "agents", r->count);
     jox_json_whole(&json, "bodies", r->frame.body_count);
-    add_machines(&json, r);
+    add_recorded_counts(&json, r);
     jox_json_digits(&json, "mean_speed", jox_replay_speed(r), 6);
     jox_json_digits(&json, "density_max", shown ? (double)jox_live_density_max(&r->grid) : NAN, 6);
     jox_json_digits(&json, "density_r", shown ? (double)jox_live_density_r(&r->grid) : NAN, 3);

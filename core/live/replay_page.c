@@ -1,5 +1,5 @@
-/* A recording on its live page: it is played, paused and looked through at the pace people want.
- */
+/* The live page of a recording: plays it at the chosen pace, pauses and seeks. Implements the
+   source of replay_page.h and jo_view_recording. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "run/run.h"
 
 enum { RECORDING_COOKIE = 0x4a4f5652, MOST_STEPS = 100000 };
-static const double LEAP = 2.5; /* s since the last status, after which no pace is measured */
+static const double LEAP = 2.5; /* s since the last status beyond which the pace is not measured */
 
 JoViewRecordingDef jo_default_view_recording_def(void) {
     return (JoViewRecordingDef){.cookie = RECORDING_COOKIE};
@@ -19,13 +19,13 @@ JoViewRecordingDef jo_default_view_recording_def(void) {
 
 /* ---- time ---- */
 
-static void pause(JoxReplayPage *p, bool on) {
+static void pause_recording(JoxReplayPage *p, bool on) {
     p->page.session.paused = on;
     p->wall = jox_clock_wall();
     p->page.last_status = 0.0;
 }
 
-/* Shows the frame of the present time. Where it cannot be read, pages are told, and it waits. */
+/* Shows the frame of the present time. If it cannot be read, tells the browsers and pauses. */
 static void show_present(JoxReplayPage *p) {
     const uint32_t frame = jox_replay_find(p->replay, p->at);
     JoxText why = {0}, text = {0};
@@ -38,13 +38,14 @@ static void show_present(JoxReplayPage *p) {
         jox_text_printf(&text, "The recording is damaged at %.2f s: %s.", p->at, why.data);
         jox_live_say(&p->page, JOX_VIEW_ALL, "error", text.data);
         jox_text_free(&text);
-        pause(p, true);
+        pause_recording(p, true);
     }
     jox_text_free(&why);
 }
 
-/* Goes to a time from wherever it was: nobody walks there. */
-static void seek(JoxReplayPage *p, double time) {
+/* Jumps to a time, s, kept within the recording. People get new slots, so that no movement is
+ * drawn. */
+static void seek_time(JoxReplayPage *p, double time) {
     p->at = fmin(fmax(time, p->from), p->until);
     p->frame = UINT32_MAX;
     p->page.session.jumps++;
@@ -54,10 +55,10 @@ static void seek(JoxReplayPage *p, double time) {
     show_present(p);
 }
 
-static double advance(void *self, double now) {
+static double play_recording(void *self, double now) {
     JoxReplayPage *p = self;
     const JoxLiveSession *session = &p->page.session;
-    if (jox_view_clients(p->page.server) == 0) /* it waits for somebody to look */
+    if (jox_view_clients(p->page.server) == 0) /* time stands still while no browser is connected */
         p->wall = now;
     if (session->paused)
         return INFINITY;
@@ -65,40 +66,40 @@ static double advance(void *self, double now) {
     p->wall = now;
     show_present(p);
     if (p->at >= p->until)
-        pause(p, true);
+        pause_recording(p, true);
     if (p->frame + 1 >= jox_replay_frames(p->replay))
         return INFINITY;
     const double next = jox_replay_time(p->replay, p->frame + 1) - p->at;
     return fmax(next / session->speed, 0.01);
 }
 
-/* ---- what pages are shown ---- */
+/* ---- messages ---- */
 
-static JoxLiveColour first_colour(const void *self) {
+static JoxLiveColour choose_recording_colour(const void *self) {
     const JoxReplayPage *p = self;
     return jox_replay_colour(p->replay);
 }
 
-static JoxLiveField first_field(const void *self) {
+static JoxLiveField choose_recording_field(const void *self) {
     const JoxReplayPage *p = self;
     return jox_replay_first_field(p->replay);
 }
 
-static void describe(void *self, JoxText *out) {
+static void write_recording_message(void *self, JoxText *out) {
     JoxReplayPage *p = self;
     jox_replay_scene(p->replay, out);
 }
 
-static uint64_t version(const void *self) {
+static uint64_t find_recording_version(const void *self) {
     const JoxReplayPage *p = self;
     return jox_replay_version(p->replay);
 }
 
-static void add_status(void *self, double now, JoxText *out) {
+static void write_recording_status(void *self, double now, JoxText *out) {
     JoxReplayPage *p = self;
     const JoxLiveSession *session = &p->page.session;
     const double spent = now - p->page.last_status;
-    /* where the last status is long past, as after a leap: what the pace will be */
+    /* long after the last status, as after a jump, the wanted pace stands for the measured one */
     const double factor = spent < LEAP      ? (p->at - p->status_at) / spent
                           : session->paused ? 0.0
                                             : session->speed;
@@ -106,22 +107,22 @@ static void add_status(void *self, double now, JoxText *out) {
     jox_replay_status(p->replay, session, factor, out);
 }
 
-static void pack_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
+static void pack_recorded_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
     JoxReplayPage *p = self;
     jox_replay_frame(p->replay, colour, out);
 }
 
-static bool pack_people(void *self, JoxBytes *out) {
+static bool pack_recorded_people(void *self, JoxBytes *out) {
     const JoxReplayPage *p = self;
     return jox_replay_people(p->replay, out);
 }
 
-static void pack_field(void *self, JoxLiveField field, JoxBytes *out) {
+static void pack_recorded_field(void *self, JoxLiveField field, JoxBytes *out) {
     JoxReplayPage *p = self;
     jox_replay_field(p->replay, field, out);
 }
 
-/* {"type": "time", ...}: where in the recording it is. */
+/* Publishes {"type": "time", ...}: first, last and present time of the recording, s. */
 static void publish_time(void *self) {
     JoxReplayPage *p = self;
     JoxText *text = &p->page.text;
@@ -136,17 +137,17 @@ static void publish_time(void *self) {
     jox_view_publish(p->page.server, JOX_LIVE_TIME_CHANNEL, text->data, text->length);
 }
 
-/* ---- what people do ---- */
+/* ---- commands ---- */
 
-static void do_pause(void *self, const JoxLiveRequest *request) {
+static void handle_pause(void *self, const JoxLiveRequest *request) {
     JoxReplayPage *p = self;
     const bool on = jox_command_bool(request->command, "on", true);
     if (!on && p->at >= p->until)
-        seek(p, p->from); /* once more */
-    pause(p, on);
+        seek_time(p, p->from); /* continuing at the end plays again */
+    pause_recording(p, on);
 }
 
-static void do_step(void *self, const JoxLiveRequest *request) {
+static void handle_step(void *self, const JoxLiveRequest *request) {
     JoxReplayPage *p = self;
     const double n = jox_command_number(request->command, "n", 1.0);
     const uint32_t last = jox_replay_frames(p->replay) - 1;
@@ -158,41 +159,41 @@ static void do_step(void *self, const JoxLiveRequest *request) {
     p->at = jox_replay_time(p->replay, (uint32_t)frame);
     p->page.session.jumps += fabs(n) > 1.0;
     show_present(p);
-    pause(p, true);
+    pause_recording(p, true);
 }
 
-static void do_seek(void *self, const JoxLiveRequest *request) {
+static void handle_seek(void *self, const JoxLiveRequest *request) {
     const double time = jox_command_number(request->command, "time", NAN);
     if (isfinite(time))
-        seek(self, time);
+        seek_time(self, time);
     else
         jox_live_refuse(request, "time is in seconds");
 }
 
-static void do_restart(void *self, const JoxLiveRequest *request) {
+static void handle_restart(void *self, const JoxLiveRequest *request) {
     JoxReplayPage *p = self;
     (void)request;
-    seek(p, p->from);
+    seek_time(p, p->from);
 }
 
 const JoxLiveSource jox_replay_page_source = {
-    .colour = first_colour,
-    .field = first_field,
-    .scene = describe,
-    .version = version,
-    .status = add_status,
-    .pack_frame = pack_frame,
-    .pack_people = pack_people,
-    .pack_field = pack_field,
+    .colour = choose_recording_colour,
+    .field = choose_recording_field,
+    .scene = write_recording_message,
+    .version = find_recording_version,
+    .status = write_recording_status,
+    .pack_frame = pack_recorded_frame,
+    .pack_people = pack_recorded_people,
+    .pack_field = pack_recorded_field,
     .report = publish_time,
-    .advance = advance,
-    .verbs = {[JOX_LIVE_VERB_pause] = do_pause,
-              [JOX_LIVE_VERB_step] = do_step,
-              [JOX_LIVE_VERB_seek] = do_seek,
-              [JOX_LIVE_VERB_restart] = do_restart},
+    .advance = play_recording,
+    .verbs = {[JOX_LIVE_VERB_pause] = handle_pause,
+              [JOX_LIVE_VERB_step] = handle_step,
+              [JOX_LIVE_VERB_seek] = handle_seek,
+              [JOX_LIVE_VERB_restart] = handle_restart},
 };
 
-/* ---- the whole ---- */
+/* ---- opening and running ---- */
 
 bool jox_replay_page_load(JoxReplayPage *p, JoError *error) {
     const JoViewRecordingDef *def = p->def;
@@ -225,7 +226,7 @@ static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
     if (good && def->opened)
         jox_run_message(def->opened, def->opened_context, jox_view_address(p.page.server));
     if (good) {
-        seek(&p, p.from);
+        seek_time(&p, p.from);
         jox_live_page_begin(&p.page);
         jox_live_page_run(&p.page, def->stop);
     }

@@ -1,4 +1,4 @@
-/* A recording on its live page. */
+/* The live page of a recording: the source (source.h) that page.c plays. */
 #ifndef JOX_LIVE_REPLAY_PAGE_H
 #define JOX_LIVE_REPLAY_PAGE_H
 
@@ -9,15 +9,15 @@ typedef struct JoxReplayPage {
     JoxLivePage page;
     const JoViewRecordingDef *def;
     JoxReplay *replay;
-    double at, from, until; /* s of the recording: now, its first and last frame */
-    double wall;            /* s of wall time when `at` was so */
-    double status_at;       /* `at` of the last status */
-    uint32_t frame;         /* that is shown; UINT32_MAX: none */
+    double at, from, until; /* s in the recording: present time, first and last frame */
+    double wall;            /* wall time when `at` was set, s */
+    double status_at;       /* `at` when the last status was sent, s */
+    uint32_t frame;         /* the shown frame; UINT32_MAX: none */
 } JoxReplayPage;
 
-/* What the page asks of a recording; `self` is a JoxReplayPage. */
+/* Functions of the source; `self` is a JoxReplayPage. */
 extern const JoxLiveSource jox_replay_page_source;
-/* Opens the recording that `def` names, and makes it what the page shows. False with `error`. */
+/* Opens the recording that `def` names and makes it the page's source. False with `error`. */
 bool jox_replay_page_load(JoxReplayPage *page, JoError *error);
 void jox_replay_page_end(JoxReplayPage *page);
 

@@ -1,4 +1,5 @@
-/* What the files replay*.c share. */
+/* State of an open recording, shared by replay.c (frames), replay_slots.c (slots of people) and
+   replay_messages.c (JSON). */
 #ifndef JOX_LIVE_REPLAY_PARTS_H
 #define JOX_LIVE_REPLAY_PARTS_H
 
@@ -6,14 +7,15 @@
 #include "live/replay.h"
 #include "record/trajectory_reader.h"
 
+/* No frame, no slot, no row of a body. */
 #define JOX_REPLAY_NOBODY UINT32_MAX
 
-/* Machines and states under one number each, though a machine that was loaded anew in the run has
-   more in the file. */
+/* Machines and states by name. The recording lists those of a machine again each time it was
+   reloaded in the run; here each name stands once. */
 typedef struct JoxReplayNames {
     const char **machines;
     JoxLiveNamed *states;
-    uint32_t *state_of; /* by row of the reader's states */
+    uint32_t *state_of; /* index in `states`, by the recording's number of a state */
     uint32_t machine_count, state_count;
 } JoxReplayNames;
 
@@ -21,53 +23,53 @@ struct JoxReplay {
     char *path;
     JoxTrajectoryReader *reader;
     JoxTrajectoryReaderInfo info;
-    JoxSceneSpec *spec; /* or NULL */
-    JoxBodies *bodies;  /* of the scene, or NULL */
+    JoxSceneSpec *spec; /* the scene file that was given, or NULL */
+    JoxBodies *bodies;  /* bodies of that scene, or NULL */
     JoxReplayNames names;
-    JoxV2 period; /* m: of periodic edges; 0 without */
+    JoxV2 period; /* m, size of a periodic world; 0 along an axis without periodic edges */
     JoxLiveArea area;
     JoxLiveGrid grid;
-    uint32_t shown; /* frame, or JOX_REPLAY_NOBODY */
-    bool spread;
-    JoxLocal *local; /* for crowd pressure, from when it is first shown */
-    uint32_t *key;   /* scratch */
+    uint32_t shown;  /* index of the shown frame, or JOX_REPLAY_NOBODY */
+    bool spread;     /* `grid` has the density of the shown frame */
+    JoxLocal *local; /* samples of crowd pressure; NULL until it is first shown */
+    uint32_t *key;   /* scratch: keys of people for `local` */
     size_t key_capacity;
-    bool timed; /* speeds are known: the frame before was read, too */
+    bool timed; /* speeds are known: a frame shortly before the shown one was read too */
     JoxTrajectoryReaderFrame frame;
-    /* Slots of the people shown, in their order; and of those in the frame before. */
+    /* Columns of the people shown, in order of id, and ids and slots of the frame before. */
     int64_t *id, *old_id;
     uint32_t *slot, *old_slot;
-    float *vx, *vy, *x, *y;
-    float *density;         /* these three are scratch of a frame that is packed */
-    uint8_t *state, *flags; /* likewise */
+    float *vx, *vy, *x, *y; /* m/s, m */
+    float *density;         /* scratch of packing: 1/m2 */
+    uint8_t *state, *flags; /* scratch of packing */
     uint32_t count;
     size_t capacity;
-    uint8_t *parity;        /* by slot */
-    float *last_x, *last_y; /* by slot: where its person was */
-    uint32_t *spare;        /* free slots */
+    uint8_t *parity;        /* JOX_LIVE_PARITY or 0, by slot */
+    float *last_x, *last_y; /* last position, m, by slot */
+    uint32_t *spare;        /* a stack of free slots */
     uint32_t slot_count, spare_count;
     size_t slot_capacity;
-    /* Bodies: rows in the order in which their ids came. */
-    uint32_t *row_of; /* by id */
-    uint32_t *body_id;
+    /* Bodies have a row each, in the order in which their ids first appeared. */
+    uint32_t *row_of;  /* row by id, or JOX_REPLAY_NOBODY */
+    uint32_t *body_id; /* id by row */
     uint32_t row_count;
     size_t row_of_capacity, body_capacity;
-    uint32_t *people; /* scratch: by state */
+    uint32_t *people; /* scratch: number of people by state */
 };
 
-/* Those that the recording has in the frame that is shown, open gates among them; of the scene
-   where the recording has none over time. */
+/* Walls of the shown frame, open gates among them: the recording's, else the scene's. */
 const JoxWalls *jox_replay_walls(const JoxReplay *replay);
-/* Number of a person's state in the scene message's list; UINT32_MAX: it has none. */
+/* Index of a person's state in the scene message's list; UINT32_MAX: none is recorded. */
 uint32_t jox_replay_state(const JoxReplay *replay, uint32_t person);
-/* m/s, of everybody; NAN where the frame before is not known. */
+/* Mean speed of all people, m/s; NAN if no frame before is known. */
 double jox_replay_speed(const JoxReplay *replay);
-/* replay_slots.c: makes room for so many people; gives everybody of the frame a slot: that of the
-   frame before, of which both lists ascend by id. `spent`: s since then; 0 where the frames are not
-   neighbours. */
+/* replay_slots.c: makes room for `need` people. */
 void jox_replay_widen(JoxReplay *replay, uint32_t need);
+/* Gives each person of a frame a slot, the one of the frame before if the person was in it (both
+   frames ascend by id), and computes velocities. `spent`: time between the frames, s; 0 if they are
+   too far apart for that. */
 void jox_replay_give_slots(JoxReplay *replay, const JoxTrajectoryReaderFrame *frame, double spent);
-/* Brings the grid up to date. */
+/* Computes the density of the shown frame, once per frame. */
 void jox_replay_spread(JoxReplay *replay);
 
 #endif

@@ -1,5 +1,5 @@
-/* Slots of the people of a recording: who is in two frames that follow each other has one slot in
-   both, so that the page sees one person move. */
+/* Slots of the people of a recording: a person who is in two frames that follow each other has the
+   same slot in both, so that the page draws one person moving. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -21,8 +21,8 @@ void jox_replay_widen(JoxReplay *r, uint32_t need) {
         *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
 }
 
-/* A slot for somebody new. */
-static uint32_t take_slot(JoxReplay *r) {
+/* Returns a slot for a new person: a free one with its parity flipped, else one more. */
+static uint32_t take_free_slot(JoxReplay *r) {
     if (r->spare_count) {
         uint32_t slot = r->spare[--r->spare_count];
         r->parity[slot] ^= JOX_LIVE_PARITY;
@@ -39,7 +39,7 @@ static uint32_t take_slot(JoxReplay *r) {
     return r->slot_count++;
 }
 
-static float shortest(float d, float period) {
+static float wrap_displacement(float d, float period) {
     return period > 0.0f ? remainderf(d, period) : d;
 }
 
@@ -52,7 +52,7 @@ void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, doub
     r->id = ids;
     r->slot = slots;
     JOX_ASSERT(f->count <= r->capacity && before <= r->slot_count);
-    for (uint32_t i = 0; i < f->count; i++) { /* who left frees the slot before anyone takes it */
+    for (uint32_t i = 0; i < f->count; i++) { /* slots of people who left are freed first */
         while (k < before && r->old_id[k] < f->id[i])
             r->spare[r->spare_count++] = r->old_slot[k++];
         bool stays = k < before && r->old_id[k] == f->id[i];
@@ -63,17 +63,19 @@ void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, doub
     for (uint32_t i = 0; i < f->count; i++) {
         bool fresh = r->slot[i] == JOX_REPLAY_NOBODY;
         if (fresh)
-            r->slot[i] = take_slot(r);
+            r->slot[i] = take_free_slot(r);
         const uint32_t s = r->slot[i];
         JOX_ASSERT(s < r->slot_count);
-        JOX_ASSERT(i == 0 || f->id[i] > f->id[i - 1]); /* ascending, nobody twice */
+        JOX_ASSERT(i == 0 || f->id[i] > f->id[i - 1]); /* ids ascend, each occurs once */
         bool moved = !fresh && spent > 0.0;
         bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
         round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
-        if (!fresh && round) /* an edge: nobody flies across */
+        if (!fresh && round) /* crossed a periodic edge: no movement is drawn */
             r->parity[s] ^= JOX_LIVE_PARITY;
-        r->vx[i] = moved ? shortest(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;
-        r->vy[i] = moved ? shortest(f->y[i] - r->last_y[s], period.y) / (float)spent : 0.0f;
+        r->vx[i] =
+            moved ? wrap_displacement(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;
+        r->vy[i] =
+            moved ? wrap_displacement(f->y[i] - r->last_y[s], period.y) / (float)spent : 0.0f;
         r->last_x[s] = r->x[i] = f->x[i];
         r->last_y[s] = r->y[i] = f->y[i];
         r->id[i] = f->id[i];

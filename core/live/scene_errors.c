@@ -1,4 +1,5 @@
-/* Files that were saved and could not go live, as pages are sent them. */
+/* Errors of files that were saved while the scene runs and could not be loaded: kept until the
+   files are mended, and sent to browsers. */
 #include <string.h>
 
 #include "base/format/json_writer.h"
@@ -40,7 +41,7 @@ void jox_scene_page_forget_errors(JoxScenePage *s) {
     s->error_count = 0;
 }
 
-/* What was wrong with the same files, or with a beginning, counts no more. */
+/* Drops errors of earlier attempts with the same files, and those of restarts. */
 static void drop_errors(JoxScenePage *s, const bool *parts) {
     for (size_t m = s->error_count; m-- > 0;) {
         bool shared = false, beginning = true;
@@ -65,7 +66,8 @@ static void keep_errors(const JoxDiagnostics *diagnostics, JoxDiagnostics *kept)
     }
 }
 
-/* The scene's own: files were loaded, or (without diagnostics) what is wrong has been printed. */
+/* Called by the scene: first with the diagnostics of an attempt to load, then with NULL when they
+   have been printed. `parts`: the parts of the scene that were loaded; NULL: all, in a restart. */
 void jox_scene_page_diagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics) {
     JoxScenePage *s = context;
     s->reported = diagnostics && diagnostics->errors;
@@ -75,7 +77,7 @@ void jox_scene_page_diagnosed(void *context, const bool *parts, const JoxDiagnos
         drop_errors(s, parts);
     else
         jox_scene_page_forget_errors(s);
-    if (diagnostics->errors && (parts || !s->error_count)) { /* files that are watched are known */
+    if (diagnostics->errors && (parts || !s->error_count)) { /* a restart meets the same errors */
         JOX_RESERVE(s->errors, s->error_capacity, s->error_count + 1);
         JoxLiveFileErrors *kept = &s->errors[s->error_count++];
         *kept = (JoxLiveFileErrors){.errors = {0}};

@@ -1,4 +1,4 @@
-/* The agents that pages inspect: each page one of its own. */
+/* Inspection by browsers, one agent each: keeps the agent and sends its data with each status. */
 #include <assert.h>
 
 #include "base/assert.h"
@@ -8,24 +8,24 @@
 static_assert((int)JOX_VIEW_CLIENTS <= (int)JOX_MOST_INSPECTED,
               "no page takes another's agent away");
 
-/* The row of a client, or of none (0: a free row); NULL if there is no such. */
-static JoxLiveInspector *find(JoxScenePage *s, uint32_t client) {
+/* Returns the row of a client (0: a free row), or NULL if there is none. */
+static JoxLiveInspector *find_inspector(JoxScenePage *s, uint32_t client) {
     for (uint32_t n = 0; n < JOX_VIEW_CLIENTS; n++)
         if (s->inspectors[n].client == client)
             return &s->inspectors[n];
     return NULL;
 }
 
-/* Whether the agent is still in its slot, which another may have taken since. */
-static bool is_there(const JoScene *scene, const JoxLiveInspector *inspector) {
+/* Whether the agent is still in its slot, which a new agent may have taken. */
+static bool is_still_in_slot(const JoScene *scene, const JoxLiveInspector *inspector) {
     const JoxAgents *a = &scene->world->state.agents;
     const uint32_t slot = inspector->slot;
     const uint32_t i = slot < a->slot_count ? a->slot_index[slot] : JOX_NO_INDEX;
     return i != JOX_NO_INDEX && a->id[i] == inspector->id;
 }
 
-static void send(JoxScenePage *s, JoxLiveInspector *inspector) {
-    const bool there = is_there(s->scene, inspector);
+static void send_inspected_agent(JoxScenePage *s, JoxLiveInspector *inspector) {
+    const bool there = is_still_in_slot(s->scene, inspector);
     s->page.text.length = 0;
     JoxJson json = jox_json_begin(&s->page.text, 0);
     jox_json_object(&json, NULL);
@@ -44,7 +44,7 @@ void jox_scene_page_send_inspected(void *self) {
     JoxScenePage *s = self;
     for (uint32_t n = 0; n < JOX_VIEW_CLIENTS; n++)
         if (s->inspectors[n].client)
-            send(s, &s->inspectors[n]);
+            send_inspected_agent(s, &s->inspectors[n]);
 }
 
 void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
@@ -53,17 +53,17 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     const double wanted = jox_command_number(request->command, "slot", -1.0);
     const uint32_t slot = wanted >= 0.0 && wanted < 4294967295.0 ? (uint32_t)wanted : UINT32_MAX;
     const uint32_t i = slot < a->slot_count ? a->slot_index[slot] : JOX_NO_INDEX;
-    JoxLiveInspector *inspector = find(s, request->client);
+    JoxLiveInspector *inspector = find_inspector(s, request->client);
     if (!inspector)
-        inspector = find(s, 0);
+        inspector = find_inspector(s, 0);
     JOX_ASSERT(request->client != JOX_VIEW_ALL && inspector); /* as many rows as clients */
     *inspector =
         (JoxLiveInspector){request->client, slot, i == JOX_NO_INDEX ? UINT32_MAX : a->id[i]};
-    send(s, inspector);
+    send_inspected_agent(s, inspector);
 }
 
 void jox_scene_page_left(void *self, uint32_t client) {
-    JoxLiveInspector *inspector = find(self, client);
+    JoxLiveInspector *inspector = find_inspector(self, client);
     if (inspector)
         *inspector = (JoxLiveInspector){0};
 }

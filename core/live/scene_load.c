@@ -1,4 +1,4 @@
-/* Beginning and end of a scene on its live page. */
+/* Loading, restarting and ending the scene of a live page. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,8 +6,8 @@
 #include "base/overlay.h"
 #include "live/scene_page.h"
 
-/* What the scene says goes to the terminal, and to the pages unless they were sent it as data. */
-static void message(void *context, const char *text) {
+/* Forwards a message of the scene to the terminal, and to browsers unless they have it as data. */
+static void forward_message(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
     jox_run_message(def->message, def->message_context, text);
@@ -26,8 +26,9 @@ bool jox_scene_page_end(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-/* Everything of a run that is written, and the files that are watched. */
-static bool begin(JoxScenePage *s, JoError *error) {
+/* Starts what `def` asks for: recording, input log, watch of the scene's files, the caller's own.
+ */
+static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&
            (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
@@ -35,15 +36,16 @@ static bool begin(JoxScenePage *s, JoError *error) {
            (!def->begun || def->begun(def->begun_context, s->scene, error));
 }
 
-static void keep_file(void *context, const char *path, const char *text, size_t length) {
+static void put_overlay_file(void *context, const char *path, const char *text, size_t length) {
     jox_overlay_put(context, path, text, length);
 }
 
-/* The scene as it is now on the disk, from what its vetter had read of it. */
-static JoScene *load_again(JoxScenePage *s, JoError *error) {
+/* Loads the scene from the disk again. If the caller has a vetter, it reads the files first, in a
+   confined process, and the scene is loaded from what it read. */
+static JoScene *reload_scene(JoxScenePage *s, JoError *error) {
     const JoVetter *vetter = s->def->vetter;
     JoxOverlay files = {.sealed = true};
-    JoVetting what = {.whole = true, .stop = -1, .read = keep_file, .read_context = &files};
+    JoVetting what = {.whole = true, .stop = -1, .read = put_overlay_file, .read_context = &files};
     JoScene *scene = NULL;
     if (!vetter || vetter->vet(vetter->context, &what)) {
         jox_overlay_use(vetter ? &files : NULL);
@@ -57,11 +59,11 @@ static JoScene *load_again(JoxScenePage *s, JoError *error) {
 }
 
 bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
-    s->scene_def.message = message;
+    s->scene_def.message = forward_message;
     s->scene_def.message_context = s;
-    JoScene *next = s->scene
-                        ? load_again(s, error) /* the first time, from what the caller had read */
-                        : jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+    /* the first time the caller's overlay is in use, with the files that it had read */
+    JoScene *next = s->scene ? reload_scene(s, error)
+                             : jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
     jox_overlay_use(NULL);
     if (!next)
         return false;
@@ -71,7 +73,7 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
     s->failed = false;
-    s->page.session.paused = s->failed = !begin(s, error);
+    s->page.session.paused = s->failed = !begin_outputs(s, error);
     if (s->failed) {
         snprintf(s->failure, sizeof s->failure, "%s", error->text);
         jox_live_say(&s->page, JOX_VIEW_ALL, "error", error->text);

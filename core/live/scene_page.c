@@ -1,4 +1,5 @@
-/* A running scene on its live page: it is stepped at the pace people want. */
+/* The live page of a running scene: steps it at the chosen pace. Implements the source of
+   scene_page.h and jo_view. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "live/scene_page.h"
 
 enum { VIEW_COOKIE = 0x4a4f5644 };
-static const double LATE = 0.1; /* s that are caught up with */
+static const double LATE = 0.1; /* s of delay that later steps make up for; more is dropped */
 
 JoViewDef jo_default_view_def(void) {
     return (JoViewDef){.scene = jo_default_scene_def(), .watch = true, .cookie = VIEW_COOKIE};
@@ -28,7 +29,7 @@ static void pause_at_end(JoxScenePage *s) {
     s->page.last_status = 0.0;
 }
 
-static void step(JoxScenePage *s) {
+static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};
     if (jo_scene_step(s->scene, &error)) {
         pause_at_end(s);
@@ -42,8 +43,9 @@ static void step(JoxScenePage *s) {
     s->page.changed = true;
 }
 
-/* s that time still waits for its first page: then it begins with somebody who watches. */
-static double waits(JoxScenePage *s, double now) {
+/* Returns how long the first step still waits for a browser, s: people see a run from its
+   beginning. It waits at most `def->wait`, and not in a run that goes as fast as it can. */
+static double wait_for_browser(JoxScenePage *s, double now) {
     if (s->opened == 0.0)
         s->opened = now;
     if (s->def->fast || jox_view_clients(s->page.server) > 0 || now - s->opened >= s->def->wait)
@@ -51,15 +53,15 @@ static double waits(JoxScenePage *s, double now) {
     return s->seen ? 0.0 : s->def->wait - (now - s->opened);
 }
 
-static double advance(void *self, double now) {
+static double step_when_due(void *self, double now) {
     JoxScenePage *s = self;
-    const double waiting = waits(s, now);
+    const double waiting = wait_for_browser(s, now);
     if (waiting > 0.0)
         return waiting;
     const JoxLiveSession *session = &s->page.session;
     const double due = s->began + s->scene->world->model.def.dt / session->speed;
     if (session->paused && s->steps == 0) {
-        jox_run_reload(s->scene); /* files that were saved go live in a pause, too */
+        jox_run_reload(s->scene); /* saved files are loaded in a pause too */
         return INFINITY;
     }
     if (session->paused) {
@@ -69,66 +71,66 @@ static double advance(void *self, double now) {
     }
     JOX_ASSERT(!s->failed && s->scene->world->model.def.dt > 0.0);
     s->began = due > now - LATE && due <= now ? due : now;
-    step(s);
+    step_page_scene(s);
     return 0.0;
 }
 
 /* ---- the source ---- */
 
-static JoxLiveColour first_colour(const void *self) {
+static JoxLiveColour choose_scene_colour(const void *self) {
     const JoxScenePage *s = self;
     return jox_live_first_colour(s->scene);
 }
 
-static JoxLiveField first_field(const void *self) {
+static JoxLiveField choose_scene_field(const void *self) {
     const JoxScenePage *s = self;
     return (JoxLiveField)s->scene->spec->view.field;
 }
 
-static void describe(void *self, JoxText *out) {
+static void write_scene_message(void *self, JoxText *out) {
     JoxScenePage *s = self;
     jox_live_scene(s->scene, out);
 }
 
-static uint64_t version(const void *self) {
+static uint64_t find_scene_version(const void *self) {
     const JoxScenePage *s = self;
     return jox_live_version(s->scene);
 }
 
-static void add_status(void *self, double now, JoxText *out) {
+static void write_scene_status(void *self, double now, JoxText *out) {
     JoxScenePage *s = self;
     (void)now;
     jox_live_status(s->scene, &s->page.session, out);
 }
 
-static void pack_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
+static void pack_scene_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
     JoxScenePage *s = self;
     jox_live_frame(s->scene, colour, out);
 }
 
-static bool pack_people(void *self, JoxBytes *out) {
+static bool pack_scene_people(void *self, JoxBytes *out) {
     JoxScenePage *s = self;
     return jox_live_people(s->scene, out);
 }
 
-static void pack_field(void *self, JoxLiveField field, JoxBytes *out) {
+static void pack_scene_field(void *self, JoxLiveField field, JoxBytes *out) {
     JoxScenePage *s = self;
     jox_live_field(s->scene, field, out);
 }
 
 const JoxLiveSource jox_scene_page_source = {
-    .colour = first_colour,
-    .field = first_field,
-    .scene = describe,
-    .version = version,
-    .status = add_status,
-    .pack_frame = pack_frame,
-    .pack_people = pack_people,
-    .pack_field = pack_field,
+    .colour = choose_scene_colour,
+    .field = choose_scene_field,
+    .scene = write_scene_message,
+    .version = find_scene_version,
+    .status = write_scene_status,
+    .pack_frame = pack_scene_frame,
+    .pack_people = pack_scene_people,
+    .pack_field = pack_scene_field,
     .greet = jox_scene_page_send_errors,
     .report = jox_scene_page_send_inspected,
     .left = jox_scene_page_left,
-    .advance = advance,
+    .advance = step_when_due,
     .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,
               [JOX_LIVE_VERB_step] = jox_scene_page_step,
               [JOX_LIVE_VERB_restart] = jox_scene_page_restart,
@@ -137,9 +139,9 @@ const JoxLiveSource jox_scene_page_source = {
               [JOX_LIVE_VERB_inspect] = jox_scene_page_inspect},
 };
 
-/* ---- the whole ---- */
+/* ---- opening and running ---- */
 
-static bool run(JoxScenePage *s, JoError *error) {
+static bool run_scene_page(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     if (!jox_scene_page_load(s, error))
         return false;
@@ -158,14 +160,14 @@ static bool run(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-static bool view(const JoViewDef *def, JoError *error) {
+static bool view_scene(const JoViewDef *def, JoError *error) {
     JoxScenePage s = {.def = def, .scene_def = def->scene};
     s.page.source = &jox_scene_page_source;
     s.page.self = &s;
     if (!jox_live_page_open(&s.page, def->address, def->port, def->page, def->three, error))
         return false;
     JoError ending = {0};
-    bool good = run(&s, error), ended = jox_scene_page_end(&s, good ? error : &ending);
+    bool good = run_scene_page(&s, error), ended = jox_scene_page_end(&s, good ? error : &ending);
     jox_live_page_close(&s.page);
     jox_scene_page_forget_errors(&s);
     jox_free(s.errors);
@@ -176,5 +178,5 @@ bool jo_view(const JoViewDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
     JOX_GUARD (NULL, error)
         return false;
-    return view(def, error);
+    return view_scene(def, error);
 }

@@ -1,4 +1,5 @@
-/* What the files scene_*.c share: a scene that runs on its live page. */
+/* The live page of a running scene, shared by the files scene_*.c. scene_page.c has the source
+   (source.h) that page.c steps. */
 #ifndef JOX_LIVE_SCENE_PAGE_H
 #define JOX_LIVE_SCENE_PAGE_H
 
@@ -6,67 +7,68 @@
 #include "live/page.h"
 #include "run/run.h"
 
-/* Files that were saved and could not be loaded. */
+/* Errors of one attempt to load files. */
 typedef struct JoxLiveFileErrors {
-    bool parts[JOX_PARTS]; /* what the files are parts of; none: a scene that was to begin anew */
+    bool parts[JOX_PARTS]; /* parts of the scene that the files hold; all false: a restart */
     JoxDiagnostics errors;
 } JoxLiveFileErrors;
 
-/* A page that inspects an agent. */
+/* A browser and the agent that it inspects. */
 typedef struct JoxLiveInspector {
-    uint32_t client; /* 0: this row is free */
-    uint32_t slot, id;
+    uint32_t client;   /* 0: this row is free */
+    uint32_t slot, id; /* the inspected agent; the id tells whether the slot still holds it */
 } JoxLiveInspector;
 
-/* The push that an agent has been given by hand before the step that comes. */
+/* The force that browsers have put on an agent for the coming step. */
 typedef struct JoxHandPush {
     uint64_t tick;
-    uint32_t agent;
-    double x, y; /* N */
+    uint32_t agent; /* id */
+    double x, y;    /* N */
 } JoxHandPush;
 
-enum { JOX_HAND_PUSHES = 16 }; /* agents who are pushed at a time, at most */
+enum { JOX_HAND_PUSHES = 16 }; /* the most agents that can be pushed by hand in a step */
 
 typedef struct JoxScenePage {
     JoxLivePage page;
     const JoViewDef *def;
     JoSceneDef scene_def; /* with the seed of the present run */
     JoScene *scene;
-    uint64_t steps; /* to be done while paused */
-    double until;   /* s of simulated time, at which it pauses by itself */
-    double began;   /* s of wall time at which the last step was due */
-    double opened;  /* s of wall time at which it could first be looked at */
-    bool seen;      /* time no longer waits for the first page */
-    bool failed;    /* the run cannot go on, for this reason: */
+    uint64_t steps; /* still to be made while paused (command `step`) */
+    double until;   /* simulated time at which the run pauses by itself, s */
+    double began;   /* wall time at which the last step was due, s */
+    double opened;  /* wall time of the first call of `advance`, s */
+    bool seen;      /* the run no longer waits for its first browser */
+    bool failed;    /* the run cannot continue; `failure` says why */
     char failure[1024];
-    bool reported; /* errors that pages were sent as data are being printed */
+    bool reported; /* messages being printed are errors that browsers already have as data */
     JoxLiveInspector inspectors[JOX_VIEW_CLIENTS];
-    JoxHandPush pushes[JOX_HAND_PUSHES];
-    uint32_t push_count; /* ever; they are kept in a ring */
+    JoxHandPush pushes[JOX_HAND_PUSHES]; /* a ring buffer */
+    uint32_t push_count;                 /* pushes ever put into the ring */
     JoxLiveFileErrors *errors;
     size_t error_count, error_capacity;
 } JoxScenePage;
 
-/* scene_page.c: what the page asks of a scene; `self` is a JoxScenePage. */
+/* scene_page.c: functions of the source; `self` is a JoxScenePage. */
 extern const JoxLiveSource jox_scene_page_source;
-/* scene_load.c: loads the scene, with everything that is written of it; false with `error`, and
-   the scene that ran before goes on. */
+/* scene_load.c: loads the scene in place of the one that runs, and starts its recording, log and
+   watch. False with `error`; the scene that ran before goes on if the new one could not be loaded.
+ */
 bool jox_scene_page_load(JoxScenePage *scene, JoError *error);
-/* Ends the scene and what is written of it. */
+/* Finishes recording and log, and frees the scene. False with `error` if a file is not whole. */
 bool jox_scene_page_end(JoxScenePage *scene, JoError *error);
-/* scene_errors.c: a JoxDiagnosed whose context is the JoxScenePage. */
+/* scene_errors.c: keeps the errors of loaded files and sends them; a JoxDiagnosed whose context is
+   the JoxScenePage. */
 void jox_scene_page_diagnosed(void *scene, const bool *parts, const JoxDiagnostics *diagnostics);
-/* Sends a client, or all, what is wrong with files. */
+/* Sends a client, or JOX_VIEW_ALL, the errors that are kept. */
 void jox_scene_page_send_errors(void *scene, uint32_t client);
 void jox_scene_page_forget_errors(JoxScenePage *scene);
-/* scene_verbs.c: what people do, by verb. */
+/* scene_verbs.c: commands of browsers, by verb. */
 void jox_scene_page_pause(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_step(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_input(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
-/* scene_inspectors.c: each page inspects an agent of its own, and is told of it with each status.
- */
+/* scene_inspectors.c: each browser can inspect one agent, and gets a message with each status. */
 void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_send_inspected(void *scene);
 void jox_scene_page_left(void *scene, uint32_t client);

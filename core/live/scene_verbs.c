@@ -1,4 +1,4 @@
-/* What people do with a scene on its live page. */
+/* Commands of browsers to a running scene: pause, step, restart, input, lua. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,10 +19,10 @@ void jox_scene_page_pause(void *self, const JoxLiveRequest *request) {
         return;
     }
     if (!on && s->page.session.paused && jo_world_time(s->scene->world) >= s->until)
-        s->until = INFINITY; /* on beyond the scene's end */
+        s->until = INFINITY; /* continues beyond the scene's duration */
     s->page.session.paused = on;
     s->steps = 0;
-    s->page.last_status = 0.0; /* the status says so at once */
+    s->page.last_status = 0.0; /* a status is sent at once */
 }
 
 void jox_scene_page_step(void *self, const JoxLiveRequest *request) {
@@ -57,7 +57,8 @@ void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
     }
 }
 
-/* The tool that the first word of a line needs, or -1: it is no verb that people have. */
+/* Returns the tool (JOX_TOOL_...) that allows the verb of an input line, or -1 if pages have no
+   such verb. */
 static int find_tool(const char *line) {
     line += strspn(line, " \t");
     const size_t n = strcspn(line, " \t");
@@ -66,11 +67,11 @@ static int find_tool(const char *line) {
         if (strlen(jox_input_verbs[v].name) == n && !strncmp(line, jox_input_verbs[v].name, n))
             name = jox_input_verbs[v].tool;
     if (name && !strcmp(name, JOX_VERB_PROGRAM))
-        return -1; /* no page has it */
+        return -1; /* a verb of programs alone */
     for (int tool = 0; name && tool < JOX_TOOL_COUNT; tool++)
         if (!strcmp(jox_scene_tools[tool], name))
             return tool;
-    JOX_ASSERT(!name); /* the tables agree */
+    JOX_ASSERT(!name); /* each tool of jox_input_verbs is in jox_scene_tools */
     return -1;
 }
 
@@ -84,21 +85,21 @@ static void refuse_verb(const JoxLiveRequest *request) {
     jox_text_free(&why);
 }
 
-/* The push of an agent that was given by hand before the present step; NULL: none was. */
-static JoxHandPush *find_push(JoxScenePage *s, uint64_t tick, uint32_t agent) {
+/* Returns the push that browsers have put on an agent for the coming step, or NULL. */
+static JoxHandPush *find_hand_push(JoxScenePage *s, uint64_t tick, uint32_t agent) {
     for (uint32_t p = 0; p < JOX_HAND_PUSHES && p < s->push_count; p++)
         if (s->pushes[p].agent == agent && s->pushes[p].tick == tick)
             return &s->pushes[p];
     return NULL;
 }
 
-/* A page sends a push again and again while it lasts: several times before a step, if the run is
-   slow or stands still. Forces on an agent add up, so each is given as what it differs from the
-   one before it, and the last one counts. */
-static bool push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error) {
+/* Puts a push on an agent for the coming step, in place of the one before. A page repeats a push
+   while the button is held, several times per step if the run is slow or paused. Input lines add up
+   within a step, so that the difference from the last push is what is sent. */
+static bool put_push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error) {
     const JoxHandPush now = {s->scene->world->state.tick, entry->number, entry->numbers[0],
                              entry->numbers[1]};
-    JoxHandPush *before = find_push(s, now.tick, now.agent);
+    JoxHandPush *before = find_hand_push(s, now.tick, now.agent);
     char line[128];
     snprintf(line, sizeof line, "push %u %.17g %.17g", now.agent,
              now.x - (before ? before->x : 0.0), now.y - (before ? before->y : 0.0));
@@ -110,11 +111,11 @@ static bool push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error) {
     return true;
 }
 
-static bool perform(JoxScenePage *s, const char *line, JoError *error) {
+static bool perform_line(JoxScenePage *s, const char *line, JoError *error) {
     JoxInputEntry entry;
     JoxText wrong = {0};
     const bool pushes = jox_input_read(line, &entry, &wrong) && entry.verb == JOX_INPUT_PUSH;
-    const bool good = pushes ? push(s, &entry, error) : jo_scene_input(s->scene, line, error);
+    const bool good = pushes ? put_push(s, &entry, error) : jo_scene_input(s->scene, line, error);
     jox_input_entry_free(&entry);
     jox_text_free(&wrong);
     return good;
@@ -134,7 +135,7 @@ void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
         jox_live_refuse(request, text);
     } else if (s->failed) {
         jox_live_refuse(request, "this run cannot go on; restart it");
-    } else if (!perform(s, line, &error)) {
+    } else if (!perform_line(s, line, &error)) {
         jox_live_refuse(request, error.text);
     } else {
         s->page.changed = true;

@@ -107,7 +107,7 @@ static void a_page_plays_and_seeks(void **state) {
     free(wait_for(fd, "refused", &length));
     put_text(fd, "{\"do\": \"input\", \"line\": \"open gate\"}");
     message = wait_for(fd, "refused", &length);
-    assert_non_null(strstr(message, "has happened"));
+    assert_non_null(strstr(message, "cannot be changed"));
     free(message);
     put_text(fd, "{\"do\": \"speed\", \"factor\": 100}");
     put_text(fd, "{\"do\": \"pause\", \"on\": false}"); /* from the beginning, to the end */
