@@ -1,4 +1,4 @@
-/* An agent as a test sees it: a table with all of it, which is a copy. */
+/* The table that tests get for an agent: a copy of its state. */
 #include <math.h>
 
 #include "luatest/internal.h"
@@ -12,7 +12,6 @@ void jox_test_set_number(lua_State *L, const char *name, double value) {
     lua_setfield(L, -2, name);
 }
 
-/* Pushes a table with all of an agent; a copy, not the agent. */
 void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
@@ -43,7 +42,7 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
     jox_test_set_number(L, "vx", a->vx[i]);
     jox_test_set_number(L, "vy", a->vy[i]);
     jox_test_set_number(L, "now",
-                        jox_test_speed(a, i)); /* present speed; `speed` is the wanted one */
+                        jox_test_speed(a, i)); /* present speed; `speed` is the wanted speed */
     jox_test_set_number(L, "density", a->density[i]);
     jox_test_set_number(L, "compression", a->compression[i]);
     jox_test_set_number(L, "load", a->load[i]);

@@ -1,4 +1,5 @@
-/* What a test asserts of plain values. */
+/* The assertions of tests on plain values: equal, near, truthy, fails. Each counts itself and
+   raises an error in Lua if it fails. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +45,7 @@ static int word_fails(lua_State *L) {
     run->assertions++;
     lua_pushvalue(L, 1);
     bool fine = lua_pcall(L, 0, 0, 0) == LUA_OK;
-    run->failures = failures; /* what fails in there was meant to */
+    run->failures = failures; /* failures within the function were expected */
     if (fine) {
         run->failures++;
         return luaL_error(L, "this does not fail");
@@ -53,7 +54,7 @@ static int word_fails(lua_State *L) {
     if (strstr(why, text))
         return 0;
     run->failures++;
-    int number, line, used = 0; /* without the place, which is of chunks */
+    int number, line, used = 0; /* cuts the position, which names an internal chunk */
     if (sscanf(why, "b%d:%d: %n", &number, &line, &used) == 2)
         why += used;
     return luaL_error(L, "this fails, but not with '%s': %s", text, why);

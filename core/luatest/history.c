@@ -12,7 +12,7 @@ int jox_test_history_find(const JoxTestHistory *h, const char *name) {
     return -1;
 }
 
-static void mark(JoxTestHistory *h, const char *state, uint32_t id) {
+static void mark_state(JoxTestHistory *h, const char *state, uint32_t id) {
     int n = jox_test_history_find(h, state);
     if (n < 0 && h->name_count < JOX_TEST_STATES) {
         n = (int)h->name_count++;
@@ -39,14 +39,17 @@ void jox_test_history_note(JoxTestHistory *h, const JoxMachineRun *machines) {
         uint32_t i = jox_agents_find(a, h->known);
         h->group[h->known] = i == JOX_NO_INDEX ? -1 : a->group[i];
         if (i != JOX_NO_INDEX && a->machine[i] != JOX_NO_MACHINE)
-            mark(h, machines->set->items[a->machine[i]]->states[a->state[i]].name, h->known);
+            mark_state(h, machines->set->items[a->machine[i]]->states[a->state[i]].name, h->known);
     }
     for (uint32_t k = 0; k < machines->taken_count; k++) {
         const JoxTaken *taken = &machines->taken[k];
-        mark(h, machines->set->items[taken->machine]->states[taken->to].name, taken->agent_id);
-        uint32_t i = jox_agents_find(a, taken->agent_id); /* it may have become another machine */
+        mark_state(h, machines->set->items[taken->machine]->states[taken->to].name,
+                   taken->agent_id);
+        uint32_t i =
+            jox_agents_find(a, taken->agent_id); /* `become` may have changed its machine */
         if (i != JOX_NO_INDEX)
-            mark(h, machines->set->items[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
+            mark_state(h, machines->set->items[a->machine[i]]->states[a->state[i]].name,
+                       taken->agent_id);
     }
 }
 

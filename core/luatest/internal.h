@@ -1,45 +1,50 @@
-/* What testing.c (running tests) and scene.c (what a test says) share. */
+/* Shared by the files of luatest: the running test file, and the functions that make its tables and
+   texts. testing.c owns a JoxTestRun; the functions of tests find it by jox_test_run_of. */
 #ifndef JOX_LUATEST_INTERNAL_H
 #define JOX_LUATEST_INTERNAL_H
 
 #include "lua/language/script.h"
 #include "luatest/testing.h"
 
+/* A test that a file has registered. */
 typedef struct JoxTest {
     char *name;
-    int line, function; /* registry reference */
+    int line, function; /* line of its `test`; reference of its function in Lua's registry */
 } JoxTest;
 
-/* One test file while it runs. */
+/* A test file while it runs. */
 typedef struct JoxTestRun {
     const JoxTestDriver *driver;
     const char *path;
     JoxTest *tests;
     uint32_t test_count;
     size_t test_capacity;
-    bool running;
-    uint64_t assertions, failures; /* failures: of assertions, also where a pcall swallowed them */
-    double simulated, stepping;    /* s, of the present test; stepping: processor time */
-    JoxText yaml;                  /* of the scene that is being made */
+    bool running;                  /* a test is running, and not the file's own code */
+    uint64_t assertions, failures; /* number in the present test; failures count even in a pcall */
+    double simulated, stepping;    /* simulated and processor time of the present test, s */
+    JoxText yaml;                  /* text of the scene that is being loaded */
 } JoxTestRun;
 
+/* Returns the test file that runs in a Lua state. */
 JoxTestRun *jox_test_run_of(lua_State *L);
-/* equal, near, truthy, fails */
+/* The functions equal, near, truthy and fails of tests. */
 extern const luaL_Reg jox_test_assertions[];
-/* Adds the words of a test to the table on top of the stack. */
+/* Adds all functions of tests, except `test`, to the table on top of the stack. */
 void jox_test_scene_words(lua_State *L);
-/* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
+/* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors in Lua. */
 void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out);
 
-/* Texts of a list, or "KEY=VALUE" of a table, kept by the Lua table that is pushed; returns how
-   many. */
+/* Reads the option `name` of the table at `index`: a list of texts, or (`pairs`) a table as texts
+   "KEY=VALUE", sorted. Returns their number, and pushes a table that keeps the texts alive. Raises
+   errors in Lua. */
 size_t jox_test_read_texts(lua_State *L, int index, const char *name, bool pairs,
                            const char *out[64]);
 
-/* Present speed, m/s. */
+/* Present speed of an agent, m/s. */
 double jox_test_speed(const JoxAgents *agents, uint32_t i);
+/* Sets a field of the table on top of the stack. */
 void jox_test_set_number(lua_State *L, const char *name, double value);
-/* Pushes a table with all of an agent. */
+/* Pushes a table with the state of an agent: parameters, memory, position, ... It is a copy. */
 void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
 
 #endif

@@ -1,4 +1,5 @@
-/* What a test can say: build a scene, step it, look at it, assert. */
+/* The functions of tests that concern scenes: `scene` and `refused`, and the methods of a scene,
+   which step it, read it and assert. Scenes are reached through the driver (testing.h). */
 #include "luatest/internal.h"
 
 #include <math.h>
@@ -10,41 +11,42 @@
 #include "luatest/history.h"
 
 static const char SCENE[] = "jostle scene";
-static const double MOST_STEPPING = 60.0; /* s of processor time in one test */
-static const double WITHIN = 60.0;        /* s, where a test gives no time */
+static const double MOST_STEPPING = 60.0; /* processor time for the steps of a test, s */
+static const double WITHIN = 60.0;        /* default of the option `within`, simulated s */
 
-/* A scene of a test, and who has been in which state. */
+/* The userdata of a scene. */
 typedef struct Scene {
-    void *scene; /* NULL once freed */
+    void *scene; /* the driver's handle; NULL once freed */
     JoxTestHistory history;
 } Scene;
 
-static Scene *check(lua_State *L) {
+/* Returns the scene that argument 1 is. */
+static Scene *check_scene_handle(lua_State *L) {
     Scene *t = luaL_checkudata(L, 1, SCENE);
     if (!t->scene)
         luaL_error(L, "this scene is over");
     return t;
 }
 
-static const JoxMachineRun *machines_of(lua_State *L, const Scene *t) {
+static const JoxMachineRun *find_test_machines(lua_State *L, const Scene *t) {
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     return driver->machines(driver->context, t->scene);
 }
 
 /* Simulated time, s. */
-static double time_of(lua_State *L, const Scene *t) {
+static double read_test_time(lua_State *L, const Scene *t) {
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     return driver->time(driver->context, t->scene);
 }
 
-static void step(lua_State *L, Scene *t) {
+static void step_test_scene(lua_State *L, Scene *t) {
     JoxTestRun *run = jox_test_run_of(L);
     const JoxTestDriver *driver = run->driver;
     JoxText why = {0};
     double begun = jox_clock_thread();
     bool good = driver->step(driver->context, t->scene, &why);
     run->stepping += jox_clock_thread() - begun;
-    const JoxMachineRun *machines = machines_of(L, t);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     run->simulated += machines->dt;
     jox_test_history_note(&t->history, machines);
     if (!good) {
@@ -58,8 +60,8 @@ static void step(lua_State *L, Scene *t) {
 
 /* ---- options ---- */
 
-/* A number of an options table at `index`; `standard` where it is absent. */
-static double option(lua_State *L, int index, const char *name, double standard) {
+/* Returns a number of the options table at `index`, or `standard` if it is absent. */
+static double read_number_option(lua_State *L, int index, const char *name, double standard) {
     if (lua_type(L, index) != LUA_TTABLE)
         return standard;
     lua_pushstring(L, name);
@@ -71,8 +73,8 @@ static double option(lua_State *L, int index, const char *name, double standard)
     return value;
 }
 
-/* Names of options, so that none is misspelt. */
-static void check_options(lua_State *L, int index, const char *const *known, size_t count) {
+/* Raises an error if the options table at `index` has a key that is not known. */
+static void check_option_names(lua_State *L, int index, const char *const *known, size_t count) {
     if (lua_isnoneornil(L, index))
         return;
     luaL_checktype(L, index, LUA_TTABLE);
@@ -90,8 +92,8 @@ static void check_options(lua_State *L, int index, const char *const *known, siz
     }
 }
 
-/* The group that the option `agents` names; -1 for all. */
-static int32_t group_option(lua_State *L, const Scene *t, int index) {
+/* Returns the index of the group that the option `agents` names; -1, for all, if it is absent. */
+static int32_t read_group_option(lua_State *L, const Scene *t, int index) {
     if (lua_type(L, index) != LUA_TTABLE)
         return -1;
     lua_pushstring(L, "agents");
@@ -108,10 +110,10 @@ static int32_t group_option(lua_State *L, const Scene *t, int index) {
     return group;
 }
 
-/* A state that some machine of the scene has. */
-static const char *check_state(lua_State *L, const Scene *t, int index) {
+/* Returns the argument at `index`, which must be the name of a state of some machine. */
+static const char *check_state_name(lua_State *L, const Scene *t, int index) {
     const char *name = luaL_checkstring(L, index), *names[256];
-    const JoxMachineRun *machines = machines_of(L, t);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     size_t count = 0;
     for (uint32_t m = 0; m < machines->set->count; m++)
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
@@ -126,9 +128,10 @@ static const char *check_state(lua_State *L, const Scene *t, int index) {
     return NULL;
 }
 
-/* ---- looking ---- */
+/* ---- reading ---- */
 
-static uint32_t count_in(const JoxMachineRun *machines, const char *state, int32_t group) {
+static uint32_t count_agents_in_state(const JoxMachineRun *machines, const char *state,
+                                      int32_t group) {
     const JoxAgents *a = machines->agents;
     uint32_t count = 0;
     for (uint32_t i = 0; i < a->count; i++)
@@ -139,13 +142,13 @@ static uint32_t count_in(const JoxMachineRun *machines, const char *state, int32
     return count;
 }
 
-/* "Walk 3, Rest 2": where the agents are. */
+/* Pushes the number of agents in each state, "Walk 3, Rest 2". */
 static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group) {
     JoxText text = {0};
     for (uint32_t m = 0; m < machines->set->count; m++)
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             const char *name = machines->set->items[m]->states[s].name;
-            uint32_t people = count_in(machines, name, group);
+            uint32_t people = count_agents_in_state(machines, name, group);
             if (people)
                 jox_text_printf(&text, "%s%s %u", text.length ? ", " : "", name, people);
         }
@@ -154,21 +157,22 @@ static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t gro
 }
 
 static int scene_count(lua_State *L) {
-    Scene *t = check(L);
-    const char *state = lua_isnoneornil(L, 2) ? NULL : check_state(L, t, 2);
-    lua_pushinteger(L, count_in(machines_of(L, t), state, group_option(L, t, 3)));
+    Scene *t = check_scene_handle(L);
+    const char *state = lua_isnoneornil(L, 2) ? NULL : check_state_name(L, t, 2);
+    lua_pushinteger(
+        L, count_agents_in_state(find_test_machines(L, t), state, read_group_option(L, t, 3)));
     return 1;
 }
 
 static int scene_entered(lua_State *L) {
-    Scene *t = check(L);
-    const char *state = check_state(L, t, 2);
-    lua_pushinteger(L, jox_test_history_been(&t->history, state, group_option(L, t, 3)));
+    Scene *t = check_scene_handle(L);
+    const char *state = check_state_name(L, t, 2);
+    lua_pushinteger(L, jox_test_history_been(&t->history, state, read_group_option(L, t, 3)));
     return 1;
 }
 
 static int scene_time(lua_State *L) {
-    lua_pushnumber(L, time_of(L, check(L)));
+    lua_pushnumber(L, read_test_time(L, check_scene_handle(L)));
     return 1;
 }
 
@@ -176,15 +180,15 @@ static int scene_hash(lua_State *L) {
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     char text[24];
     snprintf(text, sizeof text, "%016llx",
-             (unsigned long long)driver->hash(driver->context, check(L)->scene));
+             (unsigned long long)driver->hash(driver->context, check_scene_handle(L)->scene));
     lua_pushstring(L, text);
     return 1;
 }
 
-/* s:agents(["group"]): a list in order of id. */
+/* s:agents(["group"]): a list of agents in order of id. */
 static int scene_agents(lua_State *L) {
-    Scene *t = check(L);
-    const JoxMachineRun *machines = machines_of(L, t);
+    Scene *t = check_scene_handle(L);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     int32_t group = -1;
     if (!lua_isnoneornil(L, 2) &&
@@ -202,9 +206,9 @@ static int scene_agents(lua_State *L) {
     return 1;
 }
 
-/* s:agent(id): nil where it has left. */
+/* s:agent(id): the agent, or nil if it has left. */
 static int scene_agent(lua_State *L) {
-    const JoxMachineRun *machines = machines_of(L, check(L));
+    const JoxMachineRun *machines = find_test_machines(L, check_scene_handle(L));
     lua_Integer id = luaL_checkinteger(L, 2);
     uint32_t i = id < 0 || id >= machines->agents->next_id
                      ? JOX_NO_INDEX
@@ -218,7 +222,7 @@ static int scene_agent(lua_State *L) {
 
 static int scene_body(lua_State *L) {
     static const char *const NAMES[] = {"x", "y", "z", "vx", "vy", "vz"};
-    Scene *t = check(L);
+    Scene *t = check_scene_handle(L);
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     double pose[6];
     if (!driver->body(driver->context, t->scene, luaL_checkstring(L, 2), pose))
@@ -232,33 +236,33 @@ static int scene_body(lua_State *L) {
 /* ---- stepping ---- */
 
 static int scene_step(lua_State *L) {
-    Scene *t = check(L);
+    Scene *t = check_scene_handle(L);
     for (lua_Integer n = luaL_optinteger(L, 2, 1); n > 0; n--)
-        step(L, t);
+        step_test_scene(L, t);
     return 0;
 }
 
 static int scene_run(lua_State *L) {
-    Scene *t = check(L);
-    const JoxMachineRun *machines = machines_of(L, t);
+    Scene *t = check_scene_handle(L);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     double steps = luaL_checknumber(L, 2) / machines->dt;
     for (double n = 0.5; n < steps; n += 1.0)
-        step(L, t);
+        step_test_scene(L, t);
     return 0;
 }
 
 /* s:reaches(state, { within = s, agents = "group", count = n, any = true }) */
 static int scene_reaches(lua_State *L) {
     static const char *const OPTIONS[] = {"within", "agents", "count", "any"};
-    Scene *t = check(L);
-    const char *state = check_state(L, t, 2);
-    check_options(L, 3, OPTIONS, 4);
-    int32_t group = group_option(L, t, 3);
-    double within = option(L, 3, "within", WITHIN);
+    Scene *t = check_scene_handle(L);
+    const char *state = check_state_name(L, t, 2);
+    check_option_names(L, 3, OPTIONS, 4);
+    int32_t group = read_group_option(L, t, 3);
+    double within = read_number_option(L, 3, "within", WITHIN);
     uint32_t all = 0;
     for (uint32_t id = 0; id < t->history.known; id++)
         all += group < 0 || t->history.group[id] == group;
-    uint32_t wanted = (uint32_t)option(L, 3, "count", all);
+    uint32_t wanted = (uint32_t)read_number_option(L, 3, "count", all);
     if (wanted == 0)
         return luaL_error(L, "there is nobody who could reach anything");
     if (lua_type(L, 3) == LUA_TTABLE) {
@@ -268,51 +272,54 @@ static int scene_reaches(lua_State *L) {
         lua_pop(L, 1);
     }
     jox_test_run_of(L)->assertions++;
-    const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(L, t) + within - 0.5 * machines->dt;
-    while (jox_test_history_been(&t->history, state, group) < wanted && time_of(L, t) < until)
-        step(L, t);
+    const JoxMachineRun *machines = find_test_machines(L, t);
+    double until = read_test_time(L, t) + within - 0.5 * machines->dt;
+    while (jox_test_history_been(&t->history, state, group) < wanted &&
+           read_test_time(L, t) < until)
+        step_test_scene(L, t);
     uint32_t been = jox_test_history_been(&t->history, state, group);
     if (been >= wanted) {
-        lua_pushnumber(L, time_of(L, t));
+        lua_pushnumber(L, read_test_time(L, t));
         return 1;
     }
     push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
-                      (int)wanted, state, within, time_of(L, t), lua_tostring(L, -1));
+                      (int)wanted, state, within, read_test_time(L, t), lua_tostring(L, -1));
 }
 
-/* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
+/* s:never(state, { during = s, agents = "group" }); counts the time before the call too. */
 static int scene_never(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Scene *t = check(L);
-    const char *state = check_state(L, t, 2);
-    check_options(L, 3, OPTIONS, 2);
-    int32_t group = group_option(L, t, 3);
-    const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(L, t) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
+    Scene *t = check_scene_handle(L);
+    const char *state = check_state_name(L, t, 2);
+    check_option_names(L, 3, OPTIONS, 2);
+    int32_t group = read_group_option(L, t, 3);
+    const JoxMachineRun *machines = find_test_machines(L, t);
+    double until =
+        read_test_time(L, t) + read_number_option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
         int n = jox_test_history_find(&t->history, state);
         for (uint32_t id = 0; n >= 0 && id < t->history.known; id++)
             if (t->history.been[n][id] && (group < 0 || t->history.group[id] == group))
                 return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
-                                  time_of(L, t));
-        if (time_of(L, t) >= until)
+                                  read_test_time(L, t));
+        if (read_test_time(L, t) >= until)
             return 0;
-        step(L, t);
+        step_test_scene(L, t);
     }
 }
 
-/* The greatest speed and the mean of all agents during some seconds. */
+/* Steps for `during` s and computes the mean speed of the agents of a group (-1: all). Raises an
+   error if an agent is faster than `most`, m/s. */
 static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, double most,
                         double *mean) {
-    const JoxMachineRun *machines = machines_of(L, t);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     const JoxAgents *a = machines->agents;
-    double until = time_of(L, t) + during - 0.5 * machines->dt, sum = 0.0;
+    double until = read_test_time(L, t) + during - 0.5 * machines->dt, sum = 0.0;
     uint64_t count = 0;
     do {
-        step(L, t);
+        step_test_scene(L, t);
         for (uint32_t i = 0; i < a->count; i++) {
             if (group >= 0 && a->group[i] != group)
                 continue;
@@ -321,9 +328,9 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
             count++;
             if (speed > most)
                 luaL_error(L, "agent %d moves at %f m/s at t = %f s, faster than %f", (int)a->id[i],
-                           speed, time_of(L, t), most);
+                           speed, read_test_time(L, t), most);
         }
-    } while (time_of(L, t) < until);
+    } while (read_test_time(L, t) < until);
     if (count == 0)
         luaL_error(L, "there is nobody whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;
@@ -331,22 +338,23 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
 
 static int scene_slower_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Scene *t = check(L);
+    Scene *t = check_scene_handle(L);
     double mean;
-    check_options(L, 3, OPTIONS, 2);
+    check_option_names(L, 3, OPTIONS, 2);
     jox_test_run_of(L)->assertions++;
-    watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), luaL_checknumber(L, 2),
-                &mean);
+    watch_speed(L, t, read_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3),
+                luaL_checknumber(L, 2), &mean);
     return 0;
 }
 
 static int scene_faster_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Scene *t = check(L);
+    Scene *t = check_scene_handle(L);
     double mean, least = luaL_checknumber(L, 2);
-    check_options(L, 3, OPTIONS, 2);
+    check_option_names(L, 3, OPTIONS, 2);
     jox_test_run_of(L)->assertions++;
-    watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), INFINITY, &mean);
+    watch_speed(L, t, read_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3), INFINITY,
+                &mean);
     if (!(mean > least))
         return luaL_error(L, "agents move at %f m/s on the average, not faster than %f", mean,
                           least);
@@ -356,7 +364,7 @@ static int scene_faster_than(lua_State *L) {
 
 /* ---- making scenes ---- */
 
-static void free_scene(lua_State *L, Scene *t) {
+static void free_test_scene(lua_State *L, Scene *t) {
     if (t->scene) {
         const JoxTestDriver *driver = jox_test_run_of(L)->driver;
         driver->free(driver->context, t->scene);
@@ -366,24 +374,25 @@ static void free_scene(lua_State *L, Scene *t) {
 }
 
 static int scene_gc(lua_State *L) {
-    if (jox_vm_of(L)) /* else memory ran out, and the scene goes with the heap */
-        free_scene(L, luaL_checkudata(L, 1, SCENE));
+    if (jox_vm_of(L)) /* if not, memory ran out, and the heap releases the scene */
+        free_test_scene(L, luaL_checkudata(L, 1, SCENE));
     return 0;
 }
 
-/* Loads what arguments 1 and 2 of `scene` say; NULL with the reason in `why`. */
-static void *load(lua_State *L, JoxText *why) {
+/* Loads the scene that arguments 1 (table or path) and 2 (options) describe; NULL with the reason
+   in `why`. */
+static void *load_test_scene(lua_State *L, JoxText *why) {
     static const char *const OPTIONS[] = {"set", "mods", "seed", "dt", "threads"};
     JoxTestRun *run = jox_test_run_of(L);
     const char *sets[64], *mods[64];
     lua_settop(L, 2);
-    check_options(L, 2, OPTIONS, 5);
+    check_option_names(L, 2, OPTIONS, 5);
     JoxTestScene scene = {.path = run->path, .threads = 1, .sets = sets, .mods = mods};
-    scene.threads = (uint32_t)option(L, 2, "threads", 1);
-    scene.dt = option(L, 2, "dt", 0.0);
-    scene.seed = (uint64_t)option(L, 2, "seed", 0);
+    scene.threads = (uint32_t)read_number_option(L, 2, "threads", 1);
+    scene.dt = read_number_option(L, 2, "dt", 0.0);
+    scene.seed = (uint64_t)read_number_option(L, 2, "seed", 0);
     scene.has_dt = scene.dt > 0.0;
-    scene.has_seed = lua_type(L, 2) == LUA_TTABLE && option(L, 2, "seed", -1) >= 0;
+    scene.has_seed = lua_type(L, 2) == LUA_TTABLE && read_number_option(L, 2, "seed", -1) >= 0;
     scene.set_count = jox_test_read_texts(L, 2, "set", true, sets);
     scene.mod_count = jox_test_read_texts(L, 2, "mods", false, mods);
     if (lua_type(L, 1) == LUA_TTABLE) {
@@ -391,7 +400,7 @@ static void *load(lua_State *L, JoxText *why) {
         jox_test_scene_yaml(L, run, 1, &run->yaml);
         scene.text = run->yaml.data;
         scene.length = run->yaml.length;
-    } else { /* a file beside the test's, or in ../scenes */
+    } else { /* a file, which the driver searches from the test's folder */
         scene.path = luaL_checkstring(L, 1);
     }
     void *loaded = run->driver->load(run->driver->context, &scene, why);
@@ -403,7 +412,7 @@ static int word_scene(lua_State *L) {
     JoxText why = {0};
     if (!jox_test_run_of(L)->running)
         return luaL_error(L, "a scene belongs into a test");
-    void *scene = load(L, &why);
+    void *scene = load_test_scene(L, &why);
     if (!scene) {
         lua_pushfstring(L, "the scene is refused: %s", why.data ? why.data : "?");
         jox_text_free(&why);
@@ -413,11 +422,12 @@ static int word_scene(lua_State *L) {
     Scene *t = lua_newuserdatauv(L, sizeof *t, 0);
     *t = (Scene){.scene = scene};
     luaL_setmetatable(L, SCENE);
-    jox_test_history_note(&t->history, machines_of(L, t));
+    jox_test_history_note(&t->history, find_test_machines(L, t));
     return 1;
 }
 
-/* refused({ ... }, "text"): the scene must not load, and say so with that text. */
+/* refused({ ... }, "text"): asserts that loading the scene fails with an error that has this text.
+ */
 static int word_refused(lua_State *L) {
     JoxText why = {0};
     char wanted[256];
@@ -425,7 +435,7 @@ static int word_refused(lua_State *L) {
     snprintf(wanted, sizeof wanted, "%s", luaL_checkstring(L, 2));
     run->assertions++;
     lua_settop(L, 1);
-    void *scene = load(L, &why);
+    void *scene = load_test_scene(L, &why);
     if (scene) {
         run->driver->free(run->driver->context, scene);
         jox_text_free(&why);

@@ -1,5 +1,6 @@
-/* A Lua table as the text of a scene: JSON, which is YAML. In what follows `name` is what errors
-   call a value: its key, or that of the list in which it stands; `key` is NULL in a list. */
+/* Converts a Lua table to the text of a scene: JSON, which is valid YAML. In these functions `key`
+   is the member's name, NULL within a list, and `name` the value's name in errors: its key, or that
+   of the list that contains it. */
 #include <math.h>
 #include <string.h>
 
@@ -9,11 +10,11 @@
 
 enum { DEEPEST = 16, LONGEST = 4 << 20 };
 
-static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
-                        JoxJson *json);
+static void write_yaml_value(lua_State *L, JoxTestRun *run, int index, const char *key,
+                             const char *name, JoxJson *json);
 
-static void write_string(lua_State *L, JoxTestRun *run, int index, const char *key,
-                         const char *name, JoxJson *json) {
+static void write_yaml_string(lua_State *L, JoxTestRun *run, int index, const char *key,
+                              const char *name, JoxJson *json) {
     size_t length;
     const char *text = lua_tolstring(L, index, &length);
     if (!strcmp(name, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
@@ -24,8 +25,8 @@ static void write_string(lua_State *L, JoxTestRun *run, int index, const char *k
     jox_json_string(json, key, text);
 }
 
-static void write_list(lua_State *L, JoxTestRun *run, int index, lua_Integer length,
-                       const char *key, const char *name, JoxJson *json) {
+static void write_yaml_list(lua_State *L, JoxTestRun *run, int index, lua_Integer length,
+                            const char *key, const char *name, JoxJson *json) {
     lua_pushnil(L);
     while (lua_next(L, index)) {
         lua_pop(L, 1);
@@ -35,13 +36,14 @@ static void write_list(lua_State *L, JoxTestRun *run, int index, lua_Integer len
     jox_json_array(json, key);
     for (lua_Integer i = 1; i <= length; i++) {
         lua_rawgeti(L, index, i);
-        write_value(L, run, lua_gettop(L), NULL, name, json);
+        write_yaml_value(L, run, lua_gettop(L), NULL, name, json);
         lua_pop(L, 1);
     }
     jox_json_end(json);
 }
 
-/* The key after `last` in ascending order, whatever the table's own order; NULL after the last. */
+/* Returns the key that follows `last` in ascending order (NULL: the first), or NULL after the last
+   one. Lua's own order of keys is not deterministic. */
 static const char *next_key(lua_State *L, int index, const char *last, const char *name) {
     const char *next = NULL;
     lua_pushnil(L);
@@ -57,19 +59,19 @@ static const char *next_key(lua_State *L, int index, const char *last, const cha
     return next;
 }
 
-static void write_members(lua_State *L, JoxTestRun *run, int index, const char *name,
-                          JoxJson *json) {
+static void write_yaml_members(lua_State *L, JoxTestRun *run, int index, const char *name,
+                               JoxJson *json) {
     const char *key = NULL;
     while ((key = next_key(L, index, key, name))) {
         lua_pushstring(L, key);
         lua_rawget(L, index);
-        write_value(L, run, lua_gettop(L), key, key, json);
+        write_yaml_value(L, run, lua_gettop(L), key, key, json);
         lua_pop(L, 1);
     }
 }
 
-static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
-                        JoxJson *json) {
+static void write_yaml_value(lua_State *L, JoxTestRun *run, int index, const char *key,
+                             const char *name, JoxJson *json) {
     luaL_checkstack(L, 10, NULL);
     if (json->depth > DEEPEST || json->out->length > LONGEST)
         luaL_error(L, "this scene is too deep or too large");
@@ -77,16 +79,16 @@ static void write_value(lua_State *L, JoxTestRun *run, int index, const char *ke
     case LUA_TTABLE: {
         lua_Integer length = (lua_Integer)lua_rawlen(L, index);
         if (length > 0) {
-            write_list(L, run, index, length, key, name, json);
+            write_yaml_list(L, run, index, length, key, name, json);
             break;
         }
         jox_json_object(json, key);
-        write_members(L, run, index, name, json);
+        write_yaml_members(L, run, index, name, json);
         jox_json_end(json);
         break;
     }
     case LUA_TSTRING:
-        write_string(L, run, index, key, name, json);
+        write_yaml_string(L, run, index, key, name, json);
         break;
     case LUA_TBOOLEAN:
         jox_json_bool(json, key, lua_toboolean(L, index));
@@ -103,17 +105,17 @@ static void write_value(lua_State *L, JoxTestRun *run, int index, const char *ke
 
 void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
-    if (lua_rawlen(L, index) > 0) { /* no scene; loading says so */
-        write_value(L, run, index, NULL, "scene", &json);
+    if (lua_rawlen(L, index) > 0) { /* a list is not a scene, which loading reports */
+        write_yaml_value(L, run, index, NULL, "scene", &json);
         return;
     }
     lua_pushliteral(L, "jostle");
     bool version = lua_rawget(L, index) != LUA_TNIL;
     lua_pop(L, 1);
     jox_json_object(&json, NULL);
-    if (!version) /* the version of the format goes without saying */
+    if (!version) /* a test may leave out the version of the format */
         jox_json_whole(&json, "jostle", 1);
-    write_members(L, run, index, "scene", &json);
+    write_yaml_members(L, run, index, "scene", &json);
     jox_json_end(&json);
 }
 
@@ -144,7 +146,7 @@ size_t jox_test_read_texts(lua_State *L, int index, const char *name, bool pairs
         if (pairs)
             lua_pushfstring(L, "%s=%s", lua_tostring(L, -3), lua_tostring(L, -1));
         const char *text = lua_tostring(L, -1);
-        size_t at = count++; /* in ascending order, whatever the table's own */
+        size_t at = count++; /* sorted by insertion: Lua's order of keys is not deterministic */
         for (; pairs && at > 0 && strcmp(out[at - 1], text) > 0; at--)
             out[at] = out[at - 1];
         out[at] = text;

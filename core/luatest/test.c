@@ -1,4 +1,5 @@
-/* jo_test: scenes for tests that are written in Lua, and what comes of them. */
+/* jo_test: runs test files and prints or writes their results. Implements the driver by which tests
+   load and step scenes (testing.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,15 +20,15 @@ typedef struct Tests {
     JoMessage *message;
     void *context;
     bool json;
-    JoxText results; /* as JSON */
-    JoxJson array;   /* which is being written there */
-    const char *only;
+    JoxText results;  /* with `json`: the results, a JSON array, */
+    JoxJson array;    /* and its writer */
+    const char *only; /* runs tests whose names contain it; NULL: all */
     size_t passed, failed;
-    bool broken;
-    char folder[96]; /* for behaviours that stand in tests; "" while there are none */
-    char **kept;
+    bool broken;     /* a file could not be read or run, or there are no tests */
+    char folder[96]; /* temporary folder of behaviours that tests contain; "" until needed */
+    char **kept;     /* paths of their files */
     size_t kept_count, kept_capacity;
-    JoxText said; /* by the scene that is loaded */
+    JoxText said; /* messages of the loaded scene */
 } Tests;
 
 enum { MOST_KEPT = 200, LARGEST_KEPT = 256 << 10 };
@@ -40,7 +41,8 @@ static void keep_message(void *context, const char *text) {
         jox_text_add(&tests->said, text);
 }
 
-/* A scene's file: as named, beside the test, or in the scenes of the tree. */
+/* Finds a scene's file: relative to the test's folder, or to ../scenes/ or ../../scenes/ from
+   there; or relative to the working folder, or in its scenes/. The caller frees the path. */
 static char *find_scene(const JoxTestScene *scene, const char *test) {
     static const char *const FOLDERS[] = {"", "../scenes/", "../../scenes/", NULL};
     static const char *const TREE[] = {"scenes/", NULL};
@@ -52,10 +54,10 @@ static char *find_scene(const JoxTestScene *scene, const char *test) {
 
 typedef struct TestContext {
     Tests *tests;
-    const char *path; /* of the test's file */
+    const char *path; /* the test's file */
 } TestContext;
 
-static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
+static void *load_driven_scene(void *context, const JoxTestScene *wanted, JoxText *why) {
     const TestContext *c = context;
     JoSceneDef def = jo_default_scene_def();
     char *path = wanted->text ? jox_strdup(wanted->path) : find_scene(wanted, c->path);
@@ -81,14 +83,13 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
     for (size_t d = 0; d < diagnostics.count && !scene; d++) {
         const JoxDiagnostic *item = &diagnostics.items[d];
         bool generated = wanted->text && item->file && !strcmp(item->file, wanted->path);
-        if (!generated && item->file) /* a place in the generated scene tells nothing */
+        if (!generated && item->file) /* positions in generated text mean nothing to the user */
             jox_text_printf(why, "%s:%d:%d: ", item->file, item->line, item->column);
         jox_text_printf(why, "%s%s%s\n", item->message, item->hint ? ". " : "",
                         item->hint ? item->hint : "");
     }
     jox_diag_free(&diagnostics);
-    if (scene &&
-        scene->mod_problems.errors) { /* a test names the mods it wants: all must be there */
+    if (scene && scene->mod_problems.errors) { /* all mods that a test names must apply */
         jox_text_add(why, scene->mod_problems.items[0].message);
         jo_scene_free(scene);
         scene = NULL;
@@ -97,13 +98,14 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
     return scene;
 }
 
-static void free_scene(void *context, void *scene) {
+static void free_driven_scene(void *context, void *scene) {
     (void)context;
     jo_scene_free(scene);
 }
 
-/* A function of a behaviour that fails makes the test fail: the agents only stayed as they were. */
-static bool step(void *context, void *scene, JoxText *why) {
+/* Steps a scene. A failed Lua function of a behaviour fails the test, though in a run it would only
+   leave its agents unchanged. */
+static bool step_driven_scene(void *context, void *scene, JoxText *why) {
     Tests *tests = ((TestContext *)context)->tests;
     const JoxMachineState *machines = ((JoScene *)scene)->world->machines.state;
     const uint64_t failures = machines->hook_failures;
@@ -119,22 +121,22 @@ static bool step(void *context, void *scene, JoxText *why) {
     return false;
 }
 
-static const JoxMachineRun *machines_of(void *context, void *scene) {
+static const JoxMachineRun *find_driven_machines(void *context, void *scene) {
     (void)context;
     return &((JoScene *)scene)->world->machines;
 }
 
-static double time_of(void *context, void *scene) {
+static double read_driven_time(void *context, void *scene) {
     (void)context;
     return jo_world_time(((JoScene *)scene)->world);
 }
 
-static uint64_t hash(void *context, void *scene) {
+static uint64_t hash_driven_scene(void *context, void *scene) {
     (void)context;
     return jox_world_hash(((JoScene *)scene)->world);
 }
 
-static int32_t group(void *context, void *scene, const char *name) {
+static int32_t find_driven_group(void *context, void *scene, const char *name) {
     (void)context;
     const JoxSceneSpec *spec = ((JoScene *)scene)->spec;
     for (uint32_t g = 0; g < spec->group_count; g++)
@@ -143,7 +145,7 @@ static int32_t group(void *context, void *scene, const char *name) {
     return -1;
 }
 
-static bool body(void *context, void *scene, const char *name, double out[6]) {
+static bool find_driven_body(void *context, void *scene, const char *name, double out[6]) {
     (void)context;
     const JoxBodies *bodies = ((JoScene *)scene)->world->state.bodies;
     JoxPose pose;
@@ -156,8 +158,8 @@ static bool body(void *context, void *scene, const char *name, double out[6]) {
     return true;
 }
 
-/* Behaviours are files: one that stands in a test becomes a file for as long as the tests run. */
-static const char *keep(void *context, const char *text, size_t length) {
+/* Writes a behaviour that a test contains to a temporary file, since scenes refer to files. */
+static const char *keep_behaviour(void *context, const char *text, size_t length) {
     Tests *tests = ((TestContext *)context)->tests;
     char path[160];
     if (tests->kept_count >= MOST_KEPT || length > LARGEST_KEPT)
@@ -167,7 +169,7 @@ static const char *keep(void *context, const char *text, size_t length) {
         snprintf(tests->folder, sizeof tests->folder, "%.60s/jostle-test-XXXXXX",
                  usual && *usual == '/' && strlen(usual) <= 60 ? usual : "/tmp");
         bool made = mkdtemp(tests->folder) != NULL;
-        snprintf(path, sizeof path, "%s/behaviours", tests->folder); /* nothing lies beside it */
+        snprintf(path, sizeof path, "%s/behaviours", tests->folder); /* its parent has no scenes */
         if (!made || mkdir(path, 0700) != 0) {
             *tests->folder = 0;
             return NULL;
@@ -185,7 +187,7 @@ static const char *keep(void *context, const char *text, size_t length) {
 
 /* ---- results ---- */
 
-static void report(void *context, const JoxTestResult *result) {
+static void report_test_result(void *context, const JoxTestResult *result) {
     Tests *tests = context;
     JoxText text = {0};
     *(result->passed ? &tests->passed : &tests->failed) += 1;
@@ -208,32 +210,33 @@ static void report(void *context, const JoxTestResult *result) {
     jox_text_free(&text);
 }
 
-static void print(void *context, const char *text) {
+static void print_test_output(void *context, const char *text) {
     const Tests *tests = context;
     if (!tests->json)
         jox_run_message(tests->message, tests->context, text);
 }
 
-static void run_file(Tests *tests, const char *path) {
+static void run_test_file(Tests *tests, const char *path) {
     TestContext context = {tests, path};
-    const JoxTestDriver driver = {.load = load,
-                                  .free = free_scene,
-                                  .step = step,
-                                  .machines = machines_of,
-                                  .time = time_of,
-                                  .hash = hash,
-                                  .group = group,
-                                  .body = body,
-                                  .keep = keep,
+    const JoxTestDriver driver = {.load = load_driven_scene,
+                                  .free = free_driven_scene,
+                                  .step = step_driven_scene,
+                                  .machines = find_driven_machines,
+                                  .time = read_driven_time,
+                                  .hash = hash_driven_scene,
+                                  .group = find_driven_group,
+                                  .body = find_driven_body,
+                                  .keep = keep_behaviour,
                                   .context = &context};
     JoxDiagnostics diagnostics = {0};
-    if (!jox_lua_test(path, tests->only, &driver, report, tests, print, tests, &diagnostics))
+    if (!jox_lua_test(path, tests->only, &driver, report_test_result, tests, print_test_output,
+                      tests, &diagnostics))
         tests->broken = true;
     for (size_t d = 0; tests->json && d < diagnostics.count; d++) {
         const JoxDiagnostic *item = &diagnostics.items[d];
         JoxTestResult failed = {
             .file = path, .name = "", .message = item->message, .line = item->line};
-        report(tests, &failed);
+        report_test_result(tests, &failed);
     }
     if (tests->json)
         jox_diag_free(&diagnostics);
@@ -241,34 +244,34 @@ static void run_file(Tests *tests, const char *path) {
         jox_run_report(tests->message, tests->context, &diagnostics, NULL);
 }
 
-static bool is_test(const char *name) {
+static bool is_test_file(const char *name) {
     size_t n = strlen(name);
     return n > 9 && strcmp(name + n - 9, "_test.lua") == 0;
 }
 
-static void run_path(Tests *tests, const char *path) {
+static void run_test_path(Tests *tests, const char *path) {
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
-        run_file(tests, path);
+        run_test_file(tests, path);
         return;
     }
     char **names = jox_folder_names(path, false);
     for (char **name = names; name && *name; name++) {
         char inner[1024];
         snprintf(inner, sizeof inner, "%s/%s", path, *name);
-        if (is_test(*name))
-            run_file(tests, inner);
+        if (is_test_file(*name))
+            run_test_file(tests, inner);
     }
     jox_free(names);
 }
 
-static bool test_all(const char *const *paths, size_t count, const char *only, bool json,
-                     JoMessage *message, void *context, size_t *passed, size_t *failed) {
+static bool run_test_paths(const char *const *paths, size_t count, const char *only, bool json,
+                           JoMessage *message, void *context, size_t *passed, size_t *failed) {
     Tests tests = {.message = message, .context = context, .json = json, .only = only};
     tests.array = jox_json_begin(&tests.results, 1);
     jox_json_array(&tests.array, NULL);
     for (size_t p = 0; p < count; p++)
-        run_path(&tests, paths[p]);
+        run_test_path(&tests, paths[p]);
     if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
         jox_run_message(message, context,
                         "no tests found: files that end with _test.lua hold them\n");
@@ -302,5 +305,5 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
     JOX_REQUIRE(paths && message && passed && failed, false);
     JOX_GUARD (NULL, error)
         return false;
-    return test_all(paths, count, only, json, message, context, passed, failed);
+    return run_test_paths(paths, count, only, json, message, context, passed, failed);
 }

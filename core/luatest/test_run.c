@@ -1,4 +1,5 @@
-/* The test file that runs, as its words find it. */
+/* Finds the running test file from a Lua state. Apart from testing.c, so that the functions of
+   tests need not call the file that calls them. */
 #include "luatest/internal.h"
 
 JoxTestRun *jox_test_run_of(lua_State *L) {

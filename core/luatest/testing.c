@@ -1,4 +1,5 @@
-/* The runner: a test file registers its tests, each is called under a budget of its own. */
+/* Runs a test file: its code registers tests, which are then called one by one, each with its own
+   budget of instructions. */
 #include "luatest/testing.h"
 
 #include <stdio.h>
@@ -9,7 +10,7 @@
 #include "luatest/internal.h"
 
 enum { MOST_TESTS = 1000 };
-static const uint64_t BUDGET = 1000000000; /* instructions of a test */
+static const uint64_t BUDGET = 1000000000; /* instructions of Lua that a test may execute */
 
 /* test("name", function() ... end) */
 static int word_test(lua_State *L) {
@@ -29,8 +30,8 @@ static int word_test(lua_State *L) {
     return 0;
 }
 
-static void run_one(JoxScript *script, JoxTestRun *run, JoxTest *test, JoxTestReport *report,
-                    void *context) {
+static void run_registered_test(JoxScript *script, JoxTestRun *run, JoxTest *test,
+                                JoxTestReport *report, void *context) {
     const char *path = script->vm.sources[0]->path, *why = NULL;
     JoxText message = {0};
     int line = 0;
@@ -59,10 +60,10 @@ static void run_one(JoxScript *script, JoxTestRun *run, JoxTest *test, JoxTestRe
     report(context, &result);
     jox_text_free(&message);
     lua_settop(script->vm.L, 0);
-    lua_gc(script->vm.L, LUA_GCCOLLECT); /* scenes are freed with their handles */
+    lua_gc(script->vm.L, LUA_GCCOLLECT); /* frees the test's scenes */
 }
 
-/* The words of a test file in place of those of behaviours. */
+/* Gives the Lua state the functions of tests in place of those of behaviours. */
 static int open_words(lua_State *L) {
     static const luaL_Reg WORDS[] = {{"test", word_test}, {NULL, NULL}};
     lua_newtable(L);
@@ -79,8 +80,9 @@ static void fail_file(JoxScript *script, const char *why, int line, JoxDiagnosti
                            script->vm.sources[0]->length);
 }
 
-static bool run_file(JoxScript *script, const char *path, JoxTestRun *run, const char *only,
-                     JoxTestReport *report, void *context, JoxDiagnostics *diagnostics) {
+static bool run_tests_of_file(JoxScript *script, const char *path, JoxTestRun *run,
+                              const char *only, JoxTestReport *report, void *context,
+                              JoxDiagnostics *diagnostics) {
     const char *why = NULL;
     int line = 0;
     script->vm.untimed = true;
@@ -102,13 +104,13 @@ static bool run_file(JoxScript *script, const char *path, JoxTestRun *run, const
     }
     static const JoxScope NO_SCOPE = {0};
     script->scope = &NO_SCOPE;
-    script->vm.loading = true; /* require works */
+    script->vm.loading = true; /* `require` is allowed */
     script->diagnostics = diagnostics;
     const size_t errors = diagnostics->errors;
     good = good && jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line);
     script->vm.loading = false;
     script->diagnostics = NULL;
-    if (good && diagnostics->errors > errors) { /* a word of the file that means nothing */
+    if (good && diagnostics->errors > errors) { /* the file uses a name that does not exist */
         for (size_t s = 0; s < script->vm.source_count; s++)
             jox_diag_attach_source(diagnostics, script->vm.sources[s]->path,
                                    script->vm.sources[s]->text, script->vm.sources[s]->length);
@@ -120,7 +122,7 @@ static bool run_file(JoxScript *script, const char *path, JoxTestRun *run, const
     }
     for (uint32_t t = 0; t < run->test_count; t++)
         if (!only || strstr(run->tests[t].name, only))
-            run_one(script, run, &run->tests[t], report, context);
+            run_registered_test(script, run, &run->tests[t], report, context);
     return true;
 }
 
@@ -132,7 +134,7 @@ bool jox_lua_test(const char *path, const char *only, const JoxTestDriver *drive
     lua->group.say_context = out_context;
     JoxScript *script = jox_script_create(lua);
     JoxTestRun run = {.driver = driver, .path = path};
-    bool good = script && run_file(script, path, &run, only, report, context, diagnostics);
+    bool good = script && run_tests_of_file(script, path, &run, only, report, context, diagnostics);
     if (!script)
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "lua-error", NULL,
                        "no memory for a Lua state");

@@ -1,16 +1,16 @@
-/* Tests of behaviours, written in Lua: the words of a test file, and running its tests. */
+/* Runs test files of behaviours, written in Lua. The runner knows scenes by a driver alone, which
+   test.c implements for the command `jostle test`. */
 #ifndef JOX_LUATEST_TESTING_H
 #define JOX_LUATEST_TESTING_H
 
 #include "lua/loader.h"
 
-/* What a test asks of a scene; test.c implements it. Handles are its own. */
+/* A scene that a test asks for. */
 typedef struct JoxTestScene {
-    const char *text; /* YAML, or NULL: the file `path` */
+    const char *text; /* YAML; NULL: the file `path` has the scene */
     size_t length;
-    const char
-        *path; /* of the scene's file, or of the test's, beside which behaviours are looked for */
-    const char *const *sets, *const *mods;
+    const char *path; /* scene's file; with `text`, the test's file: paths are relative to it */
+    const char *const *sets, *const *mods; /* overrides "KEY=VALUE"; names of mods */
     size_t set_count, mod_count;
     bool has_seed, has_dt;
     uint64_t seed;
@@ -18,32 +18,36 @@ typedef struct JoxTestScene {
     uint32_t threads;
 } JoxTestScene;
 
+/* Functions by which tests reach scenes; `scene` is a handle that `load` returned, `context` the
+   member below. */
 typedef struct JoxTestDriver {
-    /* NULL with what is wrong appended to `why`. */
+    /* Loads a scene; NULL with the errors appended to `why`. */
     void *(*load)(void *context, const JoxTestScene *scene, JoxText *why);
     void (*free)(void *context, void *scene);
     bool (*step)(void *context, void *scene, JoxText *why);
     const JoxMachineRun *(*machines)(void *context, void *scene);
-    double (*time)(void *context, void *scene); /* simulated, s */
-    uint64_t (*hash)(void *context, void *scene);
-    int32_t (*group)(void *context, void *scene, const char *name);
-    /* Pose of a body by name: position and velocity, x y z; false if there is none. */
+    double (*time)(void *context, void *scene);                     /* simulated time, s */
+    uint64_t (*hash)(void *context, void *scene);                   /* hash of the world's state */
+    int32_t (*group)(void *context, void *scene, const char *name); /* index, or -1 */
+    /* Position (m) and velocity (m/s) of a body by name, x y z each; false if there is none. */
     bool (*body)(void *context, void *scene, const char *name, double out[6]);
-    /* Keeps the text of a behaviour that stands in the test; its path, valid until the end. */
+    /* Writes the text of a behaviour that a test contains to a file; returns its path, valid until
+       the tests end, or NULL. */
     const char *(*keep)(void *context, const char *text, size_t length);
     void *context;
 } JoxTestDriver;
 
 typedef struct JoxTestResult {
-    const char *file, *name, *message; /* message: what failed; "" */
+    const char *file, *name, *message; /* message: the failure; "" if passed */
     int line;
     bool passed;
-    double simulated, seconds; /* s; seconds of processor time */
+    double simulated, seconds; /* simulated time, processor time, s */
 } JoxTestResult;
+/* Called with the result of each test. */
 typedef void JoxTestReport(void *context, const JoxTestResult *result);
 
 /* Runs the tests of a file whose names contain `only` (NULL: all), and reports each. False with
-   diagnostics if the file cannot be read or run. `out` receives what tests print. */
+   diagnostics if the file cannot be read or run. `out` receives the output of `print` in tests. */
 bool jox_lua_test(const char *path, const char *only, const JoxTestDriver *driver,
                   JoxTestReport *report, void *context, JoxLuaComplain *out, void *out_context,
                   JoxDiagnostics *diagnostics);
