@@ -2,9 +2,9 @@
 
 #include <time.h>
 
-/* The first of two clocks that can be read, s; where neither can, whole seconds of the date, which
-   cannot fail. A clock cannot be read where the system lacks it, or a filter of system calls
-   forbids it. */
+/* Reads the first of two clocks that can be read, s; if neither can, returns whole seconds of the
+   date, which cannot fail. A clock cannot be read if the system lacks it or a filter of system
+   calls forbids it. */
 static double read_clock(clockid_t clock, clockid_t other) {
     struct timespec t;
     if (clock_gettime(clock, &t) != 0 && clock_gettime(other, &t) != 0)

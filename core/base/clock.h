@@ -1,14 +1,14 @@
-/* Clocks, for what is told of a run and never for what it computes. */
+/* Clocks, all in s. They serve reports and pacing; no simulation may depend on them. */
 #ifndef JOX_BASE_CLOCK_H
 #define JOX_BASE_CLOCK_H
 
-/* Wall clock, which no setting of the time moves; processor time of the process; and of the thread
-   that asks, whom a busy machine does not hold up. s. Where the system has no clock of processor
-   time, these two are the wall clock. */
+/* Monotonic wall clock; processor time of the process; processor time of the calling thread, which
+   other load on the machine does not lengthen. Without clocks of processor time, the last two are
+   the wall clock. */
 double jox_clock_wall(void);
 double jox_clock_cpu(void);
 double jox_clock_thread(void);
-/* The date: s since 1970. */
+/* The date: s since 1970-01-01 UTC. */
 double jox_clock_date(void);
 
 #endif

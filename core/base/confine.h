@@ -1,5 +1,9 @@
-/* A process that gives up what it does not need, before it reads what a stranger wrote. It cannot
-   take anything back, nor can what it starts. */
+/* Sandboxing of the calling process by Landlock, seccomp and resource limits, before it reads files
+   of strangers. It cannot be undone, and programs that the process starts inherit it.
+
+   There are two kinds of process. A reader (`works` false) parses files: it has no threads and no
+   network, and writes only to descriptors that are open. A worker (`works` true) runs simulations:
+   it may have threads and write its outputs. */
 #ifndef JOX_BASE_CONFINE_H
 #define JOX_BASE_CONFINE_H
 
@@ -7,41 +11,40 @@
 #include <stddef.h>
 
 typedef struct JoxConfines {
-    const char *const *folders; /* with all below them, or files: may be read, if they are there */
+    const char *const *folders; /* files, or folders with all below them, that may be read */
     size_t folder_count;
-    size_t memory;    /* bytes that it may take besides what it has; 0: any */
-    size_t file_size; /* bytes of a file that it writes; 0: any */
-    unsigned files;   /* that it has open at a time; 0: any of who works, else 64 */
-    /* Of processor time; 0: any. Then it is ended; who works is told by SIGXCPU, and ended a little
-       later. */
+    size_t memory;    /* bytes that it may allocate in addition to those in use; 0: no limit */
+    size_t file_size; /* greatest size of a file that it writes, bytes; 0: no limit */
+    unsigned files;   /* files open at a time; 0: no limit for a worker, 64 for a reader */
+    /* Processor time, s; 0: no limit. Then the process is killed. A worker gets SIGXCPU, and is
+       killed a few seconds later, so that it can say why it ends. */
     unsigned seconds;
-    /* Who works has threads, and calls that do not reach beyond itself and its files. Without, it
-       reads, and writes to what is open. */
-    bool works;
-    bool programs;       /* who works starts programs of the system, which are confined as it is */
-    const char *program; /* one more that it starts, by its path, and may end; or NULL */
-    bool serves;         /* who works answers those who connect to it, and connects to nobody */
-    const char *const *outputs; /* of who works: folders, with all below them, or files */
+    bool works;                 /* a worker; false: a reader. The members below are for workers */
+    bool programs;              /* may start programs of the system, which inherit the sandbox */
+    const char *program;        /* path of one more program that it may start and end; or NULL */
+    bool serves;                /* may accept connections, but never connect */
+    const char *const *outputs; /* files, or folders with all below them, that may be written */
     size_t output_count;
 } JoxConfines;
 
-/* What this kernel can hold a process to. */
+/* The mechanisms that this kernel has. */
 typedef struct JoxConfining {
-    bool files; /* Landlock: only the folders are read, and only the outputs written */
-    bool calls; /* seccomp: no network and no other processes but those that are granted */
+    bool files; /* Landlock: only `folders` can be read, and only `outputs` written */
+    bool calls; /* seccomp: no network and no other processes except those that are granted */
 } JoxConfining;
 JoxConfining jox_confine_can(void);
 
-/* From here on the calling thread, which is to be the only one of its process, can do no more than
-   that. False, and some of it may hold, where the kernel refuses what it has. A forbidden call
-   fails; starting a program ends the process by SIGSYS, and so does a socket of who does not work.
-   What lies beneath an output may be made, changed and removed. */
+/* Confines the calling thread, which must be the only one of its process. Afterwards a forbidden
+   call fails, but starting a program kills the process by SIGSYS, and so does a reader's call of
+   socket. Files beneath an output may be made, changed and removed. Mechanisms that the kernel
+   lacks are left out (jox_confine_can). False if one that it has was refused; the others may hold
+   then. */
 bool jox_confine(const JoxConfines *confines);
 
-/* Of these the limits alone: memory, processor time, sizes and numbers of files. */
+/* Sets the limits alone: memory, processor time, size and number of files. */
 bool jox_confine_limits(const JoxConfines *confines);
 
-/* Bytes that this process may take yet by its limit of memory, 1 at least; 0: it has none. */
+/* Bytes that this process can still allocate below its memory limit, at least 1; 0: no limit. */
 size_t jox_confine_memory_left(void);
 
 #endif

@@ -1,4 +1,7 @@
-/* Calls of the system that a confined process may make: seccomp. */
+/* Filters of system calls (seccomp): programs of classic BPF, which the kernel runs before each
+   call. A reader has a list of allowed calls, a worker one of forbidden calls. Each macro below
+   yields instructions; those that test a call expect its number in the accumulator, and leave it
+   there. */
 #include "base/confine_calls.h"
 
 #include <asm/ioctls.h>
@@ -21,14 +24,15 @@
 #endif
 
 #ifdef ARCHITECTURE
+/* Loads a member of seccomp_data: `nr` is the call's number, `arch` the architecture. */
 #define CALL(number) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, number))
 #define GIVE(action) BPF_STMT(BPF_RET | BPF_K, action)
 #define WHERE(number, action) BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1), GIVE(action)
 #define MAY(name) WHERE(SYS_##name, SECCOMP_RET_ALLOW)
 #define DIES(name) WHERE(SYS_##name, SECCOMP_RET_KILL_PROCESS)
-/* The lower half of an argument, on machines of both calls little-endian. */
+/* Loads the lower half of an argument (both architectures are little-endian). */
 #define ARGUMENT(n) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[n]))
-/* An opening, whose flags are argument n: for reading alone. */
+/* Allows a call that opens a file, with its flags in argument n, for reading alone. */
 #define READS(name, n)                                                                             \
     BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_##name, 0, 4), ARGUMENT(n),                            \
         BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, O_ACCMODE | O_CREAT | O_TRUNC, 0, 1),                 \
@@ -37,7 +41,7 @@
 static const struct sock_filter READER[] = {
     CALL(arch), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
     GIVE(SECCOMP_RET_KILL_PROCESS), CALL(nr),
-    /* reading, and writing to what is open */
+    /* reading, and writing to open descriptors */
     READS(openat, 2), MAY(read), MAY(pread64), MAY(readv), MAY(write), MAY(writev), MAY(close),
     MAY(lseek), MAY(fstat), MAY(newfstatat), MAY(statx), MAY(faccessat), MAY(faccessat2),
     MAY(readlinkat), MAY(getdents64), MAY(getcwd), MAY(fcntl), MAY(flock), MAY(ppoll),
@@ -48,30 +52,30 @@ static const struct sock_filter READER[] = {
 #endif
     /* memory */
     MAY(brk), MAY(mmap), MAY(munmap), MAY(mremap), MAY(mprotect), MAY(madvise),
-    /* itself */
+    /* the process itself */
     MAY(rt_sigaction), MAY(rt_sigprocmask), MAY(rt_sigreturn), MAY(sigaltstack), MAY(futex),
     MAY(getpid), MAY(gettid), MAY(getuid), MAY(geteuid), MAY(getgid), MAY(getegid), MAY(uname),
     MAY(sysinfo), MAY(getrusage), MAY(getrandom), MAY(clock_gettime), MAY(clock_getres),
     MAY(gettimeofday), MAY(sched_yield), MAY(sched_getaffinity), MAY(tgkill), MAY(membarrier),
     MAY(restart_syscall), MAY(exit), MAY(exit_group),
-    /* what only an attack would do */
+    /* calls that only an attack would make: fatal */
     DIES(execve), DIES(execveat), DIES(socket), DIES(ptrace), DIES(bpf), DIES(process_vm_writev),
     GIVE(SECCOMP_RET_ERRNO | EPERM)};
 
-/* ---- who works: all but what reaches beyond its files and itself ---- */
+/* ---- a worker: all calls except those that reach beyond its files and itself ---- */
 
 static const int FORBIDDEN[] = {
-#ifndef __SANITIZE_ADDRESS__ /* which looks for leaks by it */
+#ifndef __SANITIZE_ADDRESS__ /* AddressSanitizer uses ptrace to find leaks */
     SYS_ptrace,
 #endif
     /* other processes */
     SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_rt_sigqueueinfo,
     SYS_rt_tgsigqueueinfo, SYS_pidfd_open, SYS_pidfd_getfd, SYS_pidfd_send_signal, SYS_kcmp,
     SYS_shmget, SYS_shmat, SYS_msgget, SYS_semget,
-    /* the network, and calls by another way */
+    /* the network, and io_uring, which makes calls that no filter sees */
     SYS_connect, SYS_sendmsg, SYS_sendmmsg, SYS_io_uring_setup, SYS_io_uring_enter,
     SYS_io_uring_register,
-    /* files in ways that Landlock does not see */
+    /* changes of files that Landlock does not restrict */
     SYS_openat2, SYS_open_by_handle_at, SYS_truncate, SYS_fchmod, SYS_fchmodat, SYS_fchown,
     SYS_fchownat, SYS_setxattr, SYS_lsetxattr, SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr,
     SYS_fremovexattr, SYS_utimensat,
@@ -89,18 +93,19 @@ typedef struct Filter {
     unsigned short count;
 } Filter;
 
-static void add(Filter *filter, const struct sock_filter *lines, size_t count) {
+static void add_instructions(Filter *filter, const struct sock_filter *lines, size_t count) {
     for (size_t l = 0; l < count; l++)
         filter->lines[filter->count++] = lines[l];
 }
 
 #define ADD(filter, ...)                                                                           \
-    add(filter, (const struct sock_filter[]){__VA_ARGS__},                                         \
-        sizeof(const struct sock_filter[]){__VA_ARGS__} / sizeof(struct sock_filter))
+    add_instructions(filter, (const struct sock_filter[]){__VA_ARGS__},                            \
+                     sizeof(const struct sock_filter[]){__VA_ARGS__} / sizeof(struct sock_filter))
 #define FAILS(number) WHERE(number, SECCOMP_RET_ERRNO | EPERM)
-/* The upper half of an argument. */
+/* Loads the upper half of an argument. */
 #define UPPER(n) BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, args[n]) + 4)
-/* A call whose argument n, masked, is a value: fails. What follows is given the call's number. */
+/* Makes a call fail if its argument n, masked, has (FAILS_WITH) or has not (FAILS_UNLESS) a value;
+   loads the call's number again for the instructions that follow. */
 #define FAILS_WITH(name, n, mask, value)                                                           \
     BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_##name, 0, 5), ARGUMENT(n),                            \
         BPF_STMT(BPF_ALU | BPF_AND | BPF_K, mask),                                                 \
@@ -112,9 +117,9 @@ static void add(Filter *filter, const struct sock_filter *lines, size_t count) {
         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0), GIVE(SECCOMP_RET_ERRNO | EPERM),         \
         CALL(nr)
 
-static void fill(Filter *filter, const JoxConfines *confines) {
-    enum { OTHER_CALLS = 0x40000000 /* x32: the same ones by other numbers */ };
-    const unsigned none = 0xffffffff; /* what a debugger makes of a call that is not to be done */
+static void fill_worker_filter(Filter *filter, const JoxConfines *confines) {
+    enum { OTHER_CALLS = 0x40000000 /* x32: the same calls by other numbers */ };
+    const unsigned none = 0xffffffff; /* number that a debugger sets to skip a call */
     ADD(filter, CALL(arch), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
         GIVE(SECCOMP_RET_KILL_PROCESS), CALL(nr), WHERE(none, SECCOMP_RET_ALLOW),
         BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, OTHER_CALLS, 0, 1), GIVE(SECCOMP_RET_KILL_PROCESS));
@@ -122,9 +127,9 @@ static void fill(Filter *filter, const JoxConfines *confines) {
         ADD(filter, FAILS((unsigned)FORBIDDEN[f]));
     if (!confines->programs)
         ADD(filter, DIES(execve), DIES(execveat));
-    if (!confines->program) /* else it ends what it started */
+    if (!confines->program) /* a worker with a program must be able to end it */
         ADD(filter, FAILS(SYS_kill));
-    if (confines->serves) /* who connects to it is answered: streams, and to nobody by name */
+    if (confines->serves) /* stream sockets alone, and sendto without an address */
         ADD(filter, FAILS_UNLESS(socket, 1, 0xf, SOCK_STREAM),
             BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_sendto, 0, 6), ARGUMENT(4),
             BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, 0, 0, 2), UPPER(4),
@@ -133,7 +138,8 @@ static void fill(Filter *filter, const JoxConfines *confines) {
     else
         ADD(filter, FAILS(SYS_socket));
     ADD(filter, FAILS_UNLESS(tgkill, 0, UINT32_MAX, (uint32_t)getpid()),
-        /* a file is not cut by who may only read it, and nothing is typed at a terminal */
+        /* O_TRUNC with O_RDONLY would empty a file that may only be read; the ioctls would type
+           commands into a terminal */
         FAILS_WITH(openat, 2, O_ACCMODE | O_TRUNC, O_TRUNC),
         FAILS_WITH(ioctl, 1, UINT32_MAX, TIOCSTI), FAILS_WITH(ioctl, 1, UINT32_MAX, TIOCLINUX));
 #ifdef __x86_64__
@@ -142,7 +148,7 @@ static void fill(Filter *filter, const JoxConfines *confines) {
     ADD(filter, GIVE(SECCOMP_RET_ALLOW));
 }
 
-static bool use(const struct sock_filter *lines, size_t count) {
+static bool install_filter(const struct sock_filter *lines, size_t count) {
     const struct sock_fprog program = {.len = (unsigned short)count,
                                        .filter = (struct sock_filter *)(uintptr_t)lines};
     return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
@@ -151,9 +157,9 @@ static bool use(const struct sock_filter *lines, size_t count) {
 bool jox_confine_calls(const JoxConfines *confines) {
     Filter filter = {.count = 0};
     if (!confines->works)
-        return use(READER, sizeof READER / sizeof *READER);
-    fill(&filter, confines);
-    return use(filter.lines, filter.count);
+        return install_filter(READER, sizeof READER / sizeof *READER);
+    fill_worker_filter(&filter, confines);
+    return install_filter(filter.lines, filter.count);
 }
 
 bool jox_confine_has_calls(void) {

@@ -10,16 +10,18 @@
 #include "base/mem.h"
 
 enum {
-    LONGEST = 64 << 20,     /* bytes of a text */
-    LONGEST_SQL = 64 << 10, /* and of a statement of the schema */
-    OPERATIONS = 100000     /* of SQLite between two calls of `spend` */
+    LONGEST = 64 << 20, /* greatest length of a text or blob, bytes */
+    LONGEST_SQL =
+        64 << 10,       /* greatest length of a statement, those of the schema included, bytes */
+    OPERATIONS = 100000 /* virtual machine operations between two calls of the progress handler */
 };
-/* How many such calls a bounded database has: in all, and for each MB of the file. A row takes some
-   10 operations and 40 bytes, so that a pass over all rows takes some 3 a MB. */
+/* Calls of the progress handler that a bounded database has: at least, and per MB of the file. A
+   row takes about 10 operations and 40 bytes, so that a pass over all rows takes about 3 calls per
+   MB. */
 static const double LEAST_CALLS = 1000, CALLS_PER_MB = 30;
 
-/* Whether a bounded database has done all that it may. */
-static int spend(void *database) {
+/* The progress handler: counts a call, and interrupts the statement if the bound is used up. */
+static int spend_call(void *database) {
     return --((JoxDatabase *)database)->left < 0.0;
 }
 
@@ -30,10 +32,10 @@ static void release_database(void *database) {
     sqlite3_close_v2(db->sqlite);
 }
 
-/* ---- what statements may name ---- */
+/* ---- tables that statements may use ---- */
 
-static bool is_allowed(const JoxDatabase *db, const char *table) {
-    if (sqlite3_strnicmp(table, "sqlite_", 7) == 0) /* the schema itself: it is no virtual table */
+static bool is_allowed_table(const JoxDatabase *db, const char *table) {
+    if (sqlite3_strnicmp(table, "sqlite_", 7) == 0) /* the schema, which is always a plain table */
         return true;
     for (size_t k = 0; db->tables && db->tables[k]; k++)
         if (sqlite3_stricmp(table, db->tables[k]) == 0)
@@ -41,14 +43,16 @@ static bool is_allowed(const JoxDatabase *db, const char *table) {
     return false;
 }
 
-/* Denies tables of the file that jox_database_allow has not seen; temporary ones are our own. */
+/* SQLite's authorizer: denies tables that jox_database_allow has not checked. Temporary tables are
+   this program's own. */
 static int authorize(void *database, int action, const char *table, const char *column,
                      const char *schema, const char *view) {
     (void)column;
     (void)view;
     const bool names = action == SQLITE_READ || action == SQLITE_INSERT ||
                        action == SQLITE_UPDATE || action == SQLITE_DELETE;
-    if (!names || !table || (schema && strcmp(schema, "temp") == 0) || is_allowed(database, table))
+    if (!names || !table || (schema && strcmp(schema, "temp") == 0) ||
+        is_allowed_table(database, table))
         return SQLITE_OK;
     return SQLITE_DENY;
 }
@@ -58,7 +62,8 @@ static bool fail_with_message(const JoxDatabase *db, JoxText *why) {
     return false;
 }
 
-/* A pragma with one argument, quoted; NULL where SQLite refuses it. */
+/* Prepares a statement with one argument, which %Q in `format` quotes; NULL if SQLite refuses it.
+ */
 static sqlite3_stmt *prepare_pragma(JoxDatabase *db, const char *format, const char *argument) {
     char *sql = sqlite3_mprintf(format, argument);
     if (!sql)
@@ -68,10 +73,10 @@ static sqlite3_stmt *prepare_pragma(JoxDatabase *db, const char *format, const c
     return statement;
 }
 
-/* Whether a table has no computed columns: a file may give one any function of SQLite. A table that
-   SQLite refuses, as it does views here, cannot be read either. */
+/* Whether a table has no computed columns, which could call any function of SQLite. True also if
+   SQLite does not know the table, or refuses it, as it does views here: it cannot be read then. */
 static bool has_plain_columns(JoxDatabase *db, const char *table, JoxText *why) {
-    enum { HIDDEN = 6, COMPUTED = 2 }; /* column of the pragma; its least value of computed ones */
+    enum { HIDDEN = 6, COMPUTED = 2 }; /* the pragma's column "hidden"; 2 and 3 are computed */
     sqlite3_stmt *columns = prepare_pragma(db, "PRAGMA main.table_xinfo(%Q)", table);
     int status = columns ? SQLITE_ROW : sqlite3_errcode(db->sqlite);
     bool plain = true;
@@ -88,9 +93,9 @@ static bool has_plain_columns(JoxDatabase *db, const char *table, JoxText *why) 
     return plain;
 }
 
-/* Whether the file has rows alone under this name, or nothing that is read. What the schema says of
-   a name need not be so, which is why columns are looked at in any case. */
-static bool is_plain(JoxDatabase *db, const char *table, JoxText *why) {
+/* Whether a name is that of a plain table, or of nothing that can be read. A damaged schema may
+   describe the table wrongly, so that its columns are checked in any case. */
+static bool is_plain_table(JoxDatabase *db, const char *table, JoxText *why) {
     sqlite3_stmt *entry =
         prepare_pragma(db,
                        "SELECT 1 FROM main.sqlite_schema WHERE type = 'table' AND "
@@ -112,7 +117,7 @@ static bool is_plain(JoxDatabase *db, const char *table, JoxText *why) {
 bool jox_database_allow(JoxDatabase *db, const char *const *tables, JoxText *why) {
     db->tables = NULL;
     for (size_t k = 0; tables[k]; k++)
-        if (!is_plain(db, tables[k], why))
+        if (!is_plain_table(db, tables[k], why))
             return false;
     db->tables = tables;
     return true;
@@ -131,13 +136,13 @@ static void restrict_connection(JoxDatabase *db) {
     sqlite3_busy_timeout(db->sqlite, JOX_DATABASE_PATIENCE);
     sqlite3_limit(db->sqlite, SQLITE_LIMIT_LENGTH, LONGEST);
     sqlite3_limit(db->sqlite, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
-    /* What is sorted stays in memory: who is confined may write no other file. */
+    /* Sorting must not write temporary files: a confined process cannot. */
     sqlite3_exec(db->sqlite, "PRAGMA temp_store=MEMORY", NULL, NULL, NULL);
 }
 
 JoxDatabase *jox_database_open(const char *path, JoxDatabaseUse use, JoxText *why) {
     static const int HOW[] = {SQLITE_OPEN_READONLY, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
-    if (path && use == JOX_DATABASE_READ) { /* SQLite would wait for a pipe */
+    if (path && use == JOX_DATABASE_READ) { /* refuses pipes, for whose data SQLite would wait */
         FILE *file = jox_file_open(path, "rb");
         if (!file) {
             jox_text_printf(why, "%s", jox_file_why(errno));
@@ -166,7 +171,7 @@ void jox_database_bound(JoxDatabase *db, bool bounded) {
     db->left = LEAST_CALLS;
     if (bounded && path && stat(path, &info) == 0)
         db->left += CALLS_PER_MB * (double)info.st_size / (1 << 20);
-    sqlite3_progress_handler(db->sqlite, bounded ? OPERATIONS : 0, bounded ? spend : NULL, db);
+    sqlite3_progress_handler(db->sqlite, bounded ? OPERATIONS : 0, bounded ? spend_call : NULL, db);
 }
 
 void jox_database_close(JoxDatabase *db) {
@@ -179,8 +184,9 @@ void jox_database_close(JoxDatabase *db) {
 
 /* ---- statements ---- */
 
-/* Where a statement is noted, or, of NULL, the first free place; NULL where there is none. */
-static sqlite3_stmt **find_place(JoxDatabase *db, const sqlite3_stmt *statement) {
+/* Returns the place of a statement in the list, or the first free place for NULL; NULL if there is
+   none. */
+static sqlite3_stmt **find_statement_place(JoxDatabase *db, const sqlite3_stmt *statement) {
     for (int k = 0; k < JOX_DATABASE_STATEMENTS; k++)
         if (db->statements[k] == statement)
             return &db->statements[k];
@@ -189,7 +195,7 @@ static sqlite3_stmt **find_place(JoxDatabase *db, const sqlite3_stmt *statement)
 }
 
 sqlite3_stmt *jox_database_prepare(JoxDatabase *db, const char *sql) {
-    sqlite3_stmt **place = find_place(db, NULL);
+    sqlite3_stmt **place = find_statement_place(db, NULL);
     if (!place)
         return NULL;
     sqlite3_prepare_v2(db->sqlite, sql, -1, place, NULL);
@@ -197,7 +203,7 @@ sqlite3_stmt *jox_database_prepare(JoxDatabase *db, const char *sql) {
 }
 
 void jox_database_finalize(JoxDatabase *db, sqlite3_stmt *statement) {
-    sqlite3_stmt **place = statement ? find_place(db, statement) : NULL;
+    sqlite3_stmt **place = statement ? find_statement_place(db, statement) : NULL;
     if (place)
         *place = NULL;
     sqlite3_finalize(statement);

@@ -16,18 +16,19 @@
 #include "base/sort.h"
 #include "jostle_tools.h"
 
-/* ---- files that are being written under another name ---- */
+/* ---- files that are written under a temporary name ---- */
 
 typedef struct Part {
     struct Part *next;
     FILE *file;
-    char *name; /* what it has until it is whole, and the path that it then takes, after a zero */
-    char text[];
+    char *name;  /* the final path; points into `text` */
+    char text[]; /* the temporary path, a zero, the final path, a zero */
 } Part;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static Part *parts;
 
+/* Takes the entry of a file off the list; NULL if it has none. */
 static Part *take_part(const FILE *file) {
     pthread_mutex_lock(&lock);
     Part **at = &parts;
@@ -40,7 +41,7 @@ static Part *take_part(const FILE *file) {
     return part;
 }
 
-/* Closes it; what was written whole takes its name, what was not is removed. */
+/* Closes a file. One with a temporary name is renamed if all was written (`good`), else removed. */
 static int end_file(FILE *file, bool good) {
     Part *part = take_part(file);
     good = good && fflush(file) == 0 && !ferror(file);
@@ -62,8 +63,8 @@ static void release_file(void *file) {
 
 /* ---- opening ---- */
 
-/* Without waiting for the other end of a pipe. For reading: regular files alone, as what is read
-   from a pipe or a terminal may never come. */
+/* Opens a file without waiting for the other end of a pipe. For reading, opens regular files alone:
+   reads from a pipe or a terminal might wait for ever. Returns a descriptor, or -1 with errno. */
 static int open_now(const char *path, int flags, mode_t mode, struct stat *info) {
     const int file = open(path, flags | O_NONBLOCK | O_CLOEXEC, mode);
     if (file < 0)
@@ -78,8 +79,9 @@ static int open_now(const char *path, int flags, mode_t mode, struct stat *info)
     return file;
 }
 
-/* One writer at a time: the lock goes with the open file. EBUSY where another has it, or took its
-   name meanwhile. `mode`: of one that is made, as far as the process's mask allows. */
+/* Opens a file for one writer, by a lock that ends with the descriptor. Returns -1 with errno,
+   EBUSY if another writer has the file or replaced it meanwhile. `mode`: permissions of a new file,
+   as far as the process's mask allows. */
 static int open_to_write(const char *path, int flags, mode_t mode) {
     struct stat info, named;
     const int file = open_now(path, O_WRONLY | O_CREAT | flags, mode, &info);
@@ -90,7 +92,7 @@ static int open_to_write(const char *path, int flags, mode_t mode) {
     if (own && (flags == O_APPEND || ftruncate(file, 0) == 0))
         return file;
     const int number = own ? errno : EBUSY;
-    if (own && info.st_size == 0) /* it was made just now */
+    if (own && info.st_size == 0) /* it was made by this call */
         unlink(path);
     close(file);
     errno = number;
@@ -103,7 +105,7 @@ bool jox_file_has_name(FILE *file, const char *path) {
            info.st_dev == named.st_dev && info.st_ino == named.st_ino;
 }
 
-static FILE *stream(int number, const char *mode) {
+static FILE *hold_stream(int number, const char *mode) {
     FILE *file = number >= 0 ? fdopen(number, mode) : NULL;
     if (number >= 0 && !file)
         close(number);
@@ -112,9 +114,9 @@ static FILE *stream(int number, const char *mode) {
 
 FILE *jox_file_open(const char *path, const char *mode) {
     struct stat info;
-    return stream(*mode == 'r' ? open_now(path, O_RDONLY, 0, &info)
-                               : open_to_write(path, *mode == 'a' ? O_APPEND : 0, 0666),
-                  mode);
+    return hold_stream(*mode == 'r' ? open_now(path, O_RDONLY, 0, &info)
+                                    : open_to_write(path, *mode == 'a' ? O_APPEND : 0, 0666),
+                       mode);
 }
 
 bool jox_file_can_be_written(const char *path) {
@@ -140,7 +142,7 @@ FILE *jox_file_replace(const char *path) {
     if (there && !S_ISREG(info.st_mode)) /* a device, a pipe, a link */
         return jox_file_open(path, "w");
     Part *part =
-        malloc(sizeof *part + 2 * length + sizeof ENDING + 1); /* no heap's: see end_file */
+        malloc(sizeof *part + 2 * length + sizeof ENDING + 1); /* no heap owns it: end_file frees */
     if (!part)
         jox_out_of_memory(sizeof *part);
     memcpy(part->text, path, length);
@@ -174,7 +176,7 @@ FILE *jox_folder_claim(const char *path) {
         errno = EBUSY;
         return NULL;
     }
-    return stream(number, "r");
+    return hold_stream(number, "r");
 }
 
 int jox_file_close(FILE *file) {
@@ -237,7 +239,7 @@ char **jox_folder_names(const char *path, bool hidden) {
     }
     jox_let_go(folder);
     closedir(folder);
-    /* The pointers, then what they point to. */
+    /* One block: the pointers, then the names. */
     const size_t table = (count + 1) * sizeof(char *);
     char **names = jox_alloc(table + length, 1), *at = (char *)names + table;
     if (length)

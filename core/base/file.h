@@ -1,4 +1,5 @@
-/* Files and folders, held (mem.h) while they are open. */
+/* Files and folders. An open one is held by the heap in use (jox_hold), which closes it if memory
+   runs out. */
 #ifndef JOX_BASE_FILE_H
 #define JOX_BASE_FILE_H
 
@@ -6,32 +7,34 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* As fopen, of modes that read, write or append; but nothing is waited for: a pipe that nobody
-   reads is not opened for writing, and only regular files are opened for reading. A file has one
-   writer at a time: errno is EBUSY for a second one. */
+/* As fopen with mode "r", "w" or "a" (and "b"), but never waits: a pipe without a reader is not
+   opened for writing, and only regular files are opened for reading. A file has one writer at a
+   time, by a lock: errno is EBUSY for a second one. NULL with errno. Close by jox_file_close. */
 FILE *jox_file_open(const char *path, const char *mode);
-/* Whether a file of that path can be written, else errno; it is left as it is, or not there. */
+/* Whether a file can be written at a path; false with errno. Neither changes nor leaves a file. */
 bool jox_file_can_be_written(const char *path);
-/* Opens a file to be written whole: until it is closed it is named PATH.part, and what was at the
-   path stays, and its mode with it as far as the process's mask allows; but its owner may write it.
-   Written in place where that is no regular file. */
+/* Opens a file that replaces the one at `path` when it is closed: until then it is named PATH.part,
+   so that readers never see half a file. It takes over the old file's mode, as far as the process's
+   mask allows and with write permission for its owner. A path that is no regular file is written in
+   place. NULL with errno. */
 FILE *jox_file_replace(const char *path);
-/* Closes a file that is not whole, and removes it. */
+/* Closes and removes a file of jox_file_replace that is not complete. Returns EOF. */
 int jox_file_drop(FILE *file);
-/* As fclose; what could not be written whole is removed, and takes no name. */
+/* As fclose. A file of jox_file_replace takes its final name, or is removed if a write failed. */
 int jox_file_close(FILE *file);
-/* Whether an open file still has that name: not where it was removed, or replaced by another. */
+/* Whether `path` still names an open file: false if it was removed or replaced. */
 bool jox_file_has_name(FILE *file, const char *path);
-/* Claims a folder for one run: NULL with errno EBUSY where another has it. Until it is closed. */
+/* Locks a folder for one run until the result is closed; NULL with errno, EBUSY if another has it.
+ */
 FILE *jox_folder_claim(const char *path);
-/* Writes all bytes to a descriptor, of a pipe for instance; false with errno. */
+/* Writes all bytes to a descriptor, such as a pipe's; false with errno. */
 bool jox_file_send(int descriptor, const void *bytes, size_t length);
-/* What the errno of a file that was not opened, or not read, means. */
+/* Returns the meaning of the errno that the functions above set, as the end of a sentence. */
 const char *jox_file_why(int number);
 
-/* Names of what lies in a folder, but "." and "..", in the order of their bytes, up to NULL; the
-   caller frees the whole by jox_free. `hidden`: with those that begin with a dot. NULL with errno
-   where the folder cannot be read. */
+/* Lists the names in a folder, except "." and "..", sorted by bytes, up to a NULL. The caller frees
+   the whole by one jox_free. `hidden`: includes names that begin with a dot. NULL with errno if the
+   folder cannot be read. */
 char **jox_folder_names(const char *path, bool hidden);
 
 #endif

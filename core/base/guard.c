@@ -18,41 +18,41 @@ void jox_memory_error(JoError *error) {
 /* ---- subnormal numbers ---- */
 
 #if defined(__x86_64__) || defined(__i386__)
-/* Of the control and status register of SSE: results that are subnormal are zero, and so is what is
-   read. The other bits of control stay as they are, and exceptions that were noted too. */
+/* Bits FTZ and DAZ of the SSE control register: subnormal results and operands are zero. All other
+   bits, exception flags among them, are kept. */
 enum { FLUSH = 0x8000 | 0x0040 };
 
-static uint64_t mode_of_thread(void) {
+static uint64_t read_mode(void) {
     return _mm_getcsr() & FLUSH;
 }
 
 static void set_mode(uint64_t mode) {
     const uint64_t now = _mm_getcsr();
-    if ((now & FLUSH) != mode) /* to write it takes longer than to read it */
+    if ((now & FLUSH) != mode) /* writing the register is slower than reading it */
         _mm_setcsr((uint32_t)((now & ~(uint64_t)FLUSH) | mode));
 }
 #elif defined(__aarch64__)
-static const uint64_t FLUSH = 1u << 24; /* of the floating-point control register */
+static const uint64_t FLUSH = 1u << 24; /* bit FZ of the floating-point control register */
 
-static uint64_t register_of_thread(void) {
+static uint64_t read_control_register(void) {
     uint64_t value;
     __asm__ volatile("mrs %0, fpcr" : "=r"(value));
     return value;
 }
 
-static uint64_t mode_of_thread(void) {
-    return register_of_thread() & FLUSH;
+static uint64_t read_mode(void) {
+    return read_control_register() & FLUSH;
 }
 
 static void set_mode(uint64_t mode) {
-    const uint64_t now = register_of_thread();
+    const uint64_t now = read_control_register();
     if ((now & FLUSH) != mode)
         __asm__ volatile("msr fpcr, %0" : : "r"((now & ~FLUSH) | mode));
 }
 #else
 enum { FLUSH = 0 };
 
-static uint64_t mode_of_thread(void) {
+static uint64_t read_mode(void) {
     return 0;
 }
 
@@ -61,7 +61,7 @@ static void set_mode(uint64_t mode) {
 }
 #endif
 
-/* Made once, and never freed. */
+/* Returns the C locale, made at the first call and never freed; 0 if memory is out. */
 static locale_t plain_locale(void) {
     static locale_t plain;
     locale_t seen = __atomic_load_n(&plain, __ATOMIC_ACQUIRE);
@@ -81,7 +81,7 @@ JoxNumeric jox_numeric_plain(void) {
 }
 
 JoxNumeric jox_numeric_use(JoxNumeric numeric) {
-    const JoxNumeric before = {uselocale(numeric.locale), mode_of_thread()};
+    const JoxNumeric before = {uselocale(numeric.locale), read_mode()};
     set_mode(numeric.mode);
     return before;
 }
@@ -114,7 +114,7 @@ void jox_guard_fail(JoxGuard *guard) {
     jox_numeric_use(guard->numeric_before);
     innermost = guard->outer;
     jox_recovery_pop(&guard->recovery);
-    if (guard->heap == guard->heap_before) /* a call within a call on the same thing: both fail */
+    if (guard->heap == guard->heap_before) /* a call within a call with the same heap: both fail */
         jox_out_of_memory(0);
 }
 

@@ -5,12 +5,12 @@
  *         return signal_everybody(scene, name, error);
  *     }
  *
- * Within it numbers are read, written and computed as the engine does (JoxNumeric, below).
+ * Within the guard, the thread has the engine's numeric settings (JoxNumeric, below).
  *
- * The statement behind JOX_GUARD is what the call does where memory is out, now or in an earlier
- * call with the same heap. The guard ends with the block in which it stands. It may stand once in a
- * function, which should do little but call: a local variable that changes below the guard has no
- * certain value in that statement. */
+ * The statement behind JOX_GUARD runs if memory is out, in this call or in an earlier call with the
+ * same heap. The guard ends with its block. A function may have one guard and should do little else
+ * than call another function: by the rules of setjmp, a local variable that changes below the guard
+ * has an undefined value in that statement. */
 #ifndef JOX_BASE_GUARD_H
 #define JOX_BASE_GUARD_H
 
@@ -23,42 +23,41 @@
 
 /* ---- numbers ---- */
 
-/* How a thread reads, writes and computes numbers.
+/* Numeric settings of a thread.
 
-   In all that the engine does, text is read and written as in C, whatever the program's locale:
-   where that has decimal commas, `1.5` would be read as 1. And numbers nearer to zero than the
-   least normal one (floats: 1.2e-38, doubles: 2.2e-308) count as zero. What decays, as the part of
-   a velocity across the way does, becomes so small and stays it; processors take a hundred cycles
-   and more for each operation on such numbers.
+   The engine reads and writes text in the C locale, whatever the program's: with decimal commas,
+   `1.5` would be read as 1. It flushes subnormal numbers (below 1.2e-38 in floats, 2.2e-308 in
+   doubles) to zero: quantities that decay, such as the velocity across an agent's direction, would
+   stay subnormal, and processors take a hundred cycles and more for an operation on those.
 
-   Both belong to the thread. What the program had is set again before it goes on, and while it is
-   called back. */
+   Both settings belong to the thread. The program's are restored at the end of a public call, and
+   while a callback of the program runs. */
 typedef struct JoxNumeric {
     locale_t locale;
-    uint64_t mode; /* the processor's, as jox_numeric_use reads it */
+    uint64_t mode; /* bits of the floating-point control register that flush subnormal numbers */
 } JoxNumeric;
 
-/* What the engine uses. Where memory is out, its locale is 0, which leaves a thread's as it is. */
+/* The engine's settings. If memory is out, the locale is 0, which uselocale ignores. */
 JoxNumeric jox_numeric_plain(void);
-/* The calling thread uses it from here on; returns what it used before, which is to be put back. */
+/* Sets the calling thread's settings; returns the ones before, for the caller to restore. */
 JoxNumeric jox_numeric_use(JoxNumeric numeric);
 
 /* ---- guards ---- */
 
 typedef struct JoxGuard {
     JoxRecovery recovery;
-    JoxHeap own; /* of the call, where it was given no heap */
-    JoxHeap *heap, *heap_before;
-    const JoxOverlay *overlay_before;
+    JoxHeap own;                      /* heap of a call that was given none */
+    JoxHeap *heap, *heap_before;      /* in use within the guard; before it */
+    const JoxOverlay *overlay_before; /* settings to restore at the end */
     JoxNumeric numeric_before;
-    struct JoxGuard *outer;
-    JoError *error;
+    struct JoxGuard *outer; /* the thread's next guard outwards, or NULL */
+    JoError *error;         /* filled if memory runs out; or NULL */
     bool failed;
 } JoxGuard;
 
-/* `heap`: that of the object which the call changes, and which fails with it. NULL: of the call
-   alone, for calls that leave nothing behind; what they return is disowned (mem.h). `error` may be
-   NULL. */
+/* Opens a guard. `heap`: that of the object that the call changes, and that fails with it. NULL: a
+   heap of the call alone, for calls that leave nothing behind; memory that they return must be
+   disowned (jox_disown). `error` may be NULL. */
 #define JOX_GUARD(heap_, error_)                                                                   \
     __attribute__((cleanup(jox_guard_close))) JoxGuard jox_guard;                                  \
     jox_guard_open(&jox_guard, (heap_), (error_));                                                 \
@@ -70,9 +69,9 @@ void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error);
 void jox_guard_fail(JoxGuard *guard);
 void jox_guard_close(JoxGuard *guard);
 
-/* Around a call back into the program, which runs as outside the innermost public call: with the
-   heap and the numeric settings that were in use where that was made. A callback that stands in a
-   public call itself may leave that one too. */
+/* Enclose a callback of the program: jox_guard_leave restores the heap and the numeric settings
+   that were in use outside the innermost public call, jox_guard_return puts those of the call back.
+   They may be nested: a callback may make a public call that calls back. */
 typedef struct JoxOutside {
     JoxGuard *guard;
     JoxHeap *heap;

@@ -6,7 +6,7 @@ JoxHash jox_hash_begin(void) {
     return (JoxHash){0x2545f4914f6cdd1du};
 }
 
-static uint64_t stir(uint64_t state, uint64_t word) {
+static uint64_t mix_word(uint64_t state, uint64_t word) {
     state ^= word * 0x9e3779b97f4a7c15u;
     state = (state << 27 | state >> 37) * 0xd6e8feb86659fd93u;
     return state ^ state >> 32;
@@ -17,18 +17,18 @@ void jox_hash_add(JoxHash *hash, const void *data, size_t size) {
     for (; size >= 8; size -= 8, at += 8) {
         uint64_t word;
         memcpy(&word, at, 8);
-        hash->state = stir(hash->state, word);
+        hash->state = mix_word(hash->state, word);
     }
     uint64_t word = (uint64_t)size << 56;
     if (size) {
         memcpy(&word, at, size);
         word ^= (uint64_t)size << 56;
-        hash->state = stir(hash->state, word);
+        hash->state = mix_word(hash->state, word);
     }
 }
 
 uint64_t jox_hash_end(const JoxHash *hash) {
-    return stir(stir(hash->state, 0x5851f42d4c957f2du), hash->state);
+    return mix_word(mix_word(hash->state, 0x5851f42d4c957f2du), hash->state);
 }
 
 /* The first 32 bits of the fractional parts of the cube roots of the first 64 primes. */
@@ -42,26 +42,26 @@ static const uint32_t K[64] = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-static uint32_t rotate(uint32_t x, int n) {
+static uint32_t rotate_right(uint32_t x, int n) {
     return x >> n | x << (32 - n);
 }
 
-static void sha256_block(uint32_t h[8], const unsigned char *p) {
+static void add_sha256_block(uint32_t h[8], const unsigned char *p) {
     uint32_t w[64], v[8];
     for (int i = 0; i < 16; i++)
         w[i] = (uint32_t)p[4 * i] << 24 | (uint32_t)p[4 * i + 1] << 16 |
                (uint32_t)p[4 * i + 2] << 8 | p[4 * i + 3];
     for (int i = 16; i < 64; i++) {
         uint32_t a = w[i - 15], b = w[i - 2];
-        w[i] = w[i - 16] + (rotate(a, 7) ^ rotate(a, 18) ^ a >> 3) + w[i - 7] +
-               (rotate(b, 17) ^ rotate(b, 19) ^ b >> 10);
+        w[i] = w[i - 16] + (rotate_right(a, 7) ^ rotate_right(a, 18) ^ a >> 3) + w[i - 7] +
+               (rotate_right(b, 17) ^ rotate_right(b, 19) ^ b >> 10);
     }
     memcpy(v, h, sizeof v);
     for (int i = 0; i < 64; i++) {
         uint32_t e = v[4], a = v[0];
-        uint32_t t1 = v[7] + (rotate(e, 6) ^ rotate(e, 11) ^ rotate(e, 25)) +
+        uint32_t t1 = v[7] + (rotate_right(e, 6) ^ rotate_right(e, 11) ^ rotate_right(e, 25)) +
                       ((e & v[5]) ^ (~e & v[6])) + K[i] + w[i];
-        uint32_t t2 = (rotate(a, 2) ^ rotate(a, 13) ^ rotate(a, 22)) +
+        uint32_t t2 = (rotate_right(a, 2) ^ rotate_right(a, 13) ^ rotate_right(a, 22)) +
                       ((a & v[1]) ^ (a & v[2]) ^ (v[1] & v[2]));
         memmove(v + 1, v, 7 * sizeof *v);
         v[4] += t1;
@@ -77,7 +77,7 @@ void jox_sha256_hex(const void *data, size_t size, char out[65]) {
     const unsigned char *at = data;
     size_t left = size;
     for (; left >= 64; left -= 64, at += 64)
-        sha256_block(h, at);
+        add_sha256_block(h, at);
     unsigned char tail[128] = {0};
     if (left)
         memcpy(tail, at, left);
@@ -86,7 +86,7 @@ void jox_sha256_hex(const void *data, size_t size, char out[65]) {
     for (int i = 0; i < 8; i++)
         tail[blocks * 64 - 1 - (size_t)i] = (unsigned char)((uint64_t)size * 8 >> (8 * i));
     for (size_t i = 0; i < blocks; i++)
-        sha256_block(h, tail + 64 * i);
+        add_sha256_block(h, tail + 64 * i);
     for (int i = 0; i < 32; i++) {
         unsigned byte = h[i / 4] >> (24 - 8 * (i % 4)) & 255;
         out[2 * i] = "0123456789abcdef"[byte >> 4];

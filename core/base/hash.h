@@ -1,4 +1,4 @@
-/* A 64-bit hash of state (fast, not cryptographic) and SHA-256 of input files. */
+/* A 64-bit hash of simulation state (fast, not cryptographic), and SHA-256 of input files. */
 #ifndef JOX_BASE_HASH_H
 #define JOX_BASE_HASH_H
 

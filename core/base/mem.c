@@ -12,9 +12,9 @@
 enum { ALIGNMENT = 64 };
 
 static atomic_uint_fast64_t allocations;
-static atomic_bool limited;           /* for tests: memory is out, */
-static atomic_int_fast64_t remaining; /* after so many more allocations */
-static _Thread_local JoxHeap *in_use;
+static atomic_bool limited;           /* for tests: `remaining` counts, */
+static atomic_int_fast64_t remaining; /* allocations until memory is out */
+static _Thread_local JoxHeap *in_use; /* the thread's heap */
 
 _Static_assert(sizeof(JoxBlock) % 16 == 0, "memory behind a block is aligned as malloc aligns it");
 
@@ -23,10 +23,10 @@ static bool may_allocate(void) {
            atomic_fetch_sub_explicit(&remaining, 1, memory_order_relaxed) > 0;
 }
 
-/* ---- where memory comes from ---- */
+/* ---- the allocator: the program's or the C library's ---- */
 
-static JoAllocator host; /* its functions are NULL: the C library's */
-static atomic_bool begun;
+static JoAllocator host;  /* its functions are NULL: the C library's are used */
+static atomic_bool begun; /* something was allocated: `host` cannot change any more */
 
 bool jox_set_allocator(const JoAllocator *allocator) {
     if (atomic_load(&begun))
@@ -35,29 +35,29 @@ bool jox_set_allocator(const JoAllocator *allocator) {
     return true;
 }
 
-static void *get(size_t bytes) {
+static void *allocate_bytes(size_t bytes) {
     if (!atomic_load_explicit(&begun, memory_order_relaxed))
         atomic_store(&begun, true);
     return host.allocate ? host.allocate(host.context, bytes) : malloc(bytes);
 }
 
-/* Pages that calloc has from the system are zero without being touched. */
-static void *get_zeroed(size_t bytes) {
+/* By calloc where possible: fresh pages of the system are zero without being written. */
+static void *allocate_zeroed_bytes(size_t bytes) {
     if (!host.allocate) {
         atomic_store_explicit(&begun, true, memory_order_relaxed);
         return calloc(1, bytes);
     }
-    void *memory = get(bytes);
+    void *memory = allocate_bytes(bytes);
     return memory ? memset(memory, 0, bytes) : NULL;
 }
 
-static void *resize(void *memory, size_t bytes) {
+static void *reallocate_bytes(void *memory, size_t bytes) {
     if (!memory)
-        return get(bytes);
+        return allocate_bytes(bytes);
     return host.allocate ? host.reallocate(host.context, memory, bytes) : realloc(memory, bytes);
 }
 
-static void give_back(void *memory) {
+static void release_bytes(void *memory) {
     if (!host.allocate)
         free(memory);
     else if (memory)
@@ -134,12 +134,13 @@ static void unlink_block(JoxBlock *block) {
     block->heap = NULL;
 }
 
-static JoxBlock *block_of(void *memory) {
+static JoxBlock *find_block_header(void *memory) {
     return (JoxBlock *)memory - 1;
 }
 
-/* Bytes of `count` objects and of what stands before them; does not return where that overflows. */
-static size_t total(size_t count, size_t size, size_t before) {
+/* Returns the size of `count` objects behind `before` bytes; an overflow counts as out of memory.
+ */
+static size_t compute_block_size(size_t count, size_t size, size_t before) {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes) ||
         __builtin_add_overflow(bytes, before + 64, &bytes) || bytes > PTRDIFF_MAX)
@@ -147,38 +148,41 @@ static size_t total(size_t count, size_t size, size_t before) {
     return bytes - 64;
 }
 
-/* Puts the block behind `start`, which malloc gave, and returns the memory behind the block. */
+/* Writes the header of an allocation that begins at `start` (NULL: memory is out), so that the
+   memory lies `offset` bytes behind it; returns the memory. */
 static void *begin_block(char *start, size_t offset, size_t bytes) {
     if (!start)
         jox_out_of_memory(bytes);
-    JoxBlock *block = block_of(start + offset);
+    JoxBlock *block = find_block_header(start + offset);
     block->offset = offset;
     link_block(in_use, block);
     return block + 1;
 }
 
 void *jox_alloc(size_t count, size_t size) {
-    size_t bytes = total(count, size, sizeof(JoxBlock));
-    return begin_block(count_allocation() ? get_zeroed(bytes) : NULL, sizeof(JoxBlock), bytes);
+    size_t bytes = compute_block_size(count, size, sizeof(JoxBlock));
+    return begin_block(count_allocation() ? allocate_zeroed_bytes(bytes) : NULL, sizeof(JoxBlock),
+                       bytes);
 }
 
 void *jox_alloc_aligned(size_t count, size_t size) {
-    const size_t bytes = total(count, size, ALIGNMENT + sizeof(JoxBlock));
-    char *start = count_allocation() ? get_zeroed(bytes) : NULL;
+    const size_t bytes = compute_block_size(count, size, ALIGNMENT + sizeof(JoxBlock));
+    char *start = count_allocation() ? allocate_zeroed_bytes(bytes) : NULL;
     const size_t past = ((uintptr_t)start + sizeof(JoxBlock)) % ALIGNMENT;
     return begin_block(start, sizeof(JoxBlock) + (ALIGNMENT - past) % ALIGNMENT, bytes);
 }
 
 void *jox_realloc(void *memory, size_t count, size_t size) {
-    size_t bytes = total(count, size, sizeof(JoxBlock));
+    size_t bytes = compute_block_size(count, size, sizeof(JoxBlock));
     if (!memory)
-        return begin_block(count_allocation() ? get(bytes) : NULL, sizeof(JoxBlock), bytes);
-    JoxBlock *block = block_of(memory);
+        return begin_block(count_allocation() ? allocate_bytes(bytes) : NULL, sizeof(JoxBlock),
+                           bytes);
+    JoxBlock *block = find_block_header(memory);
     JoxHeap *heap = block->heap;
     JOX_ASSERT(block->offset == sizeof(JoxBlock));
     unlink_block(block);
-    JoxBlock *moved = count_allocation() ? resize(block, bytes) : NULL;
-    link_block(heap, moved ? moved : block); /* where memory is out, the old one stays */
+    JoxBlock *moved = count_allocation() ? reallocate_bytes(block, bytes) : NULL;
+    link_block(heap, moved ? moved : block); /* if memory is out, the old block stays */
     if (!moved)
         jox_out_of_memory(bytes);
     return moved + 1;
@@ -187,57 +191,58 @@ void *jox_realloc(void *memory, size_t count, size_t size) {
 void jox_free(void *memory) {
     if (!memory)
         return;
-    JoxBlock *block = block_of(memory);
+    JoxBlock *block = find_block_header(memory);
     unlink_block(block);
-    give_back((char *)memory - block->offset);
+    release_bytes((char *)memory - block->offset);
 }
 
-static inline uint64_t word_at(const uint8_t *memory) {
+static inline uint64_t load_word(const uint8_t *memory) {
     uint64_t word;
     memcpy(&word, memory, sizeof word);
     return word;
 }
 
-/* Whether a few bytes are all the same as one: by words, of which the last may reach into the one
-   before it. */
-static inline bool are_few(const uint8_t *first, uint8_t byte, size_t bytes) {
+/* jox_mem_is for short runs: compares words of 8 bytes; the last one may overlap the one before it.
+ */
+static inline bool is_short_run_of(const uint8_t *first, uint8_t byte, size_t bytes) {
     const uint64_t like = byte * 0x0101010101010101u;
     uint64_t other = 0;
     if (bytes >= sizeof like)
-        other = word_at(first + bytes - sizeof like) ^ like;
+        other = load_word(first + bytes - sizeof like) ^ like;
     for (size_t k = 0; k + sizeof like < bytes; k += sizeof like)
-        other |= word_at(first + k) ^ like;
+        other |= load_word(first + k) ^ like;
     for (size_t k = 0; bytes < sizeof like && k < bytes; k++)
         other |= first[k] ^ byte;
     return other == 0;
 }
 
-enum { FEW = 64 }; /* bytes, for which a call of memcmp takes longer */
+enum { FEW = 64 }; /* bytes up to which the words are faster than a call of memcmp */
 
-static bool are_many(const uint8_t *first, uint8_t byte, size_t bytes) {
+static bool is_long_run_of(const uint8_t *first, uint8_t byte, size_t bytes) {
     return *first == byte && memcmp(first, first + 1, bytes - 1) == 0;
 }
 
 bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes) {
-    return bytes <= FEW ? are_few(memory, byte, bytes) : are_many(memory, byte, bytes);
+    return bytes <= FEW ? is_short_run_of(memory, byte, bytes)
+                        : is_long_run_of(memory, byte, bytes);
 }
 
-/* Apart, so that a call for a few bytes keeps no registers for this one. */
-static __attribute__((noinline)) void fill_many(void *memory, uint8_t byte, size_t bytes) {
-    if (!are_many(memory, byte, bytes))
+/* Not inlined, so that calls for a few bytes need not save registers. */
+static __attribute__((noinline)) void fill_long_run(void *memory, uint8_t byte, size_t bytes) {
+    if (!is_long_run_of(memory, byte, bytes))
         memset(memory, byte, bytes);
 }
 
 void jox_mem_fill(void *memory, uint8_t byte, size_t bytes) {
     if (bytes > FEW)
-        fill_many(memory, byte, bytes);
-    else if (!are_few(memory, byte, bytes))
+        fill_long_run(memory, byte, bytes);
+    else if (!is_short_run_of(memory, byte, bytes))
         memset(memory, byte, bytes);
 }
 
 void *jox_disown(void *memory) {
     if (memory)
-        unlink_block(block_of(memory));
+        unlink_block(find_block_header(memory));
     return memory;
 }
 
@@ -252,18 +257,18 @@ char *jox_strdup(const char *text) {
 }
 
 void *jox_try_realloc(void *memory, size_t bytes) {
-    return may_allocate() ? resize(memory, bytes) : NULL;
+    return may_allocate() ? reallocate_bytes(memory, bytes) : NULL;
 }
 
 void jox_give_back(void *memory) {
-    give_back(memory);
+    release_bytes(memory);
 }
 
 void *jox_try_malloc(size_t bytes) {
     return may_allocate() ? malloc(bytes) : NULL;
 }
 
-/* ---- what heaps hold ---- */
+/* ---- resources that heaps hold ---- */
 
 typedef struct Held {
     struct Held *older;
@@ -272,7 +277,7 @@ typedef struct Held {
     JoxRelease *release;
 } Held;
 
-/* Of all heaps: few things are held at once. */
+/* One list for all heaps: few resources are held at a time. */
 static Held *newest;
 static pthread_mutex_t held_lock = PTHREAD_MUTEX_INITIALIZER;
 
@@ -280,7 +285,7 @@ void *jox_hold(void *thing, JoxRelease *release) {
     JOX_ASSERT(thing && release);
     if (!in_use)
         return thing;
-    Held *held = may_allocate() ? get(sizeof *held) : NULL;
+    Held *held = may_allocate() ? allocate_bytes(sizeof *held) : NULL;
     if (!held) {
         release(thing);
         jox_out_of_memory(sizeof *held);
@@ -292,7 +297,7 @@ void *jox_hold(void *thing, JoxRelease *release) {
     return thing;
 }
 
-/* Takes the newest off the list that is this thing (NULL: any) and, unless NULL, of this heap. */
+/* Removes and returns the newest entry with this resource (NULL: any) and this heap (NULL: any). */
 static Held *take_held(const void *thing, const JoxHeap *heap) {
     pthread_mutex_lock(&held_lock);
     Held **at = &newest;
@@ -307,7 +312,7 @@ static Held *take_held(const void *thing, const JoxHeap *heap) {
 
 void jox_let_go(void *thing) {
     if (thing)
-        give_back(take_held(thing, NULL));
+        release_bytes(take_held(thing, NULL));
 }
 
 /* ---- heaps ---- */
@@ -319,7 +324,7 @@ void jox_heap_begin(JoxHeap *heap) {
 }
 
 JoxHeap *jox_heap_create(void) {
-    JoxHeap *heap = may_allocate() ? get(sizeof *heap) : NULL;
+    JoxHeap *heap = may_allocate() ? allocate_bytes(sizeof *heap) : NULL;
     if (heap)
         jox_heap_begin(heap);
     return heap;
@@ -330,7 +335,7 @@ void jox_heap_end(JoxHeap *heap) {
     for (Held *held; (held = take_held(NULL, heap));) {
         if (jox_heap_has_failed(heap))
             held->release(held->thing);
-        give_back(held);
+        release_bytes(held);
     }
     while (heap->blocks.next != &heap->blocks) {
         void *memory = heap->blocks.next + 1;
@@ -346,7 +351,7 @@ void jox_heap_free(JoxHeap *heap) {
     if (!heap)
         return;
     jox_heap_end(heap);
-    give_back(heap);
+    release_bytes(heap);
 }
 
 JoxHeap *jox_heap_use(JoxHeap *heap) {

@@ -1,10 +1,10 @@
-/* Memory: the one allocator of the engine, and heaps, which own what is allocated.
+/* Memory: the engine's one allocator, and heaps, which own allocations.
  *
- * Where memory is out, an allocation does not return: the thread goes back to its innermost
- * recovery point, which is where a public call began (guard.h). Whatever was allocated
- * in a call belongs to the heap that the thread uses: that of the world or of the scene that was
- * called, or one of the call alone. A heap in which memory ran out is failed: what it owns may be
- * half done, so that its destructors are not run, but the heap releases it as a whole.
+ * An allocation never returns NULL: if memory is out, the thread jumps (longjmp) to its innermost
+ * recovery point, which a public call sets at its beginning (guard.h). All memory that a call
+ * allocates belongs to the heap that its thread uses: that of the world or the scene, or one of the
+ * call alone. When memory runs out, the heap in use is marked as failed: its objects may be half
+ * made, so that no destructors are run, but the heap releases all its memory at once.
  */
 #ifndef JOX_BASE_MEM_H
 #define JOX_BASE_MEM_H
@@ -16,31 +16,34 @@
 #include <stdint.h>
 #include <string.h>
 
-/* `count` objects of `size` bytes, zeroed. Never NULL. */
+/* Allocates `count` objects of `size` bytes, zeroed. */
 void *jox_alloc(size_t count, size_t size);
-/* Grows or shrinks; new bytes are not zeroed. Never NULL. Memory keeps its heap. */
+/* Grows or shrinks memory; new bytes are not zeroed. It stays in its heap. NULL allocates. */
 void *jox_realloc(void *memory, size_t count, size_t size);
-/* As jox_alloc, aligned to 64 bytes; freed by jox_free like the rest, but never reallocated. */
+/* As jox_alloc, aligned to 64 bytes. Freed by jox_free; cannot be reallocated. */
 void *jox_alloc_aligned(size_t count, size_t size);
-/* From any thread. */
+/* Frees memory of any heap, from any thread; NULL is fine. */
 void jox_free(void *memory);
+/* Copy a text. jox_strdup of NULL is NULL. */
 char *jox_strdup(const char *text);
 char *jox_strndup(const char *text, size_t length);
 
-/* For Lua: as realloc, NULL where memory is out. Such memory belongs to no heap, and goes back by
+/* For Lua: as realloc, NULL if memory is out. Such memory belongs to no heap and is freed by
    jox_give_back. */
 void *jox_try_realloc(void *memory, size_t bytes);
 void jox_give_back(void *memory);
-/* For allocators of other libraries, which have the C library's memory: as malloc. */
+/* As malloc, counted for jox_alloc_fail_after; for libraries that free their memory by free(). */
 void *jox_try_malloc(size_t bytes);
 
-/* Where all of this comes from; NULL: the C library. False once anything was allocated. */
+/* Sets the program's allocator, which all of these use; NULL: the C library's. False, and nothing
+   changes, once anything was allocated. */
 struct JoAllocator;
 bool jox_set_allocator(const struct JoAllocator *allocator);
 
-/* Number of allocations since the process began: a steady step must not move it. */
+/* Number of allocations since the process began. Tests check that steps do not change it. */
 uint64_t jox_alloc_count(void);
-/* For tests: after `count` more allocations memory is out, until this is called with UINT64_MAX. */
+/* For tests: memory is out after `count` more allocations, until the next call; UINT64_MAX: never.
+ */
 void jox_alloc_fail_after(uint64_t count);
 
 /* ---- recovery points ----
@@ -48,7 +51,7 @@ void jox_alloc_fail_after(uint64_t count);
  *     JoxRecovery recovery;
  *     jox_recovery_push(&recovery);
  *     if (setjmp(recovery.jump) != 0) {
- *         ... memory is out: the point is gone already ...
+ *         ... memory is out: the point has been popped ...
  *     } else {
  *         ... work ...
  *         jox_recovery_pop(&recovery);
@@ -61,66 +64,71 @@ typedef struct JoxRecovery {
     struct JoxRecovery *outer;
 } JoxRecovery;
 
-/* Of the calling thread. `recovery` stays in the caller's frame until it is popped or reached. */
+/* Makes `recovery` the innermost point of the calling thread. It must stay in the caller's frame
+   until it is popped or jumped to. */
 void jox_recovery_push(JoxRecovery *recovery);
-/* Takes the innermost point away; does nothing where it was reached and is gone. */
+/* Removes `recovery` if it is the innermost point; does nothing if it was jumped to. */
 void jox_recovery_pop(JoxRecovery *recovery);
 /* Whether the calling thread has a recovery point. */
 bool jox_recovery_exists(void);
 
-/* Goes to the innermost recovery point of the thread. Without one the program ends with a message:
-   only our own programs and tests call the engine that way. `bytes` were wanted; 0 is unknown. */
+/* Jumps to the innermost recovery point of the thread. Without one the program ends with a message:
+   only Jostle's own programs and tests call the engine so. `bytes`: size that was wanted; 0:
+   unknown.
+ */
 __attribute__((noreturn)) void jox_out_of_memory(size_t bytes);
 
 /* ---- heaps ---- */
 
-/* Links of what a heap owns; stands before each allocation. */
+/* Header before each allocation: links the allocations of a heap into a ring. */
 typedef struct JoxBlock {
     struct JoxBlock *next, *previous;
-    struct JoxHeap *heap; /* NULL: of no heap, and without links */
-    size_t offset;        /* from what malloc gave to the memory, bytes */
+    struct JoxHeap *heap; /* NULL: no heap owns it, and the links are unused */
+    size_t offset;        /* bytes from the address that malloc returned to the memory */
 } JoxBlock;
 
 typedef struct JoxHeap {
-    JoxBlock blocks; /* of a ring */
+    JoxBlock blocks; /* head of the ring */
     pthread_mutex_t lock;
     bool failed; /* read and written atomically */
 } JoxHeap;
 
-/* NULL where memory is out. */
+/* Makes a heap; NULL if memory is out. */
 JoxHeap *jox_heap_create(void);
-/* A failed heap releases what it holds, the newest first, and all of its memory. Of any other
-   everything should be gone; what is left remains, without a heap. */
+/* Frees a heap. A failed one releases the resources that it holds, newest first, and all its
+   memory. Any other should be empty; what is left in it stays allocated, without a heap. */
 void jox_heap_free(JoxHeap *heap);
-/* The same for a heap that is part of something else, as jox_heap_begin made it. */
+/* The same for a heap that is a member of another struct. */
 void jox_heap_begin(JoxHeap *heap);
 void jox_heap_end(JoxHeap *heap);
 
-/* The calling thread allocates from it from here on (NULL: from none); returns the one before. */
+/* Sets the heap that the calling thread allocates from (NULL: none owns the memory); returns the
+   one before. */
 JoxHeap *jox_heap_use(JoxHeap *heap);
 JoxHeap *jox_heap_used(void);
-/* NULL is a heap that never fails. */
+/* Mark a heap as failed; ask whether it is. NULL never fails. */
 void jox_heap_fail(JoxHeap *heap);
 bool jox_heap_has_failed(const JoxHeap *heap);
 
-/* Whether all bytes are this one. */
+/* Whether all bytes have the value `byte`. */
 bool jox_mem_is(const void *memory, uint8_t byte, size_t bytes);
-/* Sets all bytes to this one, and writes nothing where they are: zeros that were never written are
-   then read alone, and take no page of their own. */
+/* As memset, but writes only if a byte differs: pages of zeros that were never written take no
+   memory, and reading keeps it so. */
 void jox_mem_fill(void *memory, uint8_t byte, size_t bytes);
 
-/* Takes memory out of its heap, for a caller who frees it; NULL is fine. Returns it. */
+/* Takes memory out of its heap and returns it; the caller frees it. NULL is fine. */
 void *jox_disown(void *memory);
 
-/* What is not memory: an open file, a connection, a thread. The heap in use calls `release` if it
-   fails before jox_let_go. Where memory is out, `release` is called at once. Returns `thing`, which
-   must not be NULL. */
+/* Registers a resource other than memory (an open file, a connection, a thread) with the heap in
+   use, which calls `release` if it fails before jox_let_go. If the registration itself is out of
+   memory, `release` is called at once. Returns `thing`, which must not be NULL. */
 typedef void JoxRelease(void *thing);
 void *jox_hold(void *thing, JoxRelease *release);
-/* The caller releases it now. From any thread; what nobody holds is fine. */
+/* Unregisters a resource, which the caller then releases. From any thread; one that is not
+   registered is fine. */
 void jox_let_go(void *thing);
 
-/* Ensures room for `need` items in a heap array; doubles. */
+/* Ensures that an array has room for `need` items; doubles its capacity. */
 #define JOX_RESERVE(array, capacity, need)                                                         \
     do {                                                                                           \
         if ((size_t)(need) > (size_t)(capacity)) {                                                 \
@@ -132,7 +140,7 @@ void jox_let_go(void *thing);
         }                                                                                          \
     } while (0)
 
-/* The same, with zeros in what is new. */
+/* The same; new items are zero. */
 #define JOX_RESERVE_ZEROED(array, capacity, need)                                                  \
     do {                                                                                           \
         size_t jox_had = (capacity);                                                               \

@@ -1,5 +1,6 @@
-/* Files that are read from memory: while a thread uses an overlay, whatever it reads or looks for
-   at one of its paths is what the overlay holds, and not what lies on the disk. */
+/* Files that are read from memory: while a thread uses an overlay, reads of a path that it holds
+   get the overlay's text in place of the file on the disk. Scenes are loaded through overlays from
+   checkpoints and from texts that a confined process has read. */
 #ifndef JOX_BASE_OVERLAY_H
 #define JOX_BASE_OVERLAY_H
 
@@ -15,31 +16,31 @@ typedef struct JoxOverlayFile {
 typedef struct JoxOverlay {
     JoxOverlayFile *files;
     size_t count, capacity;
-    struct JoxOverlay
-        *tape; /* where what is read through it, but is not its own, is kept, or NULL */
-    const struct JoxOverlay
-        *under;  /* where what it has not is looked for before the disk, or NULL */
-    bool sealed; /* what neither has is not read from the disk */
+    struct JoxOverlay *tape;        /* keeps copies of files read elsewhere; or NULL */
+    const struct JoxOverlay *under; /* searched next, before the disk; or NULL */
+    bool sealed;                    /* the disk is not read at all */
+    /* Called with each file that was read from the disk; or NULL. */
     void (*told)(void *context, const char *path, const char *text, size_t length);
-    void *context; /* of `told`, which is told of each file that was read from the disk, or NULL */
+    void *context; /* passed to `told` */
 } JoxOverlay;
 
-/* Holds a copy of the text at a path, in place of what was there. */
+/* Stores a copy of a text at a path, in place of the one before. */
 void jox_overlay_put(JoxOverlay *overlay, const char *path, const char *text, size_t length);
+/* Returns the file that this overlay itself holds at a path, or NULL. */
 const JoxOverlayFile *jox_overlay_find(const JoxOverlay *overlay, const char *path);
 void jox_overlay_free(JoxOverlay *overlay);
 
-/* The calling thread reads through it from here on (NULL: from the disk); returns the one before,
-   which is to be put back. */
+/* Sets the overlay that the calling thread reads through (NULL: the disk alone); returns the one
+   before, for the caller to restore. */
 const JoxOverlay *jox_overlay_use(const JoxOverlay *overlay);
-/* What was read: kept by the tape of the overlay in use, if it has one and has not the file itself.
- */
+/* Called by readers after each file: copies it to the tape of the overlay in use, unless the
+   overlay holds it itself, and calls `told` if it was read from the disk. */
 void jox_overlay_keep(const char *path, const char *text, size_t length, bool from_disk);
-/* The file of the overlay in use, or of those under it, at a path, or NULL. */
+/* Returns the file at a path in the overlay in use or in those under it, or NULL. */
 const JoxOverlayFile *jox_overlay_file(const char *path);
-/* Whether what is not in the overlay in use may be read from the disk. */
+/* Whether files that the overlay in use lacks may be read from the disk. */
 bool jox_overlay_opens(void);
-/* Whether there is a regular file: in the overlay in use, or on the disk. */
+/* Whether a path is a regular file, in the overlay in use or on the disk. */
 bool jox_is_file(const char *path);
 
 #endif

@@ -7,14 +7,14 @@
 
 static const char MAGIC[8] = {'j', 'o', 's', 't', 'a', 't', 'e', '1'};
 
-/* What stands before the cells of each section in a buffer. */
+/* Header of a section in a buffer; its cells follow. */
 typedef struct SectionHead {
     uint64_t name; /* hash of "module.name" */
-    uint64_t size; /* of a cell; of a row: of all its cells */
+    uint64_t size; /* size of a cell, or of a row, bytes */
     uint64_t count;
 } SectionHead;
 
-enum { CHUNK = 4096 }; /* bytes that are gathered before they are hashed */
+enum { CHUNK = 4096 }; /* bytes of cells that are gathered and then hashed at once */
 
 /* ---- begin and end ---- */
 
@@ -28,7 +28,7 @@ JoxSections jox_sections_save(JoxText *out) {
     return s;
 }
 
-static uint64_t checksum(const void *data, size_t size) {
+static uint64_t compute_state_checksum(const void *data, size_t size) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, data, size);
     return jox_hash_end(&hash);
@@ -52,7 +52,7 @@ static JoxSections begin_reading(JoxSectionsMode mode, const void *data, size_t 
     }
     s.end = s.begin + size - sizeof sum;
     memcpy(&sum, s.end, sizeof sum);
-    if (sum != checksum(data, size - sizeof sum))
+    if (sum != compute_state_checksum(data, size - sizeof sum))
         jox_sections_fail(&s, "", "the state is damaged: its checksum is another");
     s.at += sizeof MAGIC;
     return s;
@@ -73,7 +73,7 @@ JoxSections jox_sections_visit(JoxCellVisit *visit, void *context) {
 
 bool jox_sections_end(JoxSections *s) {
     if (s->mode == JOX_SECTIONS_SAVE) {
-        uint64_t sum = checksum(s->out->data + s->start, s->out->length - s->start);
+        uint64_t sum = compute_state_checksum(s->out->data + s->start, s->out->length - s->start);
         jox_text_append(s->out, (const char *)&sum, sizeof sum);
     }
     bool reads = s->mode == JOX_SECTIONS_RESTORE || s->mode == JOX_SECTIONS_COMPARE;
@@ -93,7 +93,7 @@ void jox_sections_unhashed(JoxSections *s, bool unhashed) {
 
 /* ---- one section ---- */
 
-static uint64_t name_hash(const JoxSections *s, const char *name) {
+static uint64_t hash_section_name(const JoxSections *s, const char *name) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, s->module, strlen(s->module));
     jox_hash_add(&hash, ".", 1);
@@ -101,13 +101,13 @@ static uint64_t name_hash(const JoxSections *s, const char *name) {
     return jox_hash_end(&hash);
 }
 
-static void write_head(JoxSections *s, const char *name, size_t size, size_t count) {
-    SectionHead head = {name_hash(s, name), size, count};
+static void write_section_head(JoxSections *s, const char *name, size_t size, size_t count) {
+    SectionHead head = {hash_section_name(s, name), size, count};
     jox_text_append(s->out, (const char *)&head, sizeof head);
 }
 
-/* Reads the head of the section that is to come, and checks that the buffer holds its cells. */
-static bool read_head(JoxSections *s, const char *name, size_t size, uint64_t *count) {
+/* Reads the header of the next section, and checks that the buffer holds all its cells. */
+static bool read_section_head(JoxSections *s, const char *name, size_t size, uint64_t *count) {
     SectionHead head;
     if (s->failed || s->differs)
         return false;
@@ -116,7 +116,7 @@ static bool read_head(JoxSections *s, const char *name, size_t size, uint64_t *c
         return false;
     }
     memcpy(&head, s->at, sizeof head);
-    if (head.name != name_hash(s, name)) {
+    if (head.name != hash_section_name(s, name)) {
         jox_sections_fail(s, name, "the state has another section in this place");
         return false;
     }
@@ -134,8 +134,8 @@ static bool is_hashed(const JoxSections *s) {
     return !s->unhashed && !(s->skipped && strcmp(s->skipped, s->module) == 0);
 }
 
-static const unsigned char *cell_at(const void *cells, size_t size, size_t k,
-                                    const uint32_t *order) {
+static const unsigned char *find_section_cell(const void *cells, size_t size, size_t k,
+                                              const uint32_t *order) {
     return (const unsigned char *)cells + size * (order ? order[k] : k);
 }
 
@@ -147,7 +147,7 @@ static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t co
         return;
     if (!order || size > CHUNK) {
         for (size_t k = 0; order && k < count; k++)
-            jox_hash_add(&s->hash, cell_at(cells, size, k, order), size);
+            jox_hash_add(&s->hash, find_section_cell(cells, size, k, order), size);
         if (!order)
             jox_hash_add(&s->hash, cells, size * count);
         return;
@@ -157,7 +157,7 @@ static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t co
             jox_hash_add(&s->hash, chunk, used);
             used = 0;
         }
-        memcpy(chunk + used, cell_at(cells, size, k, order), size);
+        memcpy(chunk + used, find_section_cell(cells, size, k, order), size);
         used += size;
     }
     jox_hash_add(&s->hash, chunk, used);
@@ -166,7 +166,7 @@ static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t co
 static void compare_cells(JoxSections *s, const char *name, const void *cells, size_t size,
                           size_t count, const uint32_t *order) {
     for (size_t k = 0; k < count && !s->unhashed; k++) {
-        if (memcmp(s->at + k * size, cell_at(cells, size, k, order), size) == 0)
+        if (memcmp(s->at + k * size, find_section_cell(cells, size, k, order), size) == 0)
             continue;
         s->differs = true;
         snprintf(s->wrong, sizeof s->wrong, "%s.%s: cell %zu of %zu differs", s->module, name, k,
@@ -194,9 +194,9 @@ void jox_section_ordered(JoxSections *s, const char *name, void *cells, size_t s
         hash_cells(s, cells, size, count, order);
         return;
     case JOX_SECTIONS_SAVE:
-        write_head(s, name, size, count);
+        write_section_head(s, name, size, count);
         for (size_t k = 0; order && k < count; k++)
-            jox_text_append(s->out, (const char *)cell_at(cells, size, k, order), size);
+            jox_text_append(s->out, (const char *)find_section_cell(cells, size, k, order), size);
         if (!order && count)
             jox_text_append(s->out, cells, size * count);
         return;
@@ -207,7 +207,7 @@ void jox_section_ordered(JoxSections *s, const char *name, void *cells, size_t s
     case JOX_SECTIONS_COMPARE:
         break;
     }
-    if (!read_head(s, name, size, &saved))
+    if (!read_section_head(s, name, size, &saved))
         return;
     if (saved != count) {
         jox_sections_fail(s, name, "the section has another number of cells");
@@ -263,7 +263,7 @@ size_t jox_section_count(JoxSections *s, const char *name, size_t count, size_t 
         jox_section(s, name, &number, sizeof number, 1);
         return count;
     }
-    if (!read_head(s, name, sizeof number, &cells) || cells != 1) {
+    if (!read_section_head(s, name, sizeof number, &cells) || cells != 1) {
         jox_sections_fail(s, name, "the section is no number");
         return 0;
     }
@@ -277,7 +277,7 @@ size_t jox_section_count(JoxSections *s, const char *name, size_t count, size_t 
 }
 
 void jox_section_string(JoxSections *s, const char *name, char **string) {
-    size_t nul = s->mode != JOX_SECTIONS_VISIT; /* which nobody may overwrite */
+    size_t nul = s->mode != JOX_SECTIONS_VISIT; /* visitors write cells, but not the final zero */
     size_t length = jox_section_count(s, name, *string ? strlen(*string) + nul : 0, 1);
     if (s->mode == JOX_SECTIONS_RESTORE) {
         jox_free(*string);

@@ -1,18 +1,18 @@
-/* One walk over the state of a world. A module lists what it keeps, once, in one function that
-   calls jox_section for each column, number and array; the walk's mode decides what is done with
-   them:
+/* One walk over the state of a world, for five purposes. A module lists its state once, in a
+   function that calls jox_section for each column, number and array; the walk's mode decides what
+   happens to them:
 
-     hash      the cells are added to a 64-bit hash
-     save      they are appended to a buffer
-     restore   they are read back from such a buffer
-     compare   they are compared with such a buffer, up to the first cell that differs
+     hash      cells are added to a 64-bit hash
+     save      cells are appended to a buffer
+     restore   cells are read from such a buffer
+     compare   cells are compared with such a buffer, up to the first difference
      visit     a function is called for each cell (tests)
 
-   The cells of a section are plain bytes: numbers, or structs without pointers and, where they are
-   hashed or compared, without padding.
-   The order of the sections, their names and the sizes of their cells are the format of the buffer:
-   a buffer of another format, or a damaged one, is refused with a sentence that says why. Its bytes
-   are those of this machine (byte order, floats); it is no format for other machines. */
+   Cells are plain bytes: numbers, or structs without pointers and, if they are hashed or compared,
+   without padding. The order of the sections, their names and cell sizes are the format of the
+   buffer; a buffer of another format, or a damaged one, is refused with a sentence that says why.
+   Its numbers are in this machine's representation: it cannot be moved to another kind of machine.
+ */
 #ifndef JOX_BASE_SECTIONS_H
 #define JOX_BASE_SECTIONS_H
 
@@ -32,77 +32,79 @@ typedef enum JoxSectionsMode {
     JOX_SECTIONS_VISIT
 } JoxSectionsMode;
 
-/* A cell of a section, in the mode visit. `hashed` is false for cells that are no part of the hash.
-   The function may write the cell, but must put its bytes back before it returns. */
+/* Called for a cell in the mode visit. `hashed` is false for cells that are not part of the hash.
+   The function may write the cell, but must restore it before it returns. */
 typedef void JoxCellVisit(void *context, const char *section, size_t index, void *cell, size_t size,
                           bool hashed);
 
-/* Start from one of the functions below. The fields are theirs, but for those said to be read. */
+/* A walk; made by one of the functions below. Callers may read `mode`, `hash`, `failed`, `differs`
+   and `wrong`, and set `skipped`. */
 typedef struct JoxSections {
     JoxSectionsMode mode;
     JoxHash hash;                  /* hash: the result, for jox_hash_end */
-    JoxText *out;                  /* save */
-    size_t start;                  /* save: where it began in `out` */
-    const unsigned char *at, *end; /* restore, compare: what is still to be read */
-    const unsigned char *begin;
+    JoxText *out;                  /* save: the buffer */
+    size_t start;                  /* save: offset in `out` at which the state begins */
+    const unsigned char *at, *end; /* restore, compare: the rest of the buffer */
+    const unsigned char *begin;    /* restore, compare: the buffer */
     JoxCellVisit *visit;
-    void *context;
-    const char *module;
-    const char *skipped; /* hash: a module that is left out, or NULL; may be set at the start */
-    bool unhashed;
-    bool failed;  /* restore, compare: the buffer does not fit; `wrong` says why */
-    bool differs; /* compare: `wrong` names the first section and cell that differ */
+    void *context;       /* visit: passed to `visit` */
+    const char *module;  /* module of the present section, a prefix of its name */
+    const char *skipped; /* hash: a module that is left out, or NULL */
+    bool unhashed;       /* present sections are left out of hash and comparison */
+    bool failed;         /* restore, compare: the buffer was refused; `wrong` says why */
+    bool differs;        /* compare: `wrong` names the first section and cell that differ */
     char wrong[200];
 } JoxSections;
 
 JoxSections jox_sections_hash(void);
-/* Appends to `out`. */
+/* Begins a save, which appends to `out`. */
 JoxSections jox_sections_save(JoxText *out);
-/* The buffer as a save wrote it; read, not kept. Its length and checksum are verified here, before
-   anything is read from it. */
+/* Begin to read a buffer that a save wrote, and that must last as long as the walk. Its checksum is
+   verified here, before anything is read. */
 JoxSections jox_sections_restore(const void *data, size_t size);
 JoxSections jox_sections_compare(const void *data, size_t size);
 JoxSections jox_sections_visit(JoxCellVisit *visit, void *context);
-/* After the last section: completes a saved buffer; true if all went well and, restoring or
-   comparing, the whole buffer was used. */
+/* Ends the walk after the last section; completes a saved buffer. True if nothing failed or
+   differed and a buffer that was read was used up. */
 bool jox_sections_end(JoxSections *sections);
 
-/* Restoring: what was read is no state, though the buffer has the right form. */
+/* Refuses a state whose form is right but whose content is invalid; for modules, in restore. */
 void jox_sections_fail(JoxSections *sections, const char *name, const char *why);
-/* Names the module whose sections follow; a string that outlives the walk. */
+/* Names the module of the sections that follow; a string that outlives the walk. */
 void jox_sections_module(JoxSections *sections, const char *module);
-/* From here on: whether sections are left out of hash and comparison, because no step reads them
-   (figures of the run) or because they follow from the history of a run and not from its state. */
+/* Whether the sections that follow are left out of hash and comparison: no step reads them (figures
+   of a run), or they depend on a run's history and not on its state. */
 void jox_sections_unhashed(JoxSections *sections, bool unhashed);
 
-/* `count` cells of `size` bytes each. `count` is the same in the state that is read back. */
+/* Walks over `count` cells of `size` bytes. A state with another count is refused. */
 void jox_section(JoxSections *sections, const char *name, void *cells, size_t size, size_t count);
-/* Of booleans; restoring, bytes that are none are refused. */
+/* The same for booleans: a restored byte other than 0 and 1 is refused. */
 void jox_section_bools(JoxSections *sections, const char *name, void *cells, size_t size,
                        size_t count);
-/* The same; cell k of the section is cells[order[k]]. Restoring, cell k becomes cells[k]. */
+/* The same in another order: cell k of the section is cells[order[k]]. Restore writes it to
+ * cells[k].
+ */
 void jox_section_ordered(JoxSections *sections, const char *name, void *cells, size_t size,
                          size_t count, const uint32_t *order);
-/* Rows of `stride` doubles, in that order. In the hash a row ends before its trailing zeros, so
-   that rows that are wider than need be hash alike. Restoring, a buffer with other strides is
-   refused. */
+/* The same for rows of `stride` doubles. The hash leaves out trailing zeros of a row, so that it
+   does not depend on the stride. Restore refuses a buffer with another stride. */
 void jox_section_rows(JoxSections *sections, const char *name, double *rows, size_t stride,
                       size_t count, const uint32_t *order);
-/* How many cells of `size` bytes the sections that follow hold. Restoring, returns the number read,
-   which what is left of the buffer has room for; otherwise `count`. */
+/* Walks over the number of cells of `size` bytes that the next sections have. Restore returns the
+   number read, checked against the length of the rest of the buffer; other modes return `count`. */
 size_t jox_section_count(JoxSections *sections, const char *name, size_t count, size_t size);
-/* A string made by jox_strdup, or NULL; restoring frees the one that is there. */
+/* Walks over a string of jox_strdup, or NULL. Restore frees the present one. */
 void jox_section_string(JoxSections *sections, const char *name, char **string);
-/* What the state belongs to, as a number made of it: saved but not hashed; restoring a state of
-   something else is refused. */
+/* Walks over a digest of the model that the state belongs to. It is saved but not hashed; restore
+   refuses a state with another one. */
 void jox_section_model(JoxSections *sections, const char *name, uint64_t digest);
 
-/* A variable. */
+/* Walks over one variable. */
 #define JOX_SECTION(sections, name, variable)                                                      \
     _Generic((variable), bool                                                                      \
              : jox_section_bools, default                                                          \
              : jox_section)((sections), (name), &(variable), sizeof(variable), 1)
-/* A heap array with its count and capacity (of any unsigned type), as JOX_RESERVE grows it. */
+/* Walks over an array with count and capacity (of any unsigned type), as JOX_RESERVE grows it. */
 #define JOX_SECTION_ARRAY(sections, name, array, count, capacity)                                  \
     do {                                                                                           \
         size_t jox_n = jox_section_count((sections), (name), (count), sizeof *(array));            \
@@ -112,7 +114,7 @@ void jox_section_model(JoxSections *sections, const char *name, uint64_t digest)
         }                                                                                          \
         jox_section((sections), (name), (array), sizeof *(array), jox_n);                          \
     } while (0)
-/* A heap array all of whose room is in use, such as one by key. */
+/* Walks over an array that is in use up to its capacity, such as one indexed by key. */
 #define JOX_SECTION_ROOM(sections, name, array, capacity)                                          \
     do {                                                                                           \
         size_t jox_n = jox_section_count((sections), (name), (capacity), sizeof *(array));         \

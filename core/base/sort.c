@@ -7,7 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-enum { SHORT = 8 }; /* items that are inserted one by one */
+enum { SHORT = 8 }; /* the most items that are sorted by insertion */
 
 typedef struct Sort {
     size_t size;
@@ -16,7 +16,7 @@ typedef struct Sort {
     char *spare;
 } Sort;
 
-static void insert_each(const Sort *s, char *items, size_t count) {
+static void sort_by_insertion(const Sort *s, char *items, size_t count) {
     for (size_t k = 1; k < count; k++) {
         char *item = items + k * s->size;
         size_t at = k;
@@ -30,8 +30,8 @@ static void insert_each(const Sort *s, char *items, size_t count) {
     }
 }
 
-/* Joins two sorted halves, the first of which is moved to the spare room. */
-static void merge(const Sort *s, char *items, size_t first, size_t count) {
+/* Merges two sorted halves; copies the first one to the spare room before. */
+static void merge_halves(const Sort *s, char *items, size_t first, size_t count) {
     const char *left = s->spare, *left_end = left + first * s->size;
     const char *right = items + first * s->size, *right_end = items + count * s->size;
     memcpy(s->spare, items, first * s->size);
@@ -45,14 +45,14 @@ static void merge(const Sort *s, char *items, size_t first, size_t count) {
 static void sort_part(const Sort *s, char *items, size_t count) {
     const size_t first = count / 2;
     if (count <= SHORT) {
-        insert_each(s, items, count);
+        sort_by_insertion(s, items, count);
         return;
     }
     sort_part(s, items, first);
     sort_part(s, items + first * s->size, count - first);
     const char *middle = items + first * s->size;
     if (s->compare(middle - s->size, middle, s->context) > 0)
-        merge(s, items, first, count);
+        merge_halves(s, items, first, count);
 }
 
 void jox_sort(void *items, size_t count, size_t size, JoxCompare *compare, const void *context,

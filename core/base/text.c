@@ -63,7 +63,7 @@ void jox_text_clean(char *text) {
         bool control = *s < 32 || *s == 127 || (n == 2 && s[0] == 0xC2 && s[1] < 0xA0);
         if (*s == '\n' || *s == '\t') {
             *s++ = ' ';
-        } else if (control || n == 0) { /* those of two bytes as two */
+        } else if (control || n == 0) { /* a '?' per byte, so that the length stays the same */
             for (size_t end = n ? n : 1; end > 0; end--)
                 *s++ = '?';
         } else {
@@ -96,7 +96,8 @@ void jox_text_free(JoxText *text) {
     *text = (JoxText){0};
 }
 
-/* Edit distance with transpositions (optimal string alignment), of names up to 63 bytes. */
+/* Returns the edit distance with transpositions (optimal string alignment) of names up to 63 bytes;
+   99 for longer ones. */
 static int edit_distance(const char *a, const char *b) {
     size_t n = strlen(a), m = strlen(b);
     if (n > 63 || m > 63)
@@ -141,7 +142,7 @@ const char *jox_did_you_mean(const char *word, const char *const *names, size_t 
     return hint;
 }
 
-/* A copy of what an overlay holds. */
+/* Returns a copy of an overlay's file; NULL with EFBIG if it is longer than `limit`. */
 static char *read_overlay(const JoxOverlayFile *file, size_t limit, size_t *length) {
     if (file->length > limit) {
         errno = EFBIG;

@@ -1,4 +1,5 @@
-/* Plane vectors in metres (or m/s, N): x east, y north. Plain float arithmetic, no contraction. */
+/* Vectors in the plane, in m (or m/s, N): x east, y north. Float arithmetic without fused
+   operations, so that results have the same bits on every machine. */
 #ifndef JOX_BASE_VEC_H
 #define JOX_BASE_VEC_H
 
@@ -45,8 +46,8 @@ static inline JoxV2 jox_unit(JoxV2 a) {
     float l = jox_length(a);
     return l > 0.0f ? jox_scale(a, 1.0f / l) : (JoxV2){0.0f, 0.0f};
 }
-/* For assertions: whether a vector has length 1, within rounding. One that is not a number passes,
-   as those who look for such numbers name the agent and its behaviour. */
+/* For assertions: whether a vector has length 1, within rounding. NAN passes: the check for NAN
+   elsewhere names the agent and its behaviour, which is more help. */
 static inline bool jox_is_unit(JoxV2 a) {
     return !(fabsf(jox_length2(a) - 1.0f) > 1e-3f);
 }

@@ -14,7 +14,7 @@ enum { KEPT = 20, SOURCE_SHOWN = 200 };
 JoxPosition jox_position_in(const char *file, const char *text, size_t offset) {
     JoxPosition at = {file, 1, 1, 0};
     for (const char *c = text; c < text + offset; c++) {
-        const bool goes_on = ((unsigned char)*c & 0xc0) == 0x80; /* a character of UTF-8 */
+        const bool goes_on = ((unsigned char)*c & 0xc0) == 0x80; /* not the first byte in UTF-8 */
         at.column = *c == '\n' ? 1 : at.column + !goes_on;
         at.line += *c == '\n';
     }
@@ -27,14 +27,14 @@ bool jox_diag_has_room(const JoxDiagnostics *d, JoxSeverity severity) {
     return (error ? d->kept_errors : d->count - d->kept_errors) < (d->limit ? d->limit : KEPT);
 }
 
-/* Two paths may lead to one file, as "./a.lua" and "a.lua" do. */
+/* Whether two paths, such as "./a.lua" and "a.lua", lead to the same file. */
 static bool is_same_file(const char *a, const char *b) {
     return a == b || (a && b && jox_path_same(a, b));
 }
 
-/* Whether the same was said already: a file that is loaded for several reasons. */
-static bool is_known(const JoxDiagnostics *d, JoxPosition position, const char *code,
-                     const char *message) {
+/* Whether the list has this diagnostic: a file may be loaded several times. */
+static bool is_listed_already(const JoxDiagnostics *d, JoxPosition position, const char *code,
+                              const char *message) {
     for (size_t i = 0; i < d->count; i++) {
         const JoxDiagnostic *item = &d->items[i];
         if (item->line == position.line && item->column == position.column &&
@@ -55,7 +55,7 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
         va_start(arguments, format);
         vsnprintf(text, sizeof text, format, arguments);
         va_end(arguments);
-        jox_text_clean(text); /* whoever wrote it must not command the terminal */
+        jox_text_clean(text); /* texts from files must not send control sequences to the terminal */
         jox_text_add(&message, text);
         JOX_RESERVE(d->items, d->capacity, d->count + 1);
         d->kept_errors += severity == JOX_SEVERITY_ERROR;
@@ -78,7 +78,7 @@ void jox_diag_renamed(JoxDiagnostics *d, JoxPosition position, const char *was, 
     const size_t before = d->count;
     jox_diag_error(d, position, "renamed", "Write the new name", "'%.100s' is called '%.100s' now",
                    was, now);
-    if (d->count == before) /* there was no room */
+    if (d->count == before) /* the list is full */
         return;
     d->items[before].now = jox_strdup(now);
 }
@@ -190,7 +190,7 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
     for (size_t i = 0; i < from->count; i++) {
         JoxDiagnostic *item = &from->items[i];
         JoxPosition position = {item->file, item->line, item->column, item->end_column};
-        if (is_known(to, position, item->code, item->message))
+        if (is_listed_already(to, position, item->code, item->message))
             continue;
         const size_t before = to->count;
         jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
@@ -199,7 +199,7 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
             to->items[before].now = jox_strdup(item->now);
         }
     }
-    for (size_t i = 0; i < from->count; i++) { /* what `from` did not keep remains */
+    for (size_t i = 0; i < from->count; i++) { /* leaves the counts of those that were not kept */
         from->errors -= from->items[i].severity == JOX_SEVERITY_ERROR;
         from->warnings -= from->items[i].severity == JOX_SEVERITY_WARNING;
     }

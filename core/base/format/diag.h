@@ -1,4 +1,5 @@
-/* Diagnostics: every error and warning about a user's file, with its place, kept until shown. */
+/* Diagnostics: errors, warnings and notes about users' files, with file, line and column. All
+   readers of files add theirs to a list, which is printed or written as JSON at the end. */
 #ifndef JOX_BASE_FORMAT_DIAG_H
 #define JOX_BASE_FORMAT_DIAG_H
 
@@ -9,7 +10,7 @@
 
 typedef enum { JOX_SEVERITY_ERROR, JOX_SEVERITY_WARNING, JOX_SEVERITY_NOTE } JoxSeverity;
 
-/* A place in a file. Lines and columns count from 1; 0 is unknown. `end_column` is exclusive. */
+/* A position in a file. Lines and columns count from 1; 0 is unknown. `end_column` is exclusive. */
 typedef struct JoxPosition {
     const char *file; /* as the user named it; may be NULL */
     int line, column, end_column;
@@ -23,34 +24,37 @@ typedef struct JoxDiagnostic {
     char *message;    /* one sentence */
     char *hint;       /* the way out, or NULL */
     char *context;    /* "machine tawaf > state ToStone > transition 2", or NULL */
-    char *source;     /* the line of source, or NULL */
-    char *now;        /* the new name, where a behaviour's author renamed one; else NULL */
+    char *source;     /* the line of the file, or NULL */
+    char *now;        /* new name, for a name that a behaviour's author has changed; else NULL */
 } JoxDiagnostic;
 
-/* Zero-initialise. Keeps the first `limit` errors and as many others; counts all. */
+/* A list; zero-initialise, free by jox_diag_free. Keeps the first `limit` errors and as many
+   warnings and notes; counts all. */
 typedef struct JoxDiagnostics {
     JoxDiagnostic *items;
     size_t count, capacity;
     size_t errors, warnings;
-    size_t kept_errors;
-    size_t limit; /* 0: 20 */
+    size_t kept_errors; /* errors among the items */
+    size_t limit;       /* 0: 20 */
 } JoxDiagnostics;
 
-/* Where byte `offset` of a text stands; columns count characters. */
+/* Returns the position of a byte offset in a text; columns count characters. */
 JoxPosition jox_position_in(const char *file, const char *text, size_t offset);
 
-/* Whether one more would be kept; if not, nobody need look for its hint. */
+/* Whether one more would be kept; if not, callers can skip computing its hint. */
 bool jox_diag_has_room(const JoxDiagnostics *diagnostics, JoxSeverity severity);
 
-/* Appends one. `hint`, `context` and `source` may be NULL; all text is copied (`code` is not). */
+/* Appends a diagnostic. `hint`, `context` and `source` may be NULL. All texts are copied except
+ * `code`.
+ */
 void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition position,
                   const char *code, const char *hint, const char *context, const char *source,
                   const char *format, ...) __attribute__((format(printf, 8, 9)));
-/* The common case: an error at a place. */
+/* Appends an error without context and source line. */
 #define jox_diag_error(diagnostics, position, code, hint, ...)                                     \
     jox_diag_add(diagnostics, JOX_SEVERITY_ERROR, position, code, hint, NULL, NULL, __VA_ARGS__)
 
-/* An error at a name that a behaviour's author has renamed. */
+/* Appends an error at a name that a behaviour's author has changed. */
 void jox_diag_renamed(JoxDiagnostics *diagnostics, JoxPosition position, const char *was,
                       const char *now);
 #define jox_diag_warn(diagnostics, position, code, hint, ...)                                      \
@@ -58,19 +62,20 @@ void jox_diag_renamed(JoxDiagnostics *diagnostics, JoxPosition position, const c
 #define jox_diag_note(diagnostics, position, code, ...)                                            \
     jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, position, code, NULL, NULL, NULL, __VA_ARGS__)
 
-/* Checks that a text, behind whose end a zero stands, is UTF-8 without a zero byte; false with an
-   error at the first byte that is not. */
+/* Checks that a text is UTF-8 without zero bytes; false with an error at the first wrong byte. A
+   zero must follow the text. */
 bool jox_diag_check_text(JoxDiagnostics *diagnostics, const char *file, const char *text,
                          size_t length);
-/* Sets `source` of every diagnostic of `file` that lacks it, from the file's text. */
+/* Sets the source line of the diagnostics of `file` that lack it, from the file's text. */
 void jox_diag_attach_source(JoxDiagnostics *diagnostics, const char *file, const char *text,
                             size_t length);
-/* "file:12:7: message. hint", the source line and a caret, the context; and what was left out. */
+/* Prints each as "file:12:7: message. hint", the source line with carets, the context; then the
+   number of errors that were not kept. */
 void jox_diag_print(const JoxDiagnostics *diagnostics, JoxText *out);
-/* A JSON array of objects: file, line, column, end, severity, code, message, hint; of
-   a name that is called otherwise now its new one, too. */
+/* Writes a JSON array of objects: file, line, column, end, severity, code, message, hint, and
+   `now`, the new name, for a name that was changed. */
 void jox_diag_json(const JoxDiagnostics *diagnostics, JoxText *out);
-/* Moves all of `from` behind `to`, with its counts. */
+/* Moves all diagnostics of `from` to the end of `to`, except those that it has already. */
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from);
 void jox_diag_free(JoxDiagnostics *diagnostics);
 

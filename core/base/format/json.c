@@ -10,10 +10,10 @@
 
 enum { LONGEST_PATH = 256 };
 
-/* ---- before the library is asked: size, nesting, and characters that it would let pass ---- */
+/* ---- checks before parsing: size, nesting, and characters that cJSON would accept ---- */
 
-/* Length of the text in quotation marks at `s`, with them; 0 if it does not end or holds control
-   characters, the escape of a NUL, or what is not UTF-8. */
+/* Returns the length of a quoted text with its quotes; 0 if it does not end, or has control
+   characters, an escaped zero or invalid UTF-8. */
 static size_t quoted_length(const char *s) {
     size_t n = 1;
     while (s[n] != '"') {
@@ -25,7 +25,7 @@ static size_t quoted_length(const char *s) {
     return n + 1;
 }
 
-static bool within_limits(const char *text, JoxJsonLimits limits) {
+static bool is_within_json_limits(const char *text, JoxJsonLimits limits) {
     size_t items = 0;
     int depth = 0;
     if (strnlen(text, limits.length + 1) > limits.length)
@@ -43,7 +43,7 @@ static bool within_limits(const char *text, JoxJsonLimits limits) {
     return true;
 }
 
-/* ---- the document as it is visited ---- */
+/* ---- visiting ---- */
 
 typedef struct Reader {
     JoxJsonVisit *visit;
@@ -51,7 +51,7 @@ typedef struct Reader {
     char path[LONGEST_PATH];
 } Reader;
 
-static JoxJsonItem item_of(const cJSON *value, int depth, const char *path) {
+static JoxJsonItem convert_json_item(const cJSON *value, int depth, const char *path) {
     JoxJsonItem item = {.depth = depth, .key = value->string, .path = path};
     if (cJSON_IsString(value)) {
         item.kind = JOX_JSON_TEXT;
@@ -79,7 +79,7 @@ static bool visit_items(Reader *r, const cJSON *parent, int depth) {
             snprintf(r->path + length, sizeof r->path - length, "%s%s", dot, child->string);
         else
             snprintf(r->path + length, sizeof r->path - length, "%s%d", dot, index);
-        const JoxJsonItem item = item_of(child, depth, r->path);
+        const JoxJsonItem item = convert_json_item(child, depth, r->path);
         if (!r->visit(r->context, &item) || !visit_items(r, child, depth + 1))
             return false;
         r->path[length] = 0;
@@ -87,29 +87,29 @@ static bool visit_items(Reader *r, const cJSON *parent, int depth) {
     return true;
 }
 
-/* Whether every number is finite: 1e999 is infinite to the library. */
-static bool finite_numbers(const cJSON *value) {
+/* Whether every number is finite: cJSON reads 1e999 as infinity. */
+static bool has_finite_numbers(const cJSON *value) {
     if (cJSON_IsNumber(value) && !isfinite(value->valuedouble))
         return false;
     for (const cJSON *child = value->child; child; child = child->next)
-        if (!finite_numbers(child))
+        if (!has_finite_numbers(child))
             return false;
     return true;
 }
 
 bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context) {
     Reader reader = {.visit = visit, .context = context};
-    if (!within_limits(text, limits))
+    if (!is_within_json_limits(text, limits))
         return false;
-    cJSON *document = cJSON_ParseWithOpts(text, NULL, true); /* by malloc: no heap owns it */
+    cJSON *document = cJSON_ParseWithOpts(text, NULL, true); /* from malloc: no heap owns it */
     JoxRecovery recovery;
     jox_recovery_push(&recovery);
     if (setjmp(recovery.jump) != 0) {
         cJSON_Delete(document);
         jox_out_of_memory(0);
     }
-    const bool good =
-        cJSON_IsObject(document) && finite_numbers(document) && visit_items(&reader, document, 1);
+    const bool good = cJSON_IsObject(document) && has_finite_numbers(document) &&
+                      visit_items(&reader, document, 1);
     jox_recovery_pop(&recovery);
     cJSON_Delete(document);
     return good;

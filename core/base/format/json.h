@@ -1,5 +1,6 @@
-/* Reading JSON (RFC 8259) by cJSON, with limits that hold before anything is allocated, so that
-   what a browser or a file says can neither exhaust memory nor the stack. */
+/* Reading of JSON (RFC 8259) by cJSON. Limits are checked before anything is allocated, so that
+   hostile texts exhaust neither memory nor the stack. Used for commands of browsers and for
+   Jostle's files. */
 #ifndef JOX_BASE_FORMAT_JSON_H
 #define JOX_BASE_FORMAT_JSON_H
 
@@ -7,8 +8,8 @@
 #include <stddef.h>
 
 typedef struct JoxJsonLimits {
-    size_t length, items; /* bytes of text; values, keys not counted */
-    int depth;            /* of objects and arrays within each other */
+    size_t length, items; /* bytes of text; number of values, without keys */
+    int depth;            /* levels of nested objects and arrays */
 } JoxJsonLimits;
 
 typedef enum {
@@ -24,20 +25,20 @@ typedef struct JoxJsonItem {
     JoxJsonKind kind;
     int depth;        /* 1 for a member of the document's object */
     double number;    /* 1 and 0 for true and false */
-    const char *text; /* of a text, else NULL; valid within the call */
-    const char *key;  /* in an object, else NULL */
+    const char *text; /* the value of a text, else NULL; valid within the call */
+    const char *key;  /* the key of an object's member, else NULL */
     const char *path; /* keys and indices (from 0) joined by dots, as "states.walker.Walk" */
 } JoxJsonItem;
 
-/* Returns false to stop reading: the document is then refused. */
+/* Called for a value. Returns false to stop reading; jox_json_read then returns false. */
 typedef bool JoxJsonVisit(void *context, const JoxJsonItem *item);
 
-/* Calls `visit` for each value of a document that is one object, in order, the outermost object
-   left out. Returns false, before any call, if the text is no JSON object, is not UTF-8, has
-   control characters in a text, has a number that is not finite, or exceeds a limit. */
+/* Calls `visit` for each value within a document, which must be one object, in order. Returns
+   false, before any call, if the text is not a JSON object, is not UTF-8, has control characters in
+   a text or a number that is not finite, or exceeds a limit. */
 bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context);
 
-/* The limits of files that Jostle wrote: 64 MB, a million items, 16 levels. */
+/* Limits for files that Jostle wrote: 64 MB, 2^20 values, 16 levels. */
 extern const JoxJsonLimits jox_json_own_files;
 /* Calls `number` for each number of an object in such a file, in order. */
 typedef void JoxJsonNumber(void *context, const char *path, double value);

@@ -12,13 +12,13 @@ JoxJson jox_json_begin(JoxText *out, int lines) {
 }
 
 /* Begins a line at the present depth. */
-static void new_line(JoxJson *json) {
+static void begin_json_line(JoxJson *json) {
     jox_text_append(json->out, "\n", 1);
     for (int d = 0; d < json->depth; d++)
         jox_text_append(json->out, " ", 1);
 }
 
-/* What precedes a value: a separator, the beginning of a line, and its key in an object. */
+/* Writes what comes before a value: separator, line break and indentation, key. */
 static void begin_value(JoxJson *json, const char *key, bool has_items) {
     if (json->depth == 0) {
         JOX_ASSERT(!key && !json->ended);
@@ -31,7 +31,7 @@ static void begin_value(JoxJson *json, const char *key, bool has_items) {
     if (level->any)
         jox_text_add(json->out, own_line ? "," : ", ");
     if (own_line)
-        new_line(json);
+        begin_json_line(json);
     if (level->is_object && key) {
         jox_text_json(json->out, key);
         jox_text_append(json->out, ": ", 2);
@@ -59,7 +59,7 @@ void jox_json_end(JoxJson *json) {
     JOX_ASSERT(json->depth > 0);
     json->depth--;
     if (json->levels[json->depth].on_lines)
-        new_line(json);
+        begin_json_line(json);
     jox_text_append(json->out, json->levels[json->depth].is_object ? "}" : "]", 1);
 }
 

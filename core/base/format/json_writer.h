@@ -1,8 +1,8 @@
-/* Writing JSON: the one layout of all that Jostle writes. A key is followed by ": ", items are
-   separated by ", "; of the outermost `lines` levels, the members of objects and the objects and
-   arrays in arrays stand on a line each. Texts are escaped, bytes that are not UTF-8 become U+FFFD,
-   numbers that are not finite become null. Each value takes the key that it has in an object, or
-   NULL in an array and at the outermost. */
+/* Writing of JSON, with one layout for all that Jostle writes: ": " after a key, ", " between
+   items; in the outermost `lines` levels, members of objects, and objects and arrays in arrays,
+   have a line each. Texts are escaped, bytes that are not UTF-8 become U+FFFD, numbers that are not
+   finite become null. The argument `key` is the member's name within an object, and NULL in an
+   array and for the outermost value. */
 #ifndef JOX_BASE_FORMAT_JSON_WRITER_H
 #define JOX_BASE_FORMAT_JSON_WRITER_H
 
@@ -15,16 +15,15 @@ enum { JOX_JSON_DEEPEST = 32 };
 
 typedef struct JoxJson {
     JoxText *out;
-    int lines; /* may be changed between values */
-    int depth;
-    bool ended; /* the outermost value has begun: there is one */
+    int lines;  /* levels with lines; may be changed between values */
+    int depth;  /* open objects and arrays */
+    bool ended; /* the outermost value has begun; a second one is an error */
     struct JoxJsonLevel {
-        bool is_object, any, on_lines; /* whether it has items, and some on lines of their own */
+        bool is_object, any, on_lines; /* any: has items; on_lines: some have their own lines */
     } levels[JOX_JSON_DEEPEST];
 } JoxJson;
 
-/* A document that is appended to `out`. What is written must be one value; who ends it with a
-   newline adds that to `out`. */
+/* Begins a document, one value, that is appended to `out`, without a newline at its end. */
 JoxJson jox_json_begin(JoxText *out, int lines);
 
 void jox_json_object(JoxJson *json, const char *key);
@@ -32,19 +31,19 @@ void jox_json_array(JoxJson *json, const char *key);
 /* Ends the innermost object or array. */
 void jox_json_end(JoxJson *json);
 
-/* NULL is written as null. */
+/* Writes a string; null for NULL. */
 void jox_json_string(JoxJson *json, const char *key, const char *string);
-/* A string that is put together as by printf, then escaped. */
+/* Formats a string as printf does, then escapes it. */
 void jox_json_format(JoxJson *json, const char *key, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* With 9 significant digits, or with as many as given (1 to 17). */
+/* Write a number with 9 significant digits, or with `digits` of them (1 to 17). */
 void jox_json_number(JoxJson *json, const char *key, double number);
 void jox_json_digits(JoxJson *json, const char *key, double number, int digits);
 void jox_json_whole(JoxJson *json, const char *key, uint64_t number);
 void jox_json_integer(JoxJson *json, const char *key, int64_t number);
 void jox_json_bool(JoxJson *json, const char *key, bool value);
 void jox_json_null(JoxJson *json, const char *key);
-/* An array of numbers with so many digits each. */
+/* Writes an array of numbers with `digits` significant digits each. */
 void jox_json_numbers_of(JoxJson *json, const char *key, const double *numbers, int count,
                          int digits);
 

@@ -1,4 +1,5 @@
-/* A mod as data: found and ordered by scene/, applied by scene/ (scenes) and lua/ (behaviours). */
+/* A mod as data. scene/ finds and orders mods and applies them to scenes; lua/ applies them to
+   behaviours. */
 #ifndef JOX_BASE_FORMAT_MOD_H
 #define JOX_BASE_FORMAT_MOD_H
 
@@ -19,15 +20,16 @@ typedef struct JoxModSetting {
 /* A file that changes a behaviour (.lua) or a scene (.yaml). */
 typedef struct JoxModPatch {
     char *path;
-    char *target; /* name of what it changes; NULL where it names nothing */
-    bool lua, replaces;
-    JoxPosition position; /* of the target's name */
+    char *target;         /* name of what it changes; NULL where it names nothing */
+    bool lua, replaces;   /* a behaviour's patch; replaces the target as a whole */
+    JoxPosition position; /* position of the target's name */
 } JoxModPatch;
 
-/* What a person said of a mod. */
+/* Whether the user has turned a mod on. A mod that is off is applied only if a scene or the command
+   line names it. */
 typedef enum JoxModSwitch {
-    JOX_MOD_OFF,     /* nothing: it is taken only where it is named */
-    JOX_MOD_CHANGED, /* turned on, but it holds something else since: as above */
+    JOX_MOD_OFF,
+    JOX_MOD_CHANGED, /* turned on, but its files have changed since: treated as off */
     JOX_MOD_ON,
 } JoxModSwitch;
 
@@ -35,28 +37,28 @@ typedef struct JoxMod {
     char *name, *title, *version;
     char *folder; /* where its mod.yaml lies */
     JoxModSwitch on;
-    uint64_t
-        after; /* bits of the mods (by index in the order) that it depends on, through others too */
+    uint64_t after; /* bit set of mods, by index, that it depends on, directly or through others */
     JoxModSetting *settings;
     uint32_t setting_count;
     JoxModPatch *patches;
     uint32_t patch_count;
 } JoxMod;
 
-/* Whether one dotted path is the other, or leads to it. "" leads to all. */
+/* Whether two dotted paths are equal or one is a parent of the other; "" is the parent of all. */
 bool jox_mod_overlaps(const char *a, const char *b);
-/* Warns that mod `later` sets at `at` what mod `earlier` has set at `before`, and wins. */
+/* Warns that mod `later`, at `at`, sets a path that mod `earlier` has set at `before`; `later`
+ * wins. */
 void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
                       const JoxMod *earlier, JoxPosition before, const char *path);
 
-/* The file of the behaviour "mod:name" of one of the mods; ".lua" may be left out. False where it
-   names none, or no file below the mod's behaviours. */
+/* Finds the file of a behaviour that is named "mod:name"; ".lua" may be left out. False if there is
+   no such mod, or no such file in its folder behaviours/. */
 bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,
                   char path[JOX_LONGEST_PATH]);
 
-/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for, or NULL. */
+/* Splits a dependency, "NAME" or "NAME >= 1.2", into the name and the least version, or NULL. */
 void jox_mod_need(const char *text, char name[64], const char **version);
-/* Below, at or above 0 as version a is older than, like or newer than b: number by number. */
+/* Compares versions number by number: -1, 0 or 1 if a is older than, equal to or newer than b. */
 int jox_mod_compare(const char *a, const char *b);
 
 #endif

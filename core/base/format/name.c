@@ -8,8 +8,8 @@
 
 enum { LONGEST = 100 };
 
-/* Code points behind ASCII that are no letters, marks or digits: controls, punctuation, symbols,
-   marks of direction, private use and emoji, by the blocks of Unicode 15. */
+/* Ranges of code points beyond ASCII that are not letters, marks or digits: controls, punctuation,
+   symbols, direction marks, private use and emoji, by the blocks of Unicode 15. */
 static const uint32_t EXCLUDED[][2] = {
     {0x80, 0xa9},       {0xab, 0xb4},     {0xb6, 0xb9},     {0xbb, 0xbf},       {0xd7, 0xd7},
     {0xf7, 0xf7},       {0x37e, 0x37e},   {0x387, 0x387},   {0x55a, 0x55f},     {0x589, 0x58f},
@@ -22,7 +22,7 @@ static const uint32_t EXCLUDED[][2] = {
     {0xff3b, 0xff40},   {0xff5b, 0xff65}, {0xffe0, 0xffff}, {0x1d000, 0x1d35f}, {0x1f000, 0x1faff},
     {0xe0000, 0x10ffff}};
 
-static bool is_letter(uint32_t code) {
+static bool is_name_character(uint32_t code) {
     if (code < 0x80)
         return (code >= 'a' && code <= 'z') || (code >= 'A' && code <= 'Z') ||
                (code >= '0' && code <= '9') || code == '_';
@@ -32,8 +32,8 @@ static bool is_letter(uint32_t code) {
     return true;
 }
 
-/* The code point of a sequence of UTF-8 that is whole. */
-static uint32_t decode(const unsigned char *s, size_t length) {
+/* Returns the code point of a valid UTF-8 sequence. */
+static uint32_t decode_utf8(const unsigned char *s, size_t length) {
     uint32_t code = length == 1 ? s[0] : s[0] & (0x7fU >> length);
     for (size_t k = 1; k < length; k++)
         code = code << 6 | (s[k] & 0x3fU);
@@ -46,8 +46,8 @@ bool jox_name_is_plain(const char *name) {
         return false;
     for (const char *c = name; *c;) {
         size_t length = jox_utf8_length(c);
-        if (length == 0 ||
-            (!strchr(" -.", *c) && !is_letter(decode((const unsigned char *)c, length))))
+        if (length == 0 || (!strchr(" -.", *c) &&
+                            !is_name_character(decode_utf8((const unsigned char *)c, length))))
             return false;
         c += length;
     }

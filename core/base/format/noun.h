@@ -1,4 +1,4 @@
-/* Numbers with what they count, in the singular or the plural, and articles: for messages. */
+/* Numbers with nouns in the singular or plural ("12 agents"), and articles, for messages. */
 #ifndef JOX_BASE_FORMAT_NOUN_H
 #define JOX_BASE_FORMAT_NOUN_H
 
@@ -8,16 +8,16 @@
 
 enum { JOX_NOUN = 96 };
 
-/* "35,000": a comma at each third digit. */
+/* Writes a number with a comma at each third digit, "35,000"; returns `out`. */
 const char *jox_number_text(char out[JOX_NOUN], uint64_t number);
-/* "1 agent", "12 agents"; a noun with another plural has it behind a bar: "person|people". One that
-   is too long is cut. Returns `out`, so that it can stand in a call. */
+/* Writes "1 agent" or "12 agents". An irregular plural stands behind a bar: "person|people". A
+   result that is too long is cut. Returns `out`, for use as an argument. */
 const char *jox_noun(char out[JOX_NOUN], uint64_t number, const char *noun);
-/* The same, appended. */
+/* Appends the same to a text. */
 void jox_text_noun(JoxText *text, uint64_t number, const char *noun);
-/* The noun alone, in the number's form: "agent" of 1, else "agents". */
+/* Writes the noun alone: "agent" for 1, else "agents". */
 const char *jox_noun_alone(char out[JOX_NOUN], uint64_t number, const char *noun);
-/* "a" or "an", by the noun's first letter. */
+/* Returns "a" or "an", by the noun's first letter. */
 const char *jox_article(const char *noun);
 
 #endif

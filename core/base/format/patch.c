@@ -15,9 +15,9 @@ const char *const jox_patch_verbs[JOX_PATCH_VERBS] = {
     [JOX_PATCH_BEFORE] = "insert_before", [JOX_PATCH_AFTER] = "insert_after",
     [JOX_PATCH_REMOVE] = "remove",        [JOX_PATCH_APPEND] = "append"};
 
-/* ---- what was set, and where ---- */
+/* ---- the list of changes ---- */
 
-/* Two mods that set one path, neither knowing the other: both places, and who wins. */
+/* Warns if another mod, which this one does not depend on, has set an overlapping path. */
 static void report_conflict(const JoxPatchChanges *changes, const JoxPatchChange *mine,
                             const JoxMod *mods, JoxDiagnostics *diagnostics) {
     for (uint32_t c = 0; c + 1 < changes->count; c++) {
@@ -37,7 +37,7 @@ void jox_patch_keep(JoxPatchChanges *changes, JoxPatchChange change, const JoxMo
     if (changes->count == MOST_CHANGES)
         jox_diag_error(diagnostics, change.position, "too-many", NULL,
                        "patches set more than %d things, here '%s'", MOST_CHANGES, change.path);
-    if (changes->count > MOST_CHANGES) /* one more bears the error */
+    if (changes->count > MOST_CHANGES) /* the one that was reported is the last */
         return;
     JOX_RESERVE(changes->items, changes->capacity, changes->count + 1);
     change.path = jox_strdup(change.path);
@@ -92,7 +92,8 @@ bool jox_patch_is_target(const char *target, const char *path, const JoxMod *mod
 
 /* ---- merging ---- */
 
-static void keep(const JoxPatch *p, const char *path, const JoxPatchPlace *at, bool removes) {
+static void keep_change(const JoxPatch *p, const char *path, const JoxPatchPlace *at,
+                        bool removes) {
     const JoxPatchTree *t = p->tree;
     jox_patch_keep(p->changes,
                    (JoxPatchChange){(char *)path, (char *)at->from, p->source, p->mod, removes,
@@ -100,8 +101,8 @@ static void keep(const JoxPatch *p, const char *path, const JoxPatchPlace *at, b
                    p->mods, p->diagnostics);
 }
 
-static void item_path(const JoxPatch *p, char path[JOX_PATCH_PATH], const char *prefix,
-                      const char *id) {
+static void join_item_path(const JoxPatch *p, char path[JOX_PATCH_PATH], const char *prefix,
+                           const char *id) {
     char item[JOX_PATCH_ID + 8];
     snprintf(item, sizeof item, "%s%.100s", p->tree->item_mark, id);
     jox_patch_join(path, prefix, item);
@@ -110,8 +111,8 @@ static void item_path(const JoxPatch *p, char path[JOX_PATCH_PATH], const char *
 static void *merge_into(const JoxPatch *p, void *copy, void *change, const char *path,
                         const char *from, int depth);
 
-/* Whether a change is merged with what was there before it, and does not take its place. */
-static bool merges(const JoxPatch *p, void *now, void *change, int depth) {
+/* Whether a patch's node is merged into the present one; if not, it replaces it. */
+static bool is_mergeable(const JoxPatch *p, void *now, void *change, int depth) {
     const JoxPatchTree *t = p->tree;
     const JoxPatchKind was = t->kind(t->context, now), is = t->kind(t->context, change);
     if (depth >= t->deepest || (was != JOX_PATCH_MAP && was != JOX_PATCH_LIST))
@@ -127,18 +128,19 @@ static void merge_key(const JoxPatch *p, void *copy, const char *path, const Jox
         if (!now)
             t->missing(t->context, copy, at->key, at, false);
         t->remove(t->context, copy, at->key);
-        keep(p, path, at, true);
-    } else if (now && merges(p, now, at->value, depth)) {
+        keep_change(p, path, at, true);
+    } else if (now && is_mergeable(p, now, at->value, depth)) {
         void *inner = t->copy(t->context, now);
         inner = merge_into(p, inner, at->value, path, at->from, depth + 1);
         t->set(t->context, copy, at->key, NULL, inner);
     } else {
         t->set(t->context, copy, at->key, at, at->value);
-        keep(p, path, at, false);
+        keep_change(p, path, at, false);
     }
 }
 
-/* Place of the item with this id, or the number of items, with an error. */
+/* Returns the index of the item with an id; the number of items, with an error, if there is none.
+ */
 static uint32_t find_item(const JoxPatch *p, void *copy, const char *id, const JoxPatchPlace *at) {
     const JoxPatchTree *t = p->tree;
     const uint32_t count = t->count(t->context, copy);
@@ -149,18 +151,18 @@ static uint32_t find_item(const JoxPatch *p, void *copy, const char *id, const J
     return count;
 }
 
-static void take_item(const JoxPatch *p, void *copy, const char *path, const char *id,
-                      const JoxPatchPlace *at) {
+static void remove_item(const JoxPatch *p, void *copy, const char *path, const char *id,
+                        const JoxPatchPlace *at) {
     char whole[JOX_PATCH_PATH];
     const uint32_t i = find_item(p, copy, id, at);
     if (i == p->tree->count(p->tree->context, copy))
         return;
     p->tree->put(p->tree->context, copy, i, NULL);
-    item_path(p, whole, path, id);
-    keep(p, whole, at, true);
+    join_item_path(p, whole, path, id);
+    keep_change(p, whole, at, true);
 }
 
-/* Inserts one item, or a list of them, from place `i` on. */
+/* Inserts an item, or a list of them, at index `i`. */
 static void insert_items(const JoxPatch *p, void *copy, uint32_t i, const char *path,
                          const char *keep_id, const JoxPatchPlace *at) {
     const JoxPatchTree *t = p->tree;
@@ -176,12 +178,12 @@ static void insert_items(const JoxPatch *p, void *copy, uint32_t i, const char *
         if (!item)
             continue;
         t->insert(t->context, copy, i++, item);
-        item_path(p, whole, path, id);
-        keep(p, whole, &here, false);
+        join_item_path(p, whole, path, id);
+        keep_change(p, whole, &here, false);
     }
 }
 
-/* The item with an id is changed, replaced, or gets new ones beside it. */
+/* Changes or replaces the item with an id, or inserts items before or after it. */
 static void merge_item(const JoxPatch *p, JoxPatchVerb verb, void *copy, const char *path,
                        const JoxPatchPlace *at, int depth) {
     const JoxPatchTree *t = p->tree;
@@ -189,27 +191,27 @@ static void merge_item(const JoxPatch *p, JoxPatchVerb verb, void *copy, const c
     const uint32_t i = find_item(p, copy, at->key, at);
     if (i == t->count(t->context, copy))
         return;
-    item_path(p, whole, path, at->key);
+    join_item_path(p, whole, path, at->key);
     void *now = t->item(t->context, copy, i);
-    if (verb == JOX_PATCH_CHANGE && merges(p, now, at->value, depth)) {
+    if (verb == JOX_PATCH_CHANGE && is_mergeable(p, now, at->value, depth)) {
         void *inner = t->copy(t->context, now);
         inner = merge_into(p, inner, at->value, whole, at->from, depth + 1);
         t->put(t->context, copy, i, inner);
     } else if (verb == JOX_PATCH_CHANGE && t->keys_are_ids) {
         t->put(t->context, copy, i, at->value);
-        keep(p, whole, at, false);
+        keep_change(p, whole, at, false);
     } else if (verb == JOX_PATCH_CHANGE) {
         t->misused(t->context, verb, at);
     } else if (verb == JOX_PATCH_REPLACE) {
         t->put(t->context, copy, i, NULL);
-        keep(p, whole, at, true);
+        keep_change(p, whole, at, true);
         insert_items(p, copy, i, path, at->key, at);
     } else {
         insert_items(p, copy, i + (verb == JOX_PATCH_AFTER), path, NULL, at);
     }
 }
 
-/* A verb with its value: items by ids, a list of ids, or items. */
+/* Carries out a verb; its value has items by id, a list of ids, or items. */
 static void merge_verb(const JoxPatch *p, JoxPatchVerb verb, void *copy, const char *path,
                        const JoxPatchPlace *at, int depth) {
     const JoxPatchTree *t = p->tree;
@@ -224,7 +226,7 @@ static void merge_verb(const JoxPatch *p, JoxPatchVerb verb, void *copy, const c
         for (uint32_t k = 0; k < count; k++) {
             void *name = kind == JOX_PATCH_LIST ? t->item(t->context, at->value, k) : at->value;
             const char *id = t->text(t->context, name);
-            take_item(p, copy, path, id ? id : "?", &(JoxPatchPlace){at->from, NULL, name, NULL});
+            remove_item(p, copy, path, id ? id : "?", &(JoxPatchPlace){at->from, NULL, name, NULL});
         }
     } else {
         const char *const *ids;
@@ -239,16 +241,16 @@ static void merge_verb(const JoxPatch *p, JoxPatchVerb verb, void *copy, const c
     }
 }
 
-static int verb_of(const JoxPatch *p, const char *key) {
+static int find_patch_verb(const JoxPatch *p, const char *key) {
     for (int v = 0; v < JOX_PATCH_VERBS; v++)
         if ((p->tree->verbs >> v & 1) && strcmp(jox_patch_verbs[v], key) == 0)
             return v;
     return JOX_PATCH_VERBS;
 }
 
-/* Items without ids are overwritten one by one. */
-static void put_items(const JoxPatch *p, void *copy, void *change, const char *path,
-                      const char *from) {
+/* Overwrites items without ids, one by one from the first. */
+static void overwrite_items(const JoxPatch *p, void *copy, void *change, const char *path,
+                            const char *from) {
     const JoxPatchTree *t = p->tree;
     const uint32_t count = t->count(t->context, change);
     for (uint32_t i = 0; i < count; i++) {
@@ -258,16 +260,16 @@ static void put_items(const JoxPatch *p, void *copy, void *change, const char *p
         jox_patch_join(there, from, number);
         void *item = t->item(t->context, change, i);
         t->put(t->context, copy, i, item);
-        keep(p, whole, &(JoxPatchPlace){there, NULL, item, NULL}, false);
+        keep_change(p, whole, &(JoxPatchPlace){there, NULL, item, NULL}, false);
     }
 }
 
-/* Merges one key of a change; `by_id`: into a node whose items go by ids. */
-static void merge_one(const JoxPatch *p, void *copy, const char *path, const JoxPatchPlace *at,
-                      bool by_id, int depth) {
+/* Merges one key of a patch's node; `by_id`: into a node whose items have ids. */
+static void merge_patch_key(const JoxPatch *p, void *copy, const char *path,
+                            const JoxPatchPlace *at, bool by_id, int depth) {
     const JoxPatchTree *t = p->tree;
     const bool list = by_id && t->keys_are_ids;
-    const int verb = by_id ? verb_of(p, at->key) : JOX_PATCH_VERBS;
+    const int verb = by_id ? find_patch_verb(p, at->key) : JOX_PATCH_VERBS;
     char whole[JOX_PATCH_PATH];
     jox_patch_join(whole, path, at->key);
     if (t->skips(t->context, copy, at, depth))
@@ -275,15 +277,15 @@ static void merge_one(const JoxPatch *p, void *copy, const char *path, const Jox
     if (verb < JOX_PATCH_VERBS)
         merge_verb(p, (JoxPatchVerb)verb, copy, path, at, depth);
     else if (list && t->kind(t->context, at->value) == JOX_PATCH_NOTHING)
-        take_item(p, copy, path, at->key, at);
+        remove_item(p, copy, path, at->key, at);
     else if (list)
         merge_item(p, JOX_PATCH_CHANGE, copy, path, at, depth);
     else
         merge_key(p, copy, whole, at, depth);
 }
 
-/* What is appended comes last, whatever the order of the keys: the id of an item that the same
-   change removes is free for it. */
+/* Merges a patch's node into a copy. Appends are made in a second pass, so that an appended item
+   can have the id of one that the same patch removes, whatever the order of the keys. */
 static void *merge_into(const JoxPatch *p, void *copy, void *change, const char *path,
                         const char *from, int depth) {
     const JoxPatchTree *t = p->tree;
@@ -295,16 +297,16 @@ static void *merge_into(const JoxPatch *p, void *copy, void *change, const char 
         for (uint32_t k = 0; k < count; k++) {
             char there[JOX_PATCH_PATH];
             jox_patch_join(there, from, keys[k]);
-            const int own = by_id && verb_of(p, keys[k]) == JOX_PATCH_APPEND;
+            const int own = by_id && find_patch_verb(p, keys[k]) == JOX_PATCH_APPEND;
             if (own != pass)
                 continue;
             const JoxPatchPlace at = {there, change, t->get(t->context, change, keys[k]), keys[k]};
-            merge_one(p, copy, path, &at, by_id, depth);
+            merge_patch_key(p, copy, path, &at, by_id, depth);
         }
     if (by_id)
         t->sweep(t->context, copy);
     else if (t->lists_merge)
-        put_items(p, copy, change, path, from);
+        overwrite_items(p, copy, change, path, from);
     return copy;
 }
 
@@ -314,5 +316,5 @@ void *jox_patch_apply(const JoxPatch *p, void *base, void *change) {
 }
 
 void jox_patch_replaces(const JoxPatch *p, void *value) {
-    keep(p, "", &(JoxPatchPlace){"", NULL, value, NULL}, false);
+    keep_change(p, "", &(JoxPatchPlace){"", NULL, value, NULL}, false);
 }

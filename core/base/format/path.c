@@ -21,9 +21,10 @@ size_t jox_path_stem(const char *name) {
     return strcspn(name, ".");
 }
 
-/* `folder` and `name` and `ending`, from the folder of `file`. */
-static bool join(const char *file, const char *folder, const char *name, const char *ending,
-                 char path[JOX_LONGEST_PATH]) {
+/* Joins `folder`, `name` and `ending` to a path relative to the folder of `file`; false if too
+ * long. */
+static bool join_path(const char *file, const char *folder, const char *name, const char *ending,
+                      char path[JOX_LONGEST_PATH]) {
     const bool absolute = *name == '/' || *folder == '/';
     const int length =
         snprintf(path, JOX_LONGEST_PATH, "%.*s%s%s%s", absolute ? 0 : (int)jox_path_folder(file),
@@ -32,7 +33,7 @@ static bool join(const char *file, const char *folder, const char *name, const c
 }
 
 bool jox_path_beside(const char *file, const char *name, char path[JOX_LONGEST_PATH]) {
-    return join(file, "", name, "", path);
+    return join_path(file, "", name, "", path);
 }
 
 bool jox_path_find(const char *file, const char *name, const char *ending,
@@ -40,9 +41,9 @@ bool jox_path_find(const char *file, const char *name, const char *ending,
     const size_t n = strlen(name), m = strlen(ending);
     const bool has_ending = n > m && strcmp(name + n - m, ending) == 0;
     for (; *folders; folders++) {
-        if (!join(file, *folders, name, has_ending ? "" : ending, path))
+        if (!join_path(file, *folders, name, has_ending ? "" : ending, path))
             continue;
-        if (!jox_is_file(path)) /* overlays hold clean paths, of files that the disk may not have */
+        if (!jox_is_file(path)) /* an overlay has clean paths, also of files not on the disk */
             jox_path_clean(path);
         if (jox_is_file(path))
             return true;
@@ -51,7 +52,7 @@ bool jox_path_find(const char *file, const char *name, const char *ending,
 }
 
 char *jox_path_real_below(const char *path, const char *folder) {
-    char *real = realpath(path, NULL), *root = realpath(folder, NULL); /* by the C library */
+    char *real = realpath(path, NULL), *root = realpath(folder, NULL); /* from malloc */
     const size_t n = root ? strlen(root) : 0;
     const bool below = real && root && strncmp(real, root, n) == 0 && (real[n] == '/' || n == 1);
     free(root);

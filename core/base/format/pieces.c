@@ -6,11 +6,11 @@
 #include "base/assert.h"
 #include "base/hash.h"
 
-/* What a file begins with: the format's version, and the order of bytes of who wrote it. */
+/* The head of a file. */
 typedef struct Head {
-    char magic[20];
-    uint32_t order;
-    char version[16]; /* of the engine */
+    char magic[20];   /* name and version of the format */
+    uint32_t order;   /* ORDER in the byte order of the machine that wrote it */
+    char version[16]; /* version of the engine that wrote it */
 } Head;
 
 typedef struct PieceHead {
@@ -22,15 +22,16 @@ static const char MAGIC[20] = "jostle checkpoint 1";
 static const char LAST[] = "end";
 enum { ORDER = 0x01020304 };
 
-static Head own_head(void) {
+static Head make_own_head(void) {
     Head head = {.order = ORDER};
     memcpy(head.magic, MAGIC, sizeof head.magic);
     snprintf(head.version, sizeof head.version, "%s", JOX_VERSION);
     return head;
 }
 
-/* Of a piece with its name and where in the file it stands: none can take another's place. */
-static uint64_t checksum(const PieceHead *head, size_t at, const void *data) {
+/* Returns the checksum of a piece. It includes name and offset, so that swapped pieces are found.
+ */
+static uint64_t compute_piece_checksum(const PieceHead *head, size_t at, const void *data) {
     const uint64_t place = at;
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, head->name, sizeof head->name);
@@ -42,7 +43,7 @@ static uint64_t checksum(const PieceHead *head, size_t at, const void *data) {
 }
 
 void jox_pieces_begin(JoxText *out) {
-    const Head head = own_head();
+    const Head head = make_own_head();
     jox_text_append(out, (const char *)&head, sizeof head);
 }
 
@@ -50,7 +51,7 @@ void jox_pieces_add(JoxText *out, const char *name, const void *data, size_t len
     PieceHead head = {.length = length};
     JOX_ASSERT(strlen(name) < sizeof head.name);
     snprintf(head.name, sizeof head.name, "%s", name);
-    head.sum = checksum(&head, out->length, data);
+    head.sum = compute_piece_checksum(&head, out->length, data);
     jox_text_append(out, (const char *)&head, sizeof head);
     jox_text_append(out, data, length);
     jox_text_append(out, "", 1);
@@ -60,8 +61,8 @@ void jox_pieces_end(JoxText *out) {
     jox_pieces_add(out, LAST, "", 0);
 }
 
-static bool begins_well(const JoxText *file, char why[200]) {
-    const Head own = own_head();
+static bool check_file_head(const JoxText *file, char why[200]) {
+    const Head own = make_own_head();
     Head head;
     if (file->length < sizeof head || memcmp(file->data, MAGIC, sizeof MAGIC - 2) != 0) {
         snprintf(why, 200, "it is no checkpoint");
@@ -82,7 +83,7 @@ static bool begins_well(const JoxText *file, char why[200]) {
 bool jox_pieces_next(const JoxText *file, size_t *at, JoxPiece *piece, char why[200]) {
     PieceHead head;
     *why = 0;
-    if (*at == 0 && !begins_well(file, why))
+    if (*at == 0 && !check_file_head(file, why))
         return false;
     if (*at == 0)
         *at = sizeof(Head);
@@ -97,7 +98,7 @@ bool jox_pieces_next(const JoxText *file, size_t *at, JoxPiece *piece, char why[
         return false;
     }
     const char *data = file->data + *at + sizeof head;
-    if (head.name[sizeof head.name - 1] || head.sum != checksum(&head, *at, data) ||
+    if (head.name[sizeof head.name - 1] || head.sum != compute_piece_checksum(&head, *at, data) ||
         data[head.length]) {
         head.name[sizeof head.name - 1] = 0;
         for (char *c = head.name; *c; c++)

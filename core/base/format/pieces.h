@@ -1,5 +1,5 @@
-/* The file of a checkpoint: a list of named pieces, each with its checksum. Its bytes are those of
-   this machine; it is no format for other machines. */
+/* The file format of checkpoints: a head and a list of named pieces, each with a checksum. Numbers
+   are in this machine's representation: a checkpoint cannot be moved to another kind of machine. */
 #ifndef JOX_BASE_FORMAT_PIECES_H
 #define JOX_BASE_FORMAT_PIECES_H
 
@@ -14,13 +14,13 @@ typedef struct JoxPiece {
     size_t length;
 } JoxPiece;
 
-/* Begins a file; adds a piece; ends it. */
+/* Write a file to `out`: its head, pieces, and its end. */
 void jox_pieces_begin(JoxText *out);
 void jox_pieces_add(JoxText *out, const char *name, const void *data, size_t length);
 void jox_pieces_end(JoxText *out);
 
-/* The piece that begins at *at, which moves on behind it; begin with 0. False behind the last, or
-   with what is wrong in `why` (200 bytes), which is "" otherwise. */
+/* Reads the piece at offset *at, 0 for the first, and advances *at to the next one. The piece
+   points into the file. False behind the last piece, with `why` "", or with an error in `why`. */
 bool jox_pieces_next(const JoxText *file, size_t *at, JoxPiece *piece, char why[200]);
 
 #endif

@@ -4,28 +4,28 @@
 
 #include "base/mem.h"
 
-/* A copy without control characters; to be freed. */
-static char *cleaned(const char *text) {
+/* Returns a copy without control characters, for the caller to free. */
+static char *copy_cleaned(const char *text) {
     char *clean = jox_strdup(text);
     jox_text_clean(clean);
     return clean;
 }
 
-static bool is_plain(char c, const char *others) {
+static bool is_plain_character(char c, const char *others) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c && strchr(others, c));
 }
 
-static bool all_plain(const char *text, const char *others) {
+static bool has_plain_characters(const char *text, const char *others) {
     for (; *text; text++)
-        if (!is_plain(*text, others))
+        if (!is_plain_character(*text, others))
             return false;
     return true;
 }
 
-/* Puts `mark` on both sides, and `inner` in place of each one inside. */
+/* Appends the text between two `mark`, with `inner` in place of each `mark` in the text. */
 static void enclose(JoxText *out, const char *text, char mark, const char *inner) {
-    char *clean = cleaned(text);
+    char *clean = copy_cleaned(text);
     jox_text_append(out, &mark, 1);
     for (const char *c = clean; *c; c++)
         if (*c == mark)
@@ -36,13 +36,13 @@ static void enclose(JoxText *out, const char *text, char mark, const char *inner
     jox_free(clean);
 }
 
-/* In double quotes, with octal escapes: single quotes cannot hold every text, since gnuplot 5.4
-   takes a pair of them at the beginning of a string, or next to another pair, for its end. */
+/* Uses double quotes with octal escapes. Single quotes cannot hold every text: gnuplot 5.4 takes a
+   pair of them at the beginning of a string, or next to another pair, for the string's end. */
 void jox_quote_gnuplot(JoxText *out, const char *text) {
-    char *clean = cleaned(text);
+    char *clean = copy_cleaned(text);
     jox_text_append(out, "\"", 1);
     for (const unsigned char *c = (const unsigned char *)clean; *c; c++)
-        if (*c >= 0x80 || is_plain((char)*c, " -_.,:;()/+=?!*"))
+        if (*c >= 0x80 || is_plain_character((char)*c, " -_.,:;()/+=?!*"))
             jox_text_append(out, (const char *)c, 1);
         else
             jox_text_printf(out, "\\%03o", *c);
@@ -57,8 +57,8 @@ void jox_quote_gnuplot_file(JoxText *out, const char *text) {
     jox_text_free(&path);
 }
 
-/* What stands for a character in XML, or NULL. */
-static const char *entity(char c) {
+/* Returns the XML entity of a character that must not stand for itself; else NULL. */
+static const char *find_entity(char c) {
     switch (c) {
     case '<':
         return "&lt;";
@@ -76,9 +76,9 @@ static const char *entity(char c) {
 }
 
 void jox_quote_xml(JoxText *out, const char *text) {
-    char *clean = cleaned(text); /* as many bytes as the text */
+    char *clean = copy_cleaned(text); /* has the same length as the text */
     for (size_t i = 0; clean[i]; i++) {
-        const char *stands = entity(clean[i]);
+        const char *stands = find_entity(clean[i]);
         if (stands)
             jox_text_add(out, stands);
         else
@@ -89,27 +89,28 @@ void jox_quote_xml(JoxText *out, const char *text) {
 
 void jox_quote_url(JoxText *out, const char *text) {
     for (; *text; text++)
-        jox_text_printf(out, is_plain(*text, "-_./") ? "%c" : "%%%02X", (unsigned char)*text);
+        jox_text_printf(out, is_plain_character(*text, "-_./") ? "%c" : "%%%02X",
+                        (unsigned char)*text);
 }
 
 void jox_quote_csv(JoxText *out, const char *text) {
-    if (all_plain(text, " -_./:()"))
+    if (has_plain_characters(text, " -_./:()"))
         jox_text_add(out, text);
     else
         enclose(out, text, '"', "\"\"");
 }
 
 void jox_quote_shell(JoxText *out, const char *text) {
-    if (*text && all_plain(text, "-_./:=,+@%"))
+    if (*text && has_plain_characters(text, "-_./:=,+@%"))
         jox_text_add(out, text);
     else
         enclose(out, text, '\'', "'\\''");
 }
 
 void jox_quote_markdown(JoxText *out, const char *text) {
-    char *clean = cleaned(text);
+    char *clean = copy_cleaned(text);
     for (const char *c = clean; *c; c++) {
-        const char *stands = *c == '<' || *c == '&' ? entity(*c) : NULL;
+        const char *stands = *c == '<' || *c == '&' ? find_entity(*c) : NULL;
         if (stands) {
             jox_text_add(out, stands);
             continue;
@@ -122,7 +123,7 @@ void jox_quote_markdown(JoxText *out, const char *text) {
 }
 
 void jox_quote_file_name(JoxText *out, const char *text) {
-    char *clean = cleaned(text);
+    char *clean = copy_cleaned(text);
     for (char *c = clean; *c; c++)
         if (*c == '/' || (c == clean && (*c == '.' || *c == '-')))
             *c = '_';

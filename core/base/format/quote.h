@@ -1,5 +1,5 @@
-/* Text that another program interprets: one function for each language. They take any bytes, and
-   what comes out is one harmless token of that language. SQL has none: its values are bound. */
+/* Quoting of text for other programs, one function per language. Each takes any bytes and yields
+   one harmless token of its language. SQL needs none: values are bound to statements. */
 #ifndef JOX_BASE_FORMAT_QUOTE_H
 #define JOX_BASE_FORMAT_QUOTE_H
 
@@ -7,32 +7,33 @@
 
 #include "base/text.h"
 
-/* Appends `text`, quoted. In all of them control characters and bytes that are not UTF-8 become '?'
-   or blanks (jox_text_clean), so that the result stays on one line; jox_quote_xml keeps the ends of
-   lines, which mean nothing there. */
+/* Appends `text`, quoted. Control characters and bytes that are not UTF-8 become '?' or blanks
+   (jox_text_clean), so that the result is one line; jox_quote_xml keeps line ends, which are
+   harmless there. */
 typedef void JoxQuote(JoxText *out, const char *text);
 
-/* A gnuplot string in double quotes, with octal escapes for all that gnuplot would expand or that
-   would end the string. Text that is shown also needs `noenhanced`, else _ ^ { } are markup. */
+/* Writes a gnuplot string in double quotes, with octal escapes for characters that gnuplot would
+   expand or that would end the string. Labels need `noenhanced` too, else _ ^ { } are markup. */
 JoxQuote jox_quote_gnuplot;
-/* The name of a file for gnuplot: as above, with "./" before a relative path, since names that
+/* Writes a file's name for gnuplot: as above, with "./" before a relative path, since names that
    begin with < or | would be commands. */
 JoxQuote jox_quote_gnuplot_file;
-/* Text or the value of an attribute of HTML, SVG and XML; without the attribute's quotes. */
+/* Writes text or the value of an attribute of HTML, SVG and XML; without the attribute's quotes. */
 JoxQuote jox_quote_xml;
-/* A path in the attribute of a link: all but letters, digits and -_./ becomes %XX. */
+/* Writes a path for the attribute of a link: all except letters, digits and -_./ becomes %XX. */
 JoxQuote jox_quote_url;
-/* One field of a CSV file (RFC 4180): in quotes where it needs them. */
+/* Writes a field of a CSV file (RFC 4180), in quotes if it needs them. */
 JoxQuote jox_quote_csv;
-/* One argument of a command for a POSIX shell: in quotes where it needs them. */
+/* Writes an argument of a command for a POSIX shell, in quotes if it needs them. */
 JoxQuote jox_quote_shell;
-/* A cell of a table of Markdown. */
+/* Writes a cell of a Markdown table. */
 JoxQuote jox_quote_markdown;
-/* One component of a path, to make a file's name of a name: '/' becomes '_', as does a '.' or '-'
-   at its beginning. */
+/* Writes one component of a path, to name a file by a name that a user gave: '/' becomes '_', as
+   does a
+   '.' or '-' at its beginning. */
 JoxQuote jox_quote_file_name;
 
-/* Writes what `quote` makes of a text to a file. */
+/* Writes the quoted text to a file. */
 void jox_quote_put(FILE *out, JoxQuote *quote, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
-/* Floating-point numbers as the bits that they are stored in (IEEE 754), and back. Of numbers that
-   are not negative, the bits ascend with the numbers. */
+/* Conversion between floating-point numbers and the bits that store them (IEEE 754). The bits of
+   non-negative numbers, as integers, have the same order as the numbers. */
 #ifndef JOX_BASE_NUMBER_BITS_H
 #define JOX_BASE_NUMBER_BITS_H
 

@@ -31,7 +31,7 @@ JoxDist jox_dist_constant(double value) {
     return (JoxDist){.kind = JOX_DIST_CONSTANT, .a = value, .lo = -INFINITY, .hi = INFINITY};
 }
 
-static bool takes(JoxDistKind kind, const double *v, int count) {
+static bool accepts_arguments(JoxDistKind kind, const double *v, int count) {
     const bool bounded = (count == 2 || count == 4) && (count < 4 || v[2] < v[3]);
     switch (kind) {
     case JOX_DIST_CONSTANT:
@@ -53,7 +53,7 @@ static bool takes(JoxDistKind kind, const double *v, int count) {
 }
 
 bool jox_dist_make(JoxDistKind kind, const double *arguments, int count, JoxDist *out) {
-    if (!takes(kind, arguments, count))
+    if (!accepts_arguments(kind, arguments, count))
         return false;
     const bool bounded = kind != JOX_DIST_CHOOSE && count == 4;
     *out = (JoxDist){.kind = kind,
@@ -108,51 +108,53 @@ void jox_dist_print(const JoxDist *dist, JoxText *out) {
 
 /* ---- drawing ---- */
 
-/* The random numbers of one value: an attempt draws from a stretch of numbers of its own. */
+/* The random numbers for one draw: `next` is the `sub` of the next one. */
 typedef struct Stream {
     uint64_t seed, tick;
     uint32_t agent, next;
     JoxDraw purpose;
 } Stream;
 
-static double next_unit(Stream *s) {
+static double draw_unit(Stream *s) {
     return jox_random_unit(s->seed, s->agent, s->tick, s->purpose, s->next++);
 }
 
-/* Of mean 0, by the transform of Box and Muller. */
-static double next_normal(Stream *s, double deviation) {
-    const double u = 1.0 - next_unit(s);
-    const double v = next_unit(s);
+/* Draws a normal number of mean 0 by the Box-Muller transform. */
+static double draw_normal(Stream *s, double deviation) {
+    const double u = 1.0 - draw_unit(s);
+    const double v = draw_unit(s);
     return deviation * sqrt(-2.0 * jox_log(u)) * jox_cos(TURN * v);
 }
 
-static double next_gamma(Stream *s, double shape) {
-    /* Below a shape of 1: that of shape + 1, times a power of an even number. */
-    const double power = shape < 1.0 ? jox_pow(1.0 - next_unit(s), 1.0 / shape) : 1.0;
+/* Draws a gamma number of scale 1: G. Marsaglia and W. W. Tsang, "A simple method for generating
+   gamma variables", ACM TOMS 26(3), 2000. */
+static double draw_gamma(Stream *s, double shape) {
+    /* A shape below 1 is drawn with shape + 1, times a uniform number to the power 1 / shape. */
+    const double power = shape < 1.0 ? jox_pow(1.0 - draw_unit(s), 1.0 / shape) : 1.0;
     const double d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3.0, c = 1.0 / sqrt(9.0 * d);
-    for (int attempt = 0; attempt < 32; attempt++) { /* nineteen of twenty are good */
-        const double x = next_normal(s, 1.0), v = 1.0 + c * x, cube = v * v * v;
-        const double u = 1.0 - next_unit(s);
+    for (int attempt = 0; attempt < 32; attempt++) { /* each succeeds with a probability of 0.95 */
+        const double x = draw_normal(s, 1.0), v = 1.0 + c * x, cube = v * v * v;
+        const double u = 1.0 - draw_unit(s);
         if (v > 0.0 && jox_log(u) < 0.5 * x * x + d - d * cube + d * jox_log(cube))
             return d * cube * power;
     }
     return d * power;
 }
 
-static double next_value(const JoxDist *dist, Stream *s) {
+static double draw_value(const JoxDist *dist, Stream *s) {
     switch (dist->kind) {
     case JOX_DIST_NORMAL:
-        return dist->a + next_normal(s, dist->b);
+        return dist->a + draw_normal(s, dist->b);
     case JOX_DIST_LOGNORMAL:
-        return jox_exp(dist->a + next_normal(s, dist->b));
+        return jox_exp(dist->a + draw_normal(s, dist->b));
     case JOX_DIST_GAMMA:
-        return dist->b * next_gamma(s, dist->a);
+        return dist->b * draw_gamma(s, dist->a);
     case JOX_DIST_WEIBULL:
-        return dist->b * jox_pow(-jox_log(1.0 - next_unit(s)), 1.0 / dist->a);
+        return dist->b * jox_pow(-jox_log(1.0 - draw_unit(s)), 1.0 / dist->a);
     case JOX_DIST_UNIFORM:
-        return dist->a + (dist->b - dist->a) * next_unit(s);
+        return dist->a + (dist->b - dist->a) * draw_unit(s);
     case JOX_DIST_CHOOSE:
-        return dist->values[(int)(next_unit(s) * dist->choices)];
+        return dist->values[(int)(draw_unit(s) * dist->choices)];
     case JOX_DIST_CONSTANT:
     case JOX_DIST_KINDS:
         break;
@@ -163,14 +165,15 @@ static double next_value(const JoxDist *dist, Stream *s) {
 double jox_dist_draw(const JoxDist *dist, uint64_t seed, uint32_t agent, uint64_t tick,
                      JoxDraw purpose, uint32_t sub) {
     const bool once = dist->kind == JOX_DIST_UNIFORM || dist->kind == JOX_DIST_CHOOSE;
-    /* A normal number takes two of the stream, a gamma one more, and there are 16 attempts. */
+    /* Each attempt has its own range of `sub`: 2 numbers for a normal one, up to 97 for a gamma
+       one. There are 16 attempts, and ranges of different `sub` arguments do not overlap. */
     const uint32_t each = dist->kind == JOX_DIST_GAMMA ? 128 : 2, first = sub * 32 * each;
     double value = dist->a;
     if (dist->kind == JOX_DIST_CONSTANT)
         return value;
     for (uint32_t attempt = 0; attempt < 16; attempt++) {
         Stream s = {seed, tick, agent, once ? sub : 0x10000 + first + attempt * each, purpose};
-        value = next_value(dist, &s);
+        value = draw_value(dist, &s);
         if (once || (value >= dist->lo && value <= dist->hi))
             return value;
     }

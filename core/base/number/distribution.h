@@ -1,4 +1,5 @@
-/* Distributions of numbers: what they are called, what they take, and how they are drawn. */
+/* Probability distributions: their names and arguments in scenes and behaviours, and how numbers
+   are drawn from them. */
 #ifndef JOX_BASE_DISTRIBUTION_H
 #define JOX_BASE_DISTRIBUTION_H
 
@@ -12,7 +13,8 @@
 enum { JOX_DIST_CHOICES = 8 };
 
 #define JOX_DIST_BOUNDED " [, least, greatest]"
-/* X(KIND, name, arguments, meaning, example). Those that may be bounded take two arguments more. */
+/* X(KIND, name, arguments, meaning, example). Those with JOX_DIST_BOUNDED have two optional bounds.
+ */
 #define JOX_DISTS(X)                                                                               \
     X(NORMAL, normal, "mean, deviation" JOX_DIST_BOUNDED, "a normal distribution",                 \
       "normal(1, 0.1, 0.5, 1.5)")                                                                  \
@@ -34,31 +36,31 @@ typedef enum JoxDistKind {
         JOX_DIST_KINDS
 } JoxDistKind;
 
-/* a, b: the first two arguments; of a constant, a is its value. What is drawn of those that may be
-   bounded is kept within [lo, hi], by redrawing, then by taking the nearer of them. */
+/* A distribution with its arguments. */
 typedef struct JoxDist {
     JoxDistKind kind;
-    double a, b, lo, hi;
-    double values[JOX_DIST_CHOICES];
+    double a, b;   /* the first two arguments; a: the value of a constant */
+    double lo, hi; /* bounds, infinite without: numbers beyond are drawn again, at last clamped */
+    double values[JOX_DIST_CHOICES]; /* the arguments of choose */
     int choices;
 } JoxDist;
 
-/* All that can be written, with commas between; for errors. */
+/* All distributions with their arguments, separated by commas; for errors. */
 extern const char jox_dist_usage[];
-/* The kind of a name of `length` bytes; JOX_DIST_KINDS if it is none. */
+/* Returns the kind that has a name of `length` bytes; JOX_DIST_KINDS if none has. */
 JoxDistKind jox_dist_named(const char *name, size_t length);
 
 JoxDist jox_dist_constant(double value);
-/* The distribution of a kind with so many arguments; false where it does not take these. */
+/* Makes a distribution of `count` arguments; false if the kind does not accept them. */
 bool jox_dist_make(JoxDistKind kind, const double *arguments, int count, JoxDist *out);
 bool jox_dist_same(const JoxDist *a, const JoxDist *b);
-/* The mean, of a lognormal one the median, before bounds; of a constant its value. */
+/* Returns a typical value, without regard to bounds: the mean; lognormal: the median; choose: the
+   first value. */
 double jox_dist_middle(const JoxDist *dist);
-/* As it is written; of a constant the number. */
+/* Appends the distribution as a scene writes it; a constant as its number. */
 void jox_dist_print(const JoxDist *dist, JoxText *out);
 
-/* Draws with the stream (seed, agent, tick, purpose, sub). Gamma: G. Marsaglia and W. W. Tsang, "A
-   simple method for generating gamma variables", ACM TOMS 26(3), 2000. */
+/* Draws a number, a pure function of all arguments (random.h). */
 double jox_dist_draw(const JoxDist *dist, uint64_t seed, uint32_t agent, uint64_t tick,
                      JoxDraw purpose, uint32_t sub);
 

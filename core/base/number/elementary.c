@@ -8,8 +8,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Taylor series on [-pi/4, pi/4]; `odd` 1 gives the sine, 0 the cosine. */
-static double trig_series(double r, int odd) {
+/* Taylor series on [-pi/4, pi/4]: `odd` 1 is the sine, 0 the cosine. */
+static double sum_trig_series(double r, int odd) {
     double term = odd ? r : 1.0, sum = term, r2 = r * r;
     for (int k = odd ? 2 : 1; k < 20; k += 2) {
         term = -term * r2 / ((double)k * (k + 1));
@@ -18,28 +18,28 @@ static double trig_series(double r, int odd) {
     return sum;
 }
 
-static double trig(double x, int quarter) {
+static double compute_sine_or_cosine(double x, int quarter) {
     if (!isfinite(x))
         return NAN;
-    /* pi/2 in three parts, so that the reduction stays exact for |x| up to about 1e9. */
+    /* pi/2 is subtracted in three parts, so that r is exact for |x| up to about 1e9. */
     double n = floor(x * (2.0 / PI) + 0.5);
     double r = ((x - n * 1.57079632673412561417) - n * 6.07710050630396597660e-11) -
                n * 2.02226624879595063154e-21;
     int q = (int)(fmod(n, 4.0) + 4.0 + quarter) & 3;
-    double value = trig_series(r, !(q & 1));
+    double value = sum_trig_series(r, !(q & 1));
     return q & 2 ? -value : value;
 }
 
 double jox_sin(double x) {
-    return trig(x, 0);
+    return compute_sine_or_cosine(x, 0);
 }
 
 double jox_cos(double x) {
-    return trig(x, 1);
+    return compute_sine_or_cosine(x, 1);
 }
 
-/* atan on [0, 1]: two halvings of the angle, then the series. */
-static double atan_unit(double t) {
+/* Arctangent on [0, 1]: halves the angle twice, then sums the series. */
+static double compute_atan_unit(double t) {
     t = t / (1.0 + sqrt(1.0 + t * t));
     t = t / (1.0 + sqrt(1.0 + t * t));
     double t2 = t * t, sum = 0.0;
@@ -52,7 +52,7 @@ double jox_atan2(double y, double x) {
     double ax = fabs(x), ay = fabs(y);
     if (ax == 0.0 && ay == 0.0)
         return 0.0;
-    double a = ax >= ay ? atan_unit(ay / ax) : PI / 2 - atan_unit(ax / ay);
+    double a = ax >= ay ? compute_atan_unit(ay / ax) : PI / 2 - compute_atan_unit(ax / ay);
     if (x < 0.0)
         a = PI - a;
     return y < 0.0 ? -a : a;

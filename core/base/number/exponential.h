@@ -1,4 +1,4 @@
-/* The exponential function of elementary.h, for loops that compilers make vector operations of. */
+/* The exponential function of elementary.h without branches, for loops that compilers vectorise. */
 #ifndef JOX_BASE_EXPONENTIAL_H
 #define JOX_BASE_EXPONENTIAL_H
 
@@ -6,7 +6,7 @@
 
 #include "base/number/bits.h"
 
-/* jox_exp of -708 to 709, to the bit, without a branch. */
+/* Returns jox_exp(x), to the bit, for x from -708 to 709. */
 static inline double jox_exp_within(double x) {
     double n = floor(x * 1.4426950408889634 + 0.5);
     double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;

@@ -1,12 +1,14 @@
-/* Random numbers as a pure function of (seed, agent, tick, purpose): no state, no order. */
+/* Random numbers as a pure function of (seed, agent, tick, purpose, sub). There is no generator
+   state, so that results do not depend on the order of draws or on the number of threads. */
 #ifndef JOX_BASE_RANDOM_H
 #define JOX_BASE_RANDOM_H
 
 #include <stdint.h>
 
-/* What a number is drawn for: keeps the streams of different uses apart. */
+/* The purposes of draws. Numbers for different purposes are independent. The values are part of
+   every run's result and never change. */
 typedef enum {
-    JOX_DRAW_FILL = 1, /* scene: where an agent is put */
+    JOX_DRAW_FILL = 1, /* start position of an agent */
     JOX_DRAW_OWN,      /* per-agent distributions (one per slot) */
     JOX_DRAW_MEMORY,   /* initial memory */
     JOX_DRAW_CHANCE,   /* a transition's chance */
@@ -18,12 +20,12 @@ typedef enum {
     JOX_DRAW_MIX,      /* which behaviour of a mix */
     JOX_DRAW_TURN,     /* how far a shoulder is turned */
     JOX_DRAW_GAP,      /* a walker's time gap */
-    JOX_DRAW_WANDER,   /* which way one who wanders turns */
+    JOX_DRAW_WANDER,   /* the direction that a wandering agent turns to */
     JOX_DRAW_PROFILE,  /* which profile of a group */
-    JOX_DRAW_DOOR,     /* by which place of a set somebody comes in */
-    JOX_DRAW_ARRIVAL,  /* how long after another somebody comes by a source */
-    JOX_DRAW_ASIDE,    /* how far an agent that stands before others turns aside */
-    JOX_DRAW_SWAY      /* how agents that wait shift about their spots */
+    JOX_DRAW_DOOR,     /* the place of a set that an agent of a source enters by */
+    JOX_DRAW_ARRIVAL,  /* time between two agents of a source */
+    JOX_DRAW_ASIDE,    /* how far an agent that blocks others steps aside */
+    JOX_DRAW_SWAY      /* movement of waiting agents around their spots */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */
@@ -32,8 +34,8 @@ static inline uint64_t jox_random_mix(uint64_t z) {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
 }
-/* What draws with one seed share, and what those at one time and for one purpose share: for who
-   draws for many agents. */
+/* The parts of jox_random_bits that do not depend on the agent, for loops over agents to compute
+   once: jox_random_of(jox_random_stream(seed), agent, sub, jox_random_moment(tick, purpose)). */
 static inline uint64_t jox_random_stream(uint64_t seed) {
     return jox_random_mix(seed + 0x9e3779b97f4a7c15u);
 }
@@ -44,16 +46,16 @@ static inline uint64_t jox_random_of(uint64_t stream, uint32_t agent, uint32_t s
                                      uint64_t moment) {
     return jox_random_mix(jox_random_mix(stream ^ ((uint64_t)agent << 32 | sub)) ^ moment);
 }
-/* 64 independent bits. `sub` numbers the draws of one purpose. */
+/* Returns 64 random bits. `sub` numbers the draws of one agent and purpose within a tick. */
 static inline uint64_t jox_random_bits(uint64_t seed, uint32_t agent, uint64_t tick,
                                        JoxDraw purpose, uint32_t sub) {
     return jox_random_of(jox_random_stream(seed), agent, sub, jox_random_moment(tick, purpose));
 }
-/* Uniform in [0, 1): 53 of the bits. */
+/* Converts random bits to a number uniform in [0, 1), by 53 of them. */
 static inline double jox_random_share(uint64_t bits) {
     return (double)(bits >> 11) * 0x1p-53;
 }
-/* Uniform in [0, 1), 53 bits. */
+/* Returns a number uniform in [0, 1). */
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose, uint32_t sub);
 
 #endif

@@ -23,7 +23,7 @@ double jox_quantile(double *values, size_t count, double q) {
 
 /* The continued fraction of the incomplete beta function (Abramowitz and Stegun 26.5.8) by Lentz's
    method; for x below (a + 1) / (a + b + 2). */
-static double beta_fraction(double a, double b, double x) {
+static double compute_beta_fraction(double a, double b, double x) {
     enum { MOST = 1000 };
     static const double TINY = 1e-300;
     double c = 1, d = 1 - (a + b) * x / (a + 1);
@@ -47,19 +47,19 @@ static double beta_fraction(double a, double b, double x) {
 }
 
 /* The regularised incomplete beta function I_x(a, b). */
-static double beta_share(double a, double b, double x) {
+static double compute_beta_share(double a, double b, double x) {
     if (!(x > 0))
         return isnan(x) ? NAN : 0;
     if (x >= 1)
         return 1;
     const double front = exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log1p(-x));
     if (x < (a + 1) / (a + b + 2))
-        return front * beta_fraction(a, b, x) / a;
-    return 1 - front * beta_fraction(b, a, 1 - x) / b;
+        return front * compute_beta_fraction(a, b, x) / a;
+    return 1 - front * compute_beta_fraction(b, a, 1 - x) / b;
 }
 
 double jox_student_tail(double t, double degrees) {
-    return beta_share(degrees / 2, 0.5, degrees / (degrees + t * t));
+    return compute_beta_share(degrees / 2, 0.5, degrees / (degrees + t * t));
 }
 
 double jox_student_t(double degrees, double share) {
@@ -84,12 +84,12 @@ JoxMoments jox_moments(const double *values, size_t count) {
     double sum = 0, squares = 0;
     bool equal = true;
     for (size_t k = 0; k < count; k++) {
-        sum += values[k]; /* NAN stays */
+        sum += values[k]; /* one NAN makes the mean NAN */
         equal &= values[k] == values[0];
     }
     if (count == 0)
         return m;
-    m.mean = equal ? values[0] : sum / (double)count; /* equal ones: without rounding */
+    m.mean = equal ? values[0] : sum / (double)count; /* exact if all values are equal */
     for (size_t k = 0; k < count; k++)
         squares += (values[k] - m.mean) * (values[k] - m.mean);
     if (count > 1)
@@ -105,8 +105,8 @@ double jox_mean_bound(const JoxMoments *m, double share) {
 
 /* ---- differences ---- */
 
-/* `error`: the standard error of the difference. */
-static void put_interval(JoxEffect *e, double error, double share) {
+/* Sets interval and p-value from the standard error of the difference. */
+static void set_interval(JoxEffect *e, double error, double share) {
     if (!isfinite(error) || !isfinite(e->degrees))
         return;
     const double bound = jox_student_t(e->degrees, share) * error;
@@ -128,7 +128,7 @@ JoxEffect jox_effect_paired(const double *a, const double *b, size_t count, doub
     e.deviation = m.deviation;
     if (count > 1) {
         e.degrees = (double)(count - 1);
-        put_interval(&e, m.deviation / sqrt((double)count), share);
+        set_interval(&e, m.deviation / sqrt((double)count), share);
     }
     return e;
 }
@@ -146,14 +146,14 @@ JoxEffect jox_effect_apart(const double *a, size_t a_count, const double *b, siz
     e.degrees = u + v > 0 ? (u + v) * (u + v) /
                                 (u * u / (double)(a_count - 1) + v * v / (double)(b_count - 1))
                           : (double)(a_count + b_count - 2);
-    put_interval(&e, sqrt(u + v), share);
+    set_interval(&e, sqrt(u + v), share);
     return e;
 }
 
-/* The mean of as many values as there are, drawn with replacement; of those of `b` less those of
-   `a`, if there are any. */
-static double draw_mean(const double *a, const double *b, size_t count, uint32_t draw,
-                        uint32_t stream) {
+/* Returns the mean of `count` values of `a` (or, if `b` is not NULL, of differences b - a) drawn
+   with replacement. */
+static double draw_bootstrap_mean(const double *a, const double *b, size_t count, uint32_t draw,
+                                  uint32_t stream) {
     double sum = 0;
     for (size_t k = 0; k < count; k++) {
         const double u =
@@ -171,17 +171,19 @@ void jox_effect_bootstrap(JoxEffect *e, const double *a, const double *b, uint32
         return;
     double *drawn = jox_alloc(resamples, sizeof *drawn);
     for (uint32_t r = 0; r < resamples; r++)
-        drawn[r] = e->pairs ? draw_mean(a, b, e->pairs, r, 1)
-                            : draw_mean(b, NULL, e->b, r, 2) - draw_mean(a, NULL, e->a, r, 1);
+        drawn[r] = e->pairs ? draw_bootstrap_mean(a, b, e->pairs, r, 1)
+                            : draw_bootstrap_mean(b, NULL, e->b, r, 2) -
+                                  draw_bootstrap_mean(a, NULL, e->a, r, 1);
     e->low = jox_quantile(drawn, resamples, (1 - share) / 2);
     e->high = jox_quantile(drawn, resamples, (1 + share) / 2);
     jox_free(drawn);
 }
 
-/* Whether n runs of each side find an effect of so many deviations, `samples` being drawn. */
-static bool is_found(double n, double size, double samples, double share, double power) {
+/* Whether n runs per side suffice to find an effect of `size` standard deviations. `samples`: 1 if
+   the runs are paired, else 2. */
+static bool is_effect_found(double n, double size, double samples, double share, double power) {
     const double degrees = samples * (n - 1);
-    /* |T| is below t with a probability 2 power - 1 where T is below t with `power`. */
+    /* P(T < t) = power is the same as P(|T| < t) = 2 power - 1 */
     return size * sqrt(n / samples) >=
            jox_student_t(degrees, share) + jox_student_t(degrees, 2 * power - 1);
 }
@@ -193,7 +195,7 @@ size_t jox_effect_runs(const JoxEffect *e, double share, double power) {
     if (!(fabs(e->difference) > 0) || !(e->deviation >= 0))
         return 0;
     size_t low = 1, high = 2; /* too few; enough */
-    while (high < MOST && !is_found((double)high, size, samples, share, power)) {
+    while (high < MOST && !is_effect_found((double)high, size, samples, share, power)) {
         low = high;
         high *= 2;
     }
@@ -201,7 +203,7 @@ size_t jox_effect_runs(const JoxEffect *e, double share, double power) {
         return 0;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (is_found((double)middle, size, samples, share, power))
+        if (is_effect_found((double)middle, size, samples, share, power))
             high = middle;
         else
             low = middle;
@@ -216,15 +218,15 @@ size_t jox_rank_above(size_t count, double q) {
     return below < (double)count ? (size_t)below + 1 : 0;
 }
 
-/* The probability of at most k successes of n, each of probability q. */
-static double binomial_share(size_t k, size_t n, double q) {
-    return k >= n ? 1 : beta_share((double)(n - k), (double)k + 1, 1 - q);
+/* Returns the probability of at most k successes in n trials, each of probability q. */
+static double compute_binomial_share(size_t k, size_t n, double q) {
+    return k >= n ? 1 : compute_beta_share((double)(n - k), (double)k + 1, 1 - q);
 }
 
 size_t jox_rank_bound(size_t count, double q, double share) {
-    /* The value of rank r is below the quantile where at least r of them are. */
+    /* The value of rank r is an upper bound if at most r - 1 values lie below the quantile. */
     for (size_t r = 1; r <= count; r++)
-        if (binomial_share(r - 1, count, q) >= share)
+        if (compute_binomial_share(r - 1, count, q) >= share)
             return r;
     return 0;
 }
