@@ -68,7 +68,8 @@ typedef enum JoTroubleKind {
     JO_TROUBLE_SUSPENDED, /* a function of a behaviour failed too often and is no longer called */
     JO_TROUBLE_LOST,      /* people were lost (JoLost) */
     JO_TROUBLE_FAILED,    /* a function of a behaviour failed in a tenth of its calls or more */
-    JO_TROUBLE_NO_WAY     /* people cannot reach their goal: walls that are no gates lie between */
+    JO_TROUBLE_NO_WAY     /* people cannot reach their goal: walls, a body that nothing moves or a
+                             gate that nothing opens lies between, or no gap is as wide as they */
 } JoTroubleKind;
 typedef struct JoTrouble {
     JoTroubleKind kind;

@@ -302,6 +302,9 @@ uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]);
 /* Everybody hears the name (by number) in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
+/* The place that an agent goes to by a field in the state it is in and that it has not reached; -1:
+   none. *shut, unless NULL: no way leads there as all stands now, as far as that is known. */
+int32_t jox_machines_field_goal(const JoxMachineRun *run, uint32_t i, bool *shut);
 /* The place that somebody goes to by a field in the state they are in and to which no way leads,
    not through walls that open either; -1: none. That a way leads through these is known half a
    second after it was asked for. */

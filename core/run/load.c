@@ -167,6 +167,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_names(scene, diagnostics);
         jox_run_check_step(scene, diagnostics);
         jox_run_check_sources(scene, diagnostics);
+        jox_run_check_journeys(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
         if (!def->no_density)

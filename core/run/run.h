@@ -18,6 +18,7 @@
 #include "run/watch/watch.h"
 #include "scene/mods.h"
 #include "scene/scene.h"
+#include "world/routes/hindrance.h"
 #include "world/world.h"
 
 /* Is told of files that were loaded: what they are parts of (NULL: of a scene that begins), and
@@ -135,9 +136,16 @@ void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* wall_checks.c: sources at which walls keep some or all from coming in. */
 void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* Goals to which walls leave no way, also with all gates open, and those of journeys that lie in
-   walls. The scene is not to be stepped from then on. */
+/* Steps of journeys whose places lie in walls. */
+void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Goals to which no way leads people as broad as they are: walls or fixed bodies lie between, or a
+   gate that nothing opens. The scene is not to be stepped from then on. */
 void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics);
+/* Appends what keeps people from a place: "the body 'crate' fills the way at (3.0, 4.0) m". */
+void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out);
+/* Whether an event or a line of the input log opens the walls of a name, or somebody at the page or
+   a program has set them. */
+bool jox_run_opens(const JoScene *scene, const char *gate);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */
@@ -247,8 +255,27 @@ typedef struct JoxStill {
     uint32_t people;     /* the most at a time */
 } JoxStill;
 const JoxStill *jox_run_stood_still(const JoScene *scene);
-/* Whether it was said of a place that people cannot reach it. */
-bool jox_run_told_no_way(const JoScene *scene, uint32_t place);
+/* People who are kept from a place that they go to, all by the same thing. */
+typedef struct JoxKept {
+    uint32_t place, people;
+    uint32_t *groups; /* of these, by group */
+    JoxHindrance why; /* of the first of them */
+    double since;     /* s: NAN unless a gate or a body that moves keeps them */
+    bool stands;      /* nothing in the scene, its events and inputs takes it away */
+} JoxKept;
+enum { JOX_MOST_KEPT = 16 };
+typedef struct JoxKeptList {
+    JoxKept items[JOX_MOST_KEPT];
+    uint32_t count;
+} JoxKeptList;
+/* Now, of places of which that was seen while the run went on; good until the next step. NULL:
+   nobody looked. */
+const JoxKeptList *jox_run_kept(const JoScene *scene);
+/* results/kept.c: sentences of the last lines, of those whom a gate or a body that moves keeps;
+   adds
+   ,"kept": [{from, cause, by, people, since_s}] to a summary, where somebody is kept. */
+void jox_run_say_kept(const JoScene *scene, JoxText *out);
+void jox_run_add_kept(const JoScene *scene, JoxJson *json);
 /* probes.c: the same for probes. The n-th, or NULL behind the last. */
 void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);

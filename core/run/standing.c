@@ -5,6 +5,7 @@
 #include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "world/routes/hindrance.h"
 
 static const double LOOK = 1.0;   /* s between looks at each person */
 static const float MOVED = 0.25f; /* m: who has come so far does not stand */
@@ -12,9 +13,12 @@ static const double STILL = 30.0; /* s: who has stood so long stands still */
 static const float ABOUT = 5.0f;  /* m: about the middle of a crowd */
 /* A crowd: so many of them, or fewer but half of all who are there. */
 enum { CROWD = 10, FEW = 3, CANDIDATES = 64 };
-/* What is known of a place: that a way leads there; that none did when last looked, which is told
-   once it holds at two looks, as ways through gates are known a little later; that it was told. */
-typedef enum NoWay { LEADS, SEEMS_SHUT, TOLD } NoWay;
+/* What is known of a place: that a way leads there; that none did when last looked, which is judged
+   once it holds at two looks, as ways through gates are known a little later; that a way leads
+   there for people as broad as those; that it was told. */
+typedef enum NoWay { LEADS, SEEMS_SHUT, CLEARED, TOLD } NoWay;
+static const float BROAD =
+    0.22f; /* m: radius of people for whom the ways of routes are too narrow */
 
 typedef struct Stand {
     JoxV2 at;
@@ -33,9 +37,15 @@ typedef struct Standing {
     size_t still_count, still_capacity;
     uint8_t *told; /* by place: NoWay */
     size_t told_count, told_capacity;
-    uint32_t *first; /* by place: of this look the first person with none, plus 1 */
+    double *shut_since; /* by place, s: since when people wait for what is shut; NAN: none do */
+    size_t shut_count, shut_capacity;
+    uint32_t *first; /* by place: of this look the broadest person with none, plus 1 */
     size_t first_capacity;
-    uint32_t no_way; /* places to which none leads */
+    uint8_t *waits; /* by place: of this look somebody waits for what is shut */
+    size_t waits_capacity;
+    JoxKeptList kept; /* at the time at which it was asked for last */
+    double kept_at;   /* s */
+    uint32_t no_way;  /* places to which none leads */
 } Standing;
 
 /* Slots are used again: who is new in one has not stood yet. */
@@ -130,14 +140,40 @@ static void judge(Standing *s, const JoScene *scene) {
 
 /* ---- goals that cannot be reached ---- */
 
-static void say_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
+static bool is_blocked(JoxHindranceKind kind) {
+    return kind == JOX_HINDRANCE_WALL || kind == JOX_HINDRANCE_NARROW ||
+           kind == JOX_HINDRANCE_FILLED;
+}
+
+static float radius_of(const JoxAgents *a, uint32_t i) {
+    return jox_param(a, JOX_PARAM_radius, i);
+}
+
+/* Whether a closed gate stands where people leave by a point or a line. */
+static bool has_gate_on(const JoScene *scene, uint32_t place) {
+    const JoxRouteStage stage = jox_world_route_stage(scene->world);
+    return jox_hindrance_gate_on(&stage, place) != UINT32_MAX;
+}
+
+/* Tells whom something that never moves keeps from a place; false: a way leads there for the first,
+   or will. */
+static bool tell_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
+    const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxV2 at = {a->x[first], a->y[first]};
-    const char *name = scene->world->machines.places[place].name;
+    const char *name = machines->places[place].name;
+    const JoxRouteStage stage = jox_world_route_stage(scene->world);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, place);
+    const JoxHindrance why = jox_hindrances_find(hindrances, at, radius_of(a, first));
     uint32_t count = 0;
+    for (uint32_t i = 0; is_blocked(why.kind) && i < a->count; i++)
+        count +=
+            jox_machines_field_goal(machines, i, NULL) == (int32_t)place &&
+            jox_hindrances_kind(hindrances, jox_v2(a->x[i], a->y[i]), radius_of(a, i)) == why.kind;
+    jox_hindrances_free(hindrances);
+    if (count == 0)
+        return false;
     JoxText text = {0};
-    for (uint32_t i = first; i < a->count; i++)
-        count += jox_machines_no_way(&scene->world->machines, i) == (int32_t)place;
     s->no_way++;
     scene->warnings++;
     jox_text_printf(&text, "t = %.1f s: warning: ", jo_world_time(scene->world));
@@ -145,41 +181,72 @@ static void say_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t fir
     jox_text_printf(&text, " cannot reach %.60s: no way leads there from (%.1f, %.1f) m",
                     name ? name : "their goal", (double)at.x, (double)at.y);
     jox_place_where(scene->spec->places, scene->spec->place_count, at, true, &text);
-    jox_text_add(&text, ", not through gates either. Is a gap narrower than people are?\n");
+    jox_text_add(&text, ", not through gates either: ");
+    jox_run_say_hindrance(scene, &why, &text);
+    if (why.kind == JOX_HINDRANCE_NARROW)
+        jox_text_printf(&text, "; a gap of %.2f m is twice a radius",
+                        2.0 * (double)radius_of(a, first));
+    jox_text_add(&text, "\n");
     jox_run_tell(scene, text.data);
     jox_text_free(&text);
+    return true;
+}
+
+static void make_room(Standing *s, uint32_t places) {
+    JOX_RESERVE(s->told, s->told_capacity, places);
+    JOX_RESERVE(s->shut_since, s->shut_capacity, places);
+    JOX_RESERVE(s->first, s->first_capacity, places);
+    JOX_RESERVE(s->waits, s->waits_capacity, places);
+    for (; s->told_count < places; s->told_count++)
+        s->told[s->told_count] = LEADS;
+    for (; s->shut_count < places; s->shut_count++)
+        s->shut_since[s->shut_count] = NAN;
 }
 
 static void look_for_ways(Standing *s, JoScene *scene) {
     const JoxMachineRun *machines = &scene->world->machines;
-    JOX_RESERVE(s->told, s->told_capacity, machines->place_count);
-    for (; s->told_count < machines->place_count; s->told_count++)
-        s->told[s->told_count] = LEADS;
-    JOX_RESERVE(s->first, s->first_capacity, machines->place_count);
-    uint32_t *first = s->first;
-    for (uint32_t p = 0; p < machines->place_count; p++)
-        first[p] = 0;
-    for (uint32_t i = 0; i < scene->world->state.agents.count; i++) {
-        const int32_t place = jox_machines_no_way(machines, i);
-        if (place >= 0 && !first[place])
-            first[place] = i + 1;
+    const JoxAgents *a = &scene->world->state.agents;
+    const uint32_t places = machines->place_count;
+    bool shut;
+    make_room(s, places);
+    for (uint32_t p = 0; p < places; p++)
+        s->first[p] = s->waits[p] = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        int32_t place = jox_machines_field_goal(machines, i, &shut);
+        if (place >= 0)
+            s->waits[place] |= shut || has_gate_on(scene, (uint32_t)place);
+        if (place < 0 || !(radius_of(a, i) > BROAD))
+            place = jox_machines_no_way(machines, i);
+        if (place >= 0 && (!s->first[place] || radius_of(a, i) > radius_of(a, s->first[place] - 1)))
+            s->first[place] = i + 1;
     }
-    for (uint32_t p = 0; p < machines->place_count; p++) {
+    for (uint32_t p = 0; p < places; p++) {
         const uint8_t before = s->told[p];
+        s->shut_since[p] = !s->waits[p]              ? (double)NAN
+                           : isnan(s->shut_since[p]) ? jo_world_time(scene->world)
+                                                     : s->shut_since[p];
         if (before == TOLD)
             continue;
-        s->told[p] = !first[p] ? LEADS : before == LEADS ? SEEMS_SHUT : TOLD;
-        if (s->told[p] == TOLD)
-            say_no_way(s, scene, p, first[p] - 1);
+        if (!s->first[p] || before == LEADS)
+            s->told[p] = s->first[p] ? SEEMS_SHUT : LEADS;
+        else if (before == SEEMS_SHUT)
+            s->told[p] = tell_no_way(s, scene, p, s->first[p] - 1) ? TOLD : CLEARED;
     }
 }
 
 /* ---- the listener ---- */
 
+static void free_kept(JoxKeptList *list) {
+    for (uint32_t k = 0; k < list->count; k++)
+        jox_free(list->items[k].groups);
+    *list = (JoxKeptList){0};
+}
+
 static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
     Standing *s = self;
     (void)scene, (void)options, (void)error;
     s->longest.id = JOX_NO_INDEX;
+    s->kept_at = -1.0;
     return true;
 }
 
@@ -205,6 +272,8 @@ static void sections(void *self, JoxSections *s) {
     JOX_SECTION(s, "still", standing->still);
     JOX_SECTION(s, "still_now", standing->now);
     JOX_SECTION_ARRAY(s, "told", standing->told, standing->told_count, standing->told_capacity);
+    JOX_SECTION_ARRAY(s, "shut_since", standing->shut_since, standing->shut_count,
+                      standing->shut_capacity);
     JOX_SECTION(s, "no_way", standing->no_way);
 }
 
@@ -213,6 +282,9 @@ static void release(void *self) {
     jox_free(s->people);
     jox_free(s->stills);
     jox_free(s->told);
+    jox_free(s->shut_since);
+    jox_free(s->waits);
+    free_kept(&s->kept);
     jox_free(s->first);
 }
 
@@ -229,9 +301,60 @@ void jox_run_collect_standing(JoScene *scene) {
         jox_run_listen(scene, &STANDING, NULL, NULL);
 }
 
-bool jox_run_told_no_way(const JoScene *scene, uint32_t place) {
-    const Standing *s = jox_run_listener(scene, &STANDING);
-    return s && place < s->told_count && s->told[place] == TOLD;
+/* ---- people who are kept from a place at the end ---- */
+
+static JoxKept *find_kept(const JoScene *scene, JoxKeptList *list, uint32_t place,
+                          const JoxHindrance *why) {
+    for (uint32_t k = 0; k < list->count; k++)
+        if (list->items[k].place == place && list->items[k].why.kind == why->kind &&
+            list->items[k].why.by == why->by)
+            return &list->items[k];
+    if (list->count == JOX_MOST_KEPT)
+        return NULL;
+    JoxKept *kept = &list->items[list->count++];
+    *kept = (JoxKept){.place = place, .why = *why};
+    kept->groups = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *kept->groups);
+    return kept;
+}
+
+/* Those who go to one place. */
+static void add_kept(Standing *s, const JoScene *scene, uint32_t place) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxRouteStage stage = jox_world_route_stage(scene->world);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, place);
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (jox_machines_field_goal(machines, i, NULL) != (int32_t)place)
+            continue;
+        const JoxHindrance why =
+            jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), radius_of(a, i));
+        JoxKept *kept =
+            why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept(scene, &s->kept, place, &why);
+        if (!kept)
+            continue;
+        kept->people++;
+        kept->groups[a->group[i]]++;
+        kept->since = is_blocked(why.kind) ? (double)NAN : s->shut_since[place];
+        kept->stands = is_blocked(why.kind);
+        if (why.kind == JOX_HINDRANCE_GATE)
+            kept->stands = !jox_run_opens(scene, scene->world->model.all_walls.rings[why.by].name);
+    }
+    jox_hindrances_free(hindrances);
+}
+
+const JoxKeptList *jox_run_kept(const JoScene *scene) {
+    Standing *s = jox_run_listener(scene, &STANDING);
+    const double now = jo_world_time(scene->world);
+    if (!s)
+        return NULL;
+    if (s->kept_at == now)
+        return &s->kept;
+    s->kept_at = now;
+    free_kept(&s->kept);
+    for (uint32_t p = 0; p < s->told_count && p < scene->world->machines.place_count; p++)
+        if (s->told[p] == TOLD || !isnan(s->shut_since[p]))
+            add_kept(s, scene, p);
+    return &s->kept;
 }
 
 const JoxStood *jox_run_stood_longest(const JoScene *scene) {

@@ -1,11 +1,13 @@
-/* What walls keep people of a scene from: coming in by sources that lie in them, and goals to which
-   they leave no way. */
+/* What walls and bodies keep people of a scene from: coming in by sources that lie in walls, and
+   goals to which no way leads. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/format/noun.h"
 #include "base/mem.h"
-#include "geom/field/field.h"
 #include "run/run.h"
+#include "world/routes/hindrance.h"
 
 /* ---- sources ---- */
 
@@ -95,11 +97,12 @@ typedef struct Goals {
     uint64_t *of; /* by person: a bit for each of the places */
 } Goals;
 
-/* Whom walls keep from one place: people of each group, and sources. */
-typedef struct Shut {
-    uint32_t *groups; /* people, by group */
-    bool *sources;
-} Shut;
+/* People of a group, or of a source, whom one kind of hindrance keeps from a place. */
+typedef struct Kept {
+    uint32_t people;
+    float widest;       /* m: radius */
+    JoxHindrance first; /* of the first of them */
+} Kept;
 
 /* One person for each source, who is only looked at. Returns the first of them. */
 static uint32_t add_from_sources(JoScene *scene, uint32_t **source_of) {
@@ -122,34 +125,117 @@ static uint32_t add_from_sources(JoScene *scene, uint32_t **source_of) {
     return first;
 }
 
-static void tell(const JoScene *scene, const Shut *shut, const char *goal,
-                 JoxDiagnostics *diagnostics) {
-    static const char HINT[] =
-        "Leave a gap of 0.3 m at least, name a wall that is to be opened, or "
-        "move the goal";
-    for (uint32_t g = 0; g < scene->spec->group_count; g++) {
-        const JoxGroup *group = &scene->spec->groups[g];
-        char people[JOX_NOUN];
-        if (shut->groups[g] == 0)
-            continue;
-        if (shut->groups[g] == group->count)
-            jox_diag_warn(
-                diagnostics, group->position, "no-way", HINT,
-                "nobody of group '%.60s' can reach '%.60s': walls that are no gates lie between",
-                group->name, goal);
-        else
-            jox_diag_warn(diagnostics, group->position, "no-way", HINT,
-                          "%u of the %s of group '%.60s' cannot reach '%.60s': walls that are no "
-                          "gates lie between",
-                          shut->groups[g], jox_noun(people, group->count, "person|people"),
-                          group->name, goal);
+void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out) {
+    const JoxBodies *bodies = scene->world->state.bodies;
+    const uint32_t row = jox_bodies_find(bodies, hindrance->by);
+    const char *body = row == JOX_NO_BODY ? "" : jox_bodies_name(bodies, row);
+    const char *gate = NULL;
+    if (hindrance->kind == JOX_HINDRANCE_GATE)
+        gate = scene->world->model.all_walls.rings[hindrance->by].name;
+    switch (hindrance->kind) {
+    case JOX_HINDRANCE_WALL:
+        jox_text_add(out, "walls lie between");
+        return;
+    case JOX_HINDRANCE_NARROW:
+        jox_text_add(out, "the way is narrower than they are");
+        break;
+    case JOX_HINDRANCE_GATE:
+        jox_text_printf(out, "gate '%.60s' is closed", gate);
+        break;
+    case JOX_HINDRANCE_FILLED:
+    case JOX_HINDRANCE_BODY:
+        jox_text_printf(out, *body ? "the body '%.60s' %s" : "a body%.60s %s", body,
+                        hindrance->kind == JOX_HINDRANCE_FILLED ? "fills the way"
+                                                                : "shuts the way");
+        break;
+    default:
+        return;
     }
-    for (uint32_t s = 0; s < scene->spec->source_count; s++)
-        if (shut->sources[s])
-            jox_diag_warn(
-                diagnostics, scene->spec->sources[s].position, "no-way", HINT,
-                "who comes in at '%.60s' cannot reach '%.60s': walls that are no gates lie between",
-                scene->spec->places[scene->spec->sources[s].place].name, goal);
+    jox_text_printf(out, " at (%.1f, %.1f) m", (double)hindrance->at.x, (double)hindrance->at.y);
+}
+
+bool jox_run_opens(const JoScene *scene, const char *gate) {
+    const JoxInputLog *input = &scene->world->state.input;
+    const JoxWalls *walls = &scene->world->model.all_walls;
+    bool closes = false, set = false;
+    for (uint32_t e = 0; e < scene->spec->event_count; e++) {
+        const JoxEvent *event = &scene->spec->events[e];
+        const bool names = event->name && strcmp(event->name, gate) == 0;
+        if (names && event->kind == JOX_EVENT_OPEN)
+            return true;
+        closes |= names && event->kind == JOX_EVENT_CLOSE;
+    }
+    for (uint32_t e = 0; e < input->count; e++)
+        if (input->entries[e].verb == JOX_INPUT_OPEN &&
+            strcmp(input->entries[e].names[0], gate) == 0)
+            return true;
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        set |=
+            walls->rings[r].name && strcmp(walls->rings[r].name, gate) == 0 && walls->rings[r].set;
+    return set && !closes; /* by people at the page, or by a program */
+}
+
+/* Whether a check tells of it: doors and gates that something moves are no fault. */
+static bool is_told(const JoScene *scene, const JoxHindrance *h) {
+    switch (h->kind) {
+    case JOX_HINDRANCE_WALL:
+    case JOX_HINDRANCE_NARROW:
+    case JOX_HINDRANCE_FILLED:
+        return true;
+    case JOX_HINDRANCE_GATE:
+        return !jox_run_opens(scene, scene->world->model.all_walls.rings[h->by].name);
+    default:
+        return false;
+    }
+}
+
+static void write_way_out(const Kept *kept, char out[JOX_HINT]) {
+    const double room = ceil(200.0 * (double)kept->widest - 1e-3) / 100.0; /* m, to the cm */
+    switch (kept->first.kind) {
+    case JOX_HINDRANCE_GATE:
+        snprintf(out, JOX_HINT, "Add an event that opens it, or begin with it open");
+        break;
+    case JOX_HINDRANCE_FILLED:
+        snprintf(out, JOX_HINT,
+                 "Leave %.2f m beside the body, twice a radius, or give it a mass to push it by",
+                 room);
+        break;
+    case JOX_HINDRANCE_NARROW:
+        snprintf(out, JOX_HINT,
+                 "Leave a gap of %.2f m at least, twice a radius, or lower the radius", room);
+        break;
+    default:
+        snprintf(
+            out, JOX_HINT,
+            "Leave a gap of %.2f m at least, name a wall that is to be opened, or move the goal",
+            room);
+    }
+}
+
+/* Warns of people of a group (`all` of them, 0: of a source, `who`) whom something keeps away. */
+static void tell(const JoScene *scene, JoxPosition position, const Kept *kept, const char *who,
+                 uint32_t all, const char *goal, JoxDiagnostics *diagnostics) {
+    char hint[JOX_HINT], people[JOX_NOUN];
+    JoxText why = {0};
+    if (kept->people == 0 || !is_told(scene, &kept->first))
+        return;
+    const bool gate = kept->first.kind == JOX_HINDRANCE_GATE;
+    jox_run_say_hindrance(scene, &kept->first, &why);
+    if (gate)
+        jox_text_add(&why, ", and nothing opens it");
+    write_way_out(kept, hint);
+    const char *code = gate ? "never-opened" : "no-way";
+    if (all == 0)
+        jox_diag_warn(diagnostics, position, code, hint,
+                      "who comes in at '%.60s' cannot reach '%.60s': %s", who, goal, why.data);
+    else if (kept->people == all)
+        jox_diag_warn(diagnostics, position, code, hint,
+                      "nobody of group '%.60s' can reach '%.60s': %s", who, goal, why.data);
+    else
+        jox_diag_warn(diagnostics, position, code, hint,
+                      "%u of the %s of group '%.60s' cannot reach '%.60s': %s", kept->people,
+                      jox_noun(people, all, "person|people"), who, goal, why.data);
+    jox_text_free(&why);
 }
 
 static void list_goals(const JoWorld *world, Goals *goals) {
@@ -171,30 +257,44 @@ static void list_goals(const JoWorld *world, Goals *goals) {
     }
 }
 
-/* Tells whom of those who go to the n-th goal walls keep from it. */
+/* Tells of people who go to the n-th goal and are kept from it. */
 static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t first_of_sources,
                        const uint32_t *source_of, JoxDiagnostics *diagnostics) {
+    const JoxSceneSpec *spec = scene->spec;
     const JoxPlace *places = scene->world->model.places;
     const JoxWalls *walls = &scene->world->model.all_walls;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
-    JoxField *field = jox_routes_look_ahead(&stage, goals->places[n]);
-    Shut shut = {jox_alloc((size_t)scene->spec->group_count + 1, sizeof *shut.groups),
-                 jox_alloc((size_t)scene->spec->source_count + 1, sizeof *shut.sources)};
+    const uint32_t rows = spec->group_count + spec->source_count;
+    Kept *kept = jox_alloc((size_t)(rows + 1) * JOX_HINDRANCE_KINDS, sizeof *kept);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, goals->places[n]);
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
-        if (!(goals->of[i] >> n & 1) || jox_place_is_reached(places, goals->places[n], walls, at) ||
-            jox_field_distance(field, at) < INFINITY)
+        const float radius = jox_param(a, JOX_PARAM_radius, i);
+        if (!(goals->of[i] >> n & 1) || jox_place_is_reached(places, goals->places[n], walls, at))
             continue;
-        if (i < first_of_sources)
-            shut.groups[a->group[i]]++;
-        else
-            shut.sources[source_of[i - first_of_sources]] = true;
+        const JoxHindranceKind kind = jox_hindrances_kind(hindrances, at, radius);
+        const uint32_t row = i < first_of_sources
+                                 ? a->group[i]
+                                 : spec->group_count + source_of[i - first_of_sources];
+        Kept *of = &kept[row * JOX_HINDRANCE_KINDS + kind];
+        if (kind != JOX_HINDRANCE_NONE && of->people++ == 0)
+            of->first = jox_hindrances_find(hindrances, at, radius);
+        of->widest = jox_maxf(of->widest, radius);
     }
-    tell(scene, &shut, places[goals->places[n]].name, diagnostics);
-    jox_free(shut.groups);
-    jox_free(shut.sources);
-    jox_field_free(field);
+    for (uint32_t k = 0; k < rows * JOX_HINDRANCE_KINDS; k++) {
+        const uint32_t row = k / JOX_HINDRANCE_KINDS;
+        const char *goal = places[goals->places[n]].name;
+        if (row < spec->group_count)
+            tell(scene, spec->groups[row].position, &kept[k], spec->groups[row].name,
+                 spec->groups[row].count, goal, diagnostics);
+        else
+            tell(scene, spec->sources[row - spec->group_count].position, &kept[k],
+                 spec->places[spec->sources[row - spec->group_count].place].name, 0, goal,
+                 diagnostics);
+    }
+    jox_hindrances_free(hindrances);
+    jox_free(kept);
 }
 
 /* ---- goals in walls ---- */
@@ -226,9 +326,11 @@ static void check_inside(const JoScene *scene, JoxPosition position, int32_t goa
     }
 }
 
-static void check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxWalls walls = {0};
     JoxWallGrid grid = {.walls = &walls};
+    if (scene->world->model.all_walls.count == 0)
+        return;
     lay_lasting_walls(scene, &walls);
     for (uint32_t g = 0; g < scene->spec->group_count; g++) {
         const JoxGroup *group = &scene->spec->groups[g];
@@ -245,9 +347,11 @@ static void check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
 void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     Goals goals = {.count = 0};
     uint32_t *source_of;
-    if (scene->world->model.all_walls.count == 0)
+    const JoxRouteStage stage = jox_world_route_stage(scene->world);
+    jox_bodies_objects(scene->world->state.bodies, &scene->world->scratch.objects);
+    if (scene->world->model.all_walls.count == 0 && stage.objects->count == 0)
         return;
-    check_journeys(scene, diagnostics);
+    jox_routes_see_bodies(&stage);
     const uint32_t first = add_from_sources(scene, &source_of);
     list_goals(scene->world, &goals);
     for (uint32_t n = 0; n < goals.count; n++)

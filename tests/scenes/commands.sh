@@ -240,7 +240,7 @@ printf 'jostle: 1\ntitle: One\nduration: 12\nplaces: {yard: {polygon: [[0, 0], [
 expect "a run ends with a paragraph" 0 "One, 12.0 s: 1 person in all; 1 left (out 1), the last at" "$JOSTLE" run "$work/one.yaml" --data "$work/one"
 grep -qF "and nobody is inside. Files: tables" <(tr '\n' ' ' <"$work/out") && grep -q "1 agent$" "$work/out" && ! grep -q "1 agents" "$work/out"; verdict "which names the files, and one agent is no agents" $?
 printf 'jostle: 1\ntitle: Shut\nduration: 45\nplaces: {lane: {polygon: [[0.5, 0.2], [9, 0.2], [9, 0.8], [0.5, 0.8]]}, street: {polygon: [[12, 0], [14, 0], [14, 1], [12, 1]]}}\nwalls:\n  - {line: [[11, 0], [0, 0], [0, 1], [11, 1]]}\n  - {line: [[10.5, 0], [10.5, 1]]GATE}\ngroups: {g: {behaviour: walker.lua, count: 14, fill: random, in: lane, set: {goal: street}}}\n' >"$work/lane.yaml"
-sed 's/GATE/, name: gate/' "$work/lane.yaml" >"$work/gate.yaml"; sed 's/GATE//; s/\[11, 0\], \[0, 0\]/[11, 1], [11, 0], [0, 0]/' "$work/lane.yaml" >"$work/shut.yaml"
+sed 's/GATE/, name: gate/' "$work/lane.yaml" >"$work/never.yaml"; { cat "$work/never.yaml"; echo 'events: [{at: 44.9, open: gate}]'; } >"$work/gate.yaml"; sed 's/GATE//; s/\[11, 0\], \[0, 0\]/[11, 1], [11, 0], [0, 0]/' "$work/lane.yaml" >"$work/shut.yaml"
 expect "a crowd that stands still is told, with where" 0 "people who want to get on have stood still for 30 s, most of them about (" "$JOSTLE" run "$work/gate.yaml"
 grep -qE "most of them about \((9|10)\.[0-9], 0\.[0-9]\) m" "$work/out" && grep -q "A crowd of .* people stood still from" <(tr '\n' ' ' <"$work/out") && grep -q "14 people are inside: Walk 14" <(tr '\n' ' ' <"$work/out") && ! grep -q "cannot reach" "$work/out"; verdict "and again at the end; a gate is a way" $?
 cat >"$work/turned.yaml" <<'END'
@@ -258,6 +258,39 @@ grep -q "1 warning was given" <(tr '\n' ' ' <"$work/out"); verdict "as a warning
 expect "  and ends with status 1 and the cause" 1 "nobody can reach 'street': walls lie between; 14 people of group 'g'" "$JOSTLE" run "$work/shut.yaml" --for 6 --quiet
 expect "  and the check says so before" 0 "shut.yaml:8:10: warning: nobody of group 'g' can reach 'street'" "$JOSTLE" check "$work/shut.yaml"
 expect "  not where a gate may be opened" 0 "nothing wrong" "$JOSTLE" check "$work/gate.yaml"
+expect "  but where nothing opens it" 0 "never.yaml:8:10: warning: nobody of group 'g' can reach 'street': gate 'gate' is closed at (10" "$JOSTLE" check "$work/never.yaml"
+grep -q ", and nothing opens it. Add an event" <(tr '\n' ' ' <"$work/out"); verdict "  with a way out" $?
+expect "people who wait at a gate are told in the last lines" 0 "14 people wait to get to 'street', the first since 1 s: gate 'gate' is closed" sh -c "'$JOSTLE' run '$work/gate.yaml' --for 12 --summary '$work/kept.json' 2>&1 | tr '\n' ' '"
+grep -q '"kept": \[ *{"from": "street", "cause": "gate", "by": "gate", "people": 14, "since_s": 1' <(tr -s '\n ' ' ' <"$work/kept.json"); verdict "  and counted" $?
+expect "  and end a run with status 1 where nothing opens it" 1 "nobody can reach 'street': gate 'gate' is closed at (10.5, 0.5) m, and nothing opens it; 14 people of group 'g'" "$JOSTLE" run "$work/never.yaml" --for 6 --quiet
+# A doorway that a body fills, that is too narrow for some, or that a driven door shuts for a while.
+way() { # NAME GAP BODIES GROUP EVENTS...
+    printf 'jostle: 1\nduration: 20\nwalls:\n  - {line: [[0, 0], [10, 0], [10, 4], [0, 4]], closed: true}\n  - {line: [[6, 0], [6, %s]]}\n  - {line: [[6, 4], [6, %s]]}\nplaces: {hall: {polygon: [[1, 1], [5, 1], [5, 3], [1, 3]]}, out: {point: [8, 2], radius: 0.5}}\n%sgroups: {g: {at: [[4, 1.2], [3, 2.8]], %s journey: [{exit: out}]}}\n%s' $2 "$3" "$4" "${5:-}" >"$work/$1.yaml"
+}
+crate='bodies: [{name: crate, shape: {box: {size: [1, 1.6, 1.9]}}, mass: 0, at: [6, 2, 0.95]}]\n'
+door='bodies: [{name: door, shape: {box: {size: [0.2, 1.6, 1.9]}}, kinematic: true, at: [6, 2, 0.95]}]\n'
+way filled "1.2 2.8" "$(printf "$crate")
+" ""
+way shut "1.2 2.8" "$(printf "$door")
+" "" "events: [{at: 8, move: door, velocity: [0, 1, 0]}]
+"
+way narrow "1.8 2.2" "" "set: {radius: 'uniform(0.19, 0.191)'},"
+way broad "1.8 2.2" "" "set: {radius: 0.5},"
+expect "a body that fills a doorway is named" 0 "nobody of group 'g' can reach 'out': the body 'crate' fills the way at (6.0, 2.0) m" "$JOSTLE" check "$work/filled.yaml"
+expect "  by a run, too" 1 "nobody can reach 'out': the body 'crate' fills the way at (6.0, 2.0) m; 2 people of group 'g'" "$JOSTLE" run "$work/filled.yaml" --for 6 --quiet
+expect "a door that opens later is no fault" 0 "nothing wrong" "$JOSTLE" check "$work/shut.yaml"
+expect "  while it is shut, it is named" 0 "2 people wait to get to 'out', the first since 1 s: the body 'door' shuts the way" sh -c "'$JOSTLE' run '$work/shut.yaml' --for 6 2>&1 | tr '\n' ' '"
+expect "  and when it is open they leave" 0 "2 left" "$JOSTLE" run "$work/shut.yaml"
+! grep -q "cannot reach" "$work/out"; verdict "  without an alarm" $?
+expect "people who fit through a gap leave" 0 "2 left" "$JOSTLE" run "$work/narrow.yaml"
+expect "  and nothing is said of them" 0 "nothing wrong" "$JOSTLE" check "$work/narrow.yaml"
+expect "people too broad for it are told of, with the room they need" 0 "the way is narrower than they are at (6" "$JOSTLE" check "$work/broad.yaml"
+grep -q "Leave a gap of 1.00 m at least, twice a radius" <(tr '\n' ' ' <"$work/out"); verdict "  by their own breadth" $?
+expect "  by a run, too" 1 "nobody can reach 'out': the way is narrower than they are at (6" "$JOSTLE" run "$work/broad.yaml" --for 6 --quiet
+sed -i "s/journey/profiles: {broad: {share: 1, set: {radius: 0.5}}, slim: {share: 1, set: {radius: 0.2}}}, journey/; s/set: {radius: 0.5}, p/p/; s/at: .* p/in: hall, count: 6, spacing: 1.1, p/" "$work/broad.yaml"
+expect "  and how many of them" 0 "of the 6 people of group 'g' cannot reach 'out': the way is narrower" "$JOSTLE" check "$work/broad.yaml"
+printf 'jostle: 1\nduration: 3\nwalls: [{solid: [[5, 0], [9, 0], [9, 4], [5, 4]]}]\nplaces: {hall: {polygon: [[1, 1], [4, 1], [4, 3], [1, 3]]}, desk: {polygon: [[6, 1], [8, 1], [8, 3], [6, 3]]}}\ngroups: {g: {count: 2, in: hall, journey: [{to: desk}]}}\n' >"$work/desk.yaml"
+expect "a step whose place lies in a wall is told by a run" 0 "nobody can be inside 'desk': it lies in a wall" "$JOSTLE" run "$work/desk.yaml"
 for who in 'at: [[1, 0.5], [20, 0.5]]|1 of the 2 people of group' 'count: 0|who comes in at'; do
     sed "s/count: 14, fill: random, in: lane/${who%%|*}/; \$ a sources: [{at: lane, like: g, rate: 1}]" "$work/shut.yaml" >"$work/some.yaml"
     expect "  of some, and of sources: ${who#*|}" 0 "warning: ${who#*|}" "$JOSTLE" check "$work/some.yaml"

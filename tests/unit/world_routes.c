@@ -93,14 +93,14 @@ static void they_become_solids(void **state) {
     JoxObstacles obstacles = {0};
     JoxWalls walls = {0};
     jox_obstacles_update(&obstacles, &objects);
-    jox_obstacles_add(&obstacles, false, &walls); /* the round one is static */
+    jox_obstacles_add(&obstacles, 1u << JOX_OBSTACLE_FIXED, &walls); /* the round one is static */
     assert_int_equal(walls.ring_count, 1);
     for (uint32_t i = 0; i < walls.count; i++) { /* the polygon holds the circle */
         JoxV2 a = walls.vertices[i].point, b = walls.vertices[walls.vertices[i].next].point;
         JoxV2 middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
         assert_true(jox_length(middle) > 0.999f && jox_length(a) < 1.05f);
     }
-    jox_obstacles_add(&obstacles, true, &walls);
+    jox_obstacles_add(&obstacles, JOX_OBSTACLES_ALL, &walls);
     assert_int_equal(walls.ring_count, 3);
     assert_true(walls.rings[1].solid && walls.rings[1].count == 4);
     jox_walls_free(&walls);

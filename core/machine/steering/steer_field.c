@@ -195,7 +195,14 @@ uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *place
     return count;
 }
 
-int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
+/* Whether a field is there by which no way leads from a point. */
+static bool leads_nowhere(const JoxField *field, JoxV2 from) {
+    return field && !(jox_field_distance(field, from) < INFINITY);
+}
+
+/* The n-th place that an agent goes to by a field and has not reached; -1: there is none of that
+   number. */
+static int32_t find_field_goal(const JoxMachineRun *run, uint32_t i, uint32_t n) {
     const JoxAgents *a = run->agents;
     if (!run->fields || a->machine[i] == JOX_NO_MACHINE)
         return -1;
@@ -205,12 +212,29 @@ int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
         if (state->steer[t].kind != JOX_STEER_FIELD)
             continue;
         const int32_t place = jox_target_place(run, i, state->steer[t].target);
-        if (place < 0 || jox_place_is_reached(run->places, (uint32_t)place, run->walls, p))
-            continue;
+        if (place >= 0 && !jox_place_is_reached(run->places, (uint32_t)place, run->walls, p) &&
+            n-- == 0)
+            return place;
+    }
+    return -1;
+}
+
+int32_t jox_machines_field_goal(const JoxMachineRun *run, uint32_t i, bool *shut) {
+    const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
+    const int32_t place = find_field_goal(run, i, 0);
+    if (shut)
+        *shut = place >= 0 &&
+                leads_nowhere(run->fields[(uint32_t)place * JOX_ROUTE_KINDS + JOX_ROUTE_NOW], p);
+    return place;
+}
+
+int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
+    const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
+    int32_t place;
+    for (uint32_t n = 0; (place = find_field_goal(run, i, n)) >= 0; n++) {
         JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
-        const JoxField *now = ways[JOX_ROUTE_NOW], *open = ways[JOX_ROUTE_OPEN];
-        if (now && !(jox_field_distance(now, p) < INFINITY) &&
-            !(open && jox_field_distance(open, p) < INFINITY))
+        if (leads_nowhere(ways[JOX_ROUTE_NOW], p) &&
+            (!ways[JOX_ROUTE_OPEN] || leads_nowhere(ways[JOX_ROUTE_OPEN], p)))
             return place;
     }
     return -1;

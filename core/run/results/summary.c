@@ -318,6 +318,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_events(&json, scene);
     jox_run_add_demand(scene, &json);
     jox_run_add_starts(scene, &json);
+    jox_run_add_kept(scene, &json);
     add_bonds(&json, scene);
     add_exchange(&json, s);
     add_danger(&json, scene);

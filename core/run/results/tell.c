@@ -127,40 +127,45 @@ static void add_failing(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     }
 }
 
-/* People whom walls still keep from a place, by group; of a place of which that was said. */
-static void add_no_way(const JoScene *scene, uint32_t place, JoxPack *pack, JoTroubles *head) {
-    const JoxMachineRun *machines = &scene->world->machines;
+/* Appends by groups how many people something keeps from a place. */
+static void say_groups(const JoScene *scene, const JoxKept *kept, JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
-    const char *name = machines->places[place].name;
-    uint32_t *people = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *people), all = 0;
+    uint32_t *all = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *all);
     for (uint32_t i = 0; i < a->count; i++)
-        if (jox_machines_no_way(machines, i) == (int32_t)place) {
-            people[a->group[i]]++;
-            all++;
-        }
-    const bool nobody = all == a->count && scene->world->state.exits.left == 0;
-    JoxText text = {0};
-    jox_text_printf(&text, "%s reach '%.60s': walls lie between",
-                    nobody ? "nobody can" : "some cannot", name ? name : "their goal");
+        all[a->group[i]]++;
     for (uint32_t g = 0, told = 0; g < scene->spec->group_count; g++) {
-        if (people[g] == 0)
+        if (kept->groups[g] == 0)
             continue;
-        jox_text_add(&text, told++ ? ", " : "; ");
-        jox_text_noun(&text, people[g], "person|people");
-        jox_text_printf(&text, " of group '%.60s'", scene->spec->groups[g].name);
+        jox_text_add(out, told++ ? ", " : "; ");
+        if (kept->groups[g] < all[g])
+            jox_text_printf(out, "%u of the ", kept->groups[g]);
+        jox_text_noun(out, all[g], "person|people");
+        jox_text_printf(out, " of group '%.60s'", scene->spec->groups[g].name);
     }
-    jox_free(people);
-    if (all > 0)
-        add_trouble(pack, head, JO_TROUBLE_NO_WAY, all, "", &text);
-    else
-        jox_text_free(&text);
+    jox_free(all);
+}
+
+/* People whom something that nothing takes away keeps from a place, by group. */
+static void add_no_way(const JoScene *scene, const JoxKept *kept, JoxPack *pack, JoTroubles *head) {
+    const char *name = scene->world->machines.places[kept->place].name;
+    const bool nobody =
+        kept->people == scene->world->state.agents.count && scene->world->state.exits.left == 0;
+    JoxText text = {0};
+    jox_text_printf(&text, "%s reach '%.60s': ", nobody ? "nobody can" : "some cannot",
+                    name ? name : "their goal");
+    jox_run_say_hindrance(scene, &kept->why, &text);
+    if (kept->why.kind == JOX_HINDRANCE_GATE)
+        jox_text_add(&text, ", and nothing opens it");
+    say_groups(scene, kept, &text);
+    add_trouble(pack, head, JO_TROUBLE_NO_WAY, kept->people, "", &text);
 }
 
 static void add_no_ways(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     const uint32_t before = head->count;
-    for (uint32_t p = 0; p < scene->world->machines.place_count; p++)
-        if (head->count < before + MOST_NO_WAYS && jox_run_told_no_way(scene, p))
-            add_no_way(scene, p, pack, head);
+    const JoxKeptList *list = jox_run_kept(scene);
+    for (uint32_t k = 0; list && k < list->count; k++)
+        if (list->items[k].stands && head->count < before + MOST_NO_WAYS)
+            add_no_way(scene, &list->items[k], pack, head);
 }
 
 JoTroubles *jo_scene_troubles(const JoScene *scene) {

@@ -30,7 +30,10 @@ static bool is_obstacle(const JoxObject *o) {
 
 /* What one body is now; a circle becomes the polygon about it. */
 static void look(const JoxObject *o, JoxObstacle *out) {
-    *out = (JoxObstacle){.id = o->id, .movable = o->moves, .count = o->footprint_count};
+    const JoxObstacleKind kind = o->moves       ? JOX_OBSTACLE_MOVABLE
+                                 : o->kinematic ? JOX_OBSTACLE_DRIVEN
+                                                : JOX_OBSTACLE_FIXED;
+    *out = (JoxObstacle){.id = o->id, .kind = kind, .count = o->footprint_count};
     for (uint32_t i = 0; i < o->footprint_count; i++)
         out->ring[i] = o->footprint[i];
     if (o->footprint_count)
@@ -48,6 +51,7 @@ static const char *fault(const JoxObstacles *obstacles) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const JoxObstacle *o = &obstacles->items[i];
         JOX_MUST(o->count > 0 && o->count <= JOX_FOOTPRINT_POINTS);
+        JOX_MUST(o->kind < JOX_OBSTACLE_KINDS);
         for (uint32_t k = 0; k < o->count; k++)
             JOX_MUST(isfinite(o->ring[k].x) && isfinite(o->ring[k].y));
         for (uint32_t k = 0; k < i; k++)
@@ -103,10 +107,10 @@ void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects) {
     JOX_CHECK(JOX_NO_FAULT(fault(obstacles)));
 }
 
-void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *walls) {
+void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *walls) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const JoxObstacle *o = &obstacles->items[i];
-        if ((movable || !o->movable) && o->count >= 3)
+        if ((kinds >> o->kind & 1) && o->count >= 3)
             jox_walls_add_solid(walls, o->ring, o->count, INFINITY);
     }
 }

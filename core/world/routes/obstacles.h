@@ -6,9 +6,17 @@
 #include "geom/objects.h"
 #include "geom/walls.h"
 
+typedef enum JoxObstacleKind {
+    JOX_OBSTACLE_FIXED,   /* nothing moves it */
+    JOX_OBSTACLE_MOVABLE, /* by what pushes it */
+    JOX_OBSTACLE_DRIVEN,  /* kinematic, as doors are */
+    JOX_OBSTACLE_KINDS
+} JoxObstacleKind;
+#define JOX_OBSTACLES_ALL ((1u << JOX_OBSTACLE_KINDS) - 1) /* a bit for each kind */
+
 typedef struct JoxObstacle {
-    uint32_t id;      /* of the body */
-    uint32_t movable; /* 1: not static */
+    uint32_t id;   /* of the body */
+    uint32_t kind; /* JoxObstacleKind */
     uint32_t count;
     JoxV2 ring[JOX_FOOTPRINT_POINTS]; /* counter-clockwise, m */
 } JoxObstacle;
@@ -24,8 +32,8 @@ typedef struct JoxObstacles {
    and slower than 0.5 m/s. Where one came, went, or has a corner of its footprint more than 0.3 m
    from where it was, all are taken as they stand now, and `version` counts up. */
 void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects);
-/* Adds them to walls as solids; `movable` too, or only those that never move. */
-void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *walls);
+/* Adds those of some kinds, a bit for each, to walls as solids. */
+void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *walls);
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *sections);
 void jox_obstacles_free(JoxObstacles *obstacles);
 

@@ -35,7 +35,7 @@ typedef struct Making {
     JoxPlace *places; /* the place, and behind it its members */
     uint32_t place_count;
     JoxV2 low, high;
-    float cell; /* m */
+    float cell, clearance; /* m */
     JoxFieldCrowd crowd;
     bool keeps_marks;
     JoxFieldMarks *marks; /* of the route's field before, then of this one; NULL: none */
@@ -101,7 +101,7 @@ static void free_making(Making *making) {
 
 static void make(JoxWorkItem *item) {
     Making *m = (Making *)item;
-    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE,
+    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, m->clearance,
                                 &m->crowd, m->keeps_marks ? &m->marks : NULL);
 }
 
@@ -211,24 +211,32 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
 }
 
 /* What a field is made of: what stands where now. `before`: the field that it replaces, or NULL. */
-static Making *prepare(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind,
-                       const JoxField *before) {
+static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteLook *look,
+                       float most_cells, const JoxField *before) {
     Making *making = jox_alloc(1, sizeof *making);
     making->item.run = make;
-    jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
-    jox_obstacles_add(&w->routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
+    making->clearance = look->clearance;
+    jox_walls_standing(&making->walls, w->all_walls, look->gates);
+    jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
     making->places = jox_routes_copy_goal(w->places, place, &making->place_count);
     if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
         jox_routes_add_wall_images(w->agents, &making->walls);
         jox_routes_add_goal_images(w->agents, &making->places, &making->place_count);
     }
-    lay_out(w, before, kind == JOX_ROUTE_CROWD ? MOST_CROWD_CELLS : MOST_CELLS, making);
+    lay_out(w, before, most_cells, making);
     return making;
 }
 
-JoxField *jox_routes_look_ahead(const JoxRouteStage *w, uint32_t place) {
+void jox_routes_see_bodies(const JoxRouteStage *w) {
     jox_obstacles_update(&w->routes->obstacles, w->objects);
-    Making *making = prepare(w, place, JOX_ROUTE_OPEN, NULL);
+}
+
+const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes) {
+    return &routes->obstacles;
+}
+
+JoxField *jox_routes_look(const JoxRouteStage *w, uint32_t place, const JoxRouteLook *look) {
+    Making *making = prepare(w, place, look, MOST_CELLS, NULL);
     make(&making->item);
     JoxField *field = making->field;
     making->field = NULL;
@@ -241,8 +249,12 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     JOX_ASSERT(!route->making); /* it would be lost */
-    Making *making = prepare(w, place, kind, routes->fields[place * JOX_ROUTE_KINDS + kind]);
-    if (kind == JOX_ROUTE_CROWD) {
+    const bool open = kind == JOX_ROUTE_OPEN, crowd = kind == JOX_ROUTE_CROWD;
+    const JoxRouteLook look = {!open, open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
+                               CLEARANCE};
+    Making *making = prepare(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
+                             routes->fields[place * JOX_ROUTE_KINDS + kind]);
+    if (crowd) {
         copy_crowd(w, place, &making->crowd);
         if (jox_routes_lead_over_edges(w->agents, w->all_walls))
             jox_routes_add_crowd_images(w->agents, &making->crowd);
@@ -278,7 +290,7 @@ static bool is_shut(const JoxRouteStage *w) {
         if (w->all_walls->rings[r].name && !w->all_walls->rings[r].open)
             return true;
     for (uint32_t o = 0; o < w->routes->obstacles.count; o++)
-        if (w->routes->obstacles.items[o].movable)
+        if (w->routes->obstacles.items[o].kind != JOX_OBSTACLE_FIXED)
             return true;
     return false;
 }

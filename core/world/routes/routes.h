@@ -7,6 +7,7 @@
 #include "geom/objects.h"
 #include "geom/walls.h"
 #include "machine/run.h"
+#include "world/routes/obstacles.h"
 
 typedef struct JoxRoutes JoxRoutes;
 
@@ -36,9 +37,19 @@ void jox_routes_free(JoxRoutes *routes);
    people bound for a place are held up, who walks by the law has a field that is slow where they
    stand, made anew each second. */
 void jox_routes_update(const JoxRouteStage *stage);
-/* The field to a place where all gates are open and whatever can be moved is away, made at once for
-   who asks whether any way leads there; the caller frees it. There are walls or agents. */
-JoxField *jox_routes_look_ahead(const JoxRouteStage *stage, uint32_t place);
+/* What a field takes into account besides walls that never open. */
+typedef struct JoxRouteLook {
+    bool gates;      /* closed ones */
+    uint32_t bodies; /* a bit for each JoxObstacleKind */
+    float clearance; /* m: from walls, at least 0.05 */
+} JoxRouteLook;
+/* A field to a place that is made at once, for who asks whether a way leads there; the caller frees
+   it. There are walls or agents. Changes nothing: bodies are where routes saw them last. */
+JoxField *jox_routes_look(const JoxRouteStage *stage, uint32_t place, const JoxRouteLook *look);
+/* Has routes see where bodies are, in a world that is not stepped any more. */
+void jox_routes_see_bodies(const JoxRouteStage *stage);
+/* Bodies that ways lead round, as routes saw them last. */
+const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes);
 /* Places moved: all fields are renewed. */
 void jox_routes_renew(JoxRoutes *routes);
 /* Lists the fields in use, those under way, which are finished first, and when they come into use.
