@@ -271,16 +271,16 @@ crate='bodies: [{name: crate, shape: {box: {size: [1, 1.6, 1.9]}}, mass: 0, at: 
 door='bodies: [{name: door, shape: {box: {size: [0.2, 1.6, 1.9]}}, kinematic: true, at: [6, 2, 0.95]}]\n'
 way filled "1.2 2.8" "$(printf "$crate")
 " ""
-way shut "1.2 2.8" "$(printf "$door")
+way driven "1.2 2.8" "$(printf "$door")
 " "" "events: [{at: 8, move: door, velocity: [0, 1, 0]}]
 "
 way narrow "1.8 2.2" "" "set: {radius: 'uniform(0.19, 0.191)'},"
 way broad "1.8 2.2" "" "set: {radius: 0.5},"
 expect "a body that fills a doorway is named" 0 "nobody of group 'g' can reach 'out': the body 'crate' fills the way at (6.0, 2.0) m" "$JOSTLE" check "$work/filled.yaml"
 expect "  by a run, too" 1 "nobody can reach 'out': the body 'crate' fills the way at (6.0, 2.0) m; 2 people of group 'g'" "$JOSTLE" run "$work/filled.yaml" --for 6 --quiet
-expect "a door that opens later is no fault" 0 "nothing wrong" "$JOSTLE" check "$work/shut.yaml"
-expect "  while it is shut, it is named" 0 "2 people wait to get to 'out', the first since 1 s: the body 'door' shuts the way" sh -c "'$JOSTLE' run '$work/shut.yaml' --for 6 2>&1 | tr '\n' ' '"
-expect "  and when it is open they leave" 0 "2 left" "$JOSTLE" run "$work/shut.yaml"
+expect "a door that opens later is no fault" 0 "nothing wrong" "$JOSTLE" check "$work/driven.yaml"
+expect "  while it is shut, it is named" 0 "2 people wait to get to 'out', the first since 1 s: the body 'door' shuts the way" sh -c "'$JOSTLE' run '$work/driven.yaml' --for 6 2>&1 | tr '\n' ' '"
+expect "  and when it is open they leave" 0 "2 left" "$JOSTLE" run "$work/driven.yaml"
 ! grep -q "cannot reach" "$work/out"; verdict "  without an alarm" $?
 expect "people who fit through a gap leave" 0 "2 left" "$JOSTLE" run "$work/narrow.yaml"
 expect "  and nothing is said of them" 0 "nothing wrong" "$JOSTLE" check "$work/narrow.yaml"
