@@ -29,7 +29,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static Part *parts;
 
 /* Takes the entry of a file off the list; NULL if it has none. */
-static Part *take_part(const FILE *file) {
+static Part *unlist_part(const FILE *file) {
     pthread_mutex_lock(&lock);
     Part **at = &parts;
     while (*at && (*at)->file != file)
@@ -43,7 +43,7 @@ static Part *take_part(const FILE *file) {
 
 /* Closes a file. One with a temporary name is renamed if all was written (`good`), else removed. */
 static int end_file(FILE *file, bool good) {
-    Part *part = take_part(file);
+    Part *part = unlist_part(file);
     good = good && fflush(file) == 0 && !ferror(file);
     if (part && good)
         good = rename(part->text, part->name) == 0;

@@ -7,7 +7,7 @@
 #include "live/scene_page.h"
 
 /* Forwards a message of the scene to the terminal, and to browsers unless they have it as data. */
-static void forward_message(void *context, const char *text) {
+static void forward_scene_message(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
     jox_run_message(def->message, def->message_context, text);
@@ -59,7 +59,7 @@ static JoScene *reload_scene(JoxScenePage *s, JoError *error) {
 }
 
 bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
-    s->scene_def.message = forward_message;
+    s->scene_def.message = forward_scene_message;
     s->scene_def.message_context = s;
     /* the first time the caller's overlay is in use, with the files that it had read */
     JoScene *next = s->scene ? reload_scene(s, error)
