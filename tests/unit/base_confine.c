@@ -1,4 +1,4 @@
-/* A confined process reads its folder, and can do nothing else that reaches beyond itself. */
+/* The sandbox: what a confined reader, worker or server can do, each tried in a child process. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,25 +28,25 @@
 
 static char folder[] = "/tmp/jostle-confine-XXXXXX";
 
-static void path_of(const char *name, char path[256]) {
+static void make_confined_path(const char *name, char path[256]) {
     snprintf(path, 256, "%s/%s", folder, name);
 }
 
-static void write_file(const char *name) {
+static void write_named_file(const char *name) {
     char path[256];
-    path_of(name, path);
+    make_confined_path(name, path);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fputs(name, file);
     assert_int_equal(fclose(file), 0);
 }
 
-/* What becomes of a process that does this under these confines, and reads `own`: its status, or
-   minus the signal. */
-static int confined_to(JoxConfines confines, int (*act)(void)) {
+/* Runs `act` in a child process that is confined and may read the folder `own`. Returns its exit
+   status, or minus the signal that killed it. */
+static int run_confined(JoxConfines confines, int (*act)(void)) {
     char own[256];
     int status;
-    path_of("own", own);
+    make_confined_path("own", own);
     const pid_t child = fork();
     if (child == 0) {
         const char *folders[] = {own, "/nowhere"};
@@ -58,59 +58,59 @@ static int confined_to(JoxConfines confines, int (*act)(void)) {
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-static int confined(int (*act)(void)) {
-    return confined_to((JoxConfines){.memory = (size_t)64 << 20, .seconds = 1}, act);
+static int run_reader(int (*act)(void)) {
+    return run_confined((JoxConfines){.memory = (size_t)64 << 20, .seconds = 1}, act);
 }
 
-/* Who works, and may write to `out`. */
-static int working(int (*act)(void), bool programs, bool serves) {
+/* Runs `act` in a confined worker that may write to the folder `out`. */
+static int run_confined_worker(int (*act)(void), bool programs, bool serves) {
     char out[256];
-    path_of("out", out);
+    make_confined_path("out", out);
     const char *outputs[] = {out};
-    return confined_to((JoxConfines){.works = true,
-                                     .programs = programs,
-                                     .serves = serves,
-                                     .outputs = outputs,
-                                     .output_count = 1},
-                       act);
+    return run_confined((JoxConfines){.works = true,
+                                      .programs = programs,
+                                      .serves = serves,
+                                      .outputs = outputs,
+                                      .output_count = 1},
+                        act);
 }
 
-static int reads(const char *name) {
+static int try_reading(const char *name) {
     char path[256];
-    path_of(name, path);
+    make_confined_path(name, path);
     const int file = open(path, O_RDONLY);
     return file >= 0 ? 0 : errno;
 }
 
-static int read_own(void) {
-    return reads("own/a");
+static int read_own_folder(void) {
+    return try_reading("own/a");
 }
 
 static int read_other(void) {
-    return reads("other/a");
+    return try_reading("other/a");
 }
 
 static int read_by_link(void) {
-    return reads("own/link");
+    return try_reading("own/link");
 }
 
-static int makes(const char *name, int flags) {
+static int try_opening(const char *name, int flags) {
     char path[256];
-    path_of(name, path);
+    make_confined_path(name, path);
     return open(path, flags, 0600) >= 0 ? 0 : errno;
 }
 
-static int make_file(void) {
-    return makes("own/new", O_WRONLY | O_CREAT);
+static int make_own_file(void) {
+    return try_opening("own/new", O_WRONLY | O_CREAT);
 }
 
 static int change_file(void) {
-    return makes("own/a", O_RDWR);
+    return try_opening("own/a", O_RDWR);
 }
 
 static int remove_file(void) {
     char path[256];
-    path_of("own/a", path);
+    make_confined_path("own/a", path);
     return unlink(path) == 0 ? 0 : errno;
 }
 
@@ -125,12 +125,11 @@ static int start_program(void) {
     return execl("/bin/true", "true", (char *)NULL);
 }
 
-static int open_socket(void) {
+static int open_stream_socket(void) {
     return socket(AF_INET, SOCK_STREAM, 0) >= 0 ? 0 : errno;
 }
 
-/* From the system itself: malloc of a build with sanitizers ends the program where there is none.
- */
+/* Allocates by mmap: the malloc of builds with sanitizers would end the program. */
 static int take_memory(void) {
     const int pages = PROT_READ | PROT_WRITE, own = MAP_PRIVATE | MAP_ANONYMOUS;
     return mmap(NULL, (size_t)256 << 20, pages, own, -1, 0) != MAP_FAILED ? 0 : errno;
@@ -143,11 +142,11 @@ static int spin(void) {
 }
 
 static int make_output(void) {
-    return makes("out/new", O_WRONLY | O_CREAT);
+    return try_opening("out/new", O_WRONLY | O_CREAT);
 }
 
 static int cut_file(void) {
-    return makes("own/a", O_RDONLY | O_TRUNC);
+    return try_opening("own/a", O_RDONLY | O_TRUNC);
 }
 
 static int signal_parent(void) {
@@ -166,7 +165,7 @@ static int run_program(void) {
     return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : 99;
 }
 
-static int listens(void) {
+static int listen_to_port(void) {
     const struct sockaddr_in any = {.sin_family = AF_INET};
     const int server = socket(AF_INET, SOCK_STREAM, 0);
     return server >= 0 && bind(server, (const struct sockaddr *)&any, sizeof any) == 0 &&
@@ -175,13 +174,13 @@ static int listens(void) {
                : errno;
 }
 
-static int connects(void) {
+static int connect_to_port(void) {
     const struct sockaddr_in some = {.sin_family = AF_INET, .sin_port = 1};
     const int client = socket(AF_INET, SOCK_STREAM, 0);
     return connect(client, (const struct sockaddr *)&some, sizeof some) == 0 ? 0 : errno;
 }
 
-static int sends_to(void) {
+static int send_by_address(void) {
     const struct sockaddr_in some = {.sin_family = AF_INET, .sin_port = 1};
     const int client = socket(AF_INET, SOCK_STREAM, 0);
     const ssize_t sent = sendto(client, "x", 1, MSG_FASTOPEN | MSG_NOSIGNAL,
@@ -189,13 +188,13 @@ static int sends_to(void) {
     return sent >= 0 ? 0 : errno;
 }
 
-static int sends_datagrams(void) {
+static int open_datagram_socket(void) {
     return socket(AF_INET, SOCK_DGRAM, 0) >= 0 ? 0 : errno;
 }
 
 static int write_much(void) {
     char path[256];
-    path_of("out/large", path);
+    make_confined_path("out/large", path);
     const int file = open(path, O_WRONLY | O_CREAT, 0600);
     signal(SIGXFSZ, SIG_IGN);
     return file >= 0 && pwrite(file, "x", 1, 1 << 20) == 1 ? 0 : errno;
@@ -208,110 +207,110 @@ static int open_many(void) {
     return 0;
 }
 
-/* Of a simulation, too: what one process can take of the machine. */
-static void who_works_has_limits(void **state) {
+/* Limits of memory, file size and open files hold for a worker. */
+static void worker_has_limits(void **state) {
     (void)state;
     char out[256];
-    path_of("out", out);
+    make_confined_path("out", out);
     const char *outputs[] = {out};
     JoxConfines confines = {.works = true, .outputs = outputs, .output_count = 1};
-    assert_int_equal(confined_to(confines, write_much), 0);
-    assert_int_equal(confined_to(confines, open_many), 0);
+    assert_int_equal(run_confined(confines, write_much), 0);
+    assert_int_equal(run_confined(confines, open_many), 0);
     confines.file_size = 1 << 20;
     confines.files = 20;
     confines.memory = (size_t)64 << 20;
-    assert_int_equal(confined_to(confines, write_much), EFBIG);
-    assert_int_equal(confined_to(confines, open_many), EMFILE);
-    assert_int_equal(confined_to(confines, take_memory), ENOMEM);
-    path_of("out/large", out);
+    assert_int_equal(run_confined(confines, write_much), EFBIG);
+    assert_int_equal(run_confined(confines, open_many), EMFILE);
+    assert_int_equal(run_confined(confines, take_memory), ENOMEM);
+    make_confined_path("out/large", out);
     assert_int_equal(unlink(out), 0);
 }
 
-static void who_works_writes_its_outputs_alone(void **state) {
+static void worker_writes_only_its_outputs(void **state) {
     (void)state;
     if (!jox_confine_can().files || !jox_confine_can().calls)
         skip();
-    assert_int_equal(working(read_own, false, false), 0);
-    assert_int_equal(working(read_other, false, false), EACCES);
-    assert_int_equal(working(make_output, false, false), 0);
-    assert_int_equal(working(make_file, false, false), EACCES);
-    assert_int_equal(working(change_file, false, false), EACCES);
-    assert_int_equal(working(remove_file, false, false), EACCES);
-    assert_int_equal(working(cut_file, false, false), EPERM);
-    assert_int_equal(reads("own/a"), 0);
+    assert_int_equal(run_confined_worker(read_own_folder, false, false), 0);
+    assert_int_equal(run_confined_worker(read_other, false, false), EACCES);
+    assert_int_equal(run_confined_worker(make_output, false, false), 0);
+    assert_int_equal(run_confined_worker(make_own_file, false, false), EACCES);
+    assert_int_equal(run_confined_worker(change_file, false, false), EACCES);
+    assert_int_equal(run_confined_worker(remove_file, false, false), EACCES);
+    assert_int_equal(run_confined_worker(cut_file, false, false), EPERM);
+    assert_int_equal(try_reading("own/a"), 0);
 }
 
-static void who_works_reaches_nobody(void **state) {
+static void worker_reaches_no_other_process(void **state) {
     (void)state;
     if (!jox_confine_can().calls)
         skip();
-    assert_int_equal(working(start_process, false, false), 0);
-    assert_int_equal(working(start_program, false, false), -SIGSYS);
-    assert_int_equal(working(open_socket, false, false), EPERM);
-    assert_int_equal(working(signal_parent, false, false), EPERM);
-    assert_int_equal(working(signal_parent_by_thread, false, false), EPERM);
+    assert_int_equal(run_confined_worker(start_process, false, false), 0);
+    assert_int_equal(run_confined_worker(start_program, false, false), -SIGSYS);
+    assert_int_equal(run_confined_worker(open_stream_socket, false, false), EPERM);
+    assert_int_equal(run_confined_worker(signal_parent, false, false), EPERM);
+    assert_int_equal(run_confined_worker(signal_parent_by_thread, false, false), EPERM);
 }
 
-static void programs_are_confined_as_who_starts_them(void **state) {
+static void started_programs_inherit_the_sandbox(void **state) {
     (void)state;
     if (!jox_confine_can().files || !jox_confine_can().calls)
         skip();
-    assert_int_equal(working(start_program, true, false), 0);
-    assert_int_equal(working(run_program, true, false), 1); /* cat fails */
-    assert_int_equal(working(open_socket, true, false), EPERM);
+    assert_int_equal(run_confined_worker(start_program, true, false), 0);
+    assert_int_equal(run_confined_worker(run_program, true, false), 1); /* cat fails */
+    assert_int_equal(run_confined_worker(open_stream_socket, true, false), EPERM);
 }
 
-static void who_serves_connects_to_nobody(void **state) {
+static void server_cannot_connect(void **state) {
     (void)state;
     if (!jox_confine_can().calls)
         skip();
-    assert_int_equal(working(listens, false, true), 0);
-    assert_int_equal(working(connects, false, true), EPERM);
-    assert_int_equal(working(sends_to, false, true), EPERM);
-    assert_int_equal(working(sends_datagrams, false, true), EPERM);
+    assert_int_equal(run_confined_worker(listen_to_port, false, true), 0);
+    assert_int_equal(run_confined_worker(connect_to_port, false, true), EPERM);
+    assert_int_equal(run_confined_worker(send_by_address, false, true), EPERM);
+    assert_int_equal(run_confined_worker(open_datagram_socket, false, true), EPERM);
 }
 
-static void it_reads_its_folder_alone(void **state) {
+static void reader_reads_only_its_folder(void **state) {
     (void)state;
     if (!jox_confine_can().files)
         skip();
-    assert_int_equal(confined(read_own), 0);
-    assert_int_equal(confined(read_other), EACCES);
-    assert_int_equal(confined(read_by_link), EACCES);
+    assert_int_equal(run_reader(read_own_folder), 0);
+    assert_int_equal(run_reader(read_other), EACCES);
+    assert_int_equal(run_reader(read_by_link), EACCES);
 }
 
-static void it_writes_nothing(void **state) {
+static void reader_writes_nothing(void **state) {
     (void)state;
     if (!jox_confine_can().files && !jox_confine_can().calls)
         skip();
-    assert_int_equal(confined(make_file), EACCES);
-    assert_int_equal(confined(change_file), EACCES);
-    const int removed = confined(remove_file);
+    assert_int_equal(run_reader(make_own_file), EACCES);
+    assert_int_equal(run_reader(change_file), EACCES);
+    const int removed = run_reader(remove_file);
     assert_true(removed == EACCES || removed == EPERM);
-    assert_int_equal(reads("own/a"), 0);
+    assert_int_equal(try_reading("own/a"), 0);
 }
 
-static void it_starts_nothing_and_has_no_network(void **state) {
+static void reader_starts_nothing_and_has_no_network(void **state) {
     (void)state;
     if (!jox_confine_can().calls)
         skip();
-    assert_int_equal(confined(start_process), EPERM);
-    assert_int_equal(confined(start_program), -SIGSYS);
-    assert_int_equal(confined(open_socket), -SIGSYS);
+    assert_int_equal(run_reader(start_process), EPERM);
+    assert_int_equal(run_reader(start_program), -SIGSYS);
+    assert_int_equal(run_reader(open_stream_socket), -SIGSYS);
 }
 
-static void its_memory_and_time_are_bounded(void **state) {
+static void reader_has_memory_and_time_limits(void **state) {
     (void)state;
-    assert_int_equal(confined(take_memory), ENOMEM);
-    const int ended = confined(spin);
+    assert_int_equal(run_reader(take_memory), ENOMEM);
+    const int ended = run_reader(spin);
     assert_true(ended == -SIGXCPU || ended == -SIGKILL);
 }
 
-/* ---- what it read stands for the files ---- */
+/* ---- overlays of what a confined process has read ---- */
 
 static char *read_through(const JoxOverlay *overlay, const char *name) {
     char path[256];
-    path_of(name, path);
+    make_confined_path(name, path);
     const JoxOverlay *before = jox_overlay_use(overlay);
     char *text = jox_read_file(path, 1000, NULL);
     const int number = errno;
@@ -320,20 +319,21 @@ static char *read_through(const JoxOverlay *overlay, const char *name) {
     return text;
 }
 
-static void keep(void *context, const char *path, const char *text, size_t length) {
+static void put_in_overlay(void *context, const char *path, const char *text, size_t length) {
     jox_overlay_put(context, path, text, length);
 }
 
-static void what_was_vetted_is_what_is_read(void **state) {
+static void overlay_gives_the_text_that_was_vetted(void **state) {
     (void)state;
-    JoxOverlay vetted = {0}, listening = {.told = keep, .context = &vetted}, over = {0}, tape = {0};
+    JoxOverlay vetted = {0}, listening = {.told = put_in_overlay, .context = &vetted}, over = {0},
+               tape = {0};
     char *text = read_through(&listening, "own/a");
     assert_string_equal(text, "own/a");
     jox_free(text);
     assert_int_equal(vetted.count, 1);
     char path[256];
-    path_of("own/a", path);
-    FILE *file = fopen(path, "w"); /* somebody changes it after it was vetted */
+    make_confined_path("own/a", path);
+    FILE *file = fopen(path, "w"); /* the file changes after it was vetted */
     assert_non_null(file);
     fputs("changed", file);
     assert_int_equal(fclose(file), 0);
@@ -343,37 +343,37 @@ static void what_was_vetted_is_what_is_read(void **state) {
     text = read_through(&over, "own/a");
     assert_string_equal(text, "own/a");
     jox_free(text);
-    assert_int_equal(tape.count, 1); /* as if it were from the disk */
+    assert_int_equal(tape.count, 1); /* kept as if it came from the disk */
     assert_null(read_through(&over, "other/a"));
     assert_int_equal(errno, ENOENT);
-    write_file("own/a");
+    write_named_file("own/a");
     jox_overlay_free(&vetted);
     jox_overlay_free(&tape);
 }
 
-static int make_files(void **state) {
+static int make_confined_files(void **state) {
     (void)state;
     char own[256], other[256], out[256], link[256];
     if (!mkdtemp(folder))
         return -1;
-    path_of("own", own);
-    path_of("other", other);
-    path_of("out", out);
-    path_of("own/link", link);
+    make_confined_path("own", own);
+    make_confined_path("other", other);
+    make_confined_path("out", out);
+    make_confined_path("own/link", link);
     if (mkdir(own, 0700) || mkdir(out, 0700) || mkdir(other, 0700) || symlink("../other/a", link))
         return -1;
-    write_file("own/a");
-    write_file("other/a");
+    write_named_file("own/a");
+    write_named_file("other/a");
     return 0;
 }
 
-static int remove_files(void **state) {
+static int remove_confined_files(void **state) {
     static const char *const NAMES[] = {"own/a",   "own/new", "own/link", "other/a",
                                         "out/new", "own",     "out",      "other"};
     char path[256];
     (void)state;
     for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
-        path_of(NAMES[n], path);
+        make_confined_path(NAMES[n], path);
         remove(path);
     }
     return rmdir(folder);
@@ -381,16 +381,16 @@ static int remove_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_reads_its_folder_alone),
-        cmocka_unit_test(it_writes_nothing),
-        cmocka_unit_test(it_starts_nothing_and_has_no_network),
-        cmocka_unit_test(its_memory_and_time_are_bounded),
-        cmocka_unit_test(who_works_has_limits),
-        cmocka_unit_test(who_works_writes_its_outputs_alone),
-        cmocka_unit_test(who_works_reaches_nobody),
-        cmocka_unit_test(programs_are_confined_as_who_starts_them),
-        cmocka_unit_test(who_serves_connects_to_nobody),
-        cmocka_unit_test(what_was_vetted_is_what_is_read),
+        cmocka_unit_test(reader_reads_only_its_folder),
+        cmocka_unit_test(reader_writes_nothing),
+        cmocka_unit_test(reader_starts_nothing_and_has_no_network),
+        cmocka_unit_test(reader_has_memory_and_time_limits),
+        cmocka_unit_test(worker_has_limits),
+        cmocka_unit_test(worker_writes_only_its_outputs),
+        cmocka_unit_test(worker_reaches_no_other_process),
+        cmocka_unit_test(started_programs_inherit_the_sandbox),
+        cmocka_unit_test(server_cannot_connect),
+        cmocka_unit_test(overlay_gives_the_text_that_was_vetted),
     };
-    return cmocka_run_group_tests(tests, make_files, remove_files);
+    return cmocka_run_group_tests(tests, make_confined_files, remove_confined_files);
 }

@@ -1,4 +1,4 @@
-/* SQLite files of others: tables alone are read, and the rest of a file never runs. */
+/* SQLite files of strangers: only plain tables are read, and no code in a file runs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,21 +16,21 @@ static char folder[] = "/tmp/jostle-database-XXXXXX";
 static char path[128];
 static const char *const TABLES[] = {"t", "u", NULL};
 
-static int make_folder(void **state) {
+static int make_database_folder(void **state) {
     (void)state;
     const bool made = mkdtemp(folder) != NULL;
     snprintf(path, sizeof path, "%s/file", folder);
     return made ? 0 : -1;
 }
 
-static int remove_folder(void **state) {
+static int remove_database_folder(void **state) {
     (void)state;
     unlink(path);
     return rmdir(folder);
 }
 
-/* False where this SQLite has not the module that is asked for. */
-static bool make_file(const char *sql) {
+/* Makes a database file by SQL; false if this SQLite lacks a module that it uses. */
+static bool make_database_file(const char *sql) {
     sqlite3 *db;
     unlink(path);
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
@@ -44,7 +44,7 @@ static bool make_file(const char *sql) {
     return !lacks;
 }
 
-static double read_number(JoxDatabase *db, const char *sql) {
+static double select_number(JoxDatabase *db, const char *sql) {
     sqlite3_stmt *statement = jox_database_prepare(db, sql);
     const bool found = statement && sqlite3_step(statement) == SQLITE_ROW;
     const double value = found ? sqlite3_column_double(statement, 0) : -1.0;
@@ -52,20 +52,20 @@ static double read_number(JoxDatabase *db, const char *sql) {
     return value;
 }
 
-/* Opens the file and allows its tables; "" or why not in `said`. */
+/* Opens the file and allows its tables; writes the reason of a failure, or "", to `said`. */
 static void allow_tables(JoxDatabaseUse use, char said[300]) {
     JoxText why = {0};
     JoxDatabase *db = jox_database_open(path, use, &why);
     if (db && jox_database_allow(db, TABLES, &why)) {
-        read_number(db, "SELECT count(*) FROM t");
-        read_number(db, "SELECT count(*) FROM u");
+        select_number(db, "SELECT count(*) FROM t");
+        select_number(db, "SELECT count(*) FROM u");
     }
     jox_database_close(db);
     snprintf(said, 300, "%s", why.length ? why.data : "");
     jox_text_free(&why);
 }
 
-static void what_is_no_plain_table_is_refused(void **state) {
+static void tables_that_are_not_plain_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *sql, *said;
@@ -76,7 +76,8 @@ static void what_is_no_plain_table_is_refused(void **state) {
          "'u' is a virtual table"},
         {"CREATE TABLE t(a, b AS (hex(zeroblob(100000))))", "'t' has a computed column ('b')"},
         {"CREATE TABLE T(a, b TEXT AS (a || a) STORED)", "'t' has a computed column ('b')"},
-        /* A name that is another one in the text of its table, refused by newer SQLite itself. */
+        /* A schema entry whose name differs from that in its SQL; newer SQLite refuses it itself.
+         */
         {"CREATE TABLE t(a, b AS (a + 1)); PRAGMA writable_schema = ON; UPDATE sqlite_schema SET "
          "name = 'other', tbl_name = 'other'",
          ""},
@@ -89,7 +90,7 @@ static void what_is_no_plain_table_is_refused(void **state) {
     };
     char said[300];
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++)
-        if (make_file(CASES[c].sql))
+        if (make_database_file(CASES[c].sql))
             for (int use = JOX_DATABASE_READ; use <= JOX_DATABASE_WRITE; use++) {
                 allow_tables((JoxDatabaseUse)use, said);
                 if (!*said || !strstr(said, CASES[c].said))
@@ -97,7 +98,7 @@ static void what_is_no_plain_table_is_refused(void **state) {
             }
 }
 
-static void other_things_in_a_file_do_no_harm(void **state) {
+static void triggers_and_views_of_a_file_never_run(void **state) {
     (void)state;
     static const char *const CASES[] = {
         "CREATE INDEX i ON t(a); CREATE INDEX j ON t(a + 1) WHERE a > 0; CREATE TABLE other(a)",
@@ -114,29 +115,30 @@ static void other_things_in_a_file_do_no_harm(void **state) {
                  "CREATE TABLE t(a INTEGER, b DEFAULT 1); INSERT INTO t(a) "
                  "VALUES(7); %s",
                  CASES[c]);
-        if (!make_file(sql))
+        if (!make_database_file(sql))
             continue;
         JoxDatabase *db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
         assert_non_null(db);
         if (!jox_database_allow(db, TABLES, &why))
             fail_msg("%s: %s", CASES[c], why.data);
-        assert_true(read_number(db, "SELECT a FROM t") == 7.0);
-        read_number(db, "INSERT INTO t(a) VALUES(8)");
-        assert_true(read_number(db, "SELECT count(*) FROM t") == 2.0); /* no trigger ran */
+        assert_true(select_number(db, "SELECT a FROM t") == 7.0);
+        select_number(db, "INSERT INTO t(a) VALUES(8)");
+        assert_true(select_number(db, "SELECT count(*) FROM t") == 2.0); /* no trigger ran */
         jox_database_close(db);
     }
 }
 
-static void tables_that_were_not_allowed_are_not_named(void **state) {
+static void statements_cannot_use_other_tables(void **state) {
     (void)state;
     JoxText why = {0};
-    assert_true(make_file("CREATE TABLE t(a); CREATE TABLE other(a); INSERT INTO t VALUES(7); "
-                          "INSERT INTO other VALUES(8); CREATE VIEW u AS SELECT a FROM other"));
+    assert_true(
+        make_database_file("CREATE TABLE t(a); CREATE TABLE other(a); INSERT INTO t VALUES(7); "
+                           "INSERT INTO other VALUES(8); CREATE VIEW u AS SELECT a FROM other"));
     JoxDatabase *db = jox_database_open(path, JOX_DATABASE_WRITE, &why);
     assert_non_null(db);
-    assert_null(jox_database_prepare(db, "SELECT a FROM t")); /* as yet */
+    assert_null(jox_database_prepare(db, "SELECT a FROM t")); /* not allowed yet */
     assert_true(jox_database_allow(db, TABLES, &why));
-    assert_true(read_number(db, "SELECT a FROM t") == 7.0);
+    assert_true(select_number(db, "SELECT a FROM t") == 7.0);
     static const char *const REFUSED[] = {
         "SELECT a FROM other",
         "SELECT count(*) FROM other",
@@ -155,11 +157,11 @@ static void tables_that_were_not_allowed_are_not_named(void **state) {
     jox_database_close(db);
 }
 
-/* A statement that its caller leaves is finalized with the database, and no other is. */
-static void closing_ends_own_statements(void **state) {
+/* Closing finalizes statements that their callers left, and no others. */
+static void closing_finalizes_own_statements(void **state) {
     (void)state;
     JoxText why = {0};
-    assert_true(make_file("CREATE TABLE t(a); INSERT INTO t VALUES(1), (2)"));
+    assert_true(make_database_file("CREATE TABLE t(a); INSERT INTO t VALUES(1), (2)"));
     for (int left = 0; left < JOX_DATABASE_STATEMENTS; left++) {
         JoxDatabase *db = jox_database_open(path, JOX_DATABASE_READ, &why);
         assert_non_null(db);
@@ -170,7 +172,7 @@ static void closing_ends_own_statements(void **state) {
     }
 }
 
-static void what_is_no_database_is_told(void **state) {
+static void file_that_is_no_database_gives_an_error(void **state) {
     (void)state;
     char said[300];
     FILE *file = fopen(path, "wb");
@@ -189,11 +191,11 @@ static void what_is_no_database_is_told(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_no_plain_table_is_refused),
-        cmocka_unit_test(other_things_in_a_file_do_no_harm),
-        cmocka_unit_test(tables_that_were_not_allowed_are_not_named),
-        cmocka_unit_test(closing_ends_own_statements),
-        cmocka_unit_test(what_is_no_database_is_told),
+        cmocka_unit_test(tables_that_are_not_plain_are_refused),
+        cmocka_unit_test(triggers_and_views_of_a_file_never_run),
+        cmocka_unit_test(statements_cannot_use_other_tables),
+        cmocka_unit_test(closing_finalizes_own_statements),
+        cmocka_unit_test(file_that_is_no_database_gives_an_error),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_database_folder, remove_database_folder);
 }

@@ -40,7 +40,7 @@ static void a_document_on_one_line(void **state) {
     jox_text_free(&out);
 }
 
-static void outer_levels_stand_on_lines(void **state) {
+static void outer_levels_have_lines(void **state) {
     (void)state;
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 2);
@@ -77,7 +77,7 @@ static bool list_item(void *context, const JoxJsonItem *item) {
 
 static const JoxJsonLimits LIMITS = {.length = 100, .items = 8, .depth = 3};
 
-static void what_is_written_is_read(void **state) {
+static void written_documents_are_read_back(void **state) {
     (void)state;
     JoxText list = {0};
     assert_true(jox_json_read("{\"a\": [1, true, null], \"b\": {\"c\": \"\\u00fc\\\"\"}}", LIMITS,
@@ -85,7 +85,7 @@ static void what_is_written_is_read(void **state) {
     assert_string_equal(list.data, "51:a=0;22:a.0=1;12:a.1=1;02:a.2=0;41:b=0;32:b.c=\xc3\xbc\";");
     jox_text_free(&list);
     assert_false(jox_json_read("{\"stop\": 1, \"b\": 2}", LIMITS, list_item, &list));
-    assert_string_equal(list.data, "21:stop=1;"); /* what is visited can end the reading */
+    assert_string_equal(list.data, "21:stop=1;"); /* the visitor ended the reading */
     jox_text_free(&list);
 }
 
@@ -121,8 +121,8 @@ static void hostile_documents_are_refused_unread(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_document_on_one_line),
-                                       cmocka_unit_test(outer_levels_stand_on_lines),
-                                       cmocka_unit_test(what_is_written_is_read),
+                                       cmocka_unit_test(outer_levels_have_lines),
+                                       cmocka_unit_test(written_documents_are_read_back),
                                        cmocka_unit_test(hostile_documents_are_refused_unread)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

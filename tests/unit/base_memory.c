@@ -1,4 +1,4 @@
-/* Memory that is cleared: it is zero, nothing about it changes, and what is zero is not written. */
+/* Filling of memory: all bytes are set, none beyond, and equal bytes are not written. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,13 +12,13 @@
 
 enum { MOST = 70, PAGE = 4096 };
 
-static void all_of_it_is_cleared(void **state) {
+static void fill_sets_all_bytes(void **state) {
     (void)state;
     unsigned char bytes[MOST + 2];
     for (size_t size = 0; size <= MOST; size++)
         for (size_t at = 0; at < size || at == 0; at++) {
             memset(bytes, 0, sizeof bytes);
-            bytes[0] = bytes[1 + size] = 7; /* before it and behind it */
+            bytes[0] = bytes[1 + size] = 7; /* bytes before and behind the range */
             if (size)
                 bytes[1 + at] = 1;
             assert_int_equal(jox_mem_is(bytes + 1, 0, size), size == 0);
@@ -31,16 +31,16 @@ static void all_of_it_is_cleared(void **state) {
         }
 }
 
-static void zeros_are_not_written(void **state) {
+static void fill_does_not_write_equal_bytes(void **state) {
     (void)state;
     void *page = mmap(NULL, PAGE, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     assert_true(page != MAP_FAILED);
-    jox_mem_fill(page, 0, PAGE); /* else it ends here */
+    jox_mem_fill(page, 0, PAGE); /* a write would end the program */
     assert_int_equal(munmap(page, PAGE), 0);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_of_it_is_cleared),
-                                       cmocka_unit_test(zeros_are_not_written)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fill_sets_all_bytes),
+                                       cmocka_unit_test(fill_does_not_write_equal_bytes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,14 +9,14 @@
 
 #include "base/number/statistics.h"
 
-static void near_to(double value, double wanted, double within) {
+static void check_within(double value, double wanted, double within) {
     if (!(fabs(value - wanted) <= within))
         fail_msg("%.9g is not %.9g", value, wanted);
 }
 
 /* Two-sided points of Student's distribution, as in the tables of Fisher and Yates, "Statistical
    Tables for Biological, Agricultural and Medical Research", table III. */
-static void t_is_that_of_the_tables(void **state) {
+static void student_t_matches_tables(void **state) {
     (void)state;
     static const struct {
         double degrees, share, t;
@@ -25,14 +25,15 @@ static void t_is_that_of_the_tables(void **state) {
                  {1, 0.99, 63.657}, {10, 0.99, 3.169}, {120, 0.99, 2.617}, {1, 0.9, 6.314},
                  {20, 0.9, 1.725},  {5, 0.999, 6.869}, {1, 0.5, 1.000},    {40, 0.5, 0.681}};
     for (size_t k = 0; k < sizeof TABLE / sizeof *TABLE; k++) {
-        near_to(jox_student_t(TABLE[k].degrees, TABLE[k].share), TABLE[k].t, 5.1e-4);
-        near_to(jox_student_tail(jox_student_t(TABLE[k].degrees, TABLE[k].share), TABLE[k].degrees),
-                1 - TABLE[k].share, 1e-9);
+        check_within(jox_student_t(TABLE[k].degrees, TABLE[k].share), TABLE[k].t, 5.1e-4);
+        check_within(
+            jox_student_tail(jox_student_t(TABLE[k].degrees, TABLE[k].share), TABLE[k].degrees),
+            1 - TABLE[k].share, 1e-9);
     }
     for (double n = 1; n < 999; n++)
         assert_true(jox_student_t(n + 1, 0.95) < jox_student_t(n, 0.95));
-    near_to(jox_student_tail(0, 5), 1, 1e-12);
-    near_to(jox_student_tail(-2.262, 9), jox_student_tail(2.262, 9), 1e-12);
+    check_within(jox_student_tail(0, 5), 1, 1e-12);
+    check_within(jox_student_tail(-2.262, 9), jox_student_tail(2.262, 9), 1e-12);
 }
 
 /* Hours of sleep gained by ten patients on two drugs: Student, "The probable error of a mean",
@@ -40,44 +41,44 @@ static void t_is_that_of_the_tables(void **state) {
 static const double DRUG_1[10] = {0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
 static const double DRUG_2[10] = {1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
 
-static void pairs_are_compared_as_student_did(void **state) {
+static void paired_effect_matches_student_1908(void **state) {
     (void)state;
     const JoxEffect e = jox_effect_paired(DRUG_1, DRUG_2, 10, 0.95);
-    near_to(e.difference, 1.58, 1e-9);
-    near_to(e.low, 0.7001142, 1e-6);
-    near_to(e.high, 2.4598858, 1e-6);
-    near_to(e.p, 0.002833, 1e-6);
-    near_to(e.deviation, 1.229995, 1e-5);
+    check_within(e.difference, 1.58, 1e-9);
+    check_within(e.low, 0.7001142, 1e-6);
+    check_within(e.high, 2.4598858, 1e-6);
+    check_within(e.p, 0.002833, 1e-6);
+    check_within(e.deviation, 1.229995, 1e-5);
     assert_true(e.degrees == 9 && e.pairs == 10);
 }
 
-static void samples_are_compared_as_welch_did(void **state) {
+static void unpaired_effect_matches_welch(void **state) {
     (void)state;
     const JoxEffect e = jox_effect_apart(DRUG_1, 10, DRUG_2, 10, 0.95);
-    near_to(e.difference, 1.58, 1e-9);
-    near_to(e.low, -0.2054832, 1e-6);
-    near_to(e.high, 3.3654832, 1e-6);
-    near_to(e.p, 0.07939, 1e-5);
-    near_to(e.degrees, 17.776, 1e-3);
+    check_within(e.difference, 1.58, 1e-9);
+    check_within(e.low, -0.2054832, 1e-6);
+    check_within(e.high, 3.3654832, 1e-6);
+    check_within(e.p, 0.07939, 1e-5);
+    check_within(e.degrees, 17.776, 1e-3);
     assert_int_equal(e.pairs, 0);
 }
 
 /* Survival of mice, days: Efron and Tibshirani, "An Introduction to the Bootstrap", 1993, chapter
    2: the mean of the treated has a bootstrap standard error of 23.36 and a difference of 30.63. The
    percentile interval of a mean is close to mean +- 1.96 such errors. */
-static void the_bootstrap_is_that_of_efron(void **state) {
+static void bootstrap_matches_efron(void **state) {
     (void)state;
     static const double TREATED[7] = {94, 197, 16, 38, 99, 141, 23};
     static const double CONTROL[9] = {52, 104, 146, 10, 51, 30, 40, 27, 46};
     static const double NOTHING[7] = {0};
     JoxEffect e = jox_effect_paired(NOTHING, TREATED, 7, 0.95);
-    near_to(e.difference, 86.857, 1e-3);
+    check_within(e.difference, 86.857, 1e-3);
     jox_effect_bootstrap(&e, NOTHING, TREATED, 20000, 0.6827); /* one deviation to either side */
-    near_to((e.high - e.low) / 2, 23.36, 0.6);
+    check_within((e.high - e.low) / 2, 23.36, 0.6);
     e = jox_effect_apart(CONTROL, 9, TREATED, 7, 0.95);
-    near_to(e.difference, 30.635, 1e-3);
+    check_within(e.difference, 30.635, 1e-3);
     jox_effect_bootstrap(&e, CONTROL, TREATED, 20000, 0.6827);
-    near_to((e.high - e.low) / 2, sqrt(23.36 * 23.36 + 13.33 * 13.33), 0.8);
+    check_within((e.high - e.low) / 2, sqrt(23.36 * 23.36 + 13.33 * 13.33), 0.8);
     const JoxEffect again = e;
     jox_effect_bootstrap(&e, CONTROL, TREATED, 20000, 0.6827);
     assert_true(e.low == again.low && e.high == again.high);
@@ -88,7 +89,7 @@ static void the_bootstrap_is_that_of_efron(void **state) {
 /* Effects of half a deviation at 5 % and a power of 80 %: J. Cohen, "Statistical Power Analysis for
    the Behavioral Sciences", 2nd ed. 1988, table 2.4.1: 64 of each sample; of 0.8 deviations 26, of
    0.2 393. Pairs: 34 (G*Power 3, manual: matched pairs). */
-static void runs_are_as_many_as_power_takes(void **state) {
+static void number_of_runs_matches_cohen(void **state) {
     (void)state;
     JoxEffect e = {.difference = 0.5, .deviation = 1};
     assert_int_equal(jox_effect_runs(&e, 0.95, 0.8), 64);
@@ -148,35 +149,35 @@ static void ranks_bound_quantiles(void **state) {
 static void quantiles_are_linear_between_ranks(void **state) {
     (void)state;
     double values[] = {50, 15, 40, 20, 35};
-    near_to(jox_quantile(values, 5, 0.4), 29, 1e-12);
-    near_to(jox_quantile(values, 5, 0.95), 48, 1e-12);
-    near_to(jox_quantile(values, 5, 0), 15, 0);
-    near_to(jox_quantile(values, 5, 1), 50, 0);
+    check_within(jox_quantile(values, 5, 0.4), 29, 1e-12);
+    check_within(jox_quantile(values, 5, 0.95), 48, 1e-12);
+    check_within(jox_quantile(values, 5, 0), 15, 0);
+    check_within(jox_quantile(values, 5, 1), 50, 0);
     assert_true(isnan(jox_quantile(values, 0, 0.5)));
     double holes[] = {1, NAN, 3};
     assert_true(isnan(jox_quantile(holes, 3, 0.5)));
 }
 
 /* Mean 10, deviation sqrt(2.5), error of the mean .7071, t(4) = 2.776. */
-static void a_mean_has_a_bound(void **state) {
+static void mean_bound_matches_student_t(void **state) {
     (void)state;
     const double values[] = {12, 8, 11, 9, 10};
     const JoxMoments m = jox_moments(values, 5), one = jox_moments(values, 1);
-    near_to(m.mean, 10, 1e-12);
-    near_to(m.deviation, sqrt(2.5), 1e-12);
-    near_to(jox_mean_bound(&m, 0.95), 1.9632, 1e-4);
+    check_within(m.mean, 10, 1e-12);
+    check_within(m.deviation, sqrt(2.5), 1e-12);
+    check_within(jox_mean_bound(&m, 0.95), 1.9632, 1e-4);
     assert_true(isnan(one.deviation) && isnan(jox_mean_bound(&one, 0.95)) && one.mean == 12);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(t_is_that_of_the_tables),
-                                       cmocka_unit_test(pairs_are_compared_as_student_did),
-                                       cmocka_unit_test(samples_are_compared_as_welch_did),
-                                       cmocka_unit_test(the_bootstrap_is_that_of_efron),
-                                       cmocka_unit_test(runs_are_as_many_as_power_takes),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(student_t_matches_tables),
+                                       cmocka_unit_test(paired_effect_matches_student_1908),
+                                       cmocka_unit_test(unpaired_effect_matches_welch),
+                                       cmocka_unit_test(bootstrap_matches_efron),
+                                       cmocka_unit_test(number_of_runs_matches_cohen),
                                        cmocka_unit_test(few_values_have_no_interval),
                                        cmocka_unit_test(ranks_bound_quantiles),
                                        cmocka_unit_test(quantiles_are_linear_between_ranks),
-                                       cmocka_unit_test(a_mean_has_a_bound)};
+                                       cmocka_unit_test(mean_bound_matches_student_t)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@
 #include "base/number/distribution.h"
 #include "base/number/elementary.h"
 
-static void near_relative(double got, double want, double tolerance) {
+static void check_relative(double got, double want, double tolerance) {
     double scale = fabs(want) > 1.0 ? fabs(want) : 1.0;
     if (!(fabs(got - want) <= tolerance * scale))
         fail_msg("got %.17g, want %.17g", got, want);
@@ -23,16 +23,16 @@ static void elementary_functions_match_libm(void **state) {
     (void)state;
     for (int i = -4000; i <= 4000; i++) {
         double x = i * 0.0137;
-        near_relative(jox_sin(x), sin(x), 1e-12);
-        near_relative(jox_cos(x), cos(x), 1e-12);
-        near_relative(jox_exp(x * 0.1), exp(x * 0.1), 1e-12);
-        near_relative(jox_log(fabs(x) + 1e-9), log(fabs(x) + 1e-9), 1e-12);
-        near_relative(jox_atan2(x, 1.7), atan2(x, 1.7), 1e-12);
-        near_relative(jox_atan2(0.3 - x, x), atan2(0.3 - x, x), 1e-12);
-        near_relative(jox_pow(fabs(x), 0.37), pow(fabs(x), 0.37), 1e-11);
+        check_relative(jox_sin(x), sin(x), 1e-12);
+        check_relative(jox_cos(x), cos(x), 1e-12);
+        check_relative(jox_exp(x * 0.1), exp(x * 0.1), 1e-12);
+        check_relative(jox_log(fabs(x) + 1e-9), log(fabs(x) + 1e-9), 1e-12);
+        check_relative(jox_atan2(x, 1.7), atan2(x, 1.7), 1e-12);
+        check_relative(jox_atan2(0.3 - x, x), atan2(0.3 - x, x), 1e-12);
+        check_relative(jox_pow(fabs(x), 0.37), pow(fabs(x), 0.37), 1e-11);
     }
-    near_relative(jox_sin(1e6), sin(1e6), 1e-9);
-    near_relative(jox_pow(-2.0, 3.0), -8.0, 1e-15);
+    check_relative(jox_sin(1e6), sin(1e6), 1e-9);
+    check_relative(jox_pow(-2.0, 3.0), -8.0, 1e-15);
 }
 
 static void elementary_functions_at_the_edges(void **state) {
@@ -42,8 +42,8 @@ static void elementary_functions_at_the_edges(void **state) {
     assert_true(isnan(jox_log(-1.0)) && jox_log(0.0) == -INFINITY);
     assert_true(isnan(jox_pow(-2.0, 0.5)));
     assert_true(jox_atan2(0.0, 0.0) == 0.0);
-    near_relative(jox_atan2(0.0, -1.0), M_PI, 1e-15);
-    near_relative(jox_atan2(-1.0, 0.0), -M_PI / 2, 1e-15);
+    check_relative(jox_atan2(0.0, -1.0), M_PI, 1e-15);
+    check_relative(jox_atan2(-1.0, 0.0), -M_PI / 2, 1e-15);
 }
 
 static void draws_depend_on_every_argument(void **state) {
@@ -74,10 +74,10 @@ static void distributions_have_their_moments(void **state) {
         flat += u;
         nines += jox_dist_draw(&choose, 7, (uint32_t)i, 0, JOX_DRAW_OWN, 2) == 9.0;
     }
-    near_relative(sum / n, 1.0, 0.005);
-    near_relative(sqrt(square / n - sum / n * sum / n), 0.15, 0.005);
-    near_relative(flat / n, 3.5, 0.02);
-    near_relative((double)nines / n, 1.0 / 3, 0.02);
+    check_relative(sum / n, 1.0, 0.005);
+    check_relative(sqrt(square / n - sum / n * sum / n), 0.15, 0.005);
+    check_relative(flat / n, 3.5, 0.02);
+    check_relative((double)nines / n, 1.0 / 3, 0.02);
 }
 
 static int ascending(const void *a, const void *b) {
@@ -105,7 +105,7 @@ static double gamma_share(double x, const double *p) {
 
 /* Kolmogorov and Smirnov: the greatest distance of the shares, times the root of their number, is
    above 1.63 in one of a hundred samples that are of the distribution. */
-static void draws_are_of_the_distribution(void **state) {
+static void draws_match_their_distribution(void **state) {
     (void)state;
     enum { DRAWS = 5000 };
     static double draws[DRAWS];
@@ -186,7 +186,7 @@ int main(void) {
         cmocka_unit_test(elementary_functions_at_the_edges),
         cmocka_unit_test(draws_depend_on_every_argument),
         cmocka_unit_test(distributions_have_their_moments),
-        cmocka_unit_test(draws_are_of_the_distribution),
+        cmocka_unit_test(draws_match_their_distribution),
         cmocka_unit_test(wrong_arguments_make_no_distribution),
         cmocka_unit_test(sha256_of_the_standard_vectors),
         cmocka_unit_test(state_hash_sees_every_byte_and_the_order),

@@ -1,4 +1,4 @@
-/* What patches set: paths that lead to others, the last one wins, conflicts between mods, targets.
+/* The list of changes that patches make: parents of paths, order, conflicts between mods, targets.
    Merging itself is tested with trees of YAML and of Lua, in tests/scenes/mods.sh. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,22 +10,22 @@
 
 #include "base/format/patch.h"
 
-static JoxPatchChange change(const char *path, int32_t mod, int line) {
+static JoxPatchChange make_patch_change(const char *path, int32_t mod, int line) {
     return (JoxPatchChange){
         .path = (char *)path, .from = "there", .mod = mod, .position = {"a.lua", line, 1, 2}};
 }
 
-static void paths_lead_to_what_is_below_them(void **state) {
+static void changes_lead_to_paths_below_them(void **state) {
     (void)state;
     static const struct {
-        const char *set, *path, *rest; /* rest: NULL where it does not lead there */
+        const char *set, *path, *rest; /* rest: NULL if `set` is no parent of `path` */
     } CASES[] = {
         {"", "a.b", "a.b"},         {"a", "a.b", "b"},  {"a.b", "a.b", ""},
         {"a.b", "a", NULL},         {"a", "ab", NULL},  {"a.@Exit", "a.@Exit.chance", "chance"},
         {"a.@Exit", "a.@Ex", NULL}, {"b", "a.b", NULL},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        const JoxPatchChange c = change(CASES[i].set, -1, 1);
+        const JoxPatchChange c = make_patch_change(CASES[i].set, -1, 1);
         const char *rest = NULL;
         bool leads = jox_patch_leads(&c, CASES[i].path, &rest);
         assert_int_equal(leads, CASES[i].rest != NULL);
@@ -46,15 +46,15 @@ static void the_last_change_wins_and_conflicts_are_named(void **state) {
     JoxMod mods[3] = {{.name = "first"}, {.name = "second"}, {.name = "third", .after = 3}};
     JoxPatchChanges changes = {0};
     JoxDiagnostics diagnostics = {0};
-    jox_patch_keep(&changes, change("a", -1, 1), mods, &diagnostics);
-    jox_patch_keep(&changes, change("a.b", 0, 2), mods, &diagnostics);
-    jox_patch_keep(&changes, change("a.c", 1, 3), mods, &diagnostics);
+    jox_patch_keep(&changes, make_patch_change("a", -1, 1), mods, &diagnostics);
+    jox_patch_keep(&changes, make_patch_change("a.b", 0, 2), mods, &diagnostics);
+    jox_patch_keep(&changes, make_patch_change("a.c", 1, 3), mods, &diagnostics);
     assert_int_equal(diagnostics.count, 0); /* different paths */
-    jox_patch_keep(&changes, change("a.b.d", 2, 4), mods, &diagnostics);
-    assert_int_equal(diagnostics.count, 0); /* it knows the mod that it follows */
-    jox_patch_keep(&changes, change("a.b.e", 1, 5), NULL, &diagnostics);
-    assert_int_equal(diagnostics.count, 0); /* nobody asked */
-    jox_patch_keep(&changes, change("a.b.f", 1, 6), mods, &diagnostics);
+    jox_patch_keep(&changes, make_patch_change("a.b.d", 2, 4), mods, &diagnostics);
+    assert_int_equal(diagnostics.count, 0); /* the later mod depends on the earlier one */
+    jox_patch_keep(&changes, make_patch_change("a.b.e", 1, 5), NULL, &diagnostics);
+    assert_int_equal(diagnostics.count, 0); /* without a list of mods */
+    jox_patch_keep(&changes, make_patch_change("a.b.f", 1, 6), mods, &diagnostics);
     assert_int_equal(diagnostics.count, 1);
     assert_string_equal(diagnostics.items[0].code, "mod-conflict");
     assert_int_equal(diagnostics.items[0].line, 6);
@@ -67,19 +67,19 @@ static void the_last_change_wins_and_conflicts_are_named(void **state) {
     jox_diag_free(&diagnostics);
 }
 
-static void too_many_changes_are_one_error(void **state) {
+static void too_many_changes_give_one_error(void **state) {
     (void)state;
     JoxPatchChanges changes = {0};
     JoxDiagnostics diagnostics = {0};
     for (int i = 0; i < 5000; i++)
-        jox_patch_keep(&changes, change("a", -1, i), NULL, &diagnostics);
+        jox_patch_keep(&changes, make_patch_change("a", -1, i), NULL, &diagnostics);
     assert_int_equal(diagnostics.errors, 1);
     assert_in_range(changes.count, 4096, 4097);
     jox_patch_changes_free(&changes);
     jox_diag_free(&diagnostics);
 }
 
-static void a_target_is_a_file_or_one_of_a_mod(void **state) {
+static void target_names_a_file_or_a_file_of_a_mod(void **state) {
     (void)state;
     JoxMod mods[1] = {{.name = "odd", .folder = "mods/odd"}};
     assert_true(jox_patch_is_target("yard", "scenes/yard.yaml", mods, 1));
@@ -91,10 +91,10 @@ static void a_target_is_a_file_or_one_of_a_mod(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paths_lead_to_what_is_below_them),
+        cmocka_unit_test(changes_lead_to_paths_below_them),
         cmocka_unit_test(the_last_change_wins_and_conflicts_are_named),
-        cmocka_unit_test(too_many_changes_are_one_error),
-        cmocka_unit_test(a_target_is_a_file_or_one_of_a_mod),
+        cmocka_unit_test(too_many_changes_give_one_error),
+        cmocka_unit_test(target_names_a_file_or_a_file_of_a_mod),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Paths: their parts, what a file names, and what lies outside a folder. */
+/* Paths: their parts, files that a file names, and files outside a folder. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,14 +16,14 @@
 
 static char root[64];
 
-static const char *at(const char *name) {
+static const char *make_tree_path(const char *name) {
     static char path[256];
     snprintf(path, sizeof path, "%s/%s", root, name);
     return path;
 }
 
-static void touch(const char *name) {
-    FILE *file = fopen(at(name), "w");
+static void make_empty_file(const char *name) {
+    FILE *file = fopen(make_tree_path(name), "w");
     assert_non_null(file);
     assert_int_equal(fclose(file), 0);
 }
@@ -34,14 +34,14 @@ static int make_tree(void **state) {
     assert_non_null(mkdtemp(root));
     static const char *const FOLDERS[] = {"scenes", "behaviours", "m", "m/behaviours"};
     for (size_t f = 0; f < sizeof FOLDERS / sizeof *FOLDERS; f++)
-        assert_int_equal(mkdir(at(FOLDERS[f]), 0700), 0);
-    touch("scenes/a.yaml");
-    touch("scenes/near.lua");
-    touch("behaviours/near.lua");
-    touch("behaviours/far.lua");
-    touch("m/behaviours/own.lua");
+        assert_int_equal(mkdir(make_tree_path(FOLDERS[f]), 0700), 0);
+    make_empty_file("scenes/a.yaml");
+    make_empty_file("scenes/near.lua");
+    make_empty_file("behaviours/near.lua");
+    make_empty_file("behaviours/far.lua");
+    make_empty_file("m/behaviours/own.lua");
     char link[256];
-    snprintf(link, sizeof link, "%s", at("scenes/out"));
+    snprintf(link, sizeof link, "%s", make_tree_path("scenes/out"));
     return symlink("/etc/passwd", link);
 }
 
@@ -52,9 +52,9 @@ static int remove_tree(void **state) {
                                         "behaviours/far.lua", "m/behaviours/own.lua"};
     static const char *const FOLDERS[] = {"m/behaviours", "m", "behaviours", "scenes", ""};
     for (size_t f = 0; f < sizeof FILES / sizeof *FILES; f++)
-        unlink(at(FILES[f]));
+        unlink(make_tree_path(FILES[f]));
     for (size_t f = 0; f < sizeof FOLDERS / sizeof *FOLDERS; f++)
-        rmdir(at(FOLDERS[f]));
+        rmdir(make_tree_path(FOLDERS[f]));
     return 0;
 }
 
@@ -85,12 +85,12 @@ static void folders_are_searched_in_order(void **state) {
     (void)state;
     static const char *const FOLDERS[] = {"", "../behaviours/", NULL};
     char path[JOX_LONGEST_PATH], scene[256];
-    snprintf(scene, sizeof scene, "%s", at("scenes/a.yaml"));
+    snprintf(scene, sizeof scene, "%s", make_tree_path("scenes/a.yaml"));
     assert_true(jox_path_find(scene, "near", ".lua", FOLDERS, path));
-    assert_string_equal(path, at("scenes/near.lua"));
+    assert_string_equal(path, make_tree_path("scenes/near.lua"));
     assert_true(jox_path_find(scene, "far.lua", ".lua", FOLDERS, path));
     jox_path_clean(path);
-    assert_string_equal(path, at("behaviours/far.lua"));
+    assert_string_equal(path, make_tree_path("behaviours/far.lua"));
     assert_false(jox_path_find(scene, "none", ".lua", FOLDERS, path));
     assert_false(jox_path_find(scene, "a", ".lua", FOLDERS, path));
 }
@@ -98,11 +98,11 @@ static void folders_are_searched_in_order(void **state) {
 static void behaviours_of_mods(void **state) {
     (void)state;
     char path[JOX_LONGEST_PATH], folder[256];
-    snprintf(folder, sizeof folder, "%s", at("m"));
+    snprintf(folder, sizeof folder, "%s", make_tree_path("m"));
     const JoxMod mods[] = {{.name = (char *)"other", .folder = root},
                            {.name = (char *)"m", .folder = folder}};
     assert_true(jox_mod_find(mods, 2, "m:own", path));
-    assert_string_equal(path, at("m/behaviours/own.lua"));
+    assert_string_equal(path, make_tree_path("m/behaviours/own.lua"));
     static const char *const NONE[] = {"own",     "other:own", "m:../../behaviours/far",
                                        "m:gone",  "n:own",     "m:/etc/passwd",
                                        "m:own.c", "m:"};
@@ -111,19 +111,19 @@ static void behaviours_of_mods(void **state) {
             fail_msg("found: %s", NONE[n]);
 }
 
-static void links_do_not_lead_out(void **state) {
+static void links_out_of_the_folder_are_foreign(void **state) {
     (void)state;
     char folder[256], inside[300];
-    snprintf(folder, sizeof folder, "%s", at("scenes"));
-    assert_true(jox_path_below(at("scenes/a.yaml"), folder));
-    assert_false(jox_path_below(at("scenes/out"), folder));
-    assert_false(jox_path_below(at("scenes/../behaviours/far.lua"), folder));
+    snprintf(folder, sizeof folder, "%s", make_tree_path("scenes"));
+    assert_true(jox_path_below(make_tree_path("scenes/a.yaml"), folder));
+    assert_false(jox_path_below(make_tree_path("scenes/out"), folder));
+    assert_false(jox_path_below(make_tree_path("scenes/../behaviours/far.lua"), folder));
     assert_false(jox_path_below(folder, folder));
-    assert_false(jox_path_below(at("scenes/none"), folder));
+    assert_false(jox_path_below(make_tree_path("scenes/none"), folder));
     snprintf(inside, sizeof inside, "%s/../scenes/a.yaml", folder);
     char *real = jox_path_real_below(inside, folder);
     assert_non_null(real);
-    assert_string_equal(real, at("scenes/a.yaml"));
+    assert_string_equal(real, make_tree_path("scenes/a.yaml"));
     free(real);
 }
 
@@ -131,6 +131,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_of_a_path), cmocka_unit_test(names_are_relative_to_the_file),
         cmocka_unit_test(folders_are_searched_in_order), cmocka_unit_test(behaviours_of_mods),
-        cmocka_unit_test(links_do_not_lead_out)};
+        cmocka_unit_test(links_out_of_the_folder_are_foreign)};
     return cmocka_run_group_tests(tests, make_tree, remove_tree);
 }

@@ -17,13 +17,13 @@ typedef struct Item {
     uint32_t key, place;
 } Item;
 
-static int by_key(const void *a, const void *b, const void *context) {
+static int compare_sort_keys(const void *a, const void *b, const void *context) {
     const Item *x = a, *y = b;
     const int sign = *(const int *)context;
     return sign * ((x->key > y->key) - (x->key < y->key));
 }
 
-static void fill(Item *items, uint32_t count, uint32_t form) {
+static void fill_sort_items(Item *items, uint32_t count, uint32_t form) {
     uint32_t random = 1;
     for (uint32_t i = 0; i < count; i++) {
         random = random * 1664525u + 1013904223u;
@@ -38,15 +38,17 @@ static void equal_items_keep_their_order(void **state) {
     for (uint32_t count = 0; count <= MOST; count += count < 40 ? 1 : 191)
         for (uint32_t form = 0; form < 5; form++)
             for (int sign = -1; sign <= 1; sign += 2) {
-                fill(items, count, form);
-                spare[JOX_SORT_SPARE(count)] = (Item){4711, 4712}; /* beyond the room */
-                jox_sort(items, count, sizeof *items, by_key, &sign, form % 2 ? spare : NULL);
+                fill_sort_items(items, count, form);
+                spare[JOX_SORT_SPARE(count)] =
+                    (Item){4711, 4712}; /* a guard behind the spare room */
+                jox_sort(items, count, sizeof *items, compare_sort_keys, &sign,
+                         form % 2 ? spare : NULL);
                 for (uint32_t i = 1; i < count; i++) {
-                    int order = by_key(&items[i - 1], &items[i], &sign);
+                    int order = compare_sort_keys(&items[i - 1], &items[i], &sign);
                     assert_true(order < 0 || (order == 0 && items[i - 1].place < items[i].place));
                 }
                 assert_int_equal(spare[JOX_SORT_SPARE(count)].place, 4712);
-                uint64_t sum = 0; /* nothing is lost or doubled */
+                uint64_t sum = 0; /* no item is lost or doubled */
                 for (uint32_t i = 0; i < count; i++)
                     sum += (uint64_t)items[i].place * items[i].place;
                 assert_true(count == 0 ||
@@ -54,17 +56,17 @@ static void equal_items_keep_their_order(void **state) {
             }
 }
 
-static void a_step_allocates_nothing(void **state) {
+static void spare_room_avoids_allocation(void **state) {
     (void)state;
     static Item items[MOST], spare[JOX_SORT_SPARE(MOST)];
     const int sign = 1;
-    fill(items, MOST, 4);
+    fill_sort_items(items, MOST, 4);
     uint64_t before = jox_alloc_count();
-    jox_sort(items, MOST, sizeof *items, by_key, &sign, spare);
+    jox_sort(items, MOST, sizeof *items, compare_sort_keys, &sign, spare);
     assert_true(jox_alloc_count() == before);
 }
 
-static void numbers_and_texts(void **state) {
+static void doubles_and_texts_are_sorted(void **state) {
     (void)state;
     double values[] = {NAN, 2, -INFINITY, NAN, 1, 0.5};
     const char *texts[] = {"b", "", "ab", "a"};
@@ -80,7 +82,7 @@ static void numbers_and_texts(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(equal_items_keep_their_order),
-                                       cmocka_unit_test(a_step_allocates_nothing),
-                                       cmocka_unit_test(numbers_and_texts)};
+                                       cmocka_unit_test(spare_room_avoids_allocation),
+                                       cmocka_unit_test(doubles_and_texts_are_sorted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@
 #include "base/format/noun.h"
 #include "base/text.h"
 
-static void json_escapes_whatever_comes(void **state) {
+static void json_escapes_any_bytes(void **state) {
     (void)state;
     JoxText text = {0};
     jox_text_json(&text, "a\"b\\c\n\x01\xff\xc3\xa9");
@@ -53,7 +53,7 @@ static void a_diagnostic_prints_its_place(void **state) {
     jox_diag_free(&d);
 }
 
-static void a_flood_is_counted_and_cut(void **state) {
+static void surplus_diagnostics_are_counted(void **state) {
     (void)state;
     JoxDiagnostics d = {0};
     for (int i = 0; i < 100; i++)
@@ -67,14 +67,14 @@ static void a_flood_is_counted_and_cut(void **state) {
     jox_diag_free(&d);
 }
 
-static void text_is_made_fit_for_a_terminal(void **state) {
+static void text_is_cleaned_for_terminals(void **state) {
     (void)state;
     char text[] = "a\033[2J\n\tb\x7f \xc3\xa4 \xc2\x9b \xff\xc3";
     jox_text_clean(text);
     assert_string_equal(text, "a?[2J  b? \xc3\xa4 ?? ??");
 }
 
-static void names_are_letters_digits_and_little_else(void **state) {
+static void names_follow_the_rule(void **state) {
     (void)state;
     static const char *const GOOD[] = {"a",
                                        "9",
@@ -124,7 +124,7 @@ static void names_are_letters_digits_and_little_else(void **state) {
     assert_true(jox_name_is_plain(longest));
 }
 
-static void numbers_have_their_nouns(void **state) {
+static void nouns_agree_with_numbers(void **state) {
     (void)state;
     char out[JOX_NOUN];
     assert_string_equal(jox_noun(out, 1, "agent"), "1 agent");
@@ -141,18 +141,19 @@ static void numbers_have_their_nouns(void **state) {
     char longest[300];
     memset(longest, 'x', sizeof longest - 1);
     longest[sizeof longest - 1] = 0;
-    assert_int_equal(strlen(jox_noun(out, 12, longest)), JOX_NOUN - 1); /* cut, not beyond */
+    assert_int_equal(strlen(jox_noun(out, 12, longest)),
+                     JOX_NOUN - 1); /* cut to the size of `out` */
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_have_their_nouns),
-        cmocka_unit_test(text_is_made_fit_for_a_terminal),
-        cmocka_unit_test(json_escapes_whatever_comes),
+        cmocka_unit_test(nouns_agree_with_numbers),
+        cmocka_unit_test(text_is_cleaned_for_terminals),
+        cmocka_unit_test(json_escapes_any_bytes),
         cmocka_unit_test(suggestions_are_near_or_absent),
         cmocka_unit_test(a_diagnostic_prints_its_place),
-        cmocka_unit_test(a_flood_is_counted_and_cut),
-        cmocka_unit_test(names_are_letters_digits_and_little_else),
+        cmocka_unit_test(surplus_diagnostics_are_counted),
+        cmocka_unit_test(names_follow_the_rule),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

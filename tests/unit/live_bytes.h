@@ -1,4 +1,5 @@
-/* What a page makes of messages: numbers of JSON by path, and frames from the bytes alone. */
+/* Decoding of a live page's messages, as a browser does it: numbers of JSON by path, and frames
+   from their bytes. */
 #ifndef JOX_TESTS_HOST_BYTES_H
 #define JOX_TESTS_HOST_BYTES_H
 
@@ -8,7 +9,7 @@
 #include "live/live.h"
 #include "live_page.h"
 
-/* ---- JSON: the numbers by path, and that it is JSON ---- */
+/* ---- JSON: its numbers by path ---- */
 
 typedef struct Numbers {
     struct {
@@ -19,7 +20,7 @@ typedef struct Numbers {
 } Numbers;
 static Numbers numbers;
 
-static inline void note(void *context, const char *path, double value) {
+static inline void keep_number(void *context, const char *path, double value) {
     Numbers *n = context;
     assert_true(n->count < 20000);
     snprintf(n->items[n->count].path, sizeof n->items->path, "%s", path);
@@ -35,9 +36,9 @@ static inline double number_at(const char *format, int a, int b, int c) {
     return NAN;
 }
 
-static inline void parse(const JoxText *text) {
+static inline void parse_numbers(const JoxText *text) {
     numbers.count = 0;
-    if (!jox_json_numbers(text->data, note, &numbers))
+    if (!jox_json_numbers(text->data, keep_number, &numbers))
         fail_msg("no JSON: %s", text->data);
 }
 
@@ -48,7 +49,7 @@ static inline void parse(const JoxText *text) {
             fail_msg("%s is %.9g, not %.9g", #value, near_v, near_w);                              \
     } while (0)
 
-static inline void has_name(const JoxText *text, const char *name) {
+static inline void check_name_in(const JoxText *text, const char *name) {
     JoxText quoted = {0};
     jox_text_json(&quoted, name);
     if (!strstr(text->data, quoted.data))
@@ -112,15 +113,15 @@ static inline double y_of(const Seen *seen, uint32_t slot) {
     return (double)seen->y0 + (double)seen->sy * (at[2] | at[3] << 8);
 }
 
-static inline Seen decode(const JoxBytes *frame, const JoWorld *world) {
+static inline Seen decode_frame(const JoxBytes *frame, const JoWorld *world) {
     const Seen seen = decode_bytes(frame->data, frame->length);
     assert_int_equal(seen.tick, world->state.tick);
     assert_near(seen.time, (double)world->state.tick * world->model.def.dt, 1e-9);
     return seen;
 }
 
-/* Everybody is in the frame where they are, within half a unit, and nobody else is. */
-static inline void check_people(const JoScene *scene, const Seen *seen) {
+/* Checks that a frame has all agents at their positions, within half a unit, and no others. */
+static inline void check_frame_people(const JoScene *scene, const Seen *seen) {
     const JoxAgents *a = &scene->world->state.agents;
     uint32_t people = 0;
     assert_true(seen->sx < 0.01f && seen->sy < 0.01f);

@@ -1,6 +1,5 @@
-/* What a live page is shown of a running scene: frames say who is where, fields add up to the
-   people, and showing changes nothing. Frames are decoded here as a page would, from the bytes
-   alone. */
+/* Frames, people, fields and status of a running scene: they match the agents' columns, and making
+   them does not change the run. Frames are decoded from their bytes, as a page does. */
 #include "live_bytes.h"
 
 /* ---- frames ---- */
@@ -16,9 +15,9 @@
     "sinks: [{at: gone}]\n"
 #define EASTWARD HEAD "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3) } } }\n"
 
-/* People come and go; whoever stays has the slot of before, and a slot whose person is another has
-   the other parity. */
-static void slots_stay_with_their_people(void **state) {
+/* While people come and leave, those who stay keep their slots, and the parity of a slot flips when
+   its person changes. */
+static void people_keep_their_slots_between_frames(void **state) {
     (void)state;
     JoScene *scene = load_own(COMING, EASTWARD);
     const JoxAgents *a = &scene->world->state.agents;
@@ -31,8 +30,8 @@ static void slots_stay_with_their_people(void **state) {
     for (int t = 0; t < 400; t++) {
         step(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
-        Seen seen = decode(&frame, scene->world);
-        check_people(scene, &seen);
+        Seen seen = decode_frame(&frame, scene->world);
+        check_frame_people(scene, &seen);
         assert_true(seen.slots < 1000);
         for (uint32_t s = 0; s < seen.slots; s++) {
             const uint8_t *at = seen.slot + 8 * (size_t)s;
@@ -41,7 +40,7 @@ static void slots_stay_with_their_people(void **state) {
             const uint32_t id = a->id[a->slot_index[s]];
             if (owner[s] != UINT32_MAX) {
                 assert_int_equal(parity[s] == (at[7] & 1), owner[s] == id);
-                if (owner[s] == id) /* and none jumps */
+                if (owner[s] == id) /* the same person moves a short way */
                     assert_true(hypot(x_of(&seen, s) - x[s], y_of(&seen, s) - y[s]) < 0.5);
                 others += owner[s] != id;
                 same += owner[s] == id;
@@ -57,8 +56,8 @@ static void slots_stay_with_their_people(void **state) {
     jo_scene_free(scene);
 }
 
-/* Who comes round a periodic edge keeps the slot and is as somebody else in it. */
-static void nobody_flies_across(void **state) {
+/* An agent that crosses a periodic edge keeps its slot, whose parity flips. */
+static void parity_flips_at_periodic_edges(void **state) {
     (void)state;
     JoScene *scene = load("scenes/ring.yaml", NULL, 0);
     const float period = scene->world->state.agents.period.x;
@@ -71,8 +70,8 @@ static void nobody_flies_across(void **state) {
         step(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-        Seen seen = decode(&frame, scene->world);
-        check_people(scene, &seen);
+        Seen seen = decode_frame(&frame, scene->world);
+        check_frame_people(scene, &seen);
         for (uint32_t s = 0; s < seen.slots; s++) {
             const uint8_t now = seen.slot[8 * (size_t)s + 7] & 1;
             if (t > 0) {
@@ -89,28 +88,28 @@ static void nobody_flies_across(void **state) {
     jo_scene_free(scene);
 }
 
-/* Who goes where the scene names nothing is still where the frame says. */
-static void the_area_grows(void **state) {
+/* Positions in frames are right for agents that walk far beyond all that the scene names. */
+static void area_grows_with_the_crowd(void **state) {
     (void)state;
     JoScene *scene = load_own(PEOPLE(20), HEAD "\"A\", defaults = { speed = 9, max_speed = 9 }, "
                                                "states = { A = { steer = drift(-1, -0.3) } } }\n");
     JoxBytes frame = {0};
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    Seen before = decode(&frame, scene->world);
+    Seen before = decode_frame(&frame, scene->world);
     for (int t = 0; t < 300; t++) {
         step(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-        Seen seen = decode(&frame, scene->world);
-        check_people(scene, &seen);
+        Seen seen = decode_frame(&frame, scene->world);
+        check_frame_people(scene, &seen);
     }
-    Seen after = decode(&frame, scene->world);
+    Seen after = decode_frame(&frame, scene->world);
     assert_true(after.x0 < before.x0 - 50 && after.y0 < before.y0 - 10);
     jox_bytes_free(&frame);
     jo_scene_free(scene);
 }
 
-/* Who is in a state that says so lies, and does not lean. */
-static void a_state_makes_people_lie(void **state) {
+/* In a state with `lies = true` the flags say so, in place of a lean under pushes. */
+static void lying_state_sets_the_lying_flag(void **state) {
     (void)state;
     JoScene *scene =
         load_own(PEOPLE(4),
@@ -122,7 +121,7 @@ static void a_state_makes_people_lie(void **state) {
         step(scene, t == 0 ? 1 : 8);
         a->contact_x[0] = 200.0f;
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-        const Seen seen = decode(&frame, scene->world);
+        const Seen seen = decode_frame(&frame, scene->world);
         const uint8_t flags = seen.slot[8 * (size_t)a->slot[0] + 7];
         assert_int_equal((flags & JOX_LIVE_LIES) == JOX_LIVE_LIES, t == 1);
     }
@@ -130,15 +129,16 @@ static void a_state_makes_people_lie(void **state) {
     jo_scene_free(scene);
 }
 
-/* Who is pushed leans: by the way, and the harder the more; pushes of a moment hardly count. */
-static void pushes_make_people_lean(void **state) {
+/* The lean has the direction and the level of the push, averaged over time: it outlasts the push.
+ */
+static void averaged_pushes_set_the_lean(void **state) {
     (void)state;
     JoScene *scene = load_own(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");
     JoxAgents *a = &scene->world->state.agents;
     static const float FORCE[] = {50, 100, 200, 400};
     JoxBytes frame = {0};
     step(scene, 1);
-    for (uint32_t i = 0; i < a->count; i++) { /* 3 degrees from a way: from an eighth of a turn */
+    for (uint32_t i = 0; i < a->count; i++) { /* 3 degrees off one of the eight directions */
         const float turn = ((float)(a->id[i] % 8) * 45.0f + 3.0f) * 0.0174532925f;
         const float force = FORCE[a->id[i] / 8];
         a->push_x[i] = 0.25f * force * cosf(turn);
@@ -147,40 +147,40 @@ static void pushes_make_people_lean(void **state) {
         a->contact_y[i] = 0.75f * force * sinf(turn);
     }
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    Seen seen = decode(&frame, scene->world);
+    Seen seen = decode_frame(&frame, scene->world);
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t lean = seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT;
         const uint32_t hard = a->id[i] / 8;
         assert_int_equal(lean, hard ? 1 + a->id[i] % 8 + 8 * (hard - 1) : 0);
     }
-    step(scene, 1); /* in which nobody is pushed */
+    step(scene, 1); /* a step without pushes */
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    seen = decode(&frame, scene->world);
+    seen = decode_frame(&frame, scene->world);
     uint32_t leaning = 0;
     for (uint32_t i = 0; i < a->count; i++)
         leaning += seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT > 0;
-    assert_true(leaning >= 24); /* not yet upright again */
+    assert_true(leaning >= 24); /* the average has hardly decayed */
     step(scene, 100);
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    seen = decode(&frame, scene->world);
+    seen = decode_frame(&frame, scene->world);
     for (uint32_t i = 0; i < a->count; i++)
         assert_int_equal(seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT, 0);
     jox_bytes_free(&frame);
     jo_scene_free(scene);
 }
 
-/* Values of each colour against the columns. */
-static void colours_measure(void **state) {
+/* Compares the values of each colour with the columns that they come from. */
+static void colour_values_match_the_columns(void **state) {
     (void)state;
     JoScene *scene = load("scenes/running-through.yaml", NULL, 0);
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
-    step(scene, 60); /* the runner is among those who stand */
+    step(scene, 60); /* the runner has reached the standing people */
     for (uint32_t i = 0; i < a->count; i++)
         a->load[i] = a->compression[i] = (float)(10 * i);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
         jox_live_frame(scene, (JoxLiveColour)c, &frame);
-        Seen seen = decode(&frame, scene->world);
+        Seen seen = decode_frame(&frame, scene->world);
         uint32_t above = 0;
         for (uint32_t i = 0; i < a->count; i++) {
             const float wanted[] = {0,
@@ -197,7 +197,7 @@ static void colours_measure(void **state) {
             assert_near(shown, value, 0.502 * (double)seen.most / 255);
             above += shown > 0;
         }
-        /* There are two groups; states and headings have places of their own in a frame. */
+        /* There are two groups. State and direction have value 0: frames have them elsewhere. */
         assert_int_equal(above > 0, c != JOX_LIVE_COLOUR_state && c != JOX_LIVE_COLOUR_direction);
     }
     assert_int_equal(jox_live_colour("compression"), JOX_LIVE_COLOUR_compression);
@@ -206,14 +206,14 @@ static void colours_measure(void **state) {
     jo_scene_free(scene);
 }
 
-static void people_are_told_once(void **state) {
+static void people_message_reports_changes(void **state) {
     (void)state;
     JoScene *scene = load_own(COMING, EASTWARD);
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes people = {0};
     assert_true(jox_live_people(scene, &people));
     assert_false(jox_live_people(scene, &people));
-    step(scene, 40); /* more have come */
+    step(scene, 40); /* the source adds people */
     assert_true(jox_live_people(scene, &people));
     assert_int_equal(get32(people.data), 2);
     assert_int_equal(get32(people.data + 4), 0);
@@ -229,7 +229,7 @@ static void people_are_told_once(void **state) {
 
 /* ---- fields ---- */
 
-static double field_sum(const JoxBytes *field, double *most) {
+static double sum_field(const JoxBytes *field, double *most) {
     const uint8_t *at = field->data;
     const uint32_t cells = get32(at + 8) * get32(at + 12);
     const double cell = (double)get_float(at + 24), top = (double)get_float(at + 28);
@@ -245,8 +245,8 @@ static double field_sum(const JoxBytes *field, double *most) {
     return (double)sum / 255.0 * top * cell * cell;
 }
 
-/* Of a dense crowd, after its time: as summaries have it. */
-static void crowd_pressure_is_that_of_the_run(void **state) {
+/* In a dense crowd, once there are enough samples, the greatest pressure is that of the summary. */
+static void pressure_field_matches_the_run(void **state) {
     (void)state;
     JoScene *scene = load("scenes/two-bottlenecks.yaml", NULL, 0);
     JoxBytes field = {0};
@@ -257,13 +257,13 @@ static void crowd_pressure_is_that_of_the_run(void **state) {
     const JoxLocal *local = jox_run_local(scene);
     for (size_t c = 0; c < (size_t)local->grid->columns * local->grid->rows; c++)
         greatest = fmax(greatest, jox_local_pressure(local, c));
-    assert_true(field_sum(&field, &most) > 0 && greatest > 0.02);
+    assert_true(sum_field(&field, &most) > 0 && greatest > 0.02);
     assert_near(most, greatest, 1e-6);
     jox_bytes_free(&field);
     jo_scene_free(scene);
 }
 
-static void fields_add_up_to_the_people(void **state) {
+static void density_field_sums_to_the_number_of_people(void **state) {
     (void)state;
     JoScene *scene = load_tawaf("5000");
     JoxBytes field = {0};
@@ -272,14 +272,14 @@ static void fields_add_up_to_the_people(void **state) {
     step(scene, 20);
     jox_live_field(scene, JOX_LIVE_DENSITY, &field);
     assert_int_equal(get32(field.data + 4), 0);
-    const double people = field_sum(&field, &most);
+    const double people = sum_field(&field, &most);
     assert_near(people, scene->world->state.agents.count, 0.01 * scene->world->state.agents.count);
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
-    parse(&text);
+    parse_numbers(&text);
     assert_near(number_at("density_max", 0, 0, 0), most, 1e-3);
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
     assert_int_equal(get32(field.data + 4), 1);
-    assert_near(field_sum(&field, &most), 0, 0); /* nothing was measured */
+    assert_near(sum_field(&field, &most), 0, 0); /* there are too few samples yet */
     assert_int_equal(jox_live_field_named("pressure"), JOX_LIVE_PRESSURE);
     assert_int_equal(jox_live_field_named("none"), JOX_LIVE_FIELDS);
     assert_int_equal(jox_live_field_named("heat"), -1);
@@ -288,10 +288,10 @@ static void fields_add_up_to_the_people(void **state) {
     jo_scene_free(scene);
 }
 
-/* ---- what happened, and what did not ---- */
+/* ---- transitions, hints, side effects ---- */
 
-/* The transitions of the last second are those of the world's own count. */
-static void transitions_of_a_second(void **state) {
+/* Compares the transitions of the last second with the world's total. */
+static void status_counts_transitions_of_the_last_second(void **state) {
     (void)state;
     JoScene *scene =
         load_own(PEOPLE(200), HEAD
@@ -303,13 +303,13 @@ static void transitions_of_a_second(void **state) {
     const JoxStatistics *s = &scene->world->state.statistics;
     uint64_t at[400];
     JoxText text = {0};
-    jox_live_status(scene, &(JoxLiveSession){0}, &text); /* from here on they are counted */
+    jox_live_status(scene, &(JoxLiveSession){0}, &text); /* attaches the listener that counts */
     for (int t = 0; t < 200; t++) {
         at[t] = s->transitions;
         step(scene, 1);
         text.length = 0;
         jox_live_status(scene, &(JoxLiveSession){0}, &text);
-        parse(&text);
+        parse_numbers(&text);
         double fired = 0, people = 0;
         for (int k = 0; k < 4; k++)
             fired += number_at("fired.0.%d", k, 0, 0);
@@ -320,7 +320,7 @@ static void transitions_of_a_second(void **state) {
         assert_near(people, 200, 0);
     }
     assert_true(s->transitions > 500);
-    /* A new version of the machine has numbers of its own: counts begin anew. */
+    /* A reload numbers the transitions again, and counts start from 0. */
     const uint64_t version = jox_live_version(scene);
     assert_true(reload_text(scene, 0,
                             HEAD "\"A\", states = { A = { steer = hold }, B = { steer = hold }, C "
@@ -328,14 +328,14 @@ static void transitions_of_a_second(void **state) {
     assert_true(jox_live_version(scene) != version);
     text.length = 0;
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
-    parse(&text);
+    parse_numbers(&text);
     assert_true(isnan(number_at("fired.0.0", 0, 0, 0)));
     jox_text_free(&text);
     jo_scene_free(scene);
 }
 
-/* What came to nothing is told as soon as it is known: here people go to and fro in every step. */
-static void hints_come_with_the_status(void **state) {
+/* The status has a hint once people have gone back and forth between two states in every step. */
+static void status_has_hints(void **state) {
     (void)state;
     JoScene *scene =
         load_own(PEOPLE(20), HEAD "\"A\", states = {"
@@ -352,8 +352,9 @@ static void hints_come_with_the_status(void **state) {
     jo_scene_free(scene);
 }
 
-/* Showing each step gives the state of not showing any, and a frame takes no memory. */
-static void showing_changes_nothing(void **state) {
+/* A run whose messages are made in each step has the same hash as one without, and frames do not
+   allocate. */
+static void messages_do_not_change_the_run(void **state) {
     (void)state;
     static const char *const SCENES[] = {"scenes/running-through.yaml", "scenes/dodgeball.yaml"};
     for (int k = 0; k < 2; k++) {
@@ -384,18 +385,18 @@ static void showing_changes_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slots_stay_with_their_people),
-        cmocka_unit_test(nobody_flies_across),
-        cmocka_unit_test(the_area_grows),
-        cmocka_unit_test(a_state_makes_people_lie),
-        cmocka_unit_test(pushes_make_people_lean),
-        cmocka_unit_test(colours_measure),
-        cmocka_unit_test(people_are_told_once),
-        cmocka_unit_test(fields_add_up_to_the_people),
-        cmocka_unit_test(crowd_pressure_is_that_of_the_run),
-        cmocka_unit_test(transitions_of_a_second),
-        cmocka_unit_test(hints_come_with_the_status),
-        cmocka_unit_test(showing_changes_nothing),
+        cmocka_unit_test(people_keep_their_slots_between_frames),
+        cmocka_unit_test(parity_flips_at_periodic_edges),
+        cmocka_unit_test(area_grows_with_the_crowd),
+        cmocka_unit_test(lying_state_sets_the_lying_flag),
+        cmocka_unit_test(averaged_pushes_set_the_lean),
+        cmocka_unit_test(colour_values_match_the_columns),
+        cmocka_unit_test(people_message_reports_changes),
+        cmocka_unit_test(density_field_sums_to_the_number_of_people),
+        cmocka_unit_test(pressure_field_matches_the_run),
+        cmocka_unit_test(status_counts_transitions_of_the_last_second),
+        cmocka_unit_test(status_has_hints),
+        cmocka_unit_test(messages_do_not_change_the_run),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,4 +1,5 @@
-/* Agents that somebody looks at: what is shown is what the step did, and changes nothing. */
+/* Inspection of agents: forces and half-planes are those of the step, and inspecting does not
+   change the run. */
 #include <math.h>
 
 #include "jostle_tools.h"
@@ -9,14 +10,14 @@
     "places: {yard: {polygon: [[0, 0], [3.6, 0], [3.6, 3.6], [0, 3.6]]}}\n"                        \
     "groups: {people: {behaviour: own.lua, count: 60, fill: grid, in: yard, spacing: 0.45}}\n"
 
-/* The number behind a key, from its n-th place on. */
-static double number_at(const char *json, const char *key) {
+/* Returns the number behind the first occurrence of a key. */
+static double read_number_after(const char *json, const char *key) {
     const char *at = strstr(json, key);
     assert_non_null(at);
     return atof(at + strlen(key));
 }
 
-static void an_inspection_adds_up(void **state) {
+static void inspected_forces_and_planes_match_the_step(void **state) {
     (void)state;
     JoScene *scene =
         load_own(TIGHT, HEAD
@@ -50,12 +51,12 @@ static void an_inspection_adds_up(void **state) {
                         seen->planes[p].offset - 1e-4f);
         assert_true(jox_length(seen->chosen) <= seen->speed_limit + 1e-4f);
     }
-    assert_true(most > 10.0); /* somebody did push */
+    assert_true(most > 10.0); /* neighbours pushed the agent */
     assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
     char *json = jo_scene_inspect(scene, 25);
     assert_non_null(strstr(json, "{\"agent\": {\"id\": 25, \"slot\": 25, \"group\": \"people\", "
                                  "\"machine\": \"m\", \"state\": \"A\", \"since\": 3,"));
-    assert_true(fabs(number_at(json, "\"x\": ") - (double)a->x[a->slot_index[25]]) < 1e-4);
+    assert_true(fabs(read_number_after(json, "\"x\": ") - (double)a->x[a->slot_index[25]]) < 1e-4);
     assert_non_null(
         strstr(json, "{\"name\": \"push\", \"value\": 60, \"unit\": \"N\", \"set\": \"state A "));
     assert_non_null(strstr(json, "{\"name\": \"push_angle\", \"value\": 60,"));
@@ -75,8 +76,9 @@ static void an_inspection_adds_up(void **state) {
     "sinks: [{at: out}]\n"                                                                         \
     "groups: {people: {behaviour: own.lua, count: 40, fill: grid, in: yard}}\n"
 
-/* Half-planes of people, walls and bodies: what is touched and forces are those of the step. */
-static uint32_t seen_planes(const JoxInspected *seen, JoxConstraint *out) {
+/* Copies the half-planes of neighbours, walls and bodies: those of contacts and forces are only
+   known in the step. */
+static uint32_t copy_neighbour_planes(const JoxInspected *seen, JoxConstraint *out) {
     uint32_t count = 0;
     for (uint32_t p = 0; p < seen->plane_count; p++)
         if (seen->planes[p].kind == JOX_CONSTRAINT_AGENT ||
@@ -86,28 +88,28 @@ static uint32_t seen_planes(const JoxInspected *seen, JoxConstraint *out) {
     return count;
 }
 
-/* To the bit; how broad somebody is who stands at a wall changes with the shoulders that are turned
-   in a step. */
-static void check_same(const JoxConstraint *now, const JoxConstraint *in_step) {
+/* Half-planes must be equal to the bit. At walls the offset may differ by 2 cm: shoulders turned in
+   the step change the agent's width. */
+static void check_same_plane(const JoxConstraint *now, const JoxConstraint *in_step) {
     const float wide = now->kind == JOX_CONSTRAINT_WALL ? 0.02f : 0.0f;
     assert_true(now->kind == in_step->kind && now->normal.x == in_step->normal.x &&
                 now->normal.y == in_step->normal.y && fabsf(now->offset - in_step->offset) <= wide);
 }
 
-/* Between two steps, as in a pause: what is told of somebody who is looked at for the first time is
-   what the next step goes by, though people have left in the last one. */
-static void a_look_between_steps_tells_of_the_next(void **state) {
+/* An agent that is first inspected between two steps, as in a pause, is shown with the half-planes
+   that the next step uses, also when people left in the last step. */
+static void inspection_between_steps_predicts_the_next_step(void **state) {
     (void)state;
     const char *behaviour = HEAD "\"A\", states = { A = { steer = seek \"out\" } } }\n";
     JoScene *scene = load_own(LEAVING, behaviour), *plain = load_own(LEAVING, behaviour);
     JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     uint32_t looked = 0, planes = 0, left = 0, same = 0;
-    assert_false(jox_world_inspect(scene->world, 3, &watched)->seen); /* no step was done yet */
+    assert_false(jox_world_inspect(scene->world, 3, &watched)->seen); /* before the first step */
     for (int n = 0; n < 400 && a->count > 4; n++) {
         JoxConstraint before[JOX_MOST_CONSTRAINTS], after[JOX_MOST_CONSTRAINTS];
         const uint32_t people = a->count;
-        for (uint32_t s = 0; n % 8 == 0 && s < a->slot_count; s++) /* everybody, by hand */
+        for (uint32_t s = 0; n % 8 == 0 && s < a->slot_count; s++) /* pushes all agents */
             if (a->slot_index[s] != JOX_NO_INDEX) {
                 char push[40];
                 snprintf(push, sizeof push, "push %u 20 -10", s);
@@ -121,7 +123,7 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
         left += a->count < people;
         const uint32_t i = a->by_rank[(uint32_t)n * 7 % a->count], slot = a->slot[i];
         for (uint32_t k = scene->world->scratch.inspection.count; k-- > 0;)
-            scene->world->scratch.inspection.agents[k].asked = UINT32_MAX; /* long ago */
+            scene->world->scratch.inspection.agents[k].asked = UINT32_MAX; /* makes it expire */
         jox_inspect_expire(scene->world);
         assert_int_equal(scene->world->scratch.inspection.count, 0);
         const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
@@ -129,18 +131,19 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
         assert_true(seen->forces[JOX_FORCE_PART_ext].x == (n % 8 ? 0.0f : 20.0f));
         assert_true(seen->forces[JOX_FORCE_PART_ext].y == (n % 8 ? 0.0f : -10.0f));
         const JoxV2 chosen = seen->chosen, preferred = seen->preferred;
-        const uint32_t count = seen_planes(seen, before);
-        const bool touches = a->contacts[i] > 0 || seen->plane_count != count; /* or is pressed */
+        const uint32_t count = copy_neighbour_planes(seen, before);
+        /* in contact, or with half-planes of forces */
+        const bool touches = a->contacts[i] > 0 || seen->plane_count != count;
         step(scene, 1);
         step(plain, 1);
         n++;
         seen = jox_world_inspect(scene->world, slot, &watched);
         if (!seen || touches || a->contacts[a->slot_index[slot]] > 0)
-            continue; /* what is touched is found in the step */
-        assert_int_equal(seen_planes(seen, after), count);
+            continue; /* contacts are only found in the step */
+        assert_int_equal(copy_neighbour_planes(seen, after), count);
         for (uint32_t p = 0; p < count; p++)
-            check_same(&before[p], &after[p]);
-        if (jox_length(jox_sub(preferred, seen->preferred)) < 0.05f) { /* who wants the same */
+            check_same_plane(&before[p], &after[p]);
+        if (jox_length(jox_sub(preferred, seen->preferred)) < 0.05f) { /* preference unchanged */
             assert_true(jox_length(jox_sub(chosen, seen->chosen)) < 0.2f);
             same++;
         }
@@ -153,8 +156,8 @@ static void a_look_between_steps_tells_of_the_next(void **state) {
     jo_scene_free(plain);
 }
 
-/* A world that was restored lacks the figures of its last step, until the next. */
-static void a_restored_world_is_seen_from_its_next_step_on(void **state) {
+/* A restored world has no figures of its last step; the next step gives them. */
+static void inspection_of_a_restored_world_waits_for_a_step(void **state) {
     (void)state;
     JoScene *scene = load_own(PLAIN PEOPLE_OF, WALKER);
     JoError error = {0};
@@ -172,7 +175,7 @@ static void a_restored_world_is_seen_from_its_next_step_on(void **state) {
     jo_scene_free(scene);
 }
 
-static void an_inspection_says_why(void **state) {
+static void inspection_names_the_places_that_set_values(void **state) {
     (void)state;
     JoScene *scene = begin();
     char *json = jo_scene_inspect(scene, 1);
@@ -193,7 +196,7 @@ static void an_inspection_says_why(void **state) {
                                  "\"set\": \"program or page\""));
     assert_non_null(strstr(json, "\"seen\": true"));
     jo_free(json);
-    /* Who was inspected has left: said once, though another takes the slot. */
+    /* The inspected agent has left: null once, though a new agent has its slot. */
     JoAgent agent = {1, scene->world->state.agents.slot_generation[1]};
     jo_world_remove_agent(scene->world, agent);
     uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f);
@@ -204,7 +207,7 @@ static void an_inspection_says_why(void **state) {
     jo_free(json);
     json = jo_scene_inspect(scene, 1);
     assert_non_null(strstr(json, "{\"agent\": {\"id\": 4,"));
-    assert_non_null(strstr(json, "\"seen\": false")); /* it was in no step */
+    assert_non_null(strstr(json, "\"seen\": false")); /* the new agent was in no step yet */
     assert_non_null(strstr(json, "\"planes\": []"));
     jo_free(json);
     step(scene, 1);
@@ -217,7 +220,7 @@ static void an_inspection_says_why(void **state) {
     jo_scene_free(scene);
 }
 
-static void looking_ends_by_itself(void **state) {
+static void inspections_expire(void **state) {
     (void)state;
     JoScene *scene = begin();
     JoxInspection *all = &scene->world->scratch.inspection;
@@ -232,7 +235,7 @@ static void looking_ends_by_itself(void **state) {
     for (int n = 0; n < 14; n++)
         jox_machines_spawn(&scene->world->machines,
                            jox_world_add_agent(scene->world, 9.0f, 0.7f * (float)n), 0, NULL, NULL);
-    for (uint32_t slot = 3; slot < 18; slot++) /* one too many: the oldest goes */
+    for (uint32_t slot = 3; slot < 18; slot++) /* one too many: replaces the oldest */
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, JOX_MOST_INSPECTED);
     step(scene, 1);
@@ -241,11 +244,11 @@ static void looking_ends_by_itself(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_inspection_adds_up),
-        cmocka_unit_test(a_look_between_steps_tells_of_the_next),
-        cmocka_unit_test(an_inspection_says_why),
-        cmocka_unit_test(a_restored_world_is_seen_from_its_next_step_on),
-        cmocka_unit_test(looking_ends_by_itself),
+        cmocka_unit_test(inspected_forces_and_planes_match_the_step),
+        cmocka_unit_test(inspection_between_steps_predicts_the_next_step),
+        cmocka_unit_test(inspection_names_the_places_that_set_values),
+        cmocka_unit_test(inspection_of_a_restored_world_waits_for_a_step),
+        cmocka_unit_test(inspections_expire),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

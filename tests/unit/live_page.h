@@ -1,4 +1,5 @@
-/* A small scene whose behaviour is loaded anew while it runs; shared by the tests of reload. */
+/* Loads scenes from files and from texts in the test, steps them, and reloads their behaviours
+   while they run. Shared by tests of runs and of the live page. */
 #ifndef JOX_TESTS_HOST_LIVE_H
 #define JOX_TESTS_HOST_LIVE_H
 
@@ -16,12 +17,12 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-/* What the last scene said. */
+/* Messages of the scene that was loaded last. */
 static JoxText said;
 static char why[256];
 static char folder[] = "/tmp/jostle-reload-XXXXXX";
 
-static void hear(void *context, const char *text) {
+static void collect_message(void *context, const char *text) {
     (void)context;
     jox_text_add(&said, text);
 }
@@ -31,7 +32,7 @@ static JoScene *load(const char *path, const char *const *sets, size_t count) {
     def.path = path;
     def.overrides = sets;
     def.override_count = count;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     def.no_density = true;
     JoError error = {0};
@@ -51,7 +52,7 @@ static inline void write_file(const char *name, const char *text) {
     assert_int_equal(fclose(file), 0);
 }
 
-/* A scene of the test's own, from a text and one behaviour. */
+/* Loads a scene from the text of a scene and of its behaviour own.lua. */
 static inline JoScene *load_own(const char *scene, const char *behaviour) {
     char path[300];
     write_file("own.lua", behaviour);
@@ -67,9 +68,10 @@ static void step(JoScene *scene, int steps) {
             fail_msg("%s", error.text);
 }
 
-/* What the watching thread and the step do with a file, in one go: true if the text is live. `why`
-   then says nothing, else why it is not. */
-static bool reload(JoScene *scene, uint32_t index, const char *text, size_t length) {
+/* Replaces a machine by a new text of its behaviour, as the watching thread and the step do
+   together. False with the reason in `why` if the text is refused. */
+static bool replace_behaviour_text(JoScene *scene, uint32_t index, const char *text,
+                                   size_t length) {
     JoxMachineRun *machines = &scene->world->machines;
     const JoxMachine *now = machines->set->items[index];
     JoxDiagnostics diagnostics = {0};
@@ -77,7 +79,7 @@ static bool reload(JoScene *scene, uint32_t index, const char *text, size_t leng
         jox_lua_prepare(scene->lua, now->path, text, length, &scene->scope, &diagnostics);
     JoxMachine *next = jox_loaded_machine(loaded);
     snprintf(why, sizeof why, "%s", diagnostics.count && !next ? diagnostics.items[0].message : "");
-    assert_int_equal(next == NULL, diagnostics.errors > 0); /* nothing fails in silence */
+    assert_int_equal(next == NULL, diagnostics.errors > 0); /* each failure has an error */
     jox_diag_free(&diagnostics);
     bool live = false;
     if (next) {
@@ -100,7 +102,7 @@ static bool reload(JoScene *scene, uint32_t index, const char *text, size_t leng
 }
 
 static inline bool reload_text(JoScene *scene, uint32_t index, const char *text) {
-    return reload(scene, index, text, strlen(text));
+    return replace_behaviour_text(scene, index, text, strlen(text));
 }
 
 #define SCENE(groups)                                                                              \
@@ -111,11 +113,11 @@ static inline bool reload_text(JoScene *scene, uint32_t index, const char *text)
 #define HEAD "return machine { name = \"m\", start = "
 
 /* Wanted speed of the agent at an index, m/s. */
-static inline double speed_of(const JoScene *scene, uint32_t agent) {
+static inline double read_wanted_speed(const JoScene *scene, uint32_t agent) {
     return (double)jox_param(&scene->world->state.agents, JOX_PARAM_speed, agent);
 }
 
-/* A sheet of one state with a wanted speed and what else the state says. */
+/* Behaviour of one state with a wanted speed and further members `more`. */
 #define FAST(speed, more)                                                                          \
     HEAD "\"A\", defaults = { speed = " speed " }, states = { A = { steer = hold" more " } } }\n"
 

@@ -1,4 +1,5 @@
-/* A recording of people and bodies that come and go, and what the run was like. */
+/* Records a scene whose people and bodies come and leave, and keeps the run's own frames to compare
+   the recording with. */
 #ifndef JOX_TESTS_UNIT_LIVE_RECORDING_H
 #define JOX_TESTS_UNIT_LIVE_RECORDING_H
 
@@ -6,7 +7,7 @@
 
 enum { MOST_PEOPLE = 300, MOST_FRAMES = 200 };
 
-/* What a run was like when its frames were recorded. */
+/* The frames of the run that were recorded. */
 static struct Recorded {
     double time;
     uint32_t count, bodies;
@@ -71,8 +72,8 @@ static inline void note_frame(const JoScene *scene) {
     }
 }
 
-/* Runs and records the scene; bodies only where this build has them. */
-static inline void record(void) {
+/* Runs and records the scene; it has no bodies if the build is without Bullet. */
+static inline void record_room(void) {
     JoScene *scene = load_own(ROOM, WALKERS);
     JoError error = {0};
     recorded_count = 0;
@@ -88,7 +89,7 @@ static inline void record(void) {
     jo_scene_free(scene);
 }
 
-static inline int remove_more(void **state) {
+static inline int remove_recordings(void **state) {
     static const char *const NAMES[] = {"room.sqlite", "other.sqlite", "broken.sqlite", "walk.txt",
                                         "index.html"};
     for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {

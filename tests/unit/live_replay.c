@@ -1,5 +1,5 @@
-/* Recordings on the live page: what is shown is what was recorded, wherever one looks first, and a
-   damaged file ends in an error. */
+/* Recordings on the live page: frames shown in any order match the run that was recorded, and
+   damaged files give errors. */
 #include "live_recording.h"
 
 #include <sqlite3.h>
@@ -16,7 +16,8 @@ static JoxReplay *open_replay(const char *file, const char *scene, double fps) {
     return replay;
 }
 
-/* Shows a frame and compares it with what was recorded; slot of each person, by id, in `slots`. */
+/* Shows a frame and compares it with the run's; writes the slot of each person, by id, to `slots`.
+ */
 static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
     const struct Recorded *f = &recorded[frame];
     JoxBytes bytes = {0};
@@ -25,7 +26,7 @@ static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
         fail_msg("%s", told.data);
     jox_replay_frame(replay, JOX_LIVE_COLOUR_state, &bytes);
     const Seen seen = decode_bytes(bytes.data, bytes.length);
-    const double ROUNDED = 6e-5; /* m: recorded are tenths of millimetres */
+    const double ROUNDED = 6e-5; /* m: recordings are rounded to 0.1 mm */
     bool taken[4000] = {false};
     uint32_t people = 0;
     assert_near(seen.time, f->time, 1e-6);
@@ -53,9 +54,9 @@ static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
     jox_bytes_free(&bytes);
 }
 
-static void frames_are_those_recorded(void **state) {
+static void shown_frames_match_the_recording(void **state) {
     (void)state;
-    record();
+    record_room();
     JoxReplay *replay = open_replay(path, NULL, 0);
     assert_int_equal(jox_replay_frames(replay), recorded_count);
     static uint32_t slots[4000], before[4000];
@@ -64,7 +65,7 @@ static void frames_are_those_recorded(void **state) {
         assert_int_equal(jox_replay_find(replay, recorded[f].time + 0.01), f);
         memcpy(before, slots, sizeof slots);
         check_frame(replay, f, slots);
-        /* Who was there a frame ago has the slot of then. */
+        /* People of the frame before keep their slots. */
         for (uint32_t p = 0; f > 0 && p < recorded[f - 1].count; p++)
             for (uint32_t q = 0; q < recorded[f].count; q++)
                 if (recorded[f].people[q].id == recorded[f - 1].people[p].id)
@@ -73,7 +74,7 @@ static void frames_are_those_recorded(void **state) {
     }
     assert_int_equal(jox_replay_find(replay, -5), 0);
     assert_int_equal(jox_replay_find(replay, 1e9), recorded_count - 1);
-    /* Anywhere, in any order. */
+    /* Frames in arbitrary order. */
     uint32_t at = 7;
     for (int k = 0; k < 60; k++) {
         at = (at * 37 + 11) % recorded_count;
@@ -82,8 +83,8 @@ static void frames_are_those_recorded(void **state) {
     jox_replay_close(replay);
 }
 
-/* Speeds are displacements, densities those of the crowd, whichever frame is looked at first. */
-static void what_is_measured(void **state) {
+/* Speeds come from displacements and densities from positions, whichever frame is shown first. */
+static void speeds_and_densities_match_the_frames(void **state) {
     (void)state;
     JoxReplay *replay = open_replay(path, NULL, 0), *other = open_replay(path, NULL, 0);
     JoxBytes bytes = {0}, more = {0};
@@ -102,12 +103,12 @@ static void what_is_measured(void **state) {
                 histogram[k][seen.slot[8 * (size_t)s + 6]]++;
     }
     assert_memory_equal(histogram[0], histogram[1], sizeof histogram[0]);
-    assert_true(histogram[0][0] < recorded[29].count); /* some walk */
+    assert_true(histogram[0][0] < recorded[29].count); /* some people walk */
     JoxLiveSession session = {.speed = 2, .jumps = 7};
-    jox_replay_forget(other); /* after a jump speeds are those at once; at the first frame none */
+    jox_replay_forget(other); /* speeds are known right after a jump; not in the first frame */
     assert_true(jox_replay_show(other, 29, &told));
     jox_replay_status(other, &session, 1.5, &text);
-    parse(&text);
+    parse_numbers(&text);
     const double speed = number_at("mean_speed", 0, 0, 0);
     assert_true(speed > 0.0);
     assert_near(number_at("jumps", 0, 0, 0), 7, 0);
@@ -117,7 +118,7 @@ static void what_is_measured(void **state) {
     assert_non_null(strstr(text.data, "\"mean_speed\": null"));
     text.length = 0;
     jox_replay_status(replay, &session, 1.5, &text);
-    parse(&text);
+    parse_numbers(&text);
     assert_near(number_at("mean_speed", 0, 0, 0), speed, 1e-6);
     assert_near(number_at("agents", 0, 0, 0), recorded[29].count, 0);
     assert_near(number_at("time", 0, 0, 0), recorded[29].time, 1e-6);
@@ -149,17 +150,17 @@ static void scene_message_of_a_recording(void **state) {
         JoxText text = {0}, told = {0};
         assert_true(jox_replay_show(replay, 0, &told));
         jox_replay_scene(replay, &text);
-        parse(&text);
-        has_name(&text, "replay");
-        has_name(&text, "people");
-        has_name(&text, "more");
-        has_name(&text, "A");
+        parse_numbers(&text);
+        check_name_in(&text, "replay");
+        check_name_in(&text, "people");
+        check_name_in(&text, "more");
+        check_name_in(&text, "A");
         assert_non_null(strstr(text.data, "\"throw\": false"));
         assert_near(number_at("dt", 0, 0, 0), 0.1, 1e-9);
         assert_near(number_at("duration", 0, 0, 0), 10, 1e-6);
         if (recorded[0].bodies) {
             assert_near(number_at("bodies.0.parts.0.size.0", 0, 0, 0), 0.3, 1e-6);
-            /* of a table with a leg upwards, whose axes of inertia are not its own */
+            /* Parts of the compound body, whose axes of inertia differ from its own axes. */
             static const double TABLE[2][6] = {{1.5, 1, 0.5, 0, 0, 0},
                                                {0.2, 0.8, NAN, 0.5, 0.3, 0.65}};
             for (int part = 0; part < 2; part++)
@@ -172,7 +173,7 @@ static void scene_message_of_a_recording(void **state) {
                         TABLE[part][size ? of : 3 + of], 1e-5);
                 }
             assert_near(number_at("bodies.1.parts.1.turn.3", 0, 0, 0), 1, 1e-6);
-            double highest = 0; /* of a pyramid's five corners */
+            double highest = 0; /* greatest z of the pyramid's five corners */
             for (int c = 0; c < 5; c++)
                 highest = fmax(highest, number_at("bodies.2.parts.0.points.%d.2", c, 0, 0) +
                                             number_at("bodies.2.parts.0.at.2", 0, 0, 0));
@@ -180,13 +181,13 @@ static void scene_message_of_a_recording(void **state) {
             assert_true(isnan(number_at("bodies.2.parts.0.points.5.0", 0, 0, 0)));
         }
         if (k)
-            has_name(&text, "west");
+            check_name_in(&text, "west");
         assert_near(number_at("walls.0.points.1.0", 0, 0, 0), 14, 1e-5);
         assert_true(isnan(number_at("walls.0.points.2.0", 0, 0, 0)));
         assert_near(number_at("walls.1.points.2.1", 0, 0, 0), 14, 1e-5);
         assert_near(number_at("walls.2.points.4.0", 0, 0, 0), -10, 1e-5); /* closed */
         assert_near(number_at("walls.2.height", 0, 0, 0), 1.5, 1e-5);
-        has_name(&text, "gate");
+        check_name_in(&text, "gate");
         assert_true(isnan(number_at("walls.3.height", 0, 0, 0)));
         jox_text_free(&text);
         jox_replay_close(replay);
@@ -195,9 +196,9 @@ static void scene_message_of_a_recording(void **state) {
 
 /* ---- other files ---- */
 
-/* Two people on both sides of a periodic edge are as near to each other in a recording as in the
-   run that it is of. */
-static void densities_over_a_periodic_edge(void **state) {
+/* The density of two people at both sides of a periodic edge is the same in the recording as in the
+   run. */
+static void density_wraps_at_periodic_edges(void **state) {
     (void)state;
     JoScene *scene =
         load_own("jostle: 1\n"
@@ -217,7 +218,7 @@ static void densities_over_a_periodic_edge(void **state) {
     assert_true(jo_scene_record(scene, file, 0.0, &error));
     step(scene, 4);
     jox_live_status(scene, &(JoxLiveSession){.speed = 1}, &text);
-    parse(&text);
+    parse_numbers(&text);
     const double most = number_at("density_max", 0, 0, 0);
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
@@ -225,14 +226,14 @@ static void densities_over_a_periodic_edge(void **state) {
     assert_true(jox_replay_show(replay, 1, &told));
     text.length = 0;
     jox_replay_status(replay, &(JoxLiveSession){.speed = 1}, 1, &text);
-    parse(&text);
+    parse_numbers(&text);
     assert_near(number_at("density_max", 0, 0, 0), most, 0.05 * most);
     jox_replay_close(replay);
     jox_text_free(&text);
 }
 
-/* A gate that opens and a person who grows, in whatever order frames are shown. */
-static void gates_and_radii_are_those_of_the_moment(void **state) {
+/* An open gate and a changed radius are shown as of each frame, in any order of frames. */
+static void gates_and_radii_follow_the_shown_frame(void **state) {
     (void)state;
     JoScene *scene = load_own("jostle: 1\n"
                               "walls: [{line: [[8, 0], [8, 6]], name: gate}]\n"
@@ -259,7 +260,7 @@ static void gates_and_radii_are_those_of_the_moment(void **state) {
         assert_true(jox_replay_show(replay, late ? last : 1, &told));
         text.length = 0;
         jox_replay_status(replay, &(JoxLiveSession){.speed = 1}, 1, &text);
-        has_name(&text, "walls");
+        check_name_in(&text, "walls");
         assert_non_null(strstr(text.data, late ? "\"gate\": true" : "\"gate\": false"));
         jox_replay_people(replay, &people);
         assert_int_equal(people.data[16], late ? 60 : 30);  /* cm */
@@ -279,7 +280,7 @@ static void run_sql(const char *file, const char *sql) {
     sqlite3_close(db);
 }
 
-static void copy_file(const char *from, const char *to) {
+static void copy_recording(const char *from, const char *to) {
     size_t length;
     char *text = jox_read_file(from, 1 << 30, &length);
     FILE *file = fopen(to, "wb");
@@ -289,18 +290,18 @@ static void copy_file(const char *from, const char *to) {
     jox_free(text);
 }
 
-/* The same rows in a table without a key. */
+/* Puts the same rows into a table without a key. */
 #define WITHOUT_KEY                                                                                \
     "CREATE TABLE t AS SELECT * FROM trajectory_data ORDER BY frame, id;"                          \
     "DROP VIEW trajectory_data; DROP TABLE jostle_row; ALTER TABLE t RENAME TO trajectory_data;"
 
-/* Without the index, and without order either: the same frames. */
-static void recordings_of_others(void **state) {
+/* Recordings of other programs, without the index and without sorted rows, give the same frames. */
+static void recordings_without_index_or_order_are_read(void **state) {
     (void)state;
     static uint32_t slots[4000];
     char other[300];
     snprintf(other, sizeof other, "%s/other.sqlite", folder);
-    copy_file(path, other);
+    copy_recording(path, other);
     run_sql(other, WITHOUT_KEY "DROP TABLE frame_data");
     JoxReplay *replay = open_replay(other, NULL, 0);
     assert_int_equal(jox_replay_frames(replay), recorded_count);
@@ -322,7 +323,7 @@ static void recordings_of_others(void **state) {
     Seen seen = decode_bytes(bytes.data, bytes.length);
     uint32_t people = 0;
     for (uint32_t s = 0; s < seen.slots; s++)
-        people += seen.slot[8 * (size_t)s + 5] == 254; /* in no state that is known */
+        people += seen.slot[8 * (size_t)s + 5] == 254; /* their states are unknown */
     assert_int_equal(people, recorded[50].count);
     jox_replay_close(replay);
     write_file(
@@ -344,8 +345,8 @@ static void recordings_of_others(void **state) {
     jox_replay_close(replay);
 }
 
-/* Opens a file that may be anything, and looks through all of it. */
-static bool look_through(const char *file, JoxText *told) {
+/* Opens a file with any content and shows all its frames; false with errors in `told`. */
+static bool show_all_frames(const char *file, JoxText *told) {
     JoxDiagnostics diagnostics = {0};
     const JoxReplayDef def = {.recording = file};
     JoxReplay *replay = jox_replay_open(&def, &diagnostics);
@@ -379,17 +380,17 @@ static void damaged_recordings_give_errors(void **state) {
         char *bad = jox_alloc(length, 1);
         memcpy(bad, text, length);
         size_t kept = k < 20 ? length * (size_t)k / 20 : length;
-        for (size_t n = 0; k >= 20 && n < 400; n++) /* a page of noise, somewhere */
+        for (size_t n = 0; k >= 20 && n < 400; n++) /* 400 bytes of noise */
             bad[((size_t)(k - 19) * 7919 * 64 + n) % length] = (char)(n * 151 + (size_t)k * 17);
         FILE *file = fopen(other, "wb");
         fwrite(bad, 1, kept, file);
         fclose(file);
-        wrong += !look_through(other, &told);
+        wrong += !show_all_frames(other, &told);
         jox_text_free(&told);
         jox_free(bad);
     }
     jox_free(text);
-    assert_true(wrong >= 20); /* what was cut, and some of the noise */
+    assert_true(wrong >= 20); /* all that were cut and some with noise */
     static const struct {
         const char *sql, *says;
     } CASES[] = {
@@ -408,30 +409,30 @@ static void damaged_recordings_give_errors(void **state) {
     };
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
         JoxText told = {0};
-        copy_file(path, other);
+        copy_recording(path, other);
         if (recorded[0].bodies == 0 && strstr(CASES[c].sql, "jostle_body"))
             continue;
         run_sql(other, CASES[c].sql);
-        assert_false(look_through(other, &told));
+        assert_false(show_all_frames(other, &told));
         if (!strstr(told.data, CASES[c].says))
             fail_msg("%s: %s", CASES[c].sql, told.data);
         jox_text_free(&told);
     }
     JoxText told = {0};
-    assert_false(look_through("/nowhere/at.all", &told));
+    assert_false(show_all_frames("/nowhere/at.all", &told));
     assert_non_null(strstr(told.data, "cannot be read"));
     jox_text_free(&told);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_those_recorded),
-        cmocka_unit_test(what_is_measured),
+        cmocka_unit_test(shown_frames_match_the_recording),
+        cmocka_unit_test(speeds_and_densities_match_the_frames),
         cmocka_unit_test(scene_message_of_a_recording),
-        cmocka_unit_test(recordings_of_others),
-        cmocka_unit_test(densities_over_a_periodic_edge),
-        cmocka_unit_test(gates_and_radii_are_those_of_the_moment),
+        cmocka_unit_test(recordings_without_index_or_order_are_read),
+        cmocka_unit_test(density_wraps_at_periodic_edges),
+        cmocka_unit_test(gates_and_radii_follow_the_shown_frame),
         cmocka_unit_test(damaged_recordings_give_errors),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_more);
+    return cmocka_run_group_tests(tests, make_folder, remove_recordings);
 }

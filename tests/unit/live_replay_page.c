@@ -1,4 +1,4 @@
-/* A recording on a page: it plays, is paused, and goes where a browser asks. */
+/* The live page of a recording, driven by a client: plays, pauses, steps and seeks. */
 #include "live_recording.h"
 
 #include <pthread.h>
@@ -9,14 +9,14 @@ static char address[300];
 static volatile int stop;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-static void opened(void *context, const char *text) {
+static void keep_page_address(void *context, const char *text) {
     (void)context;
     pthread_mutex_lock(&lock);
     snprintf(address, sizeof address, "%s", text);
     pthread_mutex_unlock(&lock);
 }
 
-static void *serve(void *context) {
+static void *serve_recording(void *context) {
     const JoViewRecordingDef *def = context;
     JoError error = {0};
     bool good = jo_view_recording(def, &error);
@@ -25,7 +25,8 @@ static void *serve(void *context) {
     return good ? context : NULL;
 }
 
-/* The next message of a type (of JSON), or the next frame where that is NULL; to be freed. */
+/* Waits for the next JSON message of a type, or for a frame if `type` is NULL; the caller frees it.
+ */
 static char *wait_for(int fd, const char *type, size_t *length) {
     char key[64];
     snprintf(key, sizeof key, "{\"type\": \"%s\"", type ? type : "");
@@ -43,13 +44,13 @@ static char *wait_for(int fd, const char *type, size_t *length) {
     return NULL;
 }
 
-/* Waits for a message in which a number is as wanted. */
+/* Waits for a message of a type whose member `key` has a value. */
 static void wait_for_number(int fd, const char *type, const char *key, double value) {
     for (int n = 0; n < 100; n++) {
         size_t length;
         char *message = wait_for(fd, type, &length);
         JoxText text = {.data = message};
-        parse(&text);
+        parse_numbers(&text);
         free(message);
         if (fabs(number_at(key, 0, 0, 0) - value) < 1e-6)
             return;
@@ -57,17 +58,17 @@ static void wait_for_number(int fd, const char *type, const char *key, double va
     fail_msg("%s never was %g", key, value);
 }
 
-static void a_page_plays_and_seeks(void **state) {
+static void recording_page_plays_pauses_and_seeks(void **state) {
     (void)state;
-    record();
+    record_room();
     pthread_t thread;
     JoViewRecordingDef def = jo_default_view_recording_def();
     write_file("index.html", "a page");
     def.recording = path;
     def.page = folder;
     def.stop = &stop;
-    def.opened = opened;
-    assert_int_equal(pthread_create(&thread, NULL, serve, &def), 0);
+    def.opened = keep_page_address;
+    assert_int_equal(pthread_create(&thread, NULL, serve_recording, &def), 0);
     char token[64] = "";
     int port = 0;
     for (int n = 0; n < 500 && !port; n++) {
@@ -95,14 +96,14 @@ static void a_page_plays_and_seeks(void **state) {
     put_text(fd, "{\"do\": \"pause\", \"on\": true}");
     put_text(fd, "{\"do\": \"seek\", \"time\": 5.04}");
     wait_for_number(fd, "time", "at", 5.04);
-    wait_for_number(fd, "status", "jumps", 2); /* the first went to the beginning */
+    wait_for_number(fd, "status", "jumps", 2); /* the first one is the start */
     put_text(fd, "{\"do\": \"step\", \"n\": 2}");
     wait_for_number(fd, "status", "time", 5.2);
     put_text(fd, "{\"do\": \"step\", \"n\": -1}");
     wait_for_number(fd, "status", "time", 5.1);
     put_text(fd, "{\"do\": \"seek\", \"time\": 1e9}");
     wait_for_number(fd, "time", "at", 10);
-    wait_for_number(fd, "status", "jumps", 4); /* a frame back is none, two ahead are one */
+    wait_for_number(fd, "status", "jumps", 4); /* one frame back is no jump, two ahead are one */
     put_text(fd, "{\"do\": \"seek\", \"time\": null}");
     free(wait_for(fd, "refused", &length));
     put_text(fd, "{\"do\": \"input\", \"line\": \"open gate\"}");
@@ -110,7 +111,8 @@ static void a_page_plays_and_seeks(void **state) {
     assert_non_null(strstr(message, "cannot be changed"));
     free(message);
     put_text(fd, "{\"do\": \"speed\", \"factor\": 100}");
-    put_text(fd, "{\"do\": \"pause\", \"on\": false}"); /* from the beginning, to the end */
+    put_text(fd,
+             "{\"do\": \"pause\", \"on\": false}"); /* at the end, plays again from the beginning */
     wait_for_number(fd, "status", "speed", 100);
     wait_for_number(fd, "time", "at", 10);
     stop = 1;
@@ -121,6 +123,6 @@ static void a_page_plays_and_seeks(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_page_plays_and_seeks)};
-    return cmocka_run_group_tests(tests, make_folder, remove_more);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(recording_page_plays_pauses_and_seeks)};
+    return cmocka_run_group_tests(tests, make_folder, remove_recordings);
 }

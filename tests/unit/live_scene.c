@@ -1,19 +1,18 @@
-/* The scene message: it names everything of a running scene, and is sent again when that changes.
- */
+/* The scene message has all parts of a running scene, and its version changes with them. */
 #include "live_bytes.h"
 
-static void scene_message_names_all_of_the_tawaf(void **state) {
+static void scene_message_has_all_parts_of_tawaf(void **state) {
     (void)state;
     JoScene *scene = load_tawaf("300");
     const JoWorld *world = scene->world;
     JoxText text = {0};
     jox_live_scene(scene, &text);
-    parse(&text);
+    parse_numbers(&text);
     assert_near(number_at("protocol", 0, 0, 0), JOX_LIVE_PROTOCOL, 0);
     assert_near(number_at("dt", 0, 0, 0), 0.05, 1e-9);
     assert_near(number_at("duration", 0, 0, 0), 600, 0);
     for (uint32_t p = 0; p < scene->spec->place_count; p++) {
-        has_name(&text, world->model.places[p].name);
+        check_name_in(&text, world->model.places[p].name);
         for (uint32_t i = 0; i < world->model.places[p].count; i++) {
             assert_near(number_at("places.%d.points.%d.0", (int)p, (int)i, 0),
                         world->model.places[p].points[i].x, 1e-4);
@@ -26,14 +25,14 @@ static void scene_message_names_all_of_the_tawaf(void **state) {
         }
     }
     for (uint32_t r = 0; r < scene->spec->region_count; r++)
-        has_name(&text, scene->spec->regions[r].name);
+        check_name_in(&text, scene->spec->regions[r].name);
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
-        has_name(&text, world->model.machines.items[m]->name);
+        check_name_in(&text, world->model.machines.items[m]->name);
         for (uint32_t s = 0; s < world->model.machines.items[m]->state_count; s++)
-            has_name(&text, world->model.machines.items[m]->states[s].name);
+            check_name_in(&text, world->model.machines.items[m]->states[s].name);
     }
-    has_name(&text, "pilgrims");
-    /* Walls as the scene has them: a solid, a line of 13 points (not there and back), a solid. */
+    check_name_in(&text, "pilgrims");
+    /* Walls as in the scene: a solid, a line of 13 points (both sides once), a solid. */
     static const int POINTS[] = {4, 13, 4};
     for (int w = 0; w < 3; w++) {
         assert_false(isnan(number_at("walls.%d.points.%d.1", w, POINTS[w] - 1, 0)));
@@ -54,14 +53,14 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     JoScene *scene = load("scenes/dodgeball.yaml", NULL, 0);
     JoxText text = {0};
     jox_live_scene(scene, &text);
-    parse(&text);
-    has_name(&text, "ball");
+    parse_numbers(&text);
+    check_name_in(&text, "ball");
     assert_near(number_at("bodies.0.mass", 0, 0, 0), 0.4, 1e-6);
     assert_near(number_at("bodies.0.parts.0.size.0", 0, 0, 0), 0.11, 1e-6);
     assert_near(number_at("bodies.0.parts.0.turn.3", 0, 0, 0), 1, 1e-6);
     assert_non_null(strstr(text.data, "\"shape\": \"sphere\""));
     assert_near(number_at("tools.players.0", 0, 0, 0), 0, 0);
-    /* A closed wall is one line whose end is its beginning. */
+    /* A closed wall is a line whose last point repeats the first. */
     for (int k = 0; k < 2; k++)
         assert_near(number_at("walls.0.points.4.%d", k, 0, 0),
                     number_at("walls.0.points.0.%d", k, 0, 0), 0);
@@ -69,8 +68,8 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     step(scene, 3);
     JoxBytes frame = {0};
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    Seen seen = decode(&frame, scene->world);
-    check_people(scene, &seen);
+    Seen seen = decode_frame(&frame, scene->world);
+    check_frame_people(scene, &seen);
     assert_int_equal(seen.bodies, 1);
     JoxPose pose;
     assert_true(jox_bodies_pose(scene->world->state.bodies, 0, &pose));
@@ -88,8 +87,8 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     jo_scene_free(scene);
 }
 
-/* Names come from files: whatever stands in them, the scene message is JSON. */
-static void scene_message_with_odd_names(void **state) {
+/* Names from files, with any characters, are escaped in the scene message. */
+static void scene_message_escapes_names(void **state) {
     (void)state;
     JoScene *scene =
         load_own("jostle: 1\n"
@@ -106,10 +105,10 @@ static void scene_message_with_odd_names(void **state) {
                  FAST("1", ""));
     JoxText text = {0};
     jox_live_scene(scene, &text);
-    parse(&text);
-    has_name(&text, scene->spec->title);
-    has_name(&text, "g\xC3\xA4-te");
-    has_name(&text, "p\xC3\xA9 ople");
+    parse_numbers(&text);
+    check_name_in(&text, scene->spec->title);
+    check_name_in(&text, "g\xC3\xA4-te");
+    check_name_in(&text, "p\xC3\xA9 ople");
     assert_non_null(
         strstr(text.data, "\"view\": {\"colour\": \"speed\", \"field\": \"pressure\"}"));
     assert_non_null(strstr(text.data, "\"throw\": true"));
@@ -119,11 +118,11 @@ static void scene_message_with_odd_names(void **state) {
     assert_non_null(strstr(text.data, "\"charts\": [\"out\"]"));
     assert_near(number_at("camera.at.1", 0, 0, 0), -2, 0);
     assert_near(number_at("camera.look.1", 0, 0, 0), 0.5, 0);
-    /* The status too, before the first step and after. */
+    /* The status, before and after the first step. */
     for (int k = 0; k < 2; k++) {
         JoxText status = {0};
         jox_live_status(scene, &(JoxLiveSession){.speed = 1, .dropped = 7}, &status);
-        parse(&status);
+        parse_numbers(&status);
         assert_near(number_at("agents", 0, 0, 0), 4, 0);
         assert_near(number_at("states.0.0", 0, 0, 0), 4, 0);
         assert_near(number_at("dropped", 0, 0, 0), 7, 0);
@@ -135,8 +134,8 @@ static void scene_message_with_odd_names(void **state) {
     jo_scene_free(scene);
 }
 
-/* Bodies that come apart and walls that are set anew ask for a new one; gates do not. */
-static void changes_ask_for_a_scene_message(void **state) {
+/* The version changes when a body breaks, but not when a gate opens. */
+static void version_changes_with_bodies_but_not_with_gates(void **state) {
     (void)state;
     JoScene *scene = load("scenes/wall-breaking.yaml", NULL, 0);
     uint64_t version = jox_live_version(scene);
@@ -150,9 +149,9 @@ static void changes_ask_for_a_scene_message(void **state) {
     JoxText text = {0};
     JoxBytes frame = {0};
     jox_live_scene(scene, &text);
-    parse(&text);
+    parse_numbers(&text);
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
-    Seen seen = decode(&frame, scene->world);
+    Seen seen = decode_frame(&frame, scene->world);
     assert_false(isnan(number_at("bodies.%d.mass", (int)seen.bodies - 1, 0, 0)));
     assert_true(isnan(number_at("bodies.%d.mass", (int)seen.bodies, 0, 0)));
     jox_bytes_free(&frame);
@@ -168,10 +167,10 @@ static void changes_ask_for_a_scene_message(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scene_message_names_all_of_the_tawaf),
+        cmocka_unit_test(scene_message_has_all_parts_of_tawaf),
         cmocka_unit_test(scene_message_of_bodies_and_a_player),
-        cmocka_unit_test(scene_message_with_odd_names),
-        cmocka_unit_test(changes_ask_for_a_scene_message),
+        cmocka_unit_test(scene_message_escapes_names),
+        cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,4 +1,4 @@
-/* A scene that is served on a thread of its own, and the browser who is with it. */
+/* A live page served on another thread, and a client that plays the browser. */
 #ifndef JOX_TESTS_LIVE_SESSION_H
 #define JOX_TESTS_LIVE_SESSION_H
 
@@ -36,7 +36,7 @@ static const char WALKER[] =
     "  },\n"
     "}\n";
 
-static const char *in_folder(const char *name) {
+static const char *session_path(const char *name) {
     static char paths[8][300];
     static int turn;
     char *path = paths[turn++ % 8];
@@ -44,34 +44,34 @@ static const char *in_folder(const char *name) {
     return path;
 }
 
-static void write_file(const char *name, const char *text) {
-    FILE *file = fopen(in_folder(name), "w");
+static void write_session_file(const char *name, const char *text) {
+    FILE *file = fopen(session_path(name), "w");
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
 }
 
-static int make_folder(void **state) {
+static int make_session_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder))
         return -1;
-    mkdir(in_folder("build"), 0700);
-    write_file("index.html", "page");
-    write_file("build/three.module.js", "three");
+    mkdir(session_path("build"), 0700);
+    write_session_file("index.html", "page");
+    write_session_file("build/three.module.js", "three");
     return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_session_folder(void **state) {
     (void)state;
     static const char *const NAMES[] = {"index.html", "build/three.module.js", "scene.yaml",
                                         "walker.lua", "log.txt"};
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
-        unlink(in_folder(NAMES[i]));
-    rmdir(in_folder("build"));
+        unlink(session_path(NAMES[i]));
+    rmdir(session_path("build"));
     return rmdir(folder);
 }
 
-/* ---- a session on a thread of its own ---- */
+/* ---- the session ---- */
 
 typedef struct Session {
     pthread_t thread;
@@ -89,7 +89,7 @@ typedef struct Session {
 
 static Session session;
 
-static void opened(void *context, const char *address) {
+static void keep_session_address(void *context, const char *address) {
     Session *s = context;
     pthread_mutex_lock(&s->lock);
     snprintf(s->address, sizeof s->address, "%s", address);
@@ -97,7 +97,7 @@ static void opened(void *context, const char *address) {
     pthread_mutex_unlock(&s->lock);
 }
 
-static void listen_to(void *context, const char *text) {
+static void keep_session_message(void *context, const char *text) {
     Session *s = context;
     pthread_mutex_lock(&s->lock);
     jox_text_add(&s->said, text);
@@ -114,21 +114,21 @@ static void *run_session(void *context) {
     return NULL;
 }
 
-/* Starts a session of the scene as it lies in the folder; `seconds` as of the def. */
-static void begin(double seconds) {
+/* Starts a session of the folder's scene.yaml; `seconds`: as in JoViewDef. */
+static void begin_session(double seconds) {
     session = (Session){.def = jo_default_view_def(),
                         .lock = PTHREAD_MUTEX_INITIALIZER,
                         .opened = PTHREAD_COND_INITIALIZER};
     JoViewDef *def = &session.def;
-    def->scene.path = in_folder("scene.yaml");
-    def->scene.message = listen_to;
+    def->scene.path = session_path("scene.yaml");
+    def->scene.message = keep_session_message;
     def->scene.message_context = &session;
     def->scene.named_mods_only = true;
     def->page = def->three = folder;
-    def->log_input = in_folder("log.txt");
+    def->log_input = session_path("log.txt");
     def->seconds = seconds;
     def->stop = &session.stop;
-    def->opened = opened;
+    def->opened = keep_session_address;
     def->opened_context = &session;
     def->summary = &session.summary;
     assert_int_equal(pthread_create(&session.thread, NULL, run_session, &session), 0);
@@ -138,7 +138,7 @@ static void begin(double seconds) {
     pthread_mutex_unlock(&session.lock);
 }
 
-static void join(void) {
+static void join_session(void) {
     int port;
     char token[64];
     if (session.done)
@@ -148,7 +148,7 @@ static void join(void) {
     assert_true(session.fd >= 0);
 }
 
-static void end(void) {
+static void end_session(void) {
     if (session.fd > 0)
         close(session.fd);
     __atomic_store_n(&session.stop, 1, __ATOMIC_RELAXED);
@@ -156,7 +156,7 @@ static void end(void) {
     jox_text_free(&session.said);
 }
 
-static void say(const char *format, ...) {
+static void send_command(const char *format, ...) {
     char text[2048];
     va_list arguments;
     va_start(arguments, format);
@@ -165,9 +165,10 @@ static void say(const char *format, ...) {
     assert_true(put_text(session.fd, text));
 }
 
-/* The next JSON message that has all of some texts (NULL at the end), within twenty seconds. */
+/* Waits up to 20 s for a JSON message that has both texts (`second` may be NULL), and returns it.
+ */
 static char last[1 << 20];
-static const char *hear(const char *first, const char *second) {
+static const char *wait_for_json(const char *first, const char *second) {
     for (double until = clock_now() + 20.0; clock_now() < until;) {
         int kind;
         size_t length;
@@ -176,7 +177,7 @@ static const char *hear(const char *first, const char *second) {
             break;
         bool found =
             kind == FRAME_TEXT && strstr(message, first) && (!second || strstr(message, second));
-        if (kind == FRAME_TEXT && strstr(message, first)) /* also to be told of where it fails */
+        if (kind == FRAME_TEXT && strstr(message, first)) /* kept for the message of a failure */
             snprintf(last, sizeof last, "%s", message);
         free(message);
         if (found)
@@ -186,8 +187,8 @@ static const char *hear(const char *first, const char *second) {
     return NULL;
 }
 
-/* The next frame's tick. */
-static uint32_t see(void) {
+/* Waits up to 20 s for a frame and returns its tick. */
+static uint32_t wait_for_tick(void) {
     for (double until = clock_now() + 20.0; clock_now() < until;) {
         int kind;
         size_t length;
@@ -204,7 +205,7 @@ static uint32_t see(void) {
     return 0;
 }
 
-static double number_of(const char *json, const char *key) {
+static double read_member(const char *json, const char *key) {
     char quoted[64];
     snprintf(quoted, sizeof quoted, "\"%s\": ", key);
     const char *at = strstr(json, quoted);

@@ -1,82 +1,82 @@
-/* A scene on its live page, driven as a browser would: what comes, what can be done, and that a
-   session replays to its state. */
+/* A scene on its live page, driven by a client: messages, commands, and that the input log replays
+   to the same state. */
 #include "unit/live_session.h"
 
-static void pages_are_greeted_and_shown_the_run(void **state) {
+static void new_page_gets_scene_errors_frames_and_status(void **state) {
     (void)state;
-    write_file("scene.yaml", SCENE);
-    write_file("walker.lua", WALKER);
-    begin(0);
-    join();
+    write_session_file("scene.yaml", SCENE);
+    write_session_file("walker.lua", WALKER);
+    begin_session(0);
+    join_session();
     int kind;
     size_t length;
     char *message = get_message(session.fd, &kind, &length, 20.0);
     assert_non_null(message);
-    assert_int_equal(kind, FRAME_TEXT); /* before anything else */
+    assert_int_equal(kind, FRAME_TEXT); /* the scene message comes first */
     assert_non_null(
         strstr(message, "{\"type\": \"scene\", \"protocol\": 3, \"session\": \"live\""));
     free(message);
-    hear("\"type\": \"errors\"", "\"errors\": []");
-    uint32_t first = see();
+    wait_for_json("\"type\": \"errors\"", "\"errors\": []");
+    uint32_t first = wait_for_tick();
     double begun = clock_now();
     uint32_t tick = first;
     while (tick < first + 20)
-        tick = see();
+        tick = wait_for_tick();
     double took = clock_now() - begun; /* 20 steps of 0.05 s in real time */
     assert_true(took > 0.8);
-    const char *status = hear("\"type\": \"status\"", NULL);
-    assert_true(number_of(status, "agents") == 30);
+    const char *status = wait_for_json("\"type\": \"status\"", NULL);
+    assert_true(read_member(status, "agents") == 30);
     assert_non_null(strstr(status, "\"paused\": false"));
-    end();
+    end_session();
     assert_true(session.good);
     assert_non_null(session.summary);
     jo_free(session.summary);
 }
 
-static void a_run_is_paused_stepped_and_hurried(void **state) {
+static void pause_step_and_speed_commands(void **state) {
     (void)state;
-    begin(0);
-    join();
-    say("{\"do\": \"pause\", \"on\": true}");
-    hear("\"status\"", "\"paused\": true");
-    double tick = number_of(hear("\"status\"", "\"paused\": true"), "tick");
+    begin_session(0);
+    join_session();
+    send_command("{\"do\": \"pause\", \"on\": true}");
+    wait_for_json("\"status\"", "\"paused\": true");
+    double tick = read_member(wait_for_json("\"status\"", "\"paused\": true"), "tick");
     usleep(300000);
-    assert_true(number_of(hear("\"status\"", NULL), "tick") == tick);
-    say("{\"do\": \"step\", \"n\": 7}");
+    assert_true(read_member(wait_for_json("\"status\"", NULL), "tick") == tick);
+    send_command("{\"do\": \"step\", \"n\": 7}");
     double then = tick;
     for (int i = 0; i < 8 && then == tick; i++)
-        then = number_of(hear("\"status\"", NULL), "tick");
-    assert_true(number_of(hear("\"status\"", "\"paused\": true"), "tick") == tick + 7);
-    say("{\"do\": \"speed\", \"factor\": 10}");
-    say("{\"do\": \"pause\", \"on\": false}");
-    hear("\"status\"", "\"paused\": false");
-    double from = number_of(last, "time");
-    while (number_of(hear("\"status\"", NULL), "time") < from + 5.0)
+        then = read_member(wait_for_json("\"status\"", NULL), "tick");
+    assert_true(read_member(wait_for_json("\"status\"", "\"paused\": true"), "tick") == tick + 7);
+    send_command("{\"do\": \"speed\", \"factor\": 10}");
+    send_command("{\"do\": \"pause\", \"on\": false}");
+    wait_for_json("\"status\"", "\"paused\": false");
+    double from = read_member(last, "time");
+    while (read_member(wait_for_json("\"status\"", NULL), "time") < from + 5.0)
         ;
-    assert_true(number_of(last, "speed") == 10);
-    say("{\"do\": \"speed\", \"factor\": -1}");
-    hear("\"refused\"", "\"do\": \"speed\"");
-    say("{\"do\": \"step\", \"n\": 1e9}");
-    hear("\"refused\"", "\"do\": \"step\"");
-    say("{\"do\": \"dance\"}");
-    hear("\"refused\"", "no such command");
-    say("{\"do\": \"colour\", \"by\": \"taste\"}");
-    hear("\"refused\"", "\"do\": \"colour\"");
-    say("not a command");
+    assert_true(read_member(last, "speed") == 10);
+    send_command("{\"do\": \"speed\", \"factor\": -1}");
+    wait_for_json("\"refused\"", "\"do\": \"speed\"");
+    send_command("{\"do\": \"step\", \"n\": 1e9}");
+    wait_for_json("\"refused\"", "\"do\": \"step\"");
+    send_command("{\"do\": \"dance\"}");
+    wait_for_json("\"refused\"", "no such command");
+    send_command("{\"do\": \"colour\", \"by\": \"taste\"}");
+    wait_for_json("\"refused\"", "\"do\": \"colour\"");
+    send_command("not a command");
     double dropped = 0;
     for (int i = 0; i < 8 && dropped < 2; i++)
-        dropped = number_of(hear("\"status\"", NULL), "dropped");
-    assert_true(dropped == 2); /* the dance too */
-    end();
+        dropped = read_member(wait_for_json("\"status\"", NULL), "dropped");
+    assert_true(dropped == 2); /* the unknown command and the text that is no command */
+    end_session();
     jo_free(session.summary);
 }
 
-static void colours_and_fields_are_as_asked(void **state) {
+static void colour_and_field_commands(void **state) {
     (void)state;
-    begin(0);
-    join();
-    hear("\"type\": \"scene\"", NULL);
-    say("{\"do\": \"field\", \"of\": \"pressure\"}");
+    begin_session(0);
+    join_session();
+    wait_for_json("\"type\": \"scene\"", NULL);
+    send_command("{\"do\": \"field\", \"of\": \"pressure\"}");
     int kind;
     size_t length;
     bool came = false;
@@ -87,14 +87,14 @@ static void colours_and_fields_are_as_asked(void **state) {
         memcpy(head, message, length >= 8 && kind == FRAME_BINARY ? 8 : 0);
         came = kind == FRAME_BINARY && head[0] == 3;
         if (came)
-            assert_int_equal(head[1], 1); /* pressure, and not the other */
+            assert_int_equal(head[1], 1); /* pressure, not density */
         free(message);
     }
     assert_true(came);
-    say("{\"do\": \"colour\", \"by\": \"speed\"}");
-    say("{\"do\": \"field\", \"of\": \"none\"}");
-    say("{\"do\": \"field\", \"of\": \"smell\"}");
-    hear("\"refused\"", "\"do\": \"field\"");
+    send_command("{\"do\": \"colour\", \"by\": \"speed\"}");
+    send_command("{\"do\": \"field\", \"of\": \"none\"}");
+    send_command("{\"do\": \"field\", \"of\": \"smell\"}");
+    wait_for_json("\"refused\"", "\"do\": \"field\"");
     for (double until = clock_now() + 0.7; clock_now() < until;) {
         char *message = get_message(session.fd, &kind, &length, 20.0);
         assert_non_null(message);
@@ -103,41 +103,41 @@ static void colours_and_fields_are_as_asked(void **state) {
         free(message);
         assert_int_not_equal(head, 3);
     }
-    end();
+    end_session();
     jo_free(session.summary);
 }
 
-static void a_scene_that_is_over_waits_and_is_restarted(void **state) {
+static void finished_scene_pauses_and_restarts(void **state) {
     (void)state;
-    begin(0.5);
-    join();
-    hear("\"say\"", "0.5 s are over");
-    hear("\"status\"", "\"paused\": true");
-    assert_true(number_of(last, "tick") == 10);
-    say("{\"do\": \"restart\", \"seed\": 77}");
-    hear("\"type\": \"scene\"", "\"seed\": 77");
-    hear("\"say\"", "0.5 s are over");
-    say("{\"do\": \"restart\", \"seed\": 0.5}");
-    hear("\"refused\"", "\"do\": \"restart\"");
-    say("{\"do\": \"pause\", \"on\": false}"); /* beyond its end */
-    while (number_of(hear("\"status\"", NULL), "time") < 0.7)
+    begin_session(0.5);
+    join_session();
+    wait_for_json("\"say\"", "0.5 s are over");
+    wait_for_json("\"status\"", "\"paused\": true");
+    assert_true(read_member(last, "tick") == 10);
+    send_command("{\"do\": \"restart\", \"seed\": 77}");
+    wait_for_json("\"type\": \"scene\"", "\"seed\": 77");
+    wait_for_json("\"say\"", "0.5 s are over");
+    send_command("{\"do\": \"restart\", \"seed\": 0.5}");
+    wait_for_json("\"refused\"", "\"do\": \"restart\"");
+    send_command("{\"do\": \"pause\", \"on\": false}"); /* continues beyond its end */
+    while (read_member(wait_for_json("\"status\"", NULL), "time") < 0.7)
         ;
-    end();
+    end_session();
     assert_true(session.good);
     jo_free(session.summary);
 }
 
-/* Sum of the pushes of an agent in the log, N, at a tick. */
-static void logged_push(double tick, uint32_t agent, double sum[2]) {
-    FILE *file = fopen(in_folder("log.txt"), "r");
+/* Sums the pushes on an agent at a tick in the input log, N. */
+static void sum_logged_pushes(double tick, uint32_t agent, double sum[2]) {
+    FILE *file = fopen(session_path("log.txt"), "r");
     assert_non_null(file);
     char line[2048];
     sum[0] = sum[1] = 0.0;
     while (fgets(line, sizeof line, file)) {
         double at, x, y;
-        uint32_t whom;
-        if (sscanf(line, "%lf push %u %lf %lf", &at, &whom, &x, &y) == 4 && at == tick &&
-            whom == agent) {
+        uint32_t pushed;
+        if (sscanf(line, "%lf push %u %lf %lf", &at, &pushed, &x, &y) == 4 && at == tick &&
+            pushed == agent) {
             sum[0] += x;
             sum[1] += y;
         }
@@ -145,71 +145,73 @@ static void logged_push(double tick, uint32_t agent, double sum[2]) {
     fclose(file);
 }
 
-static void a_push_that_is_repeated_counts_once_a_step(void **state) {
+static void repeated_push_counts_once_per_step(void **state) {
     (void)state;
     JoxText scene = {0};
     const char *view = strstr(SCENE, "view:"), *rest = strchr(view, '\n') + 1;
     jox_text_printf(&scene, "%.*sview: {tools: [push]}\n%s", (int)(view - SCENE), SCENE, rest);
-    write_file("scene.yaml", scene.data);
+    write_session_file("scene.yaml", scene.data);
     jox_text_free(&scene);
-    begin(0);
-    join();
-    say("{\"do\": \"restart\"}");
-    say("{\"do\": \"pause\", \"on\": true}");
-    hear("\"status\"", "\"paused\": true");
-    const double tick = number_of(last, "tick");
+    begin_session(0);
+    join_session();
+    send_command("{\"do\": \"restart\"}");
+    send_command("{\"do\": \"pause\", \"on\": true}");
+    wait_for_json("\"status\"", "\"paused\": true");
+    const double tick = read_member(last, "tick");
     for (int n = 0; n < 20; n++) {
-        say("{\"do\": \"input\", \"line\": \"push 1 %d -75.25\"}", 100 + n);
-        say("{\"do\": \"input\", \"line\": \"push 2 0 300\"}");
+        send_command("{\"do\": \"input\", \"line\": \"push 1 %d -75.25\"}", 100 + n);
+        send_command("{\"do\": \"input\", \"line\": \"push 2 0 300\"}");
     }
-    say("{\"do\": \"step\", \"n\": 1}");
-    while (number_of(hear("\"status\"", NULL), "tick") == tick)
+    send_command("{\"do\": \"step\", \"n\": 1}");
+    while (read_member(wait_for_json("\"status\"", NULL), "tick") == tick)
         ;
-    say("{\"do\": \"input\", \"line\": \"push 1 50 0\"}");
-    say("{\"do\": \"input\", \"line\": \"push 1 1 2 3\"}");
-    hear("\"refused\"", "push");
-    end();
+    send_command("{\"do\": \"input\", \"line\": \"push 1 50 0\"}");
+    send_command("{\"do\": \"input\", \"line\": \"push 1 1 2 3\"}");
+    wait_for_json("\"refused\"", "push");
+    end_session();
     assert_true(session.good);
     jo_free(session.summary);
     double sum[2];
-    logged_push(tick, 1, sum);
+    sum_logged_pushes(tick, 1, sum);
     assert_true(sum[0] == 119.0 && sum[1] == -75.25);
-    logged_push(tick, 2, sum);
+    sum_logged_pushes(tick, 2, sum);
     assert_true(sum[0] == 0.0 && sum[1] == 300.0);
-    logged_push(tick + 1, 1, sum);
+    sum_logged_pushes(tick + 1, 1, sum);
     assert_true(sum[0] == 50.0 && sum[1] == 0.0);
-    write_file("scene.yaml", SCENE);
+    write_session_file("scene.yaml", SCENE);
 }
 
-static void what_people_do_replays_to_the_same_state(void **state) {
+static void input_log_replays_to_the_same_hash(void **state) {
     (void)state;
-    begin(0);
-    join();
-    say("{\"do\": \"input\", \"line\": \"signal go\"}");
-    say("{\"do\": \"input\", \"line\": \"open gate\"}");
-    hear("\"status\"", "\"gate\": true");
-    say("{\"do\": \"input\", \"line\": \"push 1 300 0\"}"); /* not offered by the scene */
-    hear("\"refused\"", "view: {tools: [push]}");
-    say("{\"do\": \"input\", \"line\": \"open window\"}");
-    hear("\"refused\"", "window");
-    say("{\"do\": \"input\", \"line\": \"files 1\"}");
-    hear("\"refused\"", "\"do\": \"input\"");
-    say("{\"do\": \"input\", \"line\": \"set walker Walk speed 0.8\"}");
-    say("{\"do\": \"lua\", \"machine\": \"walker\", \"state\": \"Walk\", \"parameter\": \"speed\","
+    begin_session(0);
+    join_session();
+    send_command("{\"do\": \"input\", \"line\": \"signal go\"}");
+    send_command("{\"do\": \"input\", \"line\": \"open gate\"}");
+    wait_for_json("\"status\"", "\"gate\": true");
+    send_command("{\"do\": \"input\", \"line\": \"push 1 300 0\"}"); /* a tool that the scene does
+                                                                        not allow */
+    wait_for_json("\"refused\"", "view: {tools: [push]}");
+    send_command("{\"do\": \"input\", \"line\": \"open window\"}");
+    wait_for_json("\"refused\"", "window");
+    send_command("{\"do\": \"input\", \"line\": \"files 1\"}");
+    wait_for_json("\"refused\"", "\"do\": \"input\"");
+    send_command("{\"do\": \"input\", \"line\": \"set walker Walk speed 0.8\"}");
+    send_command(
+        "{\"do\": \"lua\", \"machine\": \"walker\", \"state\": \"Walk\", \"parameter\": \"speed\","
         " \"value\": 0.8}");
-    hear("\"lua\"", "speed = 0.8");
+    wait_for_json("\"lua\"", "speed = 0.8");
     usleep(400000);
-    say("{\"do\": \"pause\", \"on\": true}");
-    hear("\"status\"", "\"paused\": true");
-    double ticks = number_of(last, "tick");
-    end();
+    send_command("{\"do\": \"pause\", \"on\": true}");
+    wait_for_json("\"status\"", "\"paused\": true");
+    double ticks = read_member(last, "tick");
+    end_session();
     assert_true(session.good);
     const char *live = strstr(session.summary, "\"hash\": ");
     assert_non_null(live);
 
     JoSceneDef def = jo_default_scene_def();
-    def.path = in_folder("scene.yaml");
-    def.input_log = in_folder("log.txt");
+    def.path = session_path("scene.yaml");
+    def.input_log = session_path("log.txt");
     def.named_mods_only = true;
     JoError error = {0};
     JoScene *scene = jo_scene_load(&def, &error);
@@ -220,80 +222,80 @@ static void what_people_do_replays_to_the_same_state(void **state) {
     char *summary = jo_scene_summary(scene);
     const char *again = strstr(summary, "\"hash\": ");
     assert_int_equal(strncmp(live, again, 26), 0);
-    assert_true(number_of(session.summary, "steps") == ticks);
+    assert_true(read_member(session.summary, "steps") == ticks);
     jo_free(summary);
     jo_free(session.summary);
     jo_scene_free(scene);
 }
 
-static void each_page_inspects_somebody(void **state) {
+static void each_page_inspects_its_own_agent(void **state) {
     (void)state;
-    begin(0);
-    join();
-    say("{\"do\": \"inspect\", \"slot\": 4}");
-    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
-    hear("\"inspect\"", "\"seen\": true"); /* by then a step was looked at */
+    begin_session(0);
+    join_session();
+    send_command("{\"do\": \"inspect\", \"slot\": 4}");
+    wait_for_json("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    wait_for_json("\"inspect\"", "\"seen\": true"); /* after the next step */
     int first = session.fd;
-    join();
-    say("{\"do\": \"inspect\", \"slot\": 7}");
-    hear("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
+    join_session();
+    send_command("{\"do\": \"inspect\", \"slot\": 7}");
+    wait_for_json("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
     int second = session.fd;
-    session.fd = first; /* which goes on with its own, and lets it go alone */
-    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
-    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
-    say("{\"do\": \"inspect\", \"slot\": null}");
-    hear("\"inspect\"", "\"agent\": null");
+    session.fd = first; /* the first page still has its agent, and ends its own inspection */
+    wait_for_json("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    wait_for_json("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    send_command("{\"do\": \"inspect\", \"slot\": null}");
+    wait_for_json("\"inspect\"", "\"agent\": null");
     session.fd = second;
-    hear("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
+    wait_for_json("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
     close(first);
-    say("{\"do\": \"pause\", \"on\": true}");
-    hear("\"status\"", "\"paused\": true");
-    say("{\"do\": \"inspect\", \"slot\": 9}"); /* told at once, though no step is done */
-    hear("\"inspect\"", "\"seen\": true");
-    say("{\"do\": \"inspect\", \"slot\": 1000000}");
-    hear("\"inspect\"", "\"agent\": null");
-    end();
+    send_command("{\"do\": \"pause\", \"on\": true}");
+    wait_for_json("\"status\"", "\"paused\": true");
+    send_command("{\"do\": \"inspect\", \"slot\": 9}"); /* shown at once, in a pause too */
+    wait_for_json("\"inspect\"", "\"seen\": true");
+    send_command("{\"do\": \"inspect\", \"slot\": 1000000}");
+    wait_for_json("\"inspect\"", "\"agent\": null");
+    end_session();
     jo_free(session.summary);
 }
 
-static void mistakes_are_shown_until_they_are_mended(void **state) {
+static void file_errors_are_sent_until_mended(void **state) {
     (void)state;
     char wrong[1024];
-    begin(0);
-    join();
-    hear("\"errors\"", "\"errors\": []");
+    begin_session(0);
+    join_session();
+    wait_for_json("\"errors\"", "\"errors\": []");
     snprintf(wrong, sizeof wrong, "%s", WALKER);
     memcpy(strstr(wrong, "away_from"), "awax_from", 9);
-    write_file("walker.lua", wrong);
-    hear("\"type\": \"errors\"", "walker.lua\", \"line\": 5, \"column\": 22");
+    write_session_file("walker.lua", wrong);
+    wait_for_json("\"type\": \"errors\"", "walker.lua\", \"line\": 5, \"column\": 22");
     assert_non_null(strstr(last, "awax_from"));
     assert_non_null(strstr(last, "\"source\": \"    Walk = { steer = awax_from \\\"yard\\\" },\""));
     assert_non_null(strstr(last, "\"hint\": \"Did you mean 'away_from'"));
     int first = session.fd;
-    join(); /* who comes later sees it too */
-    hear("\"type\": \"errors\"", "awax_from");
+    join_session(); /* a later page gets the errors too */
+    wait_for_json("\"type\": \"errors\"", "awax_from");
     close(first);
-    say("{\"do\": \"pause\", \"on\": true}"); /* and files are looked at in a pause */
-    hear("\"status\"", "\"paused\": true");
-    write_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
-    hear("\"type\": \"errors\"", "nonsense");
-    assert_non_null(strstr(last, "awax_from")); /* each file has its own */
-    say("{\"do\": \"restart\"}");               /* cannot be: the run goes on as it was */
-    hear("\"refused\"", "\"do\": \"restart\"");
-    write_file("scene.yaml", SCENE);
-    write_file("walker.lua", WALKER);
-    hear("\"type\": \"errors\"", "\"errors\": []");
-    assert_true(number_of(hear("\"status\"", NULL), "tick") > 0);
-    end();
+    send_command("{\"do\": \"pause\", \"on\": true}"); /* files are loaded in a pause too */
+    wait_for_json("\"status\"", "\"paused\": true");
+    write_session_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    wait_for_json("\"type\": \"errors\"", "nonsense");
+    assert_non_null(strstr(last, "awax_from")); /* errors of the other file stay */
+    send_command("{\"do\": \"restart\"}");      /* fails: the present run goes on */
+    wait_for_json("\"refused\"", "\"do\": \"restart\"");
+    write_session_file("scene.yaml", SCENE);
+    write_session_file("walker.lua", WALKER);
+    wait_for_json("\"type\": \"errors\"", "\"errors\": []");
+    assert_true(read_member(wait_for_json("\"status\"", NULL), "tick") > 0);
+    end_session();
     assert_true(session.good);
     jo_free(session.summary);
 }
 
-static void what_cannot_begin_says_why(void **state) {
+static void view_that_cannot_start_returns_an_error(void **state) {
     (void)state;
-    write_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
-    begin(0);
-    end();
+    write_session_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    begin_session(0);
+    end_session();
     assert_false(session.good);
     assert_int_equal(session.error.code, JO_INPUT);
     assert_int_equal(session.error.line, 2);
@@ -308,15 +310,15 @@ static void what_cannot_begin_says_why(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pages_are_greeted_and_shown_the_run),
-        cmocka_unit_test(a_run_is_paused_stepped_and_hurried),
-        cmocka_unit_test(colours_and_fields_are_as_asked),
-        cmocka_unit_test(a_scene_that_is_over_waits_and_is_restarted),
-        cmocka_unit_test(a_push_that_is_repeated_counts_once_a_step),
-        cmocka_unit_test(what_people_do_replays_to_the_same_state),
-        cmocka_unit_test(each_page_inspects_somebody),
-        cmocka_unit_test(mistakes_are_shown_until_they_are_mended),
-        cmocka_unit_test(what_cannot_begin_says_why),
+        cmocka_unit_test(new_page_gets_scene_errors_frames_and_status),
+        cmocka_unit_test(pause_step_and_speed_commands),
+        cmocka_unit_test(colour_and_field_commands),
+        cmocka_unit_test(finished_scene_pauses_and_restarts),
+        cmocka_unit_test(repeated_push_counts_once_per_step),
+        cmocka_unit_test(input_log_replays_to_the_same_hash),
+        cmocka_unit_test(each_page_inspects_its_own_agent),
+        cmocka_unit_test(file_errors_are_sent_until_mended),
+        cmocka_unit_test(view_that_cannot_start_returns_an_error),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_session_folder, remove_session_folder);
 }

@@ -250,7 +250,7 @@ static void all_of_it_plays_back(void **state) {
     def.path = yaml;
     def.input_log = log;
     def.threads = 2;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     scene = jo_scene_load(&def, &error);
     assert_non_null(scene);

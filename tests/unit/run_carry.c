@@ -155,7 +155,7 @@ static void another_distribution_reaches_the_living(void **state) {
     assert_true(reload_text(scene, 0, FAST("uniform(1.4, 1.6)", "")));
     double low = 9, high = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        double speed = speed_of(scene, i);
+        double speed = read_wanted_speed(scene, i);
         if (a->group[i] == 1) {
             assert_true(speed == (double)0.7f); /* what the scene sets stays */
             continue;
@@ -167,12 +167,13 @@ static void another_distribution_reaches_the_living(void **state) {
     assert_true(low < 1.45 && high > 1.55); /* each has its own */
     assert_true(reload_text(scene, 0, FAST("2", "")));
     for (uint32_t i = 0; i < a->count; i++)
-        assert_true(speed_of(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
+        assert_true(read_wanted_speed(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
     assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", "")));
     assert_int_equal(jo_world_hash(scene->world), before); /* and back: the same random numbers */
     assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
     for (uint32_t i = 0; i < a->count; i++)
-        assert_true(speed_of(scene, i) == (double)1.9f); /* a state's value goes before both */
+        assert_true(read_wanted_speed(scene, i) ==
+                    (double)1.9f); /* a state's value goes before both */
     jo_scene_free(scene);
 }
 
@@ -191,14 +192,14 @@ static void own_values_are_kept_by_name(void **state) {
     double speed[40], push[40];
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < 40; i++) {
-        speed[a->id[i]] = speed_of(scene, i);
+        speed[a->id[i]] = read_wanted_speed(scene, i);
         push[a->id[i]] = (double)jox_param(a, JOX_PARAM_push, i);
     }
     assert_true(reload_text(scene, 0, AFTER));
     step(scene, 1);
     for (uint32_t i = 0; i < 40; i++) {
         double more = (double)jox_param(a, JOX_PARAM_push, i) - push[a->id[i]];
-        assert_true(speed_of(scene, i) == speed[a->id[i]]);
+        assert_true(read_wanted_speed(scene, i) == speed[a->id[i]]);
         assert_true(more > 4.99 && more < 6.01);
         assert_true(jox_param(a, JOX_PARAM_max_speed, i) >= 2.0f);
     }

@@ -32,7 +32,7 @@ static bool accepts(const char *steer) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     def.path = path;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     JoScene *scene = jo_scene_load(&def, &error);
     snprintf(why, sizeof why, "%.250s", error.text);

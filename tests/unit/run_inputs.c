@@ -19,7 +19,7 @@ static JoScene *play(const char *log, uint32_t threads) {
     def.path = scene;
     def.input_log = log;
     def.threads = threads;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     jox_text_free(&said);
     JoScene *replay = jo_scene_load(&def, &error);
@@ -378,18 +378,18 @@ static void files_of_a_log_go_live(void **state) {
              BAD);
     write_file("files.input", text);
     scene = play(log, 1);
-    assert_true((float)speed_of(scene, 0) == 0.7f);
+    assert_true((float)read_wanted_speed(scene, 0) == 0.7f);
     step(scene, 3);
-    assert_true((float)speed_of(scene, 0) == 0.7f);
+    assert_true((float)read_wanted_speed(scene, 0) == 0.7f);
     step(scene, 1);
-    assert_true((float)speed_of(scene, 0) == 0.9f);
+    assert_true((float)read_wanted_speed(scene, 0) == 0.9f);
     assert_non_null(strstr(said.data, "reload 1 is live from t = 0.15 s\n"));
     assert_null(strstr(said.data, "ms ago"));
     step(scene, 3);
     assert_non_null(
         strstr(said.data, "files.input:10: t = 0.30 s: the files that follow were not"));
     assert_non_null(strstr(said.data, "Reload 1 keeps running"));
-    assert_true((float)speed_of(scene, 0) == 0.9f);
+    assert_true((float)read_wanted_speed(scene, 0) == 0.9f);
     JoError error = {0};
     assert_false(jo_scene_watch(scene, &error));
     assert_non_null(strstr(error.text, "cannot be watched besides"));
@@ -424,7 +424,7 @@ static void a_wrong_log_is_an_error_of_its_file(void **state) {
     JoError error = {0};
     def.path = scene;
     def.input_log = log;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     assert_null(jo_scene_load(&def, &error));
     assert_int_equal(error.line, 3);

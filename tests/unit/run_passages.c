@@ -343,7 +343,7 @@ static void run_passage(Passage *p) {
     write_file("scene.yaml", p->yaml.data);
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     def.path = path;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = def.no_density = true;
     jox_text_free(&said);
     p->scene = jo_scene_load(&def, &error);

@@ -135,7 +135,7 @@ static void save_beginning(JoScene *scene, uint32_t m, Saved *s) {
     /* a block of exactly this size, so that a read beyond it is seen */
     char *prefix = jox_alloc(s->n + 1, 1);
     memcpy(prefix, s->text, s->n);
-    bool live = reload(scene, m, prefix, s->n);
+    bool live = replace_behaviour_text(scene, m, prefix, s->n);
     const char *path = scene->world->model.machines.items[m]->path;
     if (live && s->n + 1 < s->length)
         fail_msg("the first %zu bytes of %s are a machine", s->n, path);
@@ -224,7 +224,7 @@ static void reload_all_the_time(const char *path) {
             if (is_made(scene, m))
                 continue;
             char *text = read_behaviour(scene, m, &length);
-            if (!reload(scene, m, text, length))
+            if (!replace_behaviour_text(scene, m, text, length))
                 fail_msg("%s: %s", scene->world->model.machines.items[m]->path, why);
             jox_free(text);
         }
@@ -308,7 +308,7 @@ static void a_saved_file_goes_live(void **state) {
     step(scene, 5);
     write_file("own.lua", FAST("0.5", ""));
     assert_true(says(scene, "reload 1 is live"));
-    assert_true(speed_of(scene, 3) == 0.5);
+    assert_true(read_wanted_speed(scene, 3) == 0.5);
     write_file("own.lua", "return machine {");
     assert_true(says(scene, "Reload 1 keeps running"));
     for (int i = 0; i < 30; i++) { /* saved again and again while the crowd runs */
@@ -318,9 +318,10 @@ static void a_saved_file_goes_live(void **state) {
         step(scene, 3);
     }
     write_file("own.lua", FAST("1.9", ""));
-    for (double begun = wall(); speed_of(scene, 3) != (double)1.9f && wall() - begun < 10.0;)
+    for (double begun = wall();
+         read_wanted_speed(scene, 3) != (double)1.9f && wall() - begun < 10.0;)
         step(scene, 1), usleep(500);
-    assert_true(speed_of(scene, 3) == (double)1.9f);
+    assert_true(read_wanted_speed(scene, 3) == (double)1.9f);
     write_file("own.lua", FAST("1.1", "")); /* freed while something is being loaded */
     usleep(40000);
     jo_scene_free(scene);

@@ -31,7 +31,7 @@ static JoScene *load_resumable(const char *behaviour) {
     write_file("scene.yaml", TWO);
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     def.path = path;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = def.resumable = true;
     jox_text_free(&said);
     JoScene *scene = jo_scene_load(&def, &error);
@@ -46,7 +46,7 @@ static JoScene *resume(JoScene *scene) {
     char *note = NULL;
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
-    def.message = hear;
+    def.message = collect_message;
     snprintf(target, sizeof target, "%s/checkpoints/latest.checkpoint", folder);
     step(scene, 1); /* at which one is due */
     JoScene *next = jo_scene_resume(&def, target, &note, &error);
@@ -94,7 +94,7 @@ static void tag_that_nobody_bears_or_sets_is_refused(void **state) {
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     JoSceneDef def = jo_default_scene_def();
     def.path = path;
-    def.message = hear;
+    def.message = collect_message;
     def.named_mods_only = true;
     assert_null(jo_scene_load(&def, &error));
     assert_non_null(strstr(error.text, "'il'"));
