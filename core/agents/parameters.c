@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "base/number/elementary.h"
-
-static const double PI = 3.14159265358979323846;
+#include "base/number/pi.h"
 
 const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT] = {
 #define X(name, unit, least, greatest, value, meaning)                                             \
@@ -47,7 +46,7 @@ float jox_parameter_store(JoxParameter parameter, double value) {
         value = info->value;
     value = value < info->least ? info->least : value > info->greatest ? info->greatest : value;
     if (parameter == JOX_PARAM_push_angle || parameter == JOX_PARAM_brace_angle)
-        value = jox_cos(value * (PI / 180.0));
+        value = jox_cos(value * JOX_DEGREE);
     return (float)value;
 }
 
@@ -77,6 +76,6 @@ double jox_parameter_value(JoxParameter parameter, float stored) {
     if (parameter != JOX_PARAM_push_angle && parameter != JOX_PARAM_brace_angle)
         return stored;
     double cosine = stored, sine2 = 1.0 - cosine * cosine;
-    double degrees = jox_atan2(sine2 > 0.0 ? sqrt(sine2) : 0.0, cosine) * (180.0 / PI);
+    double degrees = jox_atan2(sine2 > 0.0 ? sqrt(sine2) : 0.0, cosine) * (180.0 / JOX_PI);
     return floor(degrees * 100.0 + 0.5) / 100.0; /* all that a cosine in a float tells */
 }

@@ -8,6 +8,7 @@
 
 extern "C" {
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 }
 
 namespace {
@@ -83,7 +84,7 @@ btCollisionShape *make_box(const JoxShape *shape, JoxConvexPart *part, Solid *so
 btCollisionShape *make_sphere(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double r = shape->size[0];
     part->radius = float(r);
-    solid->volume = 4.0 / 3.0 * 3.141592653589793 * r * r * r;
+    solid->volume = 4.0 / 3.0 * JOX_PI * r * r * r;
     for (int i = 0; i < 3; i++)
         solid->second[i][i] = solid->volume * r * r / 5;
     return new btSphereShape(float(r));
@@ -94,7 +95,7 @@ btCollisionShape *make_cylinder(const JoxShape *shape, JoxConvexPart *part, Soli
     part->radius = float(r);
     corners_of(part, 2 * PRISM_SIDES, 3 * PRISM_SIDES);
     for (uint32_t i = 0; i < PRISM_SIDES; i++) {
-        double angle = i * (6.283185307179586 / PRISM_SIDES);
+        double angle = i * (JOX_TURN / PRISM_SIDES);
         float x = float(r * jox_cos(angle)), y = float(r * jox_sin(angle));
         part->corners[i] = JoxV3{x, y, float(-h / 2)};
         part->corners[i + PRISM_SIDES] = JoxV3{x, y, float(h / 2)};
@@ -103,7 +104,7 @@ btCollisionShape *make_cylinder(const JoxShape *shape, JoxConvexPart *part, Soli
         for (uint32_t k = 0; k < 6; k++)
             part->edges[6 * i + k] = edges[k];
     }
-    solid->volume = 3.141592653589793 * r * r * h;
+    solid->volume = JOX_PI * r * r * h;
     solid->second[0][0] = solid->second[1][1] = solid->volume * r * r / 4;
     solid->second[2][2] = solid->volume * h * h / 12;
     return new btCylinderShapeZ(btVector3(float(r), float(r), float(h / 2)));

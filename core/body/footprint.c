@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 
 void jox_footprint_begin(JoxFootprint *footprint) {
     footprint->count = 0;
@@ -59,7 +60,7 @@ float jox_footprint_sphere(float z, float radius) {
 
 static void lay_circle(JoxFootprint *footprint) {
     for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++) {
-        double angle = i * (6.283185307179586 / JOX_FOOTPRINT_POINTS);
+        double angle = i * (JOX_TURN / JOX_FOOTPRINT_POINTS);
         footprint->circle[i] = jox_v2((float)jox_cos(angle), (float)jox_sin(angle));
     }
     footprint->has_circle = true;

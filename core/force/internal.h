@@ -2,6 +2,7 @@
 #ifndef JOX_FORCE_INTERNAL_H
 #define JOX_FORCE_INTERNAL_H
 
+#include "base/number/pi.h"
 #include "force/contact.h"
 #include "force/equations.h"
 #include "force/force.h"
@@ -154,7 +155,7 @@ void jox_force_add_impulse(JoxForces *forces, uint32_t agent_id, uint32_t object
 
 /* Length of the agent's outline, over which forces are spread, m. */
 static inline float jox_circumference(float radius) {
-    return 6.28318531f * radius;
+    return (float)JOX_TURN * radius;
 }
 
 /* Height at which an agent meets a body: the chest's, kept within what the body covers. */

@@ -5,8 +5,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/pi.h"
 
-static const double PI = 3.141592653589793;
 static const float CLEAR = 0.1f;  /* m from walls: nearer to them nobody begins */
 static const float FINEST = 0.2f; /* m: the smallest cells */
 static const float MOST_CELLS = 40000.0f;
@@ -16,7 +16,7 @@ static const double ALIKE = 0.9; /* of the greatest piece: those as large are al
 
 /* A floor is no smaller than a circle of the reach: somebody has room there. */
 static void lay_floor(JoxEntrance *e, const JoxPlace *place) {
-    const double circle = PI * (double)JOX_ENTRANCE_REACH * (double)JOX_ENTRANCE_REACH;
+    const double circle = JOX_PI * (double)JOX_ENTRANCE_REACH * (double)JOX_ENTRANCE_REACH;
     JOX_ASSERT(!jox_place_is_set(place));
     jox_place_copy(&e->floor, place);
     e->area = jox_place_floor(place);

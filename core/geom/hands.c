@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 
@@ -34,7 +35,7 @@ static void add_walls(JoxHands *h, const JoxWalls *walls, float lowest, JoxV2 fr
 
 /* Corners of a polygon about a disc. */
 static void lay_circle(JoxV2 corners[JOX_FOOTPRINT_POINTS], JoxV2 centre, float radius) {
-    const double wedge = 6.283185307179586 / JOX_FOOTPRINT_POINTS;
+    const double wedge = JOX_TURN / JOX_FOOTPRINT_POINTS;
     const float about = radius / (float)jox_cos(wedge / 2.0);
     for (int k = 0; k < JOX_FOOTPRINT_POINTS; k++)
         corners[k] = jox_v2(centre.x + about * (float)jox_cos(k * wedge),

@@ -5,10 +5,10 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "geom/place_kinds.h"
 #include "simd/four.h"
 
-static const double PI = 3.14159265358979323846;
 static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
 
 /* Principal direction of a ring's corners about `centre`: the eigenvector of the larger eigenvalue
@@ -244,7 +244,7 @@ void jox_place_finish(JoxPlace *place) {
 double jox_place_floor(const JoxPlace *place) {
     switch (jox_place_form(place)) {
     case JOX_FORM_SPOT:
-        return PI * (double)place->radius * (double)place->radius;
+        return JOX_PI * (double)place->radius * (double)place->radius;
     case JOX_FORM_AREA:
         return fabs(jox_polygon_area(place->points, place->count));
     case JOX_FORM_SET:
@@ -266,6 +266,14 @@ void jox_place_make_line(JoxPlace *place) {
     JOX_ASSERT(place->count >= 2);
     place->kind = JOX_PLACE_LINE;
     place->count = 2;
+}
+
+void jox_place_make_set(JoxPlace *place, uint32_t first, uint32_t count) {
+    place->kind = JOX_PLACE_SET;
+    place->members = jox_alloc((size_t)count + 1, sizeof *place->members);
+    place->member_count = count;
+    for (uint32_t m = 0; m < count; m++)
+        place->members[m] = (int32_t)(first + m);
 }
 
 /* Distance from its points within which people are at a place, m. */

@@ -92,6 +92,8 @@ double jox_place_floor(const JoxPlace *place);
    it afterwards. */
 void jox_place_make_spot(JoxPlace *place, JoxV2 at, float radius);
 void jox_place_make_line(JoxPlace *place);
+/* Makes a place a set of the places [first, first + count). Finish it by jox_place_finish_set. */
+void jox_place_make_set(JoxPlace *place, uint32_t first, uint32_t count);
 
 JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 /* How many of its points, from the first, are walked to. */

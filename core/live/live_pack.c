@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/bits.h"
+#include "base/number/pi.h"
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
@@ -115,10 +116,10 @@ static inline uint8_t encode_heading(float x, float y) {
     float longer = jox_maxf(across, up), shorter = jox_minf(across, up);
     float t = longer > 0.0f ? shorter / longer : 0.0f, s = t * t;
     float angle = t * (1.0f + s * (-0.327622764f + s * (0.15931422f - 0.0464964749f * s)));
-    angle = up > across ? 1.57079633f - angle : angle;
-    angle = x < 0.0f ? 3.14159265f - angle : angle;
+    angle = up > across ? (float)(JOX_PI / 2.0) - angle : angle;
+    angle = x < 0.0f ? (float)JOX_PI - angle : angle;
     angle = y < 0.0f ? -angle : angle;
-    return (uint8_t)(int)(angle * (256.0f / 6.28318531f) + 256.5f);
+    return (uint8_t)(int)(angle * (256.0f / (float)JOX_TURN) + 256.5f);
 }
 
 static inline uint16_t encode_position(float away, float per_metre) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/number/pi.h"
 #include "machine/kernels.h"
 
 /* Where nobody chose an instruction set, the plain one. */
@@ -19,8 +20,7 @@ static double people_in(const JoxMachineRun *run, int32_t place) {
 
 /* Area over which a place's people are counted: the polygon's, else a disc of 2 m. */
 static double counted_area(const JoxPlace *place) {
-    return jox_place_is_area(place) ? jox_polygon_area(place->points, place->count)
-                                    : 4.0 * 3.14159265358979;
+    return jox_place_is_area(place) ? jox_polygon_area(place->points, place->count) : 4.0 * JOX_PI;
 }
 
 static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int32_t place) {

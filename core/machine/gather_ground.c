@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "machine/gather.h"
 
 static const float COMFORTABLE = 0.9f; /* m between people who have room: 1.4 per m2 */
@@ -12,7 +13,6 @@ static const float CLOSER = 0.98f;     /* spacing of a level, as a share of the 
 enum { LEVELS = 29 };                  /* down to 0.51 m: 4.4 per m2 */
 static const float CLEAR = 0.25f;      /* m between a spot and walls */
 static const float ABOUT = 3.0f;       /* m: ground about a place that belongs to it */
-static const double DEGREE = 3.141592653589793 / 180.0;
 
 const JoxSteerTerm *jox_gather_term(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
@@ -94,7 +94,7 @@ JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, 
                                  float least) {
     JoxMachineScratch *s = run->scratch;
     const uint64_t from = jox_gather_ground(run, entry->place)->from;
-    const double angle = entry->front * DEGREE;
+    const double angle = entry->front * JOX_DEGREE;
     uint32_t k = 0;
     while (k < s->gather_count &&
            (s->gather_places[k].place != entry->place ||

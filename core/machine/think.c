@@ -5,9 +5,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "machine/internal.h"
-
-static const double TURN = 6.283185307179586;
 
 /* Angle from a to b; a step turns little, where the series is exact to 1e-10. */
 static double turned(JoxV2 a, JoxV2 b) {
@@ -30,14 +29,14 @@ static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, 
         if (line && jox_segment_crossing(line->points[0], line->points[1], from, to) != 1)
             return;
         memory[counter->begun] = 1.0;
-        memory[counter->angle] = memory[counter->value] * TURN; /* laps given at birth count */
+        memory[counter->angle] = memory[counter->value] * JOX_TURN; /* laps given at birth count */
         if (line)
             return; /* turns count from here on */
     }
     double angle =
         memory[counter->angle] + turned(jox_sub(from, place->centre), jox_sub(to, place->centre));
     memory[counter->angle] = angle;
-    memory[counter->value] = floor(angle / TURN + 1e-9);
+    memory[counter->value] = floor(angle / JOX_TURN + 1e-9);
 }
 
 /* Whether a transition whose condition has just turned true is taken. */

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "nav/internal.h"
 
 /* Of the mean radius that people search. Few rows lie within reach, each of narrow cells, so that
@@ -26,7 +27,7 @@ static float mean_search(const JoxAgents *a, JoxV2 extent) {
     }
     if (searched)
         return (float)(sum / searched);
-    return sqrtf(FIRST_NEIGHBOURS * extent.x * extent.y / (3.14159265f * (float)a->count));
+    return sqrtf(FIRST_NEIGHBOURS * extent.x * extent.y / ((float)JOX_PI * (float)a->count));
 }
 
 /* One side of a cell, m. */

@@ -3,6 +3,7 @@
 #ifndef JOX_NAV_KERNELS_H
 #define JOX_NAV_KERNELS_H
 
+#include "base/number/pi.h"
 #include "base/number/random.h"
 #include "nav/internal.h"
 #include "simd/isa.h"
@@ -14,7 +15,6 @@ typedef struct JoxPerceive {
     float sight; /* m: the farthest that anybody sees; INFINITY: as far as `perception` */
 } JoxPerceive;
 
-#define JOX_PI 3.14159265f
 #define JOX_SEARCH_SLACK 0.03f    /* m: growth of the last search radius that is tried first */
 #define JOX_SEARCH_GROWTH 1.5f    /* of a radius that held too few */
 #define JOX_SEARCH_LEAST 0.01f    /* m, remembered */

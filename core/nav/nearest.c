@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number/bits.h"
+#include "base/number/pi.h"
 #include "nav/kernels.h"
 
 /* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
@@ -108,7 +109,8 @@ static void keep(const JoxPerceive *p, uint32_t i, float perception, const Neare
     bool full = found->most > 0 && found->count == found->most;
     float reach = full ? sqrtf(distance2_of(found->keys[found->count - 1])) : perception;
     a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
-    a->density[i] = (float)found->count / (JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
+    a->density[i] =
+        (float)found->count / ((float)JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
     const float touch = jox_touch_most(p->out);
     uint32_t close = 0;
     for (uint32_t k = 0; k < found->count; k++) {

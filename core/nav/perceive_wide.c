@@ -322,7 +322,7 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     JoxFloats area = jf_max(reach * reach, jf_set(JOX_DENSITY_LEAST));
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
-                 ji_to_floats(f->count) / (JOX_PI * area));
+                 ji_to_floats(f->count) / ((float)JOX_PI * area));
     store_bytes(p->out->count + packet->first, mask, f->count);
     store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
     store_crowding(packet, mask, f->count);

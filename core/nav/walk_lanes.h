@@ -6,6 +6,7 @@
 
 #include "agents/param_lanes.h"
 #include "base/number/exponential.h"
+#include "base/number/pi.h"
 #include "base/number/random.h"
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
@@ -87,7 +88,7 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         crowded |= (uint32_t)(n->count[first + lane] > JOX_CROWD_RANK) << lane;
     const JoxFloats d2 = jf_load(n->crowding2 + first);
-    const JoxFloats area = JOX_PI * jf_max(d2, jf_set(1e-4f));
+    const JoxFloats area = (float)JOX_PI * jf_max(d2, jf_set(1e-4f));
     const JoxFloats density =
         jf_select(jm_of_bits(crowded), (float)(JOX_CROWD_RANK + 1) / area, jf_set(0.0f));
     const JoxFloats keen = jox_share_lanes(twice - one); /* beyond normal */

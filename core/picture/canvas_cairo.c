@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "picture/canvas.h"
 
 typedef struct Image {
@@ -91,8 +92,7 @@ static void draw_image_segments(JoxCanvas *c, const JoxV2 *points, uint32_t coun
 static void draw_image_disc(JoxCanvas *c, JoxV2 centre, float radius, const char *id) {
     (void)id;
     cairo_new_path(context_of(c));
-    cairo_arc(context_of(c), (double)centre.x, (double)centre.y, (double)radius, 0.0,
-              2.0 * 3.14159265358979);
+    cairo_arc(context_of(c), (double)centre.x, (double)centre.y, (double)radius, 0.0, JOX_TURN);
     paint_path(c);
 }
 

@@ -5,6 +5,7 @@
 #include "body/footprint.h"
 
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "base/sort.h"
 #include "picture/draw_parts.h"
 
@@ -36,7 +37,7 @@ static uint32_t list_corners(const JoxBodyLook *look, JoxV3 out[MOST_CORNERS]) {
                                    c & 4 ? s[2] / 2 : -s[2] / 2};
     else if (look->kind == JOX_SHAPE_CYLINDER)
         for (int c = 0; c < 2 * RIM; c++) {
-            float angle = 2 * 3.14159265f * (float)(c / 2) / RIM;
+            float angle = (float)JOX_TURN * (float)(c / 2) / RIM;
             out[count++] =
                 (JoxV3){s[0] * cosf(angle), s[0] * sinf(angle), c & 1 ? s[1] / 2 : -s[1] / 2};
         }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "picture/draw_parts.h"
 
 /* px at the usual size: least radius of a disc as drawn, least radius with a heading, least
@@ -49,7 +50,7 @@ static float direction_in_turns(const JoxPicture *p, uint32_t i) {
     const bool walks = frame->vx[i] != 0.0f || frame->vy[i] != 0.0f;
     const float x = walks || !p->face_x ? frame->vx[i] : p->face_x[i];
     const float y = walks || !p->face_y ? frame->vy[i] : p->face_y[i];
-    const float turn = atan2f(y, x) / (2.0f * 3.14159265f) + 0.5f / JOX_DRAW_BINS;
+    const float turn = atan2f(y, x) / (float)JOX_TURN + 0.5f / JOX_DRAW_BINS;
     return turn - floorf(turn);
 }
 

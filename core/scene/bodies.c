@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "scene/internal.h"
 
 enum {
@@ -12,10 +13,9 @@ enum {
     MOST_PIECES = 200000 /* bodies of a scene, their blocks and their parts */
 };
 static const double CLOSEST = 0.01; /* m between copies along an axis */
-static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 void jox_key_turn(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    const double half = jox_key_number(r, key, node) * DEGREE / 2;
+    const double half = jox_key_number(r, key, node) * JOX_DEGREE / 2;
     double *turn = JOX_MEMBER(double, item, key->offset);
     turn[2] = jox_sin(half);
     turn[3] = jox_cos(half);

@@ -5,11 +5,10 @@
 
 #include "base/assert.h"
 #include "base/format/path.h"
+#include "base/number/pi.h"
 #include "base/overlay.h"
 #include "base/text.h"
 #include "scene/internal.h"
-
-static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 /* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
 static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
@@ -73,7 +72,7 @@ void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void
 
 /* rad; NAN where it is not given. */
 void jox_key_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    *JOX_MEMBER(float, item, key->offset) = (float)(jox_key_number(r, key, node) * DEGREE);
+    *JOX_MEMBER(float, item, key->offset) = (float)(jox_key_number(r, key, node) * JOX_DEGREE);
 }
 
 bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool good) {

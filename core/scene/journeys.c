@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/number/pi.h"
 #include "base/text.h"
 #include "geom/polygon.h"
 #include "scene/internal.h"
 
-static const double DEGREE = 3.141592653589793 / 180.0;
 enum { MOST_STEPS = 50, MOST_QUEUES = 16, LONGEST_NAME = 60 };
 
 /* ---- the steps as they are written ---- */
@@ -285,7 +285,7 @@ static double front_of(const Journey *j, uint32_t step) {
     for (uint32_t k = step; jox_length2(ahead) < 1.0f && k < g->journey_count; k++)
         if (g->journey[k].exit >= 0)
             ahead = jox_sub(middle, centre_of(j, g->journey[k].exit));
-    return jox_length2(ahead) < 1.0f ? 90.0 : atan2(ahead.y, ahead.x) / DEGREE;
+    return jox_length2(ahead) < 1.0f ? 90.0 : atan2(ahead.y, ahead.x) / JOX_DEGREE;
 }
 
 /* Who waits in an area fills it from its front; elsewhere people stand. */

@@ -7,6 +7,7 @@
 #include "base/format/noun.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/fill.h"
 #include "geom/wall_images.h"
 #include "scene/internal.h"
@@ -51,12 +52,12 @@ static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
                         "a circle is filled about one point");
         return;
     }
-    if (!fit_along(r, map, group, 6.2831853f * place->radius))
+    if (!fit_along(r, map, group, (float)JOX_TURN * place->radius))
         return;
     group->centre = place->centre;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++) {
-        double angle = 6.283185307179586 * i / group->count;
+        double angle = JOX_TURN * i / group->count;
         group->positions[i] = (JoxV2){place->centre.x + place->radius * (float)jox_cos(angle),
                                       place->centre.y + place->radius * (float)jox_sin(angle)};
     }

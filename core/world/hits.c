@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "world/stages.h"
 #include "world/world.h"
 
@@ -71,7 +72,7 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
         a->force_x[i] += hit->impulse.x / dt;
         a->force_y[i] += hit->impulse.y / dt;
         float force = jox_length(hit->impulse) / dt;
-        a->compression[i] += force / (6.2831853f * jox_param(a, JOX_PARAM_radius, i));
+        a->compression[i] += force / ((float)JOX_TURN * jox_param(a, JOX_PARAM_radius, i));
         a->load[i] += force;
         a->contacts[i] += a->contacts[i] < 255;
         if (!a->struck[i])

@@ -6,13 +6,13 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 #include "world/world.h"
 
-enum { AT_ONCE = 256 };          /* agents that one source makes in a step at most */
-enum { ATTEMPTS = 64 };          /* points that are drawn for an agent at most */
-static const double FULL = 0.75; /* share of a floor that people cover who leave no spots free */
-static const double PI = 3.141592653589793;
+enum { AT_ONCE = 256 };            /* agents that one source makes in a step at most */
+enum { ATTEMPTS = 64 };            /* points that are drawn for an agent at most */
+static const double FULL = 0.75;   /* share of a floor that people cover who leave no spots free */
 static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded steps */
 
 /* ---- entrances ---- */
@@ -52,7 +52,7 @@ static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEn
             p = jox_add(place->points[0],
                         jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
         } else if (jox_place_is_spot(place)) {
-            const double angle = 6.283185307179586 * u, r = place->radius * sqrt(v);
+            const double angle = JOX_TURN * u, r = place->radius * sqrt(v);
             p = (JoxV2){place->centre.x + (float)(r * jox_cos(angle)),
                         place->centre.y + (float)(r * jox_sin(angle))};
         } else {
@@ -69,7 +69,7 @@ static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEn
 /* m2 that somebody covers. */
 static double cover_of(const JoxAgents *a, uint32_t i) {
     const double radius = jox_param(a, JOX_PARAM_radius, i);
-    return PI * radius * radius;
+    return JOX_PI * radius * radius;
 }
 
 /* m2 that people cover of a floor. */

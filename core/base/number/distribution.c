@@ -5,8 +5,7 @@
 
 #include "base/assert.h"
 #include "base/number/elementary.h"
-
-static const double TURN = 6.283185307179586;
+#include "base/number/pi.h"
 
 const char jox_dist_usage[] =
 #define X(kind, name, arguments, meaning, example) #name "(" arguments "), "
@@ -123,7 +122,7 @@ static double draw_unit(Stream *s) {
 static double draw_normal(Stream *s, double deviation) {
     const double u = 1.0 - draw_unit(s);
     const double v = draw_unit(s);
-    return deviation * sqrt(-2.0 * jox_log(u)) * jox_cos(TURN * v);
+    return deviation * sqrt(-2.0 * jox_log(u)) * jox_cos(JOX_TURN * v);
 }
 
 /* Draws a gamma number of scale 1: G. Marsaglia and W. W. Tsang, "A simple method for generating

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "base/number/exponential.h"
-
-static const double PI = 3.14159265358979323846;
+#include "base/number/pi.h"
 
 /* Taylor series on [-pi/4, pi/4]: `odd` 1 is the sine, 0 the cosine. */
 static double sum_trig_series(double r, int odd) {
@@ -22,7 +21,7 @@ static double compute_sine_or_cosine(double x, int quarter) {
     if (!isfinite(x))
         return NAN;
     /* pi/2 is subtracted in three parts, so that r is exact for |x| up to about 1e9. */
-    double n = floor(x * (2.0 / PI) + 0.5);
+    double n = floor(x * (2.0 / JOX_PI) + 0.5);
     double r = ((x - n * 1.57079632673412561417) - n * 6.07710050630396597660e-11) -
                n * 2.02226624879595063154e-21;
     int q = (int)(fmod(n, 4.0) + 4.0 + quarter) & 3;
@@ -52,9 +51,9 @@ double jox_atan2(double y, double x) {
     double ax = fabs(x), ay = fabs(y);
     if (ax == 0.0 && ay == 0.0)
         return 0.0;
-    double a = ax >= ay ? compute_atan_unit(ay / ax) : PI / 2 - compute_atan_unit(ax / ay);
+    double a = ax >= ay ? compute_atan_unit(ay / ax) : JOX_PI / 2 - compute_atan_unit(ax / ay);
     if (x < 0.0)
-        a = PI - a;
+        a = JOX_PI - a;
     return y < 0.0 ? -a : a;
 }
 

@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 
 static const float CELL = 0.28f;   /* m */
@@ -37,7 +38,7 @@ static void append_body_edges(JoxStandable *s, const JoxObject *o, JoxV2 low, Jo
     for (uint32_t k = 0; k < count; k++)
         ring[k] = o->footprint[k];
     for (uint32_t k = 0; count == 0 && k < CORNERS; k++) {
-        const double angle = 6.283185307179586 * k / CORNERS;
+        const double angle = JOX_TURN * k / CORNERS;
         ring[k] = jox_v2(o->position.x + o->round * (float)jox_cos(angle),
                          o->position.y + o->round * (float)jox_sin(angle));
     }

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "lua/vm/library.h"
 
 static int call_1(lua_State *L, double (*f)(double)) {
@@ -45,11 +46,11 @@ static int math_sqrt(lua_State *L) {
     return call_1(L, sqrt);
 }
 static int math_deg(lua_State *L) {
-    lua_pushnumber(L, luaL_checknumber(L, 1) * (180.0 / 3.14159265358979323846));
+    lua_pushnumber(L, luaL_checknumber(L, 1) * (180.0 / JOX_PI));
     return 1;
 }
 static int math_rad(lua_State *L) {
-    lua_pushnumber(L, luaL_checknumber(L, 1) * (3.14159265358979323846 / 180.0));
+    lua_pushnumber(L, luaL_checknumber(L, 1) * JOX_DEGREE);
     return 1;
 }
 static int math_abs(lua_State *L) {

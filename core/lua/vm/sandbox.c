@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/number/pi.h"
 #include "lua/vm/library.h"
 
 static void set_library(lua_State *L, const char *name, const luaL_Reg *functions,
@@ -14,7 +15,7 @@ static void set_library(lua_State *L, const char *name, const luaL_Reg *function
     if (more)
         luaL_setfuncs(L, more, 0);
     if (functions == jox_library_math) {
-        lua_pushnumber(L, 3.14159265358979323846);
+        lua_pushnumber(L, JOX_PI);
         lua_setfield(L, -2, "pi");
         lua_pushnumber(L, (lua_Number)HUGE_VAL);
         lua_setfield(L, -2, "huge");

@@ -8,16 +8,16 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "base/sort.h"
 #include "machine/gather.h"
 
 static const double TURN_TIME =
     5.0;                            /* s: of arrivals within it, the nearer to the front is first */
 static const float BREADTHS = 1.2f; /* least spacing, in mean breadths of agents */
-static const double DEGREE = 3.141592653589793 / 180.0;
 
 static JoxV2 direction_of(float degrees) {
-    return jox_v2((float)jox_cos(degrees * DEGREE), (float)jox_sin(degrees * DEGREE));
+    return jox_v2((float)jox_cos(degrees * JOX_DEGREE), (float)jox_sin(degrees * JOX_DEGREE));
 }
 
 /* The turn of an agent that comes to gather: by a span of time, and within it by the way to the

@@ -3,9 +3,8 @@
 
 #include "base/assert.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "machine/kernels.h"
-
-static const double TURN = 6.283185307179586;
 
 JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
     JoxV2 way = jox_sub(to, from);
@@ -136,9 +135,9 @@ static JoxV2 roam(const JoxMachineRun *run, uint32_t i) {
     double angle[2];
     for (uint32_t k = 0; k < 2; k++)
         angle[k] =
-            2.0 * TURN * jox_random_unit(run->seed, id, (uint64_t)knot + k, JOX_DRAW_WANDER, 0);
+            2.0 * JOX_TURN * jox_random_unit(run->seed, id, (uint64_t)knot + k, JOX_DRAW_WANDER, 0);
     const double t = time - knot, smooth = t * t * (3.0 - 2.0 * t);
-    const double at = TURN * own + angle[0] + (angle[1] - angle[0]) * smooth;
+    const double at = JOX_TURN * own + angle[0] + (angle[1] - angle[0]) * smooth;
     return (JoxV2){(float)jox_cos(at), (float)jox_sin(at)};
 }
 

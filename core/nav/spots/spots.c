@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
 
@@ -223,7 +224,7 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
         if (found)
             break;
         s.angle += step / s.distance;
-        s.distance += step * step / (6.2831853f * s.distance);
+        s.distance += step * step / ((float)JOX_TURN * s.distance);
     }
     t->blocking = UINT32_MAX;
     s.failed |= s.distance >= farthest;

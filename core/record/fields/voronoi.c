@@ -6,17 +6,17 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "base/sort.h"
 #include "geom/polygon.h"
 
-static const double TURN = 6.283185307179586;
 enum { MOST_BINS = 1 << 20, CROWDED = 200 /* sites in a bin that are too many for people */ };
 
 void jox_cell_begin(JoxCell *cell, double cutoff) {
     cell->count = JOX_CELL_CORNERS;
     for (uint32_t c = 0; c < cell->count; c++) {
-        cell->x[c] = cutoff * cos(TURN * c / JOX_CELL_CORNERS);
-        cell->y[c] = cutoff * sin(TURN * c / JOX_CELL_CORNERS);
+        cell->x[c] = cutoff * cos(JOX_TURN * c / JOX_CELL_CORNERS);
+        cell->y[c] = cutoff * sin(JOX_TURN * c / JOX_CELL_CORNERS);
     }
 }
 

@@ -5,10 +5,9 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
-
-static const double TURN = 6.283185307179586;
 
 typedef struct Turning {
     uint8_t known; /* 0 or 1; not a bool, since a checkpoint may hold any byte */
@@ -31,7 +30,7 @@ static void take_winding_frame(const JoxProbeDef *def, void *state, const JoxFra
         double angle =
             atan2((double)frame->y[i] - def->points[0].y, (double)frame->x[i] - def->points[0].x);
         if (p->known) {
-            p->turns += remainder(angle - p->angle, TURN) / TURN;
+            p->turns += remainder(angle - p->angle, JOX_TURN) / JOX_TURN;
             p->least = fmin(p->least, p->turns);
             p->greatest = fmax(p->greatest, p->turns);
         } else {

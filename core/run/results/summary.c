@@ -8,13 +8,12 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
 #include "run/run.h"
 #include "simd/isa.h"
-
-static const double PI = 3.14159265358979323846;
 
 JoStats jo_scene_stats(const JoScene *scene) {
     JOX_REQUIRE(scene, (JoStats){0});
@@ -226,7 +225,7 @@ static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
     double yaw = jox_atan2(2 * ((double)q[3] * q[2] + (double)q[0] * q[1]),
                            1 - 2 * ((double)q[1] * q[1] + (double)q[2] * q[2]));
     double turned = yaw - 2 * jox_atan2(def->turn[2], def->turn[3]);
-    turned = (turned - 2 * PI * floor(turned / (2 * PI) + 0.5)) * 180 / PI;
+    turned = (turned - 2 * JOX_PI * floor(turned / (2 * JOX_PI) + 0.5)) * 180 / JOX_PI;
     jox_json_digits(json, "moved", sqrt(x * x + y * y), 6);
     jox_json_digits(json, "turned", turned, 6);
 }

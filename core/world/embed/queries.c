@@ -4,11 +4,10 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/wall_grid.h"
 #include "geom/wall_images.h"
 #include "world/world.h"
-
-static const double PI = 3.141592653589793;
 
 /* ---- about a point ---- */
 
@@ -121,7 +120,7 @@ double jo_world_density(const JoWorld *world, double x, double y) {
         if (d2 > 16.0) /* m2: less than 1e-7 of it is left */
             continue;
         const JoxV2 from = {(float)x, (float)y}, to = jox_add(from, d);
-        sum += is_behind_wall(world, from, to) ? 0.0 : jox_exp(-d2) / PI;
+        sum += is_behind_wall(world, from, to) ? 0.0 : jox_exp(-d2) / JOX_PI;
     }
     return sum;
 }
@@ -300,7 +299,7 @@ uint32_t jo_body_outline(const JoWorld *world, JoBody body, double *xy, uint32_t
     const JoxObject *object = &objects->rows[row];
     const uint32_t count = object->footprint_count ? object->footprint_count : ROUND;
     for (uint32_t k = 0; k < count && k < capacity; k++) {
-        const double angle = 2.0 * PI * k / ROUND;
+        const double angle = 2.0 * JOX_PI * k / ROUND;
         xy[2 * (size_t)k] =
             object->footprint_count
                 ? (double)object->footprint[k].x

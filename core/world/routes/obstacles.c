@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 
 static const float LONG = 1.0f;  /* m: what is shorter is walked round, or pushed aside */
@@ -40,7 +41,7 @@ static void look(const JoxObject *o, JoxObstacle *out) {
         return;
     out->count = ROUND;
     for (int i = 0; i < ROUND; i++) {
-        double angle = 6.283185307179586 * i / ROUND;
+        double angle = JOX_TURN * i / ROUND;
         float r = o->round * 1.035f; /* 1 / cos(pi / 12) */
         out->ring[i] = (JoxV2){o->position.x + r * (float)jox_cos(angle),
                                o->position.y + r * (float)jox_sin(angle)};

@@ -61,15 +61,6 @@ static void append_images(const JoxAgents *a, JoxPlace *images, uint32_t *count,
                              (JoxV2){(float)column * a->period.x, (float)row * a->period.y});
 }
 
-/* Returns the kind of places that are sets. */
-static JoxPlaceKind find_set_kind(void) {
-    uint32_t kind = 0;
-    while (kind + 1 < jox_place_kind_count && jox_place_kinds[kind].form != JOX_FORM_SET)
-        kind++;
-    JOX_ASSERT(jox_place_kinds[kind].form == JOX_FORM_SET);
-    return (JoxPlaceKind)kind;
-}
-
 void jox_routes_add_goal_images(const JoxAgents *a, JoxPlace **places, uint32_t *count) {
     const bool set = jox_place_is_set(&(*places)[0]);
     const uint32_t given = *count, first = set ? 1 : 0;
@@ -79,12 +70,9 @@ void jox_routes_add_goal_images(const JoxAgents *a, JoxPlace **places, uint32_t 
         all[n++] = (*places)[p];
     for (uint32_t p = 1; p <= given - first; p++)
         append_images(a, all, &n, &all[p]);
-    JoxPlace goal = {.kind = find_set_kind(), .member_count = n - 1};
-    goal.name = jox_strdup((*places)[0].name);
-    goal.members = jox_alloc(n, sizeof *goal.members);
-    goal.points = jox_alloc(1, sizeof *goal.points);
-    for (uint32_t m = 1; m < n; m++)
-        goal.members[m - 1] = (int32_t)m;
+    JoxPlace goal = {.name = jox_strdup((*places)[0].name),
+                     .points = jox_alloc(1, sizeof *goal.points)};
+    jox_place_make_set(&goal, 1, n - 1);
     jox_place_finish_set(all, &goal, jox_alloc(JOX_PLACE_FOURS(n - 1) + 1, sizeof *goal.boxes));
     all[0] = goal;
     if (set)
