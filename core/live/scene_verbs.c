@@ -93,17 +93,18 @@ static JoxHandPush *find_hand_push(JoxScenePage *s, uint64_t tick, uint32_t agen
     return NULL;
 }
 
-/* Puts a push on an agent for the coming step, in place of the one before. A page repeats a push
-   while the button is held, several times per step if the run is slow or paused. Input lines add up
-   within a step, so that the difference from the last push is what is sent. */
-static bool put_push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error) {
+/* Performs a push on an agent for the coming step, in place of the one before. A page repeats a
+   push while the button is held, several times per step if the run is slow or paused. Entries add
+   up within a step, so that the difference from the last push is what is performed. */
+static bool perform_push(JoxScenePage *s, JoxInputEntry *entry, JoError *error) {
     const JoxHandPush now = {s->scene->world->state.tick, entry->number, entry->numbers[0],
                              entry->numbers[1]};
     JoxHandPush *before = find_hand_push(s, now.tick, now.agent);
-    char line[128];
-    snprintf(line, sizeof line, "push %u %.17g %.17g", now.agent,
-             now.x - (before ? before->x : 0.0), now.y - (before ? before->y : 0.0));
-    if (!jo_scene_input(s->scene, line, error))
+    if (before) {
+        entry->numbers[0] -= before->x;
+        entry->numbers[1] -= before->y;
+    }
+    if (!jox_run_input(s->scene, entry, error))
         return false;
     if (!before)
         before = &s->pushes[s->push_count++ % JOX_HAND_PUSHES];
@@ -114,8 +115,13 @@ static bool put_push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error
 static bool perform_line(JoxScenePage *s, const char *line, JoError *error) {
     JoxInputEntry entry;
     JoxText wrong = {0};
-    const bool pushes = jox_input_read(line, &entry, &wrong) && entry.verb == JOX_INPUT_PUSH;
-    const bool good = pushes ? put_push(s, &entry, error) : jo_scene_input(s->scene, line, error);
+    bool good = jox_input_read(line, &entry, &wrong);
+    if (!good)
+        jox_error(error, JO_INPUT, "%s", wrong.data);
+    else if (entry.verb == JOX_INPUT_PUSH)
+        good = perform_push(s, &entry, error);
+    else
+        good = jox_run_input(s->scene, &entry, error);
     jox_input_entry_free(&entry);
     jox_text_free(&wrong);
     return good;

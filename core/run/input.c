@@ -59,6 +59,13 @@ static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     return true;
 }
 
+bool jox_run_input(JoScene *scene, JoxInputEntry *entry, JoError *error) {
+    JOX_REQUIRE(scene && entry && !scene->finished && !scene->world->busy, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    return perform(scene, entry, error);
+}
+
 bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
     JOX_REQUIRE(scene && line && !scene->finished && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)

@@ -150,6 +150,9 @@ bool jox_run_opens(const JoScene *scene, const char *gate);
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */
 void jox_run_inputs(JoScene *scene);
+/* Performs an entry of an input log between two steps and logs it, as jo_scene_input does with a
+   line. Returns false with the error if it cannot be performed. */
+bool jox_run_input(JoScene *scene, JoxInputEntry *entry, JoError *error);
 /* Notes what the program did to the world (JoWorld.record); `context` is the scene. */
 void jox_run_record_act(void *context, JoxInputEntry *entry);
 /* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.
