@@ -59,6 +59,7 @@ typedef struct JoxClaimPlot {
 
 typedef struct JoxClaim {
     char *path, *id, *title, *source, *text;
+    char *also;  /* id of the same test in another standard; "" if there is none */
     char *level; /* haste of the people: calm, normal, keen; "" if none walk */
     /* data that constants were chosen with, or that were held out from it; at most one is not "" */
     char *calibrated, *held_out;

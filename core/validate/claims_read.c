@@ -278,9 +278,9 @@ static void read_level_and_calibration(lua_State *L, JoxClaim *claim) {
 
 /* The Lua function claim { ... }: reads the table and keeps only the function `measure`. */
 static int read_claim(lua_State *L) {
-    static const char *const KEYS[] = {"id",         "title",    "source",   "text",  "level",
-                                       "calibrated", "held_out", "runs",     "quick", "measure",
-                                       "expect",     "plots",    "pictures", "tried"};
+    static const char *const KEYS[] = {"id",      "also",       "title",    "source",   "text",
+                                       "level",   "calibrated", "held_out", "runs",     "quick",
+                                       "measure", "expect",     "plots",    "pictures", "tried"};
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle claim");
     JoxClaim *claim = lua_touserdata(L, -1);
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle quick");
@@ -292,6 +292,7 @@ static int read_claim(lua_State *L) {
         return luaL_error(L, "a file has one claim");
     jox_claim_check_keys(L, "a claim", KEYS, sizeof KEYS / sizeof *KEYS);
     claim->id = jox_claim_read_text(L, "a claim", "id", true);
+    claim->also = jox_claim_read_text(L, "a claim", "also", false);
     claim->title = jox_claim_read_text(L, "a claim", "title", true);
     claim->source = jox_claim_read_text(L, "a claim", "source", true);
     claim->text = jox_claim_read_text(L, "a claim", "text", false);

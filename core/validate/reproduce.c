@@ -41,7 +41,8 @@ static bool is_wanted_claim(const JoReproduceDef *def, const JoxClaim *claim) {
     for (size_t c = 0; c < def->claim_count; c++) {
         const char *file = jox_path_name(claim->path);
         size_t stem = jox_path_stem(file);
-        if (strcmp(def->claims[c], claim->id) == 0 || is_in_group(claim, def->claims[c]) ||
+        if (strcmp(def->claims[c], claim->id) == 0 || strcmp(def->claims[c], claim->also) == 0 ||
+            is_in_group(claim, def->claims[c]) ||
             (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
             strcmp(def->claims[c], claim->path) == 0)
             return true;

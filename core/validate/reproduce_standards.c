@@ -29,21 +29,21 @@ static const struct Standard {
 };
 enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
 
-/* Returns the standard that a claim tests, or NULL. */
-static const struct Standard *find_standard(const JoxClaim *claim) {
-    for (int s = 0; s < STANDARD_COUNT; s++)
-        if (*claim->id == STANDARDS[s].letter)
-            return &STANDARDS[s];
-    return NULL;
+/* Returns whether a claim is a test of a standard, by either of its ids. */
+static bool is_test_of(const JoxClaim *claim, const struct Standard *standard) {
+    return *claim->id == standard->letter || *claim->also == standard->letter;
 }
 
 bool jox_claim_is_in_standard(const JoxClaim *claim, const char *group) {
-    const struct Standard *standard = find_standard(claim);
-    return standard && (strcmp(group, "standards") == 0 || strcmp(group, standard->group) == 0);
+    for (int s = 0; s < STANDARD_COUNT; s++)
+        if (is_test_of(claim, &STANDARDS[s]) &&
+            (strcmp(group, "standards") == 0 || strcmp(group, STANDARDS[s].group) == 0))
+            return true;
+    return false;
 }
 
 bool jox_claim_is_standard(const JoxClaim *claim) {
-    return find_standard(claim) != NULL;
+    return jox_claim_is_in_standard(claim, "standards");
 }
 
 /* ---- plans ---- */
@@ -92,7 +92,7 @@ static void put_standards_summary(FILE *out, const JoxReproduction *all) {
     for (int s = 0; s < STANDARD_COUNT; s++) {
         uint32_t tests = 0, passes = 0;
         for (uint32_t o = 0; o < all->outcome_count; o++)
-            if (find_standard(all->outcomes[o].claim) == &STANDARDS[s]) {
+            if (is_test_of(all->outcomes[o].claim, &STANDARDS[s])) {
                 tests++;
                 passes += all->outcomes[o].inside;
             }
@@ -111,16 +111,24 @@ static void put_test_verdict(FILE *out, bool inside, bool thin) {
             thin ? ", thin" : "");
 }
 
+static void put_ids(FILE *out, const JoxClaim *claim) {
+    jox_html_text(out, claim->id);
+    if (*claim->also) {
+        fputs(", ", out);
+        jox_html_text(out, claim->also);
+    }
+}
+
 /* Writes a table of all tests with links and verdicts. */
 static void put_overview(FILE *out, const JoxReproduction *all) {
     jox_html_table(out, "test|what|verdict");
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
-        if (!find_standard(outcome->claim))
+        if (!jox_claim_is_standard(outcome->claim))
             continue;
         jox_html_row(out);
         fprintf(out, "<td><a href=\"#t%u\">", o);
-        jox_html_text(out, outcome->claim->id);
+        put_ids(out, outcome->claim);
         fputs("</a>", out);
         jox_html_cell(out, outcome->claim->title);
         put_test_verdict(out, outcome->inside, outcome->inside && outcome->thin);
@@ -190,7 +198,7 @@ bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error) {
     put_standards_summary(out, all);
     put_overview(out, all);
     for (uint32_t o = 0; o < all->outcome_count; o++)
-        if (find_standard(all->outcomes[o].claim))
+        if (jox_claim_is_standard(all->outcomes[o].claim))
             put_test(out, all, &all->outcomes[o]);
     jox_html_end(out);
     return jox_plot_close(out, PAGE, error);

@@ -9,8 +9,8 @@ local function against(count)
 end
 
 return claim {
-  id = "I8", title = "IMO 8: two rooms and a corridor, both ways",
-  source = "IMO MSC.1/Circ.1533, test 8, as implemented by the verification notebooks of JuPedSim",
+  id = "I8", also = "N2.8", title = "IMO 8 and NIST 2.8: two rooms and a corridor, both ways",
+  source = "IMO MSC.1/Circ.1533, test 8, and NIST TN 1822, test 2.8, as implemented by the verification notebooks of JuPedSim",
   text = "A hundred people go from one room to another by a corridor of 10 x 2 m, against none, 10, 50 and 100. The time "
     .. "until the last has arrived rises with the number of those who come, and nobody is stuck.",
   level = "normal", held_out = measure.walking_law,
