@@ -101,8 +101,8 @@ uint32_t jox_bonds_label_pieces(JoxBondGraph *bonds);
 JoxBondGraph *jox_bonds_extract(const JoxBondGraph *bonds, uint32_t label, bool own_frame,
                                 double centre[3]);
 
-/* check.c: the graph with its loads; labels that were just written; loads relieved of the motion of
-   the rigid whole, whose sum is zero; contacts whose impulses come to `force`. */
+/* body_checks.c: the graph with its loads; labels that were just written; loads relieved of the
+   motion of the rigid whole, whose sum is zero; contacts whose impulses come to `force`. */
 void jox_bonds_check(const JoxBondGraph *bonds);
 void jox_bonds_pieces_check(const JoxBondGraph *bonds, uint32_t pieces);
 void jox_bonds_relieved_check(const JoxBondGraph *bonds, const double (*loads)[3]);

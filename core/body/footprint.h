@@ -29,7 +29,7 @@ void jox_footprint_end(JoxFootprint *footprint, JoxObject *object);
 /* The radius at which a sphere is cut widest within the band, 0 where it is outside. */
 float jox_footprint_sphere(float z, float radius);
 void jox_footprint_free(JoxFootprint *footprint);
-/* check.c: what jox_footprint_end wrote. */
+/* body_checks.c: what jox_footprint_end wrote. */
 void jox_footprint_check(const JoxObject *object);
 
 #endif

@@ -40,7 +40,7 @@ float jox_sweep_impulse(JoxV3 velocity, JoxV3 spin, float inverse_mass,
                         const float inverse_inertia[9], JoxV3 arm, JoxV3 normal,
                         const JoxDisc *person, float restitution);
 
-/* check.c: a grid that was just built; a hit that was just found. */
+/* body_checks.c: a grid that was just built; a hit that was just found. */
 void jox_disc_grid_check(const JoxDiscGrid *grid, const JoxDisc *discs, uint32_t count);
 void jox_sweep_hit_check(const JoxSweep *sweep, const JoxSweepHit *hit);
 

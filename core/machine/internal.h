@@ -156,10 +156,10 @@ bool jox_holds_for_nobody(const double *values, uint32_t count);
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
-/* Checks, called through JOX_CHECK (check.c): a machine as it is put into a set; the batches; ranks
-   in queues, of a list sorted by turn; a list by id; signals heard; agents' states and rows; what
-   is done to bodies and of pushing; transitions taken; preferred velocities; what people set; and
-   counts of transitions that a new version took over. */
+/* Checks, called through JOX_CHECK (machine_checks.c): a machine as it is put into a set; the
+   batches; ranks in queues, of a list sorted by turn; a list by id; signals heard; agents' states
+   and rows; what is done to bodies and of pushing; transitions taken; preferred velocities; what
+   people set; and counts of transitions that a new version took over. */
 void jox_machine_check(const JoxMachine *machine);
 void jox_groups_check(const JoxMachineRun *run);
 void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t count);
@@ -280,7 +280,7 @@ void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t cou
 /* Parameters that are expressions, pushing, approach, kicks and holds, after the transitions. */
 void jox_machines_act(JoxMachineRun *run, JoxPool *pool);
 
-/* check.c: how many of the registers a, b, c an operation reads. */
+/* machine_checks.c: how many of the registers a, b, c an operation reads. */
 uint32_t jox_op_inputs(JoxOp op);
 
 #endif
