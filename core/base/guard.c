@@ -6,7 +6,7 @@
 #include <xmmintrin.h>
 #endif
 
-static _Thread_local JoxGuard *innermost;
+static _Thread_local JoxGuard *innermost; /* the thread's innermost open guard, or NULL */
 
 void jox_memory_error(JoError *error) {
     if (!error)
@@ -26,6 +26,7 @@ static uint64_t read_mode(void) {
     return _mm_getcsr() & FLUSH;
 }
 
+/* Sets the bits that flush subnormal numbers, and no others. */
 static void set_mode(uint64_t mode) {
     const uint64_t now = _mm_getcsr();
     if ((now & FLUSH) != mode) /* writing the register is slower than reading it */

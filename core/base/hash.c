@@ -6,6 +6,7 @@ JoxHash jox_hash_begin(void) {
     return (JoxHash){0x2545f4914f6cdd1du};
 }
 
+/* Mixes a word into the state by multiplication, rotation and shift. */
 static uint64_t mix_word(uint64_t state, uint64_t word) {
     state ^= word * 0x9e3779b97f4a7c15u;
     state = (state << 27 | state >> 37) * 0xd6e8feb86659fd93u;
@@ -20,7 +21,7 @@ void jox_hash_add(JoxHash *hash, const void *data, size_t size) {
         hash->state = mix_word(hash->state, word);
     }
     uint64_t word = (uint64_t)size << 56;
-    if (size) {
+    if (size) { /* the last bytes, with their number in the top byte */
         memcpy(&word, at, size);
         word ^= (uint64_t)size << 56;
         hash->state = mix_word(hash->state, word);
@@ -46,6 +47,7 @@ static uint32_t rotate_right(uint32_t x, int n) {
     return x >> n | x << (32 - n);
 }
 
+/* Adds a block of 64 bytes to the hash value h, as FIPS 180-4 section 6.2.2 defines it. */
 static void add_sha256_block(uint32_t h[8], const unsigned char *p) {
     uint32_t w[64], v[8];
     for (int i = 0; i < 16; i++)
@@ -78,7 +80,7 @@ void jox_sha256_hex(const void *data, size_t size, char out[65]) {
     size_t left = size;
     for (; left >= 64; left -= 64, at += 64)
         add_sha256_block(h, at);
-    unsigned char tail[128] = {0};
+    unsigned char tail[128] = {0}; /* padding: a 1 bit, zeros, the length in bits */
     if (left)
         memcpy(tail, at, left);
     tail[left] = 0x80;

@@ -18,6 +18,7 @@ static _Thread_local JoxHeap *in_use; /* the thread's heap */
 
 _Static_assert(sizeof(JoxBlock) % 16 == 0, "memory behind a block is aligned as malloc aligns it");
 
+/* Whether the next allocation may succeed; false only in tests that exhaust memory on purpose. */
 static bool may_allocate(void) {
     return !atomic_load_explicit(&limited, memory_order_relaxed) ||
            atomic_fetch_sub_explicit(&remaining, 1, memory_order_relaxed) > 0;

@@ -5,7 +5,7 @@
 
 #include "base/mem.h"
 
-static _Thread_local const JoxOverlay *used;
+static _Thread_local const JoxOverlay *used; /* the thread's overlay in use, or NULL */
 
 const JoxOverlayFile *jox_overlay_find(const JoxOverlay *overlay, const char *path) {
     for (size_t f = 0; overlay && f < overlay->count; f++)

@@ -19,6 +19,7 @@ size_t jox_pack_length(const JoxPack *pack, uint32_t part) {
     return pack->parts[part].length;
 }
 
+/* Notes that the pointer at `field` in a part will point to an offset in the part `to`. */
 static void link_field(JoxPack *pack, uint32_t part, const void *field, uint32_t to,
                        size_t offset) {
     const size_t at = (size_t)((const char *)field - pack->parts[part].data);

@@ -42,6 +42,8 @@ void jox_sections_fail(JoxSections *s, const char *name, const char *why) {
              *name ? ": " : "", why);
 }
 
+/* Begins a walk that reads a buffer: checks its magic number and checksum, and leaves the checksum,
+   at its end, out of what is read. */
 static JoxSections begin_reading(JoxSectionsMode mode, const void *data, size_t size) {
     JoxSections s = {.mode = mode, .module = "", .begin = data, .at = data};
     uint64_t sum = 0;
@@ -93,6 +95,7 @@ void jox_sections_unhashed(JoxSections *s, bool unhashed) {
 
 /* ---- one section ---- */
 
+/* Sections are identified by hashes of their names, which keep the headers short. */
 static uint64_t hash_section_name(const JoxSections *s, const char *name) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, s->module, strlen(s->module));
@@ -139,6 +142,8 @@ static const unsigned char *find_section_cell(const void *cells, size_t size, si
     return (const unsigned char *)cells + size * (order ? order[k] : k);
 }
 
+/* Adds cells to the hash. Ordered cells are gathered into chunks, since a call per cell would be
+   slow. The size of a chunk is part of the hash: another CHUNK gives another result. */
 static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t count,
                        const uint32_t *order) {
     unsigned char chunk[CHUNK];
@@ -163,6 +168,7 @@ static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t co
     jox_hash_add(&s->hash, chunk, used);
 }
 
+/* Compares cells with the buffer up to the first that differs. */
 static void compare_cells(JoxSections *s, const char *name, const void *cells, size_t size,
                           size_t count, const uint32_t *order) {
     for (size_t k = 0; k < count && !s->unhashed; k++) {
@@ -176,6 +182,7 @@ static void compare_cells(JoxSections *s, const char *name, const void *cells, s
     s->at += count * size;
 }
 
+/* Calls the visitor for each cell, with the name "module.section". */
 static void visit_cells(JoxSections *s, const char *name, void *cells, size_t size, size_t count,
                         const uint32_t *order) {
     char full[120];

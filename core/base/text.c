@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/file.h"
@@ -122,6 +121,7 @@ static int edit_distance(const char *a, const char *b) {
 
 const char *jox_suggest(const char *word, const char *const *names, size_t count) {
     const char *nearest = NULL;
+    /* at most a third of the word's length + 1, and at most 3, letters may differ */
     int limit = (int)strlen(word) / 3 + 1, best = limit < 3 ? limit + 1 : 4;
     for (size_t i = 0; i < count && best > 1; i++) {
         int d = names[i] ? edit_distance(word, names[i]) : 99;

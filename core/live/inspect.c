@@ -1,13 +1,11 @@
 /* One agent as JSON: state, parameters with the places that set them, memory, own values,
    half-planes and forces of the last step. Called by the live page and by jo_scene_inspect. */
-#include <math.h>
-#include <string.h>
 
+#include "live/inspect.h"
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
-#include "live/inspect.h"
 #include "run/mods/settings.h"
 
 enum { DIGITS = 6 };

@@ -3,7 +3,6 @@
    scene message (live_scene.c) and the command `lua` (scene_verbs.c). */
 #include <ctype.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/mem.h"
 #include "live/inspect.h"

@@ -1,7 +1,6 @@
 /* Frames of a running scene: positions, states and flags of its people by slot, and its bodies. The
    listener JoxLive is made here. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -98,6 +97,7 @@ uint32_t jox_live_player(const JoScene *scene) {
     return id;
 }
 
+/* Writes the bodies; rows of bodies that are gone get a place far below the floor. */
 static void pack_scene_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     static const JoxV3 NOWHERE = {0.0f, 0.0f, -1000.0f};
@@ -249,9 +249,9 @@ double jox_live_speed(const JoScene *scene) {
 void jox_live_spread_crowd(JoScene *scene) {
     JoxLive *live = jox_live_of(scene);
     const JoxLiveCrowd crowd = list_scene_crowd(scene);
-    if (live->spread == scene->world->state.tick + 1)
+    if (live->spread_tick == scene->world->state.tick + 1)
         return;
-    live->spread = scene->world->state.tick + 1;
+    live->spread_tick = scene->world->state.tick + 1;
     jox_live_spread(&live->grid, &live->area, &crowd);
 }
 

@@ -9,13 +9,13 @@
 /* A transition that an agent took. */
 typedef struct JoxLiveTaken {
     uint64_t tick;
-    uint32_t which; /* its number: transitions of all machines are numbered in one sequence */
+    uint32_t transition; /* its number: transitions of all machines are numbered in one sequence */
 } JoxLiveTaken;
 
 struct JoxLive {
     JoxLiveArea area;
     JoxLiveGrid grid;
-    uint64_t spread; /* 1 + the tick whose crowd is in the grid; 0: none */
+    uint64_t spread_tick; /* 1 + the tick whose crowd is in the grid; 0: none */
     /* Transitions taken in the last second: a ring buffer whose oldest item is at `first`. */
     JoxLiveTaken *taken;
     uint32_t first, count, capacity;
@@ -24,8 +24,8 @@ struct JoxLive {
     const JoxMachine *machines[JOX_MOST_MACHINES];
     uint32_t machine_count, begins[JOX_MOST_MACHINES + 1];
     uint32_t *state_begins[JOX_MOST_MACHINES];
-    uint32_t *fired; /* by number: how often it was taken in the last second */
-    uint64_t noted;  /* the tick up to which transitions were counted */
+    uint32_t *fired;       /* by number: how often it was taken in the last second */
+    uint64_t counted_tick; /* the tick up to which transitions were counted */
     /* Figures as of the last status: wall time and simulated time, s; time of each stage, s; failed
        solves; steps of agents. */
     double wall, time, stage_s[JO_STAGE_COUNT];

@@ -191,6 +191,7 @@ void jox_live_add_colours(JoxJson *json) {
 
 enum { MOST_NAMES = 256 };
 
+/* Appends a name to a list unless it is there; returns the new number of names. */
 static uint32_t add_unique(const char **names, uint32_t count, const char *name) {
     for (uint32_t n = 0; n < count; n++)
         if (strcmp(names[n], name) == 0)
@@ -269,6 +270,7 @@ void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json) 
     jox_json_end(json);
 }
 
+/* Adds the names of flow probes, whose counts the page draws as charts. */
 static void add_charts(JoxJson *json, const JoxSceneSpec *spec) {
     jox_json_array(json, "charts");
     for (uint32_t p = 0; p < spec->probe_count; p++)

@@ -1,6 +1,5 @@
 /* The status message of a running scene, sent four times a second: present figures, and those of
    the steps since the last status. */
-#include <math.h>
 #include <string.h>
 
 #include "base/mem.h"

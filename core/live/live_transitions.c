@@ -43,9 +43,10 @@ static void count_taken_transition(JoxLive *live, JoxLiveTaken taken) {
         live->capacity = wider;
         live->first = 0;
     }
-    JOX_ASSERT(live->count < live->capacity && taken.which < live->begins[live->machine_count]);
+    JOX_ASSERT(live->count < live->capacity &&
+               taken.transition < live->begins[live->machine_count]);
     live->taken[(live->first + live->count++) % live->capacity] = taken;
-    live->fired[taken.which]++;
+    live->fired[taken.transition]++;
 }
 
 void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines) {
@@ -57,13 +58,13 @@ void jox_live_count(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxMachineRun *machines = &world->machines;
     jox_live_renumber(live, machines);
-    if (live->noted == world->state.tick)
+    if (live->counted_tick == world->state.tick)
         return;
-    live->noted = world->state.tick;
+    live->counted_tick = world->state.tick;
     const uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
     while (live->count && live->taken[live->first].tick + second <= world->state.tick) {
-        JOX_ASSERT(live->fired[live->taken[live->first].which] > 0);
-        live->fired[live->taken[live->first].which]--;
+        JOX_ASSERT(live->fired[live->taken[live->first].transition] > 0);
+        live->fired[live->taken[live->first].transition]--;
         live->first = (live->first + 1) % live->capacity;
         live->count--;
     }
@@ -71,7 +72,7 @@ void jox_live_count(JoxLive *live, const JoScene *scene) {
         const JoxTaken *taken = &machines->taken[n];
         JOX_ASSERT(taken->machine < live->machine_count &&
                    taken->from < live->machines[taken->machine]->state_count);
-        const uint32_t which = live->state_begins[taken->machine][taken->from] + taken->transition;
-        count_taken_transition(live, (JoxLiveTaken){world->state.tick, which});
+        const uint32_t number = live->state_begins[taken->machine][taken->from] + taken->transition;
+        count_taken_transition(live, (JoxLiveTaken){world->state.tick, number});
     }
 }

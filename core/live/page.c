@@ -4,7 +4,6 @@
 
 #include <assert.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -53,6 +52,7 @@ static void publish_frames(JoxLivePage *page) {
     }
 }
 
+/* Publishes radii and groups if they have changed, or if new browsers need them. */
 static void publish_people(JoxLivePage *page) {
     const bool differs = page->source->pack_people(page->self, &page->people);
     if (differs || !page->people_sent)
@@ -134,6 +134,7 @@ static void remove_watcher(JoxLivePage *page, JoxLiveWatcher *watcher) {
         jox_view_forget(page->server); /* the next browser must not get stale messages */
 }
 
+/* Takes what the server has received: browsers that join or leave, and commands. */
 static void take_commands(JoxLivePage *page) {
     char text[JOX_VIEW_MOST_COMMAND + 1];
     uint32_t client;

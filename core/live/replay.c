@@ -26,6 +26,7 @@ static uint32_t number_machine_name(JoxReplayNames *n, const char *machine) {
     return m;
 }
 
+/* Lists the recording's machines and states by name, each once. */
 static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info) {
     n->machines = jox_alloc(info->state_count + 1, sizeof *n->machines);
     n->states = jox_alloc(info->state_count + 1, sizeof *n->states);
@@ -73,6 +74,7 @@ static const JoxWalls *find_standing_walls(const JoxReplay *r) {
                : jox_trajectory_reader_standing(r->reader, choose_walls_frame(r));
 }
 
+/* Extends the area to hold the recording's bounds, walls and places. */
 static void cover_recording(JoxReplay *r) {
     const JoxWalls *walls = jox_replay_walls(r);
     JoxLiveArea all = {0};
@@ -127,6 +129,7 @@ uint32_t jox_replay_find(const JoxReplay *r, double time) {
 
 /* ---- frames ---- */
 
+/* Gives a row to each body of a frame whose id is new. */
 static void number_body_rows(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
     for (uint32_t b = 0; b < f->body_count; b++) {
         const uint32_t id = f->bodies[b].id;
@@ -163,6 +166,7 @@ static double measure_time_since_shown(const JoxReplay *r, uint32_t frame) {
     return frame == r->shown + 1 || spent <= LONGEST ? spent : 0.0;
 }
 
+/* Reads a frame and makes it the shown one; false with the reason in `why`, and nobody is shown. */
 static bool read_recorded_frame(JoxReplay *r, uint32_t frame, JoxText *why) {
     const double spent = measure_time_since_shown(r, frame);
     if (!jox_trajectory_reader_read(r->reader, frame, &r->frame, why)) {
@@ -229,6 +233,8 @@ static const float *fill_densities(JoxReplay *r) {
     return r->density;
 }
 
+/* Writes the bodies of the shown frame. Rows of bodies that are not in it get a place far below the
+   floor. */
 static void pack_recorded_bodies(const JoxReplay *r, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     const JoxTrajectoryReaderFrame *f = &r->frame;

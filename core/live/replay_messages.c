@@ -35,6 +35,7 @@ static void add_recorded_machine(JoxJson *json, const JoxReplayNames *n, uint32_
     jox_json_end(json);
 }
 
+/* Adds groups, states and machines by name. */
 static void add_recorded_names(JoxJson *json, const JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
     JoxLiveNamed *groups = jox_alloc(r->info.group_count + 1, sizeof *groups);
@@ -136,6 +137,8 @@ uint64_t jox_replay_version(const JoxReplay *r) {
     return (uint64_t)(changes + walls) << 32 | r->row_count;
 }
 
+/* Adds "states", the number of people in each state by machine, and an empty "fired": a recording
+   has no transitions. */
 static void add_recorded_counts(JoxJson *json, JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
     memset(r->people, 0, n->state_count * sizeof *r->people);

@@ -1,8 +1,6 @@
 /* The live page of a recording: plays it at the chosen pace, pauses and seeks. Implements the
    source of replay_page.h and jo_view_recording. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"

@@ -2,7 +2,6 @@
    scene_page.h and jo_view. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -18,6 +17,7 @@ JoViewDef jo_default_view_def(void) {
 
 /* ---- time ---- */
 
+/* Pauses the run when its time is over. */
 static void pause_at_end(JoxScenePage *s) {
     if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt < s->until)
         return;
@@ -29,6 +29,7 @@ static void pause_at_end(JoxScenePage *s) {
     s->page.last_status = 0.0;
 }
 
+/* Makes a step. If it fails, the run is paused for good and browsers are told. */
 static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};
     if (jo_scene_step(s->scene, &error)) {
@@ -49,8 +50,8 @@ static double wait_for_browser(JoxScenePage *s, double now) {
     if (s->opened == 0.0)
         s->opened = now;
     if (s->def->fast || jox_view_clients(s->page.server) > 0 || now - s->opened >= s->def->wait)
-        s->seen = true;
-    return s->seen ? 0.0 : s->def->wait - (now - s->opened);
+        s->has_started = true;
+    return s->has_started ? 0.0 : s->def->wait - (now - s->opened);
 }
 
 static double step_when_due(void *self, double now) {

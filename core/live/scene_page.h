@@ -33,12 +33,12 @@ typedef struct JoxScenePage {
     const JoViewDef *def;
     JoSceneDef scene_def; /* with the seed of the present run */
     JoScene *scene;
-    uint64_t steps; /* still to be made while paused (command `step`) */
-    double until;   /* simulated time at which the run pauses by itself, s */
-    double began;   /* wall time at which the last step was due, s */
-    double opened;  /* wall time of the first call of `advance`, s */
-    bool seen;      /* the run no longer waits for its first browser */
-    bool failed;    /* the run cannot continue; `failure` says why */
+    uint64_t steps;   /* still to be made while paused (command `step`) */
+    double until;     /* simulated time at which the run pauses by itself, s */
+    double began;     /* wall time at which the last step was due, s */
+    double opened;    /* wall time of the first call of `advance`, s */
+    bool has_started; /* the run no longer waits for its first browser */
+    bool failed;      /* the run cannot continue; `failure` says why */
     char failure[1024];
     bool reported; /* messages being printed are errors that browsers already have as data */
     JoxLiveInspector inspectors[JOX_VIEW_CLIENTS];

@@ -12,6 +12,7 @@ int jox_test_history_find(const JoxTestHistory *h, const char *name) {
     return -1;
 }
 
+/* Records that an agent has been in a state. */
 static void mark_state(JoxTestHistory *h, const char *state, uint32_t id) {
     int n = jox_test_history_find(h, state);
     if (n < 0 && h->name_count < JOX_TEST_STATES) {

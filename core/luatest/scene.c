@@ -39,6 +39,8 @@ static double read_test_time(lua_State *L, const Scene *t) {
     return driver->time(driver->context, t->scene);
 }
 
+/* Makes a step and records states. Raises an error in Lua if it fails or the test's time is used
+ * up. */
 static void step_test_scene(lua_State *L, Scene *t) {
     JoxTestRun *run = jox_test_run_of(L);
     const JoxTestDriver *driver = run->driver;
@@ -130,6 +132,7 @@ static const char *check_state_name(lua_State *L, const Scene *t, int index) {
 
 /* ---- reading ---- */
 
+/* Counts the agents of a group (-1: of all) in a state (NULL: in any). */
 static uint32_t count_agents_in_state(const JoxMachineRun *machines, const char *state,
                                       int32_t group) {
     const JoxAgents *a = machines->agents;
@@ -156,6 +159,7 @@ static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t gro
     jox_text_free(&text);
 }
 
+/* s:count([state [, { agents = "group" }]]): the number of agents. */
 static int scene_count(lua_State *L) {
     Scene *t = check_scene_handle(L);
     const char *state = lua_isnoneornil(L, 2) ? NULL : check_state_name(L, t, 2);
@@ -164,6 +168,7 @@ static int scene_count(lua_State *L) {
     return 1;
 }
 
+/* s:entered(state [, { agents = "group" }]): the number of agents that have been in a state. */
 static int scene_entered(lua_State *L) {
     Scene *t = check_scene_handle(L);
     const char *state = check_state_name(L, t, 2);
@@ -220,6 +225,7 @@ static int scene_agent(lua_State *L) {
     return 1;
 }
 
+/* s:body("name"): a table with position, m, and velocity, m/s. */
 static int scene_body(lua_State *L) {
     static const char *const NAMES[] = {"x", "y", "z", "vx", "vy", "vz"};
     Scene *t = check_scene_handle(L);
@@ -242,6 +248,7 @@ static int scene_step(lua_State *L) {
     return 0;
 }
 
+/* s:run(seconds) */
 static int scene_run(lua_State *L) {
     Scene *t = check_scene_handle(L);
     const JoxMachineRun *machines = find_test_machines(L, t);
@@ -336,6 +343,7 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
     *mean = count ? sum / (double)count : 0.0;
 }
 
+/* s:slower_than(speed [, options]): no agent is faster at any time. */
 static int scene_slower_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);
@@ -347,6 +355,7 @@ static int scene_slower_than(lua_State *L) {
     return 0;
 }
 
+/* s:faster_than(speed [, options]): the mean speed is greater; returns it. */
 static int scene_faster_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);

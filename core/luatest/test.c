@@ -57,6 +57,8 @@ typedef struct TestContext {
     const char *path; /* the test's file */
 } TestContext;
 
+/* Loads a scene for a test, with the mods that the test names and no others; NULL with the errors.
+ */
 static void *load_driven_scene(void *context, const JoxTestScene *wanted, JoxText *why) {
     const TestContext *c = context;
     JoSceneDef def = jo_default_scene_def();
@@ -249,6 +251,7 @@ static bool is_test_file(const char *name) {
     return n > 9 && strcmp(name + n - 9, "_test.lua") == 0;
 }
 
+/* Runs a file, or all files of a folder that end with _test.lua. */
 static void run_test_path(Tests *tests, const char *path) {
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {

@@ -2,7 +2,6 @@
    budget of instructions. */
 #include "luatest/testing.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/clock.h"
@@ -30,6 +29,8 @@ static int word_test(lua_State *L) {
     return 0;
 }
 
+/* Calls a test and reports its result. It fails by an error, by an assertion that failed within a
+   pcall, or by having no assertions. */
 static void run_registered_test(JoxScript *script, JoxTestRun *run, JoxTest *test,
                                 JoxTestReport *report, void *context) {
     const char *path = script->vm.sources[0]->path, *why = NULL;
@@ -73,6 +74,7 @@ static int open_words(lua_State *L) {
     return 0;
 }
 
+/* Adds an error in the test file itself. */
 static void fail_file(JoxScript *script, const char *why, int line, JoxDiagnostics *diagnostics) {
     jox_diag_error(diagnostics, ((JoxPosition){script->vm.sources[0]->path, line, 0, 0}),
                    "lua-error", NULL, "%s", why);

@@ -2,8 +2,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/assert.h"
 
@@ -40,6 +38,7 @@ static void begin_value(JoxJson *json, const char *key, bool has_items) {
     level->on_lines |= own_line;
 }
 
+/* Begins an object or an array. */
 static void open_level(JoxJson *json, const char *key, bool is_object) {
     begin_value(json, key, true);
     JOX_ASSERT(json->depth < JOX_JSON_DEEPEST);

@@ -92,6 +92,7 @@ bool jox_patch_is_target(const char *target, const char *path, const JoxMod *mod
 
 /* ---- merging ---- */
 
+/* Appends to the list that the patch sets or removes a path. */
 static void keep_change(const JoxPatch *p, const char *path, const JoxPatchPlace *at,
                         bool removes) {
     const JoxPatchTree *t = p->tree;
@@ -101,6 +102,7 @@ static void keep_change(const JoxPatch *p, const char *path, const JoxPatchPlace
                    p->mods, p->diagnostics);
 }
 
+/* Writes the path of an item: "PREFIX.MARKid". */
 static void join_item_path(const JoxPatch *p, char path[JOX_PATCH_PATH], const char *prefix,
                            const char *id) {
     char item[JOX_PATCH_ID + 8];
@@ -120,6 +122,7 @@ static bool is_mergeable(const JoxPatch *p, void *now, void *change, int depth) 
     return is == JOX_PATCH_MAP || (is == JOX_PATCH_LIST && t->lists_merge && was == JOX_PATCH_MAP);
 }
 
+/* Sets, removes or merges a key of a copy; `path` is the key's path in the patched tree. */
 static void merge_key(const JoxPatch *p, void *copy, const char *path, const JoxPatchPlace *at,
                       int depth) {
     const JoxPatchTree *t = p->tree;
@@ -151,6 +154,7 @@ static uint32_t find_item(const JoxPatch *p, void *copy, const char *id, const J
     return count;
 }
 
+/* Marks the item with an id as removed; `sweep` drops it later, so that indices stay valid. */
 static void remove_item(const JoxPatch *p, void *copy, const char *path, const char *id,
                         const JoxPatchPlace *at) {
     char whole[JOX_PATCH_PATH];
@@ -241,6 +245,7 @@ static void merge_verb(const JoxPatch *p, JoxPatchVerb verb, void *copy, const c
     }
 }
 
+/* Returns the verb that a key names, or JOX_PATCH_VERBS if the tree has no such verb. */
 static int find_patch_verb(const JoxPatch *p, const char *key) {
     for (int v = 0; v < JOX_PATCH_VERBS; v++)
         if ((p->tree->verbs >> v & 1) && strcmp(jox_patch_verbs[v], key) == 0)

@@ -85,7 +85,7 @@ bool jox_path_same(const char *a, const char *b) {
 void jox_path_clean(char *path) {
     size_t length = strlen(path), used = *path == '/';
     char *clean = jox_alloc(length + 2, 1);
-    size_t starts[256] = {0}, parts = 0;
+    size_t starts[256] = {0}, parts = 0; /* offsets of the parts of `clean`, to remove the last */
     if (used)
         clean[0] = '/';
     for (const char *at = path; *at && parts < 255;) {

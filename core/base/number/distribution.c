@@ -30,6 +30,8 @@ JoxDist jox_dist_constant(double value) {
     return (JoxDist){.kind = JOX_DIST_CONSTANT, .a = value, .lo = -INFINITY, .hi = INFINITY};
 }
 
+/* Whether a kind accepts `count` arguments of these values: bounds must be in order, deviations not
+   negative, shapes and scales positive. */
 static bool accepts_arguments(JoxDistKind kind, const double *v, int count) {
     const bool bounded = (count == 2 || count == 4) && (count < 4 || v[2] < v[3]);
     switch (kind) {
@@ -140,6 +142,7 @@ static double draw_gamma(Stream *s, double shape) {
     return d * power;
 }
 
+/* Draws a number without regard to bounds. */
 static double draw_value(const JoxDist *dist, Stream *s) {
     switch (dist->kind) {
     case JOX_DIST_NORMAL:

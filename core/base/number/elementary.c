@@ -1,8 +1,6 @@
 #include "base/number/elementary.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "base/number/exponential.h"
 #include "base/number/pi.h"
