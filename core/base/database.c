@@ -10,9 +10,8 @@
 #include "base/mem.h"
 
 enum {
-    LONGEST = 64 << 20, /* greatest length of a text or blob, bytes */
-    LONGEST_SQL =
-        64 << 10,       /* greatest length of a statement, those of the schema included, bytes */
+    LONGEST = 64 << 20,     /* greatest length of a text or blob, bytes */
+    LONGEST_SQL = 64 << 10, /* greatest length of a statement or schema entry, bytes */
     OPERATIONS = 100000 /* virtual machine operations between two calls of the progress handler */
 };
 /* Calls of the progress handler that a bounded database has: at least, and per MB of the file. A
@@ -62,8 +61,8 @@ static bool fail_with_message(const JoxDatabase *db, JoxText *why) {
     return false;
 }
 
-/* Prepares a statement with one argument, which %Q in `format` quotes; NULL if SQLite refuses it.
- */
+/* Prepares a statement with one argument, which %Q in `format` quotes; NULL if SQLite refuses
+   it. */
 static sqlite3_stmt *prepare_pragma(JoxDatabase *db, const char *format, const char *argument) {
     char *sql = sqlite3_mprintf(format, argument);
     if (!sql)

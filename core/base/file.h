@@ -24,8 +24,8 @@ int jox_file_drop(FILE *file);
 int jox_file_close(FILE *file);
 /* Whether `path` still names an open file: false if it was removed or replaced. */
 bool jox_file_has_name(FILE *file, const char *path);
-/* Locks a folder for one run until the result is closed; NULL with errno, EBUSY if another has it.
- */
+/* Locks a folder for one run until the result is closed; NULL with errno, EBUSY if another has
+   it. */
 FILE *jox_folder_claim(const char *path);
 /* Writes all bytes to a descriptor, such as a pipe's; false with errno. */
 bool jox_file_send(int descriptor, const void *bytes, size_t length);

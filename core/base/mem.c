@@ -139,8 +139,8 @@ static JoxBlock *find_block_header(void *memory) {
     return (JoxBlock *)memory - 1;
 }
 
-/* Returns the size of `count` objects behind `before` bytes; an overflow counts as out of memory.
- */
+/* Returns the size of `count` objects behind `before` bytes; an overflow counts as out of
+   memory. */
 static size_t compute_block_size(size_t count, size_t size, size_t before) {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes) ||
@@ -203,8 +203,8 @@ static inline uint64_t load_word(const uint8_t *memory) {
     return word;
 }
 
-/* jox_mem_is for short runs: compares words of 8 bytes; the last one may overlap the one before it.
- */
+/* jox_mem_is for short runs: compares words of 8 bytes; the last one may overlap the one before
+   it. */
 static inline bool is_short_run_of(const uint8_t *first, uint8_t byte, size_t bytes) {
     const uint64_t like = byte * 0x0101010101010101u;
     uint64_t other = 0;

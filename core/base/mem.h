@@ -35,15 +35,15 @@ void jox_give_back(void *memory);
 /* As malloc, counted for jox_alloc_fail_after; for libraries that free their memory by free(). */
 void *jox_try_malloc(size_t bytes);
 
-/* Sets the program's allocator, which all of these use; NULL: the C library's. False, and nothing
-   changes, once anything was allocated. */
+/* Sets the program's allocator, which the functions above use except for jox_try_malloc; NULL: the
+   C library's. False, and nothing changes, once anything was allocated. */
 struct JoAllocator;
 bool jox_set_allocator(const struct JoAllocator *allocator);
 
 /* Number of allocations since the process began. Tests check that steps do not change it. */
 uint64_t jox_alloc_count(void);
-/* For tests: memory is out after `count` more allocations, until the next call; UINT64_MAX: never.
- */
+/* For tests: memory is out after `count` more allocations, until the next call; UINT64_MAX:
+   never. */
 void jox_alloc_fail_after(uint64_t count);
 
 /* ---- recovery points ----
@@ -74,8 +74,8 @@ bool jox_recovery_exists(void);
 
 /* Jumps to the innermost recovery point of the thread. Without one the program ends with a message:
    only Jostle's own programs and tests call the engine so. `bytes`: size that was wanted; 0:
-   unknown.
- */
+
+   unknown. */
 __attribute__((noreturn)) void jox_out_of_memory(size_t bytes);
 
 /* ---- heaps ---- */

@@ -55,7 +55,7 @@ static JoxSections begin_reading(JoxSectionsMode mode, const void *data, size_t 
     s.end = s.begin + size - sizeof sum;
     memcpy(&sum, s.end, sizeof sum);
     if (sum != compute_state_checksum(data, size - sizeof sum))
-        jox_sections_fail(&s, "", "the state is damaged: its checksum is another");
+        jox_sections_fail(&s, "", "the state is damaged: its checksum does not match");
     s.at += sizeof MAGIC;
     return s;
 }
@@ -302,5 +302,5 @@ void jox_section_model(JoxSections *s, const char *name, uint64_t digest) {
         return;
     jox_section(s, name, &saved, sizeof saved, 1);
     if (saved != digest)
-        jox_sections_fail(s, name, "it is another than when the state was saved");
+        jox_sections_fail(s, name, "it has changed since the state was saved");
 }

@@ -11,8 +11,8 @@
    Cells are plain bytes: numbers, or structs without pointers and, if they are hashed or compared,
    without padding. The order of the sections, their names and cell sizes are the format of the
    buffer; a buffer of another format, or a damaged one, is refused with a sentence that says why.
-   Its numbers are in this machine's representation: it cannot be moved to another kind of machine.
- */
+   Its numbers are in this machine's representation: it cannot be moved to another kind of
+   machine. */
 #ifndef JOX_BASE_SECTIONS_H
 #define JOX_BASE_SECTIONS_H
 
@@ -81,9 +81,7 @@ void jox_section(JoxSections *sections, const char *name, void *cells, size_t si
 /* The same for booleans: a restored byte other than 0 and 1 is refused. */
 void jox_section_bools(JoxSections *sections, const char *name, void *cells, size_t size,
                        size_t count);
-/* The same in another order: cell k of the section is cells[order[k]]. Restore writes it to
- * cells[k].
- */
+/* The same in another order: cell k of the section is cells[order[k]]. Restore writes cells[k]. */
 void jox_section_ordered(JoxSections *sections, const char *name, void *cells, size_t size,
                          size_t count, const uint32_t *order);
 /* The same for rows of `stride` doubles. The hash leaves out trailing zeros of a row, so that it

@@ -30,13 +30,12 @@ void jox_text_clean(char *text);
 /* Returns the length of the byte order mark that some editors write first, 3 bytes, or 0. */
 size_t jox_text_mark(const char *text, size_t length);
 
-/* Returns the one of `names` that is nearest to `word` by edit distance, or NULL if none is near.
- */
+/* Returns the one of `names` that is nearest to `word` by edit distance, or NULL if none is
+   near. */
 const char *jox_suggest(const char *word, const char *const *names, size_t count);
 
-/* Writes "Did you mean 'x'?" to `hint` and returns it; NULL, with `hint` unchanged, if no name is
- * near.
- */
+/* Writes "Did you mean 'x'?" to `hint` and returns it. If no name is near, returns NULL and leaves
+   `hint` unchanged. */
 enum { JOX_HINT = 128 };
 const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
                              char hint[JOX_HINT]);

@@ -22,12 +22,12 @@ void jox_live_set_by_free(JoxLiveSetBy *by);
    defaults and states with their parameters; transitions with their conditions as written. */
 void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key);
 /* Adds the members that jo_scene_inspect documents to an open object. The first call for a slot
-   starts the recording of that agent's steps. Returns false, with "agent" null, for an empty slot.
- */
+   starts the recording of that agent's steps. Returns false, with "agent" null, for an empty
+   slot. */
 bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
 /* Appends a line of Lua that sets a parameter to `value`, with a comment that names the file and
-   line to paste it at. Returns false with the reason in `out` if the scene has no such parameter.
- */
+   line to paste it at. Returns false with the reason in `out` if the scene has no such
+   parameter. */
 bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *state,
                        const char *parameter, double value, JoxText *out);
 

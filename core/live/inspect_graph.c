@@ -9,8 +9,8 @@
 
 /* ---- the place that set a value ---- */
 
-/* Appends "KIND FILE:LINE", or the mod that set the value. `kind` is "defaults" or "state Circle".
- */
+/* Appends "KIND FILE:LINE", or the mod that set the value. `kind` is "defaults" or "state
+   Circle". */
 static void print_written_place(const char *kind, const JoxWritten *written, JoxText *out) {
     if (written->mod)
         jox_text_printf(out, "mod %s %s:%d", written->mod, written->file, written->line);

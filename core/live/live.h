@@ -146,8 +146,8 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
 /* Writes radii and groups by slot over those in `out`; true if a byte of them changed. */
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
 
-/* Densities of a crowd over an area, as last spread. Zero-initialise, free by jox_live_free_grid.
- */
+/* Densities of a crowd over an area, as last spread. Zero-initialise, free by
+   jox_live_free_grid. */
 typedef struct JoxLiveGrid {
     struct JoxDensity *grid;
     JoxV2 low, high; /* m, the area that the grid was made for */
@@ -157,8 +157,8 @@ void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *c
 /* Density at a point (0 outside the grid), and the greatest, 1/m2. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 float jox_live_density_max(const JoxLiveGrid *grid);
-/* R of the Gaussian, m: 1, more where the cells are wider than that; NAN before the first spread.
- */
+/* R of the Gaussian, m: 1, more where the cells are wider than that; NAN before the first
+   spread. */
 float jox_live_density_r(const JoxLiveGrid *grid);
 /* Writes a field message (kind 3) of values by cell of the grid. */
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,

@@ -52,8 +52,8 @@ static void add_flows_and_gates(JoxJson *json, const JoScene *scene) {
     jox_live_add_gates(&scene->world->model.all_walls, json);
 }
 
-/* Adds "hints": parts of behaviours that had no effect so far, a sentence each with file and line.
- */
+/* Adds "hints": parts of behaviours that had no effect so far, a sentence each with file and
+   line. */
 static void add_hints(JoxJson *json, const JoScene *scene) {
     JoHints *hints = jo_scene_hints(scene);
     jox_json_array(json, "hints");

@@ -13,8 +13,10 @@ static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
 static const double STATUS = 0.25;      /* s between status messages */
 static const double IDLE = 0.05;        /* s, longest wait before `stop` is read again */
 
-static_assert(JOX_VIEW_FRAMES + JOX_LIVE_COLOUR_COUNT <= JOX_VIEW_FIELDS, "a channel a colour");
-static_assert(JOX_VIEW_FIELDS + JOX_LIVE_FIELDS <= JOX_LIVE_PEOPLE_CHANNEL, "and a field");
+static_assert(JOX_VIEW_FRAMES + JOX_LIVE_COLOUR_COUNT <= JOX_VIEW_FIELDS,
+              "a channel for each colour");
+static_assert(JOX_VIEW_FIELDS + JOX_LIVE_FIELDS <= JOX_LIVE_PEOPLE_CHANNEL,
+              "a channel for each field");
 
 /* ---- sending ---- */
 

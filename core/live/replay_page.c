@@ -42,7 +42,7 @@ static void show_present(JoxReplayPage *p) {
 }
 
 /* Jumps to a time, s, kept within the recording. People get new slots, so that no movement is
- * drawn. */
+   drawn. */
 static void seek_time(JoxReplayPage *p, double time) {
     p->at = fmin(fmax(time, p->from), p->until);
     p->frame = UINT32_MAX;

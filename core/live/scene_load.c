@@ -26,8 +26,7 @@ bool jox_scene_page_end(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-/* Starts what `def` asks for: recording, input log, watch of the scene's files, the caller's own.
- */
+/* Starts what `def` asks for: recording, input log, watch of files; then calls `begun`. */
 static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&

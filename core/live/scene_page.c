@@ -21,8 +21,7 @@ JoViewDef jo_default_view_def(void) {
 static void pause_at_end(JoxScenePage *s) {
     if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt < s->until)
         return;
-    jox_run_say(s->scene, "%g s are over, and the scene waits; it can go on or be restarted\n",
-                s->until);
+    jox_run_say(s->scene, "%g s are over: the scene is paused. Continue or restart it\n", s->until);
     s->until = INFINITY;
     s->page.session.paused = true;
     s->steps = 0;

@@ -51,8 +51,8 @@ typedef struct JoxScenePage {
 /* scene_page.c: functions of the source; `self` is a JoxScenePage. */
 extern const JoxLiveSource jox_scene_page_source;
 /* scene_load.c: loads the scene in place of the one that runs, and starts its recording, log and
-   watch. False with `error`; the scene that ran before goes on if the new one could not be loaded.
- */
+   watch. False with `error`; the scene that ran before goes on if the new one could not be
+   loaded. */
 bool jox_scene_page_load(JoxScenePage *scene, JoError *error);
 /* Finishes recording and log, and frees the scene. False with `error` if a file is not whole. */
 bool jox_scene_page_end(JoxScenePage *scene, JoError *error);

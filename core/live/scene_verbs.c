@@ -136,7 +136,8 @@ void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
     if (tool < 0) {
         refuse_verb(request);
     } else if (!(s->scene->spec->view.tools >> tool & 1)) {
-        snprintf(text, sizeof text, "this scene does not offer it; view: {tools: [%s]} would",
+        snprintf(text, sizeof text,
+                 "the scene does not allow this; it would with view: {tools: [%s]}",
                  jox_scene_tools[tool]);
         jox_live_refuse(request, text);
     } else if (s->failed) {

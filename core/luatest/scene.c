@@ -24,7 +24,7 @@ typedef struct Scene {
 static Scene *check_scene_handle(lua_State *L) {
     Scene *t = luaL_checkudata(L, 1, SCENE);
     if (!t->scene)
-        luaL_error(L, "this scene is over");
+        luaL_error(L, "this scene has been freed");
     return t;
 }
 
@@ -39,8 +39,8 @@ static double read_test_time(lua_State *L, const Scene *t) {
     return driver->time(driver->context, t->scene);
 }
 
-/* Makes a step and records states. Raises an error in Lua if it fails or the test's time is used
- * up. */
+/* Makes a step and records states. Raises an error in Lua if the step fails, or if the test has
+   used up its time. */
 static void step_test_scene(lua_State *L, Scene *t) {
     JoxTestRun *run = jox_test_run_of(L);
     const JoxTestDriver *driver = run->driver;
@@ -271,7 +271,7 @@ static int scene_reaches(lua_State *L) {
         all += group < 0 || t->history.group[id] == group;
     uint32_t wanted = (uint32_t)read_number_option(L, 3, "count", all);
     if (wanted == 0)
-        return luaL_error(L, "there is nobody who could reach anything");
+        return luaL_error(L, "the scene has no agents that could reach a state");
     if (lua_type(L, 3) == LUA_TTABLE) {
         lua_pushstring(L, "any");
         lua_rawget(L, 3);
@@ -339,7 +339,7 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
         }
     } while (read_test_time(L, t) < until);
     if (count == 0)
-        luaL_error(L, "there is nobody whose speed could be measured");
+        luaL_error(L, "there are no agents whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;
 }
 
@@ -420,7 +420,7 @@ static void *load_test_scene(lua_State *L, JoxText *why) {
 static int word_scene(lua_State *L) {
     JoxText why = {0};
     if (!jox_test_run_of(L)->running)
-        return luaL_error(L, "a scene belongs into a test");
+        return luaL_error(L, "a scene can only be made within a test");
     void *scene = load_test_scene(L, &why);
     if (!scene) {
         lua_pushfstring(L, "the scene is refused: %s", why.data ? why.data : "?");
@@ -435,8 +435,8 @@ static int word_scene(lua_State *L) {
     return 1;
 }
 
-/* refused({ ... }, "text"): asserts that loading the scene fails with an error that has this text.
- */
+/* refused({ ... }, "text"): asserts that loading the scene fails with an error that has this
+   text. */
 static int word_refused(lua_State *L) {
     JoxText why = {0};
     char wanted[256];

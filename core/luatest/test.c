@@ -57,8 +57,8 @@ typedef struct TestContext {
     const char *path; /* the test's file */
 } TestContext;
 
-/* Loads a scene for a test, with the mods that the test names and no others; NULL with the errors.
- */
+/* Loads a scene for a test, with the mods that the test names and no others; NULL with the
+   errors. */
 static void *load_driven_scene(void *context, const JoxTestScene *wanted, JoxText *why) {
     const TestContext *c = context;
     JoSceneDef def = jo_default_scene_def();

@@ -17,7 +17,7 @@ static int word_test(lua_State *L) {
     luaL_checktype(L, 1, LUA_TSTRING);
     luaL_checktype(L, 2, LUA_TFUNCTION);
     if (run->running)
-        return luaL_error(L, "tests stand side by side, not within each other");
+        return luaL_error(L, "a test cannot contain another test");
     if (run->test_count >= MOST_TESTS)
         return luaL_error(L, "a file has at most %d tests", MOST_TESTS);
     JOX_RESERVE(run->tests, run->test_capacity, run->test_count + 1);

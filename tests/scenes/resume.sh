@@ -101,7 +101,7 @@ head -c $((size - 1)) "$file" >"$work/cut"; refused "one that is cut short by a 
 head -c 300 "$file" >"$work/cut"; refused "  or after the first piece" "cut short" "$work/cut"
 sed 's/jostle checkpoint 1/jostle checkpoint 9/' "$file" >"$work/other"; refused "another format" "of another format" "$work/other"
 cp "$file" "$work/bad"; printf 'X' | dd of="$work/bad" bs=1 seek=$((size - 5000)) conv=notrunc 2>/dev/null
-refused "a byte that is another" "is damaged: its checksum is another" "$work/bad"
+refused "a byte that is another" "is damaged: its checksum does not match" "$work/bad"
 cp "$work/bad" "$work/texts/latest.checkpoint"
 "$program" resume "$work/texts" --quiet >"$work/out" 2>&1 && grep -q 'the one before it is taken' "$work/out"
 verdict "where the newest is damaged, the one before it is taken, which is said" $?

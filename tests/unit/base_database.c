@@ -76,8 +76,8 @@ static void tables_that_are_not_plain_are_refused(void **state) {
          "'u' is a virtual table"},
         {"CREATE TABLE t(a, b AS (hex(zeroblob(100000))))", "'t' has a computed column ('b')"},
         {"CREATE TABLE T(a, b TEXT AS (a || a) STORED)", "'t' has a computed column ('b')"},
-        /* A schema entry whose name differs from that in its SQL; newer SQLite refuses it itself.
-         */
+        /* A schema entry whose name differs from that in its SQL; newer SQLite refuses it
+           itself. */
         {"CREATE TABLE t(a, b AS (a + 1)); PRAGMA writable_schema = ON; UPDATE sqlite_schema SET "
          "name = 'other', tbl_name = 'other'",
          ""},

@@ -103,8 +103,8 @@ static void a_comparison_names_the_first_difference(void **state) {
     free_thing(&a);
 }
 
-/* Every byte of the buffer that is another, and every length, is refused before anything is read.
- */
+/* Every byte of the buffer that is another, and every length, is refused before anything is
+   read. */
 static void damaged_buffers_are_refused(void **state) {
     (void)state;
     Thing a = make_thing(), b = make_thing();

@@ -129,8 +129,8 @@ static void lying_state_sets_the_lying_flag(void **state) {
     jo_scene_free(scene);
 }
 
-/* The lean has the direction and the level of the push, averaged over time: it outlasts the push.
- */
+/* The lean has the direction and the level of the push, averaged over time: it outlasts the
+   push. */
 static void averaged_pushes_set_the_lean(void **state) {
     (void)state;
     JoScene *scene = load_own(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");

@@ -16,8 +16,8 @@ static JoxReplay *open_replay(const char *file, const char *scene, double fps) {
     return replay;
 }
 
-/* Shows a frame and compares it with the run's; writes the slot of each person, by id, to `slots`.
- */
+/* Shows a frame and compares it with the run's; writes the slot of each person, by id, to
+   `slots`. */
 static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
     const struct Recorded *f = &recorded[frame];
     JoxBytes bytes = {0};

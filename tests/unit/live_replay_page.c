@@ -25,8 +25,8 @@ static void *serve_recording(void *context) {
     return good ? context : NULL;
 }
 
-/* Waits for the next JSON message of a type, or for a frame if `type` is NULL; the caller frees it.
- */
+/* Waits for the next JSON message of a type, or for a frame if `type` is NULL; the caller frees
+   it. */
 static char *wait_for(int fd, const char *type, size_t *length) {
     char key[64];
     snprintf(key, sizeof key, "{\"type\": \"%s\"", type ? type : "");

@@ -165,8 +165,8 @@ static void send_command(const char *format, ...) {
     assert_true(put_text(session.fd, text));
 }
 
-/* Waits up to 20 s for a JSON message that has both texts (`second` may be NULL), and returns it.
- */
+/* Waits up to 20 s for a JSON message that has both texts (`second` may be NULL), and returns
+   it. */
 static char last[1 << 20];
 static const char *wait_for_json(const char *first, const char *second) {
     for (double until = clock_now() + 20.0; clock_now() < until;) {

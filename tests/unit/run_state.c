@@ -342,10 +342,10 @@ static void what_does_not_fit_is_refused(void **state) {
     expect_refused(scene, &damaged, "damaged");
     jo_scene_free(scene);
     scene = load_own(TOWN, HEAD "\"A\", states = { A = { steer = hold } } }\n");
-    expect_refused(scene, &saved, "machines.m: it is another");
+    expect_refused(scene, &saved, "machines.m: it has changed");
     jo_scene_free(scene);
     scene = load_own(TOWN "seed: 9\n", TOWNSFOLK("1"));
-    expect_refused(scene, &saved, "world.seed: it is another");
+    expect_refused(scene, &saved, "world.seed: it has changed");
     jo_scene_free(scene);
     jox_text_free(&saved);
     jox_text_free(&damaged);

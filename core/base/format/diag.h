@@ -44,9 +44,8 @@ JoxPosition jox_position_in(const char *file, const char *text, size_t offset);
 /* Whether one more would be kept; if not, callers can skip computing its hint. */
 bool jox_diag_has_room(const JoxDiagnostics *diagnostics, JoxSeverity severity);
 
-/* Appends a diagnostic. `hint`, `context` and `source` may be NULL. All texts are copied except
- * `code`.
- */
+/* Appends a diagnostic. `hint`, `context` and `source` may be NULL. All texts but `code` are
+ * copied. */
 void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition position,
                   const char *code, const char *hint, const char *context, const char *source,
                   const char *format, ...) __attribute__((format(printf, 8, 9)));

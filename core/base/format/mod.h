@@ -47,7 +47,7 @@ typedef struct JoxMod {
 /* Whether two dotted paths are equal or one is a parent of the other; "" is the parent of all. */
 bool jox_mod_overlaps(const char *a, const char *b);
 /* Warns that mod `later`, at `at`, sets a path that mod `earlier` has set at `before`; `later`
- * wins. */
+   wins. */
 void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
                       const JoxMod *earlier, JoxPosition before, const char *path);
 

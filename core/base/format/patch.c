@@ -142,8 +142,8 @@ static void merge_key(const JoxPatch *p, void *copy, const char *path, const Jox
     }
 }
 
-/* Returns the index of the item with an id; the number of items, with an error, if there is none.
- */
+/* Returns the index of the item with an id; the number of items, with an error, if there is
+   none. */
 static uint32_t find_item(const JoxPatch *p, void *copy, const char *id, const JoxPatchPlace *at) {
     const JoxPatchTree *t = p->tree;
     const uint32_t count = t->count(t->context, copy);

@@ -38,8 +38,8 @@ void jox_patch_keep(JoxPatchChanges *changes, JoxPatchChange change, const JoxMo
                     JoxDiagnostics *diagnostics);
 /* Returns the last change of a path or of one of its parents; NULL if there is none. */
 const JoxPatchChange *jox_patch_leading(const JoxPatchChanges *changes, const char *path);
-/* Whether a change's path is `path` or a parent of it; then *rest is the part of `path` behind it.
- */
+/* Whether a change's path is `path` or a parent of it; then *rest is the part of `path` behind
+   it. */
 bool jox_patch_leads(const JoxPatchChange *change, const char *path, const char **rest);
 void jox_patch_changes_free(JoxPatchChanges *changes);
 /* Joins "a" and "b" to "a.b"; one of them may be "". A path that is too long is cut. */

@@ -22,7 +22,7 @@ size_t jox_path_stem(const char *name) {
 }
 
 /* Joins `folder`, `name` and `ending` to a path relative to the folder of `file`; false if too
- * long. */
+   long. */
 static bool join_path(const char *file, const char *folder, const char *name, const char *ending,
                       char path[JOX_LONGEST_PATH]) {
     const bool absolute = *name == '/' || *folder == '/';

@@ -31,9 +31,8 @@ bool jox_path_same(const char *a, const char *b);
 void jox_path_clean(char *path);
 /* Whether a file, with all links followed, lies below a folder; both must exist. */
 bool jox_path_below(const char *path, const char *folder);
-/* As jox_path_below; returns the path without links and "..", for free(), or NULL if it lies
- * elsewhere.
- */
+/* As jox_path_below; returns the path without links and "..", for free(). NULL if the file lies
+   elsewhere. */
 char *jox_path_real_below(const char *path, const char *folder);
 
 /* Whether a file that `file` names exists outside the folder of `file`, with links followed. The

@@ -29,8 +29,8 @@ static Head make_own_head(void) {
     return head;
 }
 
-/* Returns the checksum of a piece. It includes name and offset, so that swapped pieces are found.
- */
+/* Returns the checksum of a piece. It includes name and offset, so that swapped pieces are
+   found. */
 static uint64_t compute_piece_checksum(const PieceHead *head, size_t at, const void *data) {
     const uint64_t place = at;
     JoxHash hash = jox_hash_begin();
@@ -103,7 +103,7 @@ bool jox_pieces_next(const JoxText *file, size_t *at, JoxPiece *piece, char why[
         head.name[sizeof head.name - 1] = 0;
         for (char *c = head.name; *c; c++)
             *c = *c >= 'a' && *c <= 'z' ? *c : '?';
-        snprintf(why, 200, "the piece '%s' is damaged: its checksum is another", head.name);
+        snprintf(why, 200, "the piece '%s' is damaged: its checksum does not match", head.name);
         return false;
     }
     *piece = (JoxPiece){file->data + *at, data, head.length};

@@ -13,8 +13,8 @@
 enum { JOX_DIST_CHOICES = 8 };
 
 #define JOX_DIST_BOUNDED " [, least, greatest]"
-/* X(KIND, name, arguments, meaning, example). Those with JOX_DIST_BOUNDED have two optional bounds.
- */
+/* X(KIND, name, arguments, meaning, example). Those with JOX_DIST_BOUNDED have two optional
+   bounds. */
 #define JOX_DISTS(X)                                                                               \
     X(NORMAL, normal, "mean, deviation" JOX_DIST_BOUNDED, "a normal distribution",                 \
       "normal(1, 0.1, 0.5, 1.5)")                                                                  \

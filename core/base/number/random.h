@@ -14,7 +14,7 @@ typedef enum {
     JOX_DRAW_CHANCE,   /* a transition's chance */
     JOX_DRAW_LASTS,    /* a state's duration */
     JOX_DRAW_ONE_OF,   /* one_of a set of places */
-    JOX_DRAW_SOURCE,   /* sources */
+    JOX_DRAW_SOURCE,   /* where an agent of a source appears */
     JOX_DRAW_AIM,      /* where in a place to aim */
     JOX_DRAW_LUA,      /* math.random in hooks */
     JOX_DRAW_MIX,      /* which behaviour of a mix */

@@ -36,9 +36,7 @@ typedef struct JoxEffect {
     size_t pairs;     /* number of pairs; 0: not paired */
     size_t a, b;      /* number of values of each sample */
 } JoxEffect;
-/* Compares paired values, such as those of runs with the same seed, by Student's t of the
- * differences.
- */
+/* Compares paired values, as of runs with the same seed, by Student's t of the differences. */
 JoxEffect jox_effect_paired(const double *a, const double *b, size_t count, double share);
 /* Compares two independent samples by Welch's t, which does not assume equal variances. */
 JoxEffect jox_effect_apart(const double *a, size_t a_count, const double *b, size_t b_count,
@@ -58,8 +56,8 @@ size_t jox_effect_runs(const JoxEffect *effect, double share, double power);
    them; 0: there is none. IMO MSC.1/Circ.1533 defines its 95 % evacuation time by this rule. */
 size_t jox_rank_above(size_t count, double q);
 /* Returns the rank of the least value that is an upper bound of the true quantile `q` with a
-   probability of at least `share`, for any distribution (Wilks 1941); 0: there are too few values.
- */
+   probability of at least `share`, for any distribution (Wilks 1941); 0: there are too few
+   values. */
 size_t jox_rank_bound(size_t count, double q, double share);
 /* Returns the least number of values of which the greatest is such a bound. */
 size_t jox_rank_runs(double q, double share);

@@ -142,7 +142,7 @@ test("too many threads", function()
   scene(standing(), { threads = 1000 }) --> threads must be from 1 to 64
 end)
 test("a test within a test", function()
-  test("inner", function() end) --> tests stand side by side
+  test("inner", function() end) --> a test cannot contain another test
 end)
 test("what no scene can do", function()
   scene(standing()):fly() --> attempt to call a nil value (method 'fly')
