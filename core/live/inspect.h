@@ -20,7 +20,7 @@ JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, co
 void jox_live_set_by_free(JoxLiveSetBy *by);
 /* Adds the member `key`, an array of the scene's machines: name, path, version, reloads, start;
    defaults and states with their parameters; transitions with their conditions as written. */
-void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key);
+void jox_live_add_machines(const JoScene *scene, JoxJson *json, const char *key);
 /* Adds the members that jo_scene_inspect documents to an open object. The first call for a slot
    starts the recording of that agent's steps. Returns false, with "agent" null, for an empty
    slot. */

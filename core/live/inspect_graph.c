@@ -152,7 +152,7 @@ static void add_machine_graph(const JoScene *scene, const JoxMachine *machine, J
     jox_json_end(json);
 }
 
-void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key) {
+void jox_live_add_machines(const JoScene *scene, JoxJson *json, const char *key) {
     const JoxMachineRun *machines = &scene->world->machines;
     jox_json_array(json, key);
     for (uint32_t m = 0; m < machines->set->count; m++)

@@ -58,7 +58,7 @@ static bool begin_live_listener(void *self, JoScene *scene, const void *options,
 
 static bool count_transitions(void *self, JoScene *scene, JoError *error) {
     (void)error;
-    jox_live_count(self, scene);
+    jox_live_count_transitions(self, scene);
     return true;
 }
 
@@ -82,12 +82,12 @@ static const JoxListenerKind LIVE = {.name = "live page",
                                      .frame = count_transitions,
                                      .release = release_live_listener};
 
-JoxLive *jox_live_of(JoScene *scene) {
+JoxLive *jox_live_attach(JoScene *scene) {
     JoxLive *live = jox_run_listener(scene, &LIVE);
     return live ? live : jox_run_listen(scene, &LIVE, NULL, NULL);
 }
 
-uint32_t jox_live_player(const JoScene *scene) {
+uint32_t jox_live_player_id(const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     if (spec->player_group < 0)
         return JOX_NO_INDEX;
@@ -164,7 +164,7 @@ static uint32_t encode_lean(JoxV2 pushed) {
 static void fill_states(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    const uint32_t player = jox_live_player(scene);
+    const uint32_t player = jox_live_player_id(scene);
     uint32_t first[JOX_MOST_MACHINES + 1] = {0};
     for (uint32_t m = 0; m < world->model.machines.count; m++)
         first[m + 1] = first[m] + world->model.machines.items[m]->state_count;
@@ -213,7 +213,7 @@ static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
 }
 
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
-    JoxLive *live = jox_live_of(scene);
+    JoxLive *live = jox_live_attach(scene);
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
     JoxLiveCrowd crowd = list_scene_crowd(scene);
@@ -247,7 +247,7 @@ double jox_live_speed(const JoScene *scene) {
 }
 
 void jox_live_spread_crowd(JoScene *scene) {
-    JoxLive *live = jox_live_of(scene);
+    JoxLive *live = jox_live_attach(scene);
     const JoxLiveCrowd crowd = list_scene_crowd(scene);
     if (live->spread_tick == scene->world->state.tick + 1)
         return;
@@ -262,6 +262,6 @@ void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
         return;
     }
     jox_live_spread_crowd(scene);
-    const JoxDensity *grid = jox_live_of(scene)->grid.grid;
+    const JoxDensity *grid = jox_live_attach(scene)->grid.grid;
     jox_live_pack_field(grid, grid->now, field, out);
 }

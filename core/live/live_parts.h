@@ -48,14 +48,14 @@ struct JoxLive {
 };
 
 /* Returns the scene's listener; the first call attaches it. */
-JoxLive *jox_live_of(JoScene *scene);
+JoxLive *jox_live_attach(JoScene *scene);
 /* live_transitions.c: numbers the transitions again if the machines were replaced. */
-void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines);
+void jox_live_number_transitions(JoxLive *live, const JoxMachineRun *machines);
 /* Counts the transitions of a step, and drops those that are older than a second. Called after each
    step. */
-void jox_live_count(JoxLive *live, const JoScene *scene);
+void jox_live_count_transitions(JoxLive *live, const JoScene *scene);
 /* Id of the agent that the scene's player drives; JOX_NO_INDEX: none. */
-uint32_t jox_live_player(const JoScene *scene);
+uint32_t jox_live_player_id(const JoScene *scene);
 /* Computes the density of the present crowd, once per tick. */
 void jox_live_spread_crowd(JoScene *scene);
 

@@ -223,14 +223,14 @@ static void add_scene_tools(JoxJson *json, const JoScene *scene) {
         [JOX_TOOL_GATES] = wall_count > 0,
         [JOX_TOOL_PARAMETERS] = world->model.machines.count > 0,
         [JOX_TOOL_SIGNALS] = signal_count > 0,
-        [JOX_TOOL_PLAYER] = jox_live_player(scene) != JOX_NO_INDEX,
+        [JOX_TOOL_PLAYER] = jox_live_player_id(scene) != JOX_NO_INDEX,
     };
     jox_json_object(json, "tools");
     for (int t = 0; t < JOX_TOOL_COUNT; t++)
         jox_json_bool(json, jox_scene_tools[t], offered[t] && (allowed >> t & 1));
     jox_json_array(json, "players");
     if (offered[JOX_TOOL_PLAYER] && (allowed >> JOX_TOOL_PLAYER & 1))
-        jox_json_whole(json, NULL, jox_live_player(scene));
+        jox_json_whole(json, NULL, jox_live_player_id(scene));
     jox_json_end(json);
     add_name_list(json, "walls", walls, wall_count);
     add_name_list(json, "signal_names", signals, signal_count);
@@ -289,7 +289,7 @@ JoxLiveColour jox_live_first_colour(const JoScene *scene) {
 }
 
 void jox_live_scene(JoScene *scene, JoxText *out) {
-    const JoxLive *live = jox_live_of(scene);
+    const JoxLive *live = jox_live_attach(scene);
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     const JoxLiveSceneHead head = {.session = "live",
@@ -308,7 +308,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_scene_groups(&json, spec);
     add_scene_states(&json, &world->machines);
-    jox_live_graph(scene, &json, "machines");
+    jox_live_add_machines(scene, &json, "machines");
     add_scene_bodies(&json, world->state.bodies);
     add_scene_tools(&json, scene);
     jox_live_add_camera(spec, &json);

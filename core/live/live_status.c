@@ -105,9 +105,9 @@ void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *sess
 }
 
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out) {
-    JoxLive *live = jox_live_of(scene);
+    JoxLive *live = jox_live_attach(scene);
     const JoWorld *world = scene->world;
-    jox_live_renumber(live, &world->machines);
+    jox_live_number_transitions(live, &world->machines);
     jox_live_spread_crowd(scene);
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);

@@ -49,15 +49,15 @@ static void count_taken_transition(JoxLive *live, JoxLiveTaken taken) {
     live->fired[taken.transition]++;
 }
 
-void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines) {
+void jox_live_number_transitions(JoxLive *live, const JoxMachineRun *machines) {
     if (!has_numbered_machines(live, machines) || !live->fired)
         number_transitions(live, machines);
 }
 
-void jox_live_count(JoxLive *live, const JoScene *scene) {
+void jox_live_count_transitions(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxMachineRun *machines = &world->machines;
-    jox_live_renumber(live, machines);
+    jox_live_number_transitions(live, machines);
     if (live->counted_tick == world->state.tick)
         return;
     live->counted_tick = world->state.tick;

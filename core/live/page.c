@@ -124,7 +124,7 @@ static void add_watcher(JoxLivePage *page, uint32_t client) {
                                 .colour = page->source->colour(page->self),
                                 .field = page->source->field(page->self)};
     send_scene(page, client);
-    jox_live_listen(page, watcher);
+    jox_live_set_channels(page, watcher);
     page->last_status = 0.0;
 }
 
@@ -149,7 +149,7 @@ static void take_commands(JoxLivePage *page) {
         else if (what == JOX_VIEW_LEFT && watcher)
             remove_watcher(page, watcher);
         else if (what == JOX_VIEW_COMMAND && watcher)
-            jox_live_do(page, watcher, text);
+            jox_live_run_command(page, watcher, text);
     }
 }
 

@@ -16,7 +16,7 @@ static const struct {
 #undef X
 };
 
-void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher) {
+void jox_live_set_channels(JoxLivePage *page, const JoxLiveWatcher *watcher) {
     JOX_ASSERT(watcher->client && watcher->colour < JOX_LIVE_COLOUR_COUNT);
     uint32_t channels = 1u << JOX_LIVE_PEOPLE_CHANNEL | 1u << JOX_VIEW_STATUS |
                         1u << JOX_LIVE_TIME_CHANNEL | 1u << (JOX_VIEW_FRAMES + watcher->colour);
@@ -35,7 +35,7 @@ static void handle_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request
     }
     watcher->colour = (JoxLiveColour)colour;
     request->page->changed = true;
-    jox_live_listen(request->page, watcher);
+    jox_live_set_channels(request->page, watcher);
 }
 
 static void handle_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
@@ -46,7 +46,7 @@ static void handle_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request)
     }
     watcher->field = (JoxLiveField)field;
     request->page->last_status = 0.0;
-    jox_live_listen(request->page, watcher);
+    jox_live_set_channels(request->page, watcher);
 }
 
 static void handle_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
@@ -66,7 +66,7 @@ static void (*const COMMON[JOX_LIVE_VERB_COUNT])(JoxLiveWatcher *, const JoxLive
     [JOX_LIVE_VERB_speed] = handle_speed,
 };
 
-void jox_live_do(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json) {
+void jox_live_run_command(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json) {
     JoxCommand command = {0};
     if (!jox_command_read(json, &command))
         return; /* not reached: the server drops messages that are no commands */

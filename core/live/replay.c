@@ -173,7 +173,7 @@ static bool read_recorded_frame(JoxReplay *r, uint32_t frame, JoxText *why) {
         jox_replay_forget(r);
         return false;
     }
-    jox_replay_widen(r, r->frame.count);
+    jox_replay_reserve(r, r->frame.count);
     jox_replay_give_slots(r, &r->frame, spent);
     number_body_rows(r, &r->frame);
     r->shown = frame;

@@ -64,7 +64,7 @@ uint32_t jox_replay_state(const JoxReplay *replay, uint32_t person);
 /* Mean speed of all people, m/s; NAN if no frame before is known. */
 double jox_replay_speed(const JoxReplay *replay);
 /* replay_slots.c: makes room for `need` people. */
-void jox_replay_widen(JoxReplay *replay, uint32_t need);
+void jox_replay_reserve(JoxReplay *replay, uint32_t need);
 /* Gives each person of a frame a slot, the one of the frame before if the person was in it (both
    frames ascend by id), and computes velocities. `spent`: time between the frames, s; 0 if they are
    too far apart for that. */

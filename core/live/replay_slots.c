@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "live/replay_parts.h"
 
-void jox_replay_widen(JoxReplay *r, uint32_t need) {
+void jox_replay_reserve(JoxReplay *r, uint32_t need) {
     if (need <= r->capacity)
         return;
     r->capacity = (size_t)need + need / 2 + 64;

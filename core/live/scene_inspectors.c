@@ -62,7 +62,7 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     send_inspected_agent(s, inspector);
 }
 
-void jox_scene_page_left(void *self, uint32_t client) {
+void jox_scene_page_end_inspection(void *self, uint32_t client) {
     JoxLiveInspector *inspector = find_inspector(self, client);
     if (inspector)
         *inspector = (JoxLiveInspector){0};

@@ -129,7 +129,7 @@ const JoxLiveSource jox_scene_page_source = {
     .pack_field = pack_scene_field,
     .greet = jox_scene_page_send_errors,
     .report = jox_scene_page_send_inspected,
-    .left = jox_scene_page_left,
+    .left = jox_scene_page_end_inspection,
     .advance = step_when_due,
     .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,
               [JOX_LIVE_VERB_step] = jox_scene_page_step,

@@ -71,6 +71,6 @@ void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
 /* scene_inspectors.c: each browser can inspect one agent, and gets a message with each status. */
 void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_send_inspected(void *scene);
-void jox_scene_page_left(void *scene, uint32_t client);
+void jox_scene_page_end_inspection(void *scene, uint32_t client);
 
 #endif

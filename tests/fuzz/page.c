@@ -27,7 +27,7 @@ static void say(JoxScenePage *s, char *text) {
         char *end = strchr(line, '\n');
         if (end)
             *end = 0;
-        jox_live_do(&s->page, &s->page.watchers[0], line);
+        jox_live_run_command(&s->page, &s->page.watchers[0], line);
         s->steps = s->steps < MOST_STEPS ? s->steps : MOST_STEPS;
         s->page.source->advance(s, 1e6);
         line = end ? end + 1 : NULL;

@@ -56,7 +56,7 @@ static void say(JoxReplayPage *p, char *text) {
         char *end = strchr(line, '\n');
         if (end)
             *end = 0;
-        jox_live_do(&p->page, &p->page.watchers[0], line);
+        jox_live_run_command(&p->page, &p->page.watchers[0], line);
         p->wall = now;
         now += 0.03;
         p->page.source->advance(p, now);

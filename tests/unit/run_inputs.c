@@ -266,7 +266,7 @@ static void the_graph_says_who_set_what(void **state) {
     char wanted[400];
     does(scene, "set m Wait max_speed 0.7");
     JoxJson json = jox_json_begin(&text, 0);
-    jox_live_graph(scene, &json, NULL);
+    jox_live_add_machines(scene, &json, NULL);
     snprintf(wanted, sizeof wanted,
              "{\"name\": \"speed\", \"value\": null, \"text\": \"0.5 * now.speed + 0.4\", "
              "\"set\": \"state Walk %s/own.lua:3\", \"least\": 0, \"most\": 20, \"unit\": \"m/s\"}",
