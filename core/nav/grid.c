@@ -1,6 +1,7 @@
-/* The grid of agents: cells, row by row; agents are kept in the order of their cells, so that those
-   of several cells of a row stand one after the other. Between sorts agents drift, so ranges are
-   widened by what bounds the drift of all. */
+/* The grid of agents that perceive searches: cells, row by row. jox_nav_sort keeps the agents in
+   the order of their cells, so that the agents of neighbouring cells of a row are consecutive.
+   Between two sorts agents move, so searches widen the range of cells by the bounds of that
+   drift. */
 #include <math.h>
 #include <string.h>
 
@@ -9,16 +10,18 @@
 #include "base/number/pi.h"
 #include "nav/internal.h"
 
-/* Of the mean radius that people search. Few rows lie within reach, each of narrow cells, so that
-   little is looked at that is not. */
+/* Sides of a cell as shares of the mean search radius. Few rows of narrow cells lie within reach,
+   so that few agents outside the radius are looked at. */
 static const float CELL_WIDTH = 0.45f, CELL_HEIGHT = 1.3f;
 static const float CELL_LEAST = 0.25f, CELL_MOST = 8.0f; /* m */
-/* Neighbours for whom room is made where nobody has searched yet, and cells for each agent. */
+/* Neighbours expected within the radius while no agent has searched yet, and cells per agent at
+   most. */
 static const float FIRST_NEIGHBOURS = 12.0f, CELLS_EACH = 8.0f;
 enum { SORT_EVERY = 8, CELLS_LEAST = 4096 };
 
-/* m: what people search on average; by the space for each where nobody has searched. */
-static float mean_search(const JoxAgents *a, JoxV2 extent) {
+/* Returns the mean search radius of the agents, m; estimated from the area per agent while no agent
+   has searched yet. */
+static float compute_mean_search(const JoxAgents *a, JoxV2 extent) {
     double sum = 0.0;
     uint32_t searched = 0;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -30,16 +33,16 @@ static float mean_search(const JoxAgents *a, JoxV2 extent) {
     return sqrtf(FIRST_NEIGHBOURS * extent.x * extent.y / ((float)JOX_PI * (float)a->count));
 }
 
-/* One side of a cell, m. */
-static float cell_of(float share, float search) {
+/* Returns one side of a cell, m, within CELL_LEAST and CELL_MOST. */
+static float clamp_cell_side(float share, float search) {
     return jox_minf(CELL_MOST, jox_maxf(CELL_LEAST, share * search));
 }
 
-static uint32_t cells_along(float extent, float cell) {
+static uint32_t count_cells(float extent, float cell) {
     return (uint32_t)(extent / cell) + 1;
 }
 
-/* Lays cells over where the agents are; returns how far that reaches, m. */
+/* Lays the cells over the bounding box of the agents; returns the greatest coordinate in it, m. */
 static float fit_cells(JoxNav *nav, const JoxAgents *a) {
     JoxV2 high = {-INFINITY, -INFINITY};
     nav->low = (JoxV2){INFINITY, INFINITY};
@@ -50,20 +53,21 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
         high.y = jox_maxf(high.y, a->y[i]);
     }
     const JoxV2 extent = jox_sub(high, nav->low);
-    nav->search = mean_search(a, extent);
-    float width = cell_of(CELL_WIDTH, nav->search), height = cell_of(CELL_HEIGHT, nav->search);
+    nav->search = compute_mean_search(a, extent);
+    float width = clamp_cell_side(CELL_WIDTH, nav->search),
+          height = clamp_cell_side(CELL_HEIGHT, nav->search);
     const float most = CELLS_LEAST + CELLS_EACH * (float)a->count;
     while ((extent.x / width + 1.0f) * (extent.y / height + 1.0f) > most) {
         width *= 1.5f;
         height *= 1.5f;
     }
     nav->per_metre = (JoxV2){1.0f / width, 1.0f / height};
-    nav->columns = cells_along(extent.x, width) + 1; /* one more than rounding can fill */
-    nav->rows = cells_along(extent.y, height) + 1;
+    nav->columns = count_cells(extent.x, width) + 1; /* one more than rounding can reach */
+    nav->rows = count_cells(extent.y, height) + 1;
     const uint32_t cells = nav->columns * nav->rows;
     if (cells + 1 > nav->cell_capacity) {
-        /* Cells get smaller as a crowd gets denser: of one that is everywhere as dense, there are
-           half as many as people. */
+        /* Cells get smaller as a crowd gets denser; a crowd of uniform density has half as many
+           cells as agents. */
         nav->cell_capacity = 2 * (cells > a->count ? cells : a->count) + 64;
         nav->cell_first = jox_realloc(nav->cell_first, nav->cell_capacity, sizeof(uint32_t));
     }
@@ -71,7 +75,8 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
                     jox_maxf(fabsf(nav->low.y), fabsf(high.y)));
 }
 
-/* Puts agents that are listed by id into the order of their cells, those of a cell by id. */
+/* Puts the agents, given in the order of their ids, into the order of their cells; agents of one
+   cell stay in the order of their ids. */
 static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id, uint32_t *order) {
     const uint32_t cells = nav->columns * nav->rows;
     uint32_t *first = nav->cell_first;
@@ -82,15 +87,15 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id,
         first[a->cell[i]]++;
     }
     uint32_t sum = 0;
-    for (uint32_t cell = 0; cell <= cells; cell++) { /* the ends of the cells */
+    for (uint32_t cell = 0; cell <= cells; cell++) { /* sums up to the end of each cell */
         sum += first[cell];
         first[cell] = sum;
     }
-    for (uint32_t k = a->count; k-- > 0;) /* from their ends back to their beginnings */
+    for (uint32_t k = a->count; k-- > 0;) /* fills each cell from its end to its start */
         order[--first[a->cell[by_id[k]]]] = by_id[k];
 }
 
-/* Some have left since, and the others stand in their order: where each cell begins now. */
+/* Finds the first agent of each cell again after agents have left; the others keep their order. */
 static void close_cells(JoxNav *nav, const JoxAgents *a) {
     const uint32_t cells = nav->columns * nav->rows;
     uint32_t cell = 0;
@@ -105,7 +110,8 @@ static void close_cells(JoxNav *nav, const JoxAgents *a) {
 }
 
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
-    /* Nobody has come, and nobody has left of whom there is an index. */
+    /* The order still holds: no agent was added, and no agent left while strays refer to
+       indices. */
     const bool holds =
         nav->sorted_next_id == a->next_id && isfinite(nav->drift.farthest) &&
         (nav->sorted_count == a->count || (nav->sorted_count > a->count && nav->stray_count == 0));
@@ -123,15 +129,15 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     nav->sorted_count = a->count;
     nav->sorted_next_id = a->next_id;
     nav->stray_count = 0;
-    /* Somewhat more than positions and what is computed from them are rounded by: who lies within a
-       radius by the squared distance that is computed is never missed. */
+    /* More than the rounding errors of positions and of squared distances: a neighbour within the
+       radius is never missed. */
     const float least = 1e-6f * (1.0f + jox_maxf(farthest, a->period.x + a->period.y));
     nav->drift = (JoxDrift){least, {-least, -least}, {least, least}};
     JOX_CHECK(jox_nav_cells_check(nav, a));
 }
 
-/* Whether somebody is listed twice: it may have come back to where its cell is. */
-static bool stray_twice(const JoxNav *nav) {
+/* Returns whether an agent is listed twice as a stray: it may have come back to its own cell. */
+static bool has_repeated_stray(const JoxNav *nav) {
     for (uint32_t k = 0; k < nav->stray_count; k++)
         for (uint32_t other = 0; other < k; other++)
             if (nav->strays[k] == nav->strays[other])
@@ -140,7 +146,7 @@ static bool stray_twice(const JoxNav *nav) {
 }
 
 void jox_nav_place_strays(JoxNav *nav, const JoxAgents *a) {
-    if (nav->stray_count > JOX_MOST_STRAYS || stray_twice(nav)) {
+    if (nav->stray_count > JOX_MOST_STRAYS || has_repeated_stray(nav)) {
         nav->drift = jox_drift_unknown();
         nav->stray_count = 0;
     }

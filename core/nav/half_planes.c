@@ -1,6 +1,6 @@
-/* Half-planes of one agent: of walls, contacts, neighbours, bodies and force. The kernel of solve
-   makes those of neighbours by itself, unless centres coincide; an inspected agent gets all of them
-   here. */
+/* The half-planes of one agent, in plain C: of walls, contacts, neighbours, bodies and force. The
+   kernel of solve calls the makers of walls, contacts and bodies, and that of neighbours only where
+   centres coincide; jox_nav_constraints and jox_nav_plan make all half-planes here. */
 #define JOX_ISA_scalar
 #include "base/assert.h"
 #include "base/number/bits.h"
@@ -8,7 +8,8 @@
 #include "nav/kernels.h"
 #include "nav/pair_lanes.h"
 
-/* Where two centres coincide they part in opposite directions that depend on their ids alone. */
+/* Returns the unit vector along which agent `id` leaves agent `other` where their centres coincide:
+   opposite for the two, and a function of both ids alone. */
 static JoxV2 find_parting(uint32_t id, uint32_t other) {
     uint32_t low = id < other ? id : other, high = id < other ? other : id;
     uint64_t bits = jox_random_bits(0, low, high, JOX_DRAW_AIM, 0);
@@ -27,7 +28,8 @@ uint32_t jox_solve_contacts(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     return count;
 }
 
-/* Whether agent i touches j: then the plane of the contact stands for it. */
+/* Returns whether agent i touches agent j: the plane of their contact then replaces that of
+   avoidance. */
 static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
     for (uint32_t k = 0; k < t->people[i]; k++)
         if (t->planes[t->starts[i] + k].other == j)
@@ -35,9 +37,9 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
     return false;
 }
 
-/* Whether a wall stands between two who would else touch, or soon could: then neither minds the
-   other. */
-static bool is_hidden(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
+/* Returns whether a wall stands between two agents that would else touch, or soon could: then
+   neither avoids the other. */
+static bool is_behind_wall(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
     const float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST, d2 = jox_length2(offset);
     if (!s->touched || d2 > near * near || (s->clear2 && d2 < s->clear2[i]))
         return false;
@@ -49,11 +51,11 @@ bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return (a->tags[j] & a->ignore[i]) ||
            (s->touched && (jox_is_close_to(a, i, j) || is_touched(s->touched, i, j))) ||
-           is_hidden(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
+           is_behind_wall(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 
-/* The half-plane of agent i by the walking law for agent j, which is at q from it; false where the
-   law has none. */
+/* Makes the half-plane of agent i for agent j by the walking law; `q` is j relative to i. Returns
+   false where the law gives none. */
 static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
                               const JoxPair *q, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
@@ -74,7 +76,7 @@ static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const J
     return there;
 }
 
-/* The half-plane of agent i by ORCA for agent j, which is at q from it. */
+/* Makes the half-plane of agent i for agent j by ORCA; `q` is j relative to i. */
 static JoxHalfPlane find_orca_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
                                     const JoxPair *q) {
     const JoxAgents *a = s->agents;

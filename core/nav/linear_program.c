@@ -19,7 +19,8 @@ bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, u
     const bool failed =
         jox_program_lanes(rows, count, true, speed_limit, wish, NULL, &best, &failed_at);
     *relaxed = failed && failed_at < (int32_t)hard;
-    if (*relaxed) /* the hard ones alone leave nothing: as little of them as can be */
+    if (*relaxed) /* the hard half-planes alone contradict each other: minimise their greatest
+                     violation */
         jox_least_violation_lanes(rows, hard, 0, true, failed_at, speed_limit, wish, &best);
     else if (failed)
         jox_least_violation_lanes(rows, count, hard, true, failed_at, speed_limit, wish, &best);

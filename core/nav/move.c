@@ -1,4 +1,6 @@
-/* The stage move: integration, weak projection of overlaps, and walls that nobody passes. */
+/* The stage move: integrates velocities and positions, resolves overlaps weakly, and keeps agents
+   from passing walls. The kernels of the run's instruction set (move_wide.c) do the first and the
+   last. */
 #include <math.h>
 #include <string.h>
 
@@ -13,19 +15,21 @@ static const struct Kernels {
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static const float STIFFNESS = 0.2f;   /* share of an overlap removed by one sweep, in a step of */
-static const float STIFF_STEP = 0.05f; /* s; less in proportion in shorter ones */
+static const float STIFFNESS =
+    0.2f; /* share of an overlap that one sweep resolves in a step of STIFF_STEP */
+static const float STIFF_STEP = 0.05f; /* s; shorter steps resolve proportionally less */
 enum { SWEEPS = 2 };
 
-static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void integrate_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxMove *m = context;
     KERNELS[m->nav->isa].integrate(m, begin, end);
 }
 
-/* Agent i's part of its overlap with j, by mass. */
-static inline JoxV2 part_from(const JoxMove *m, const JoxV2 *from, uint32_t i, uint32_t j,
-                              float apart) {
+/* Returns agent i's share, by mass, of the shift that resolves its overlap with agent j, m.
+   `apart`: sum of their radii, m. */
+static inline JoxV2 find_overlap_shift(const JoxMove *m, const JoxV2 *from, uint32_t i, uint32_t j,
+                                       float apart) {
     const JoxAgents *a = m->agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     JOX_ASSERT(j < a->count && j != i);
@@ -39,9 +43,9 @@ static inline JoxV2 part_from(const JoxMove *m, const JoxV2 *from, uint32_t i, u
     return jox_scale(d, part / distance);
 }
 
-/* Each agent takes its own part of every overlap with its neighbours, all read from the old
-   positions, so that no order matters. */
-static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* Shifts each agent of the range out of its neighbours by its own share of every overlap. All
+   positions are read from the previous sweep, so that the order of the agents does not matter. */
+static void sweep_neighbours(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxMove *m = context;
     const JoxParameterColumn radius = m->agents->param[JOX_PARAM_radius];
@@ -51,23 +55,24 @@ static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t wor
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
             uint32_t j = m->neighbours->index[jox_neighbour_at(m->neighbours, i, k)];
-            shift = jox_add(shift, part_from(m, from, i, j, jox_at(radius, i) + jox_at(radius, j)));
+            shift = jox_add(
+                shift, find_overlap_shift(m, from, i, j, jox_at(radius, i) + jox_at(radius, j)));
         }
         to[i] = jox_add(from[i], shift);
     }
 }
 
-/* Whether none of the eight agents from `begin` on touches anybody. */
-static inline bool touch_none(const JoxContactPlanes *t, uint32_t begin) {
+/* Returns whether none of the eight agents from `begin` on has a contact. */
+static inline bool touch_nothing_in_eight(const JoxContactPlanes *t, uint32_t begin) {
     uint64_t people, bodies;
     memcpy(&people, t->people + begin, sizeof people);
     memcpy(&bodies, t->bodies + begin, sizeof bodies);
     return (people | bodies) == 0;
 }
 
-/* The same of those that it touches, and out of bodies. No velocity comes of it, so that overlap
-   gives no energy. */
-static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* Shifts each agent of the range out of the agents and bodies that it touches. Velocities stay as
+   they are, so that overlaps add no energy. */
+static void sweep_contacts(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxMove *m = context;
     const JoxContactPlanes *t = m->touched;
@@ -76,13 +81,14 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
     memcpy(to + begin, from + begin, (end - begin) * sizeof *to);
     for (uint32_t i = begin; i < end; i++) {
         if (!t->people[i] && !t->bodies[i]) {
-            i += i + 8 <= end && touch_none(t, i) ? 7 : 0;
+            i += i + 8 <= end && touch_nothing_in_eight(t, i) ? 7 : 0;
             continue;
         }
         const JoxContactPlane *planes = t->planes + t->starts[i];
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < t->people[i]; k++)
-            shift = jox_add(shift, part_from(m, from, i, planes[k].other, planes[k].apart));
+            shift =
+                jox_add(shift, find_overlap_shift(m, from, i, planes[k].other, planes[k].apart));
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
             const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
             JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
@@ -93,14 +99,14 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
     }
 }
 
-static void settle(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxMove *m = context;
     m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = KERNELS[m->nav->isa].settle(m, begin, end);
 }
 
-/* Adds how agents have moved in this step, somewhat widened for the rounding of sums. */
-static void drift_on(JoxNav *nav, uint32_t agents) {
+/* Adds the drift of this step to that since the sort, widened for the rounding of sums. */
+static void add_step_drift(JoxNav *nav, uint32_t agents) {
     if (agents == 0)
         return;
     JoxDrift step = nav->chunk_drift[0], *all = &nav->drift;
@@ -132,14 +138,14 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         move.position[i] =
             jox_stage_memory_take(nav->memory, agents->count, sizeof *move.position[i]);
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate_range, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
         jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN,
-                         move.touched ? sweep_touched : sweep_seen, &move);
+                         move.touched ? sweep_contacts : sweep_neighbours, &move);
         move.from = !move.from;
     }
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle, &move);
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
     nav->clear_reach = -1.0f;
-    drift_on(nav, agents->count);
+    add_step_drift(nav, agents->count);
     jox_nav_place_strays(nav, agents);
 }

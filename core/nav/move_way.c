@@ -1,10 +1,11 @@
-/* The way of an agent past walls within one step; the kernels of move call it. */
+/* The way of one agent past walls within a step; the kernel of move calls it for agents near
+   walls. */
 #include <math.h>
 
 #include "geom/wall_way.h"
 #include "nav/kernels.h"
 
-#define MOST_PIECES 1e5f /* of a way; a longer one leaves the world */
+#define MOST_PIECES 1e5f /* pieces of a way; a longer way leaves the world */
 
 JoxV2 jox_nav_way(const JoxMove *m, JoxV2 from, JoxV2 to, float radius) {
     const JoxWallGrid *grid = &m->nav->grid;

@@ -1,6 +1,6 @@
-/* The kernel of move: a lane is an agent. Where its velocity takes it, and, once overlaps are
-   resolved, where it then is: those near walls and those who leave over a periodic edge one by one.
- */
+/* The kernels of move; a lane is an agent. The first integrates velocities; the second writes the
+   positions once overlaps are resolved, with agents near walls, and agents that leave over a
+   periodic edge, one at a time. */
 #include <math.h>
 
 #include "geom/wall_grid_lanes.h"
@@ -26,8 +26,8 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
     }
 }
 
-/* The clocks of those who stay where they are; anew for those who have moved. */
-static inline void keep_still(const JoxMove *m, uint32_t i, JoxVector at) {
+/* Adds dt to the time that agents have stood still; starts it anew for agents that have moved. */
+static inline void update_still_time(const JoxMove *m, uint32_t i, JoxVector at) {
     JoxAgents *a = m->agents;
     const JoxFloats zero = jf_set(0.0f), reach2 = jf_set(JOX_STILL_REACH * JOX_STILL_REACH);
     const JoxVector still = jv_load(a->still_x, a->still_y, i), away = jv_sub(at, still);
@@ -37,16 +37,18 @@ static inline void keep_still(const JoxMove *m, uint32_t i, JoxVector at) {
     jv_store(a->still_x, a->still_y, i, jv_select(moved, at, still));
 }
 
-/* The lanes beyond an edge of a period, m; 0: none. */
-static inline JoxMask beyond(JoxFloats x, float origin, float period) {
+/* Returns the lanes outside of the period from `origin` on, m; none where there is no period
+   (0). */
+static inline JoxMask find_outside(JoxFloats x, float origin, float period) {
     const JoxFloats from = x - origin, zero = jf_set(0.0f);
     const JoxMask within = jm_and(jf_le(zero, from), jf_lt(from, jf_set(period)));
     return period > 0.0f ? jm_without(jm_of_bits(JOX_ALL_LANES), within) : jm_of_bits(0);
 }
 
-/* The lanes that walls may stop or be too near to: those near some, and those who go farther than
-   that is known. */
-static inline uint32_t near_walls(const JoxMove *m, uint32_t first, JoxVector from, JoxVector way) {
+/* Returns the lanes that a wall may stop or is too near to: agents near a wall, and agents that go
+   farther than distances to walls are known. */
+static inline uint32_t find_near_walls(const JoxMove *m, uint32_t first, JoxVector from,
+                                       JoxVector way) {
     const JoxWallGrid *grid = &m->nav->grid;
     if (!grid->first)
         return 0;
@@ -61,18 +63,19 @@ static inline uint32_t near_walls(const JoxMove *m, uint32_t first, JoxVector fr
     return jm_bits(jm_or(far, near));
 }
 
-/* The ways of agents, each lane its own: the square of the longest, m2, and bounds, m. */
+/* The displacements of agents in a step, by lane: the square of the longest, m2, and bounds along
+   each axis, m. */
 typedef struct Ways {
     JoxFloats longest2;
     JoxVector least, most;
 } Ways;
 
-static inline Ways no_ways(void) {
+static inline Ways make_empty_ways(void) {
     const JoxFloats far = jf_set(INFINITY), near = jf_set(-INFINITY);
     return (Ways){jf_set(0.0f), {far, far}, {near, near}};
 }
 
-static inline void note_ways(Ways *w, JoxMask there, JoxVector way) {
+static inline void extend_ways(Ways *w, JoxMask there, JoxVector way) {
     const JoxVector least = {jf_min(w->least.x, way.x), jf_min(w->least.y, way.y)};
     const JoxVector most = {jf_max(w->most.x, way.x), jf_max(w->most.y, way.y)};
     w->longest2 = jf_select(there, jf_max(w->longest2, jv_dot(way, way)), w->longest2);
@@ -80,8 +83,8 @@ static inline void note_ways(Ways *w, JoxMask there, JoxVector way) {
     w->most = jv_select(there, most, w->most);
 }
 
-/* Of the first lanes, as many as ever had an agent. */
-static inline JoxDrift drift_of(const Ways *w, uint32_t lanes) {
+/* Reduces the displacements of the first `lanes` lanes, those that had an agent, to one drift. */
+static inline JoxDrift reduce_ways(const Ways *w, uint32_t lanes) {
     float longest2[JOX_WIDTH], low_x[JOX_WIDTH], low_y[JOX_WIDTH], high_x[JOX_WIDTH],
         high_y[JOX_WIDTH];
     jf_store(longest2, w->longest2);
@@ -99,7 +102,7 @@ static inline JoxDrift drift_of(const Ways *w, uint32_t lanes) {
 
 JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
     JoxAgents *a = m->agents;
-    Ways ways = no_ways();
+    Ways ways = make_empty_ways();
     float farthest = 0.0f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector from = jv_load(a->prev_x, a->prev_y, i);
@@ -109,7 +112,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
             x[lane] = m->position[0][i + lane].x;
             y[lane] = m->position[0][i + lane].y;
         }
-        const uint32_t walled = there & near_walls(m, i, from, jv_sub(jv_load(x, y, 0), from));
+        const uint32_t walled = there & find_near_walls(m, i, from, jv_sub(jv_load(x, y, 0), from));
         for (uint32_t lane = 0; walled >> lane; lane++) {
             if (!(walled >> lane & 1))
                 continue;
@@ -120,19 +123,19 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         }
         const JoxVector at = jv_load(x, y, 0), way = jv_sub(at, from);
         jv_store(a->x, a->y, i, at);
-        note_ways(&ways, jm_of_bits(there), way);
-        const uint32_t out = there & jm_bits(jm_or(beyond(at.x, a->origin.x, a->period.x),
-                                                   beyond(at.y, a->origin.y, a->period.y)));
+        extend_ways(&ways, jm_of_bits(there), way);
+        const uint32_t out = there & jm_bits(jm_or(find_outside(at.x, a->origin.x, a->period.x),
+                                                   find_outside(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)
             if ((out >> lane & 1) && jox_agents_wrap(a, i + lane)) {
                 if (isfinite(a->x[i + lane]) && isfinite(a->y[i + lane]))
                     jox_nav_stray(m->nav, i + lane);
                 else
-                    farthest = INFINITY; /* where it will be put is not known */
+                    farthest = INFINITY; /* its new position is not known yet */
             }
-        keep_still(m, i, jv_load(a->x, a->y, i));
+        update_still_time(m, i, jv_load(a->x, a->y, i));
     }
-    JoxDrift drift = drift_of(&ways, end - begin < JOX_WIDTH ? end - begin : JOX_WIDTH);
+    JoxDrift drift = reduce_ways(&ways, end - begin < JOX_WIDTH ? end - begin : JOX_WIDTH);
     drift.farthest = jox_maxf(drift.farthest, farthest);
     return drift;
 }

@@ -1,11 +1,11 @@
-/* What navigation keeps between steps, and room for it. */
+/* Creates, frees and grows the state that navigation keeps between steps. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "nav/internal.h"
 
-/* m: more than radii, time gaps and speeds together give */
+/* m: more than radii, time gaps and speeds together amount to */
 static const float MOST_WALL_REACH = 1e4f;
 
 JoxNav *jox_nav_create(const JoxWalkLaw *walk) {

@@ -1,4 +1,6 @@
-/* Navigation's state between steps, and its stages in the order of a step. */
+/* Navigation: its state between steps, and its stages in the order in which world/step.c calls
+   them: sort, perceive, walk, solve, move. Births and new walls are handled between two steps. The
+   caller owns agents, neighbours and walls. */
 #ifndef JOX_NAV_NAV_H
 #define JOX_NAV_NAV_H
 
@@ -15,54 +17,55 @@
 
 typedef struct JoxNav JoxNav;
 
-/* `walk`: the constants of the walking law, not copied; NULL where nobody keeps a time gap. */
+/* `walk`: constants of the walking law, not copied; NULL where no agent keeps a time gap. */
 JoxNav *jox_nav_create(const JoxWalkLaw *walk);
 void jox_nav_free(JoxNav *nav);
-/* Equations 3 and 4 as they are printed, and no projection of overlaps. */
+/* Literal mode: equations 3 and 4 as they are printed, and overlaps are not resolved. */
 void jox_nav_set_literal(JoxNav *nav, bool literal);
-/* The instruction set of the kernels, which changes no result; at first the widest that runs. */
+/* Sets the instruction set of the kernels, which changes no result. Default: the widest that
+   runs. */
 void jox_nav_set_isa(JoxNav *nav, JoIsa isa);
-/* Memory that the sort of agents and move share with other stages; at first their own. */
+/* Sets the memory that sort and move share with other stages. Default: its own. */
 void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory);
-/* The walls, not copied; call again when they change. NULL: none. */
+/* Sets the walls, which are not copied; call it again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 
-/* Lists what outlasts a step: how far the grid of walls reaches. The order of the agents is no
-   state, as all results are exact whatever it is. */
+/* Lists the state that outlasts a step: how far the grid of walls reaches. The order of the agents
+   is not state, as results are the same in any order. */
 void jox_nav_sections(JoxNav *nav, JoxSections *sections);
-/* The agents are no longer in the order in which they were sorted: the next step sorts them anew.
- */
+/* Tells that the agents' order has changed: the next step sorts them anew. */
 void jox_nav_forget(JoxNav *nav);
 
-/* Every eighth tick, or when agents came: puts the agents in the order of the grid, which depends
-   on positions and ids alone. All indices change. Who left meanwhile is taken out of the grid. */
+/* Sorts the agents by the cells of the grid every eighth tick, and when agents were added; agents
+   that left are taken out of the grid. The order depends on positions and ids alone. All indices
+   change. */
 void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
-/* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
-   ties by id; also writes `search` and `density`. Grows `out` as needed. */
+/* perceive: finds exactly the `neighbours` nearest within each agent's own `perception`, nearest
+   first, ties by id; also writes `search` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
-/* The grid of walls, serving queries as far as anyone may touch and half as far as anyone pushes or
-   passes a force on, over a gap of at most `passing` metres; NULL without walls. */
+/* Returns the grid of walls, which serves queries as far as any agent touches, and half as far as
+   any agent pushes or passes a force on, over a gap of at most `passing` metres; NULL without
+   walls. */
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
                                           const JoxAgents *agents, float passing);
-/* jox_wall_grid_clear2 of each agent by that grid, m2, where it is known since prefer, else NULL.
- */
+/* Returns jox_wall_grid_clear2 of each agent by that grid, m2, if it is known since prefer; else
+   NULL. */
 const float *jox_nav_clear2(const JoxNav *nav);
-/* The end of prefer: aim of everybody and, of those who keep a time gap and plan in this step,
-   walk: the velocity that the walking law wants among others and walls; their eagerness and course.
-   `time`: simulated, s; `interval`: since people planned last, s. */
+/* End of prefer: writes the aims of all agents; of those that keep a time gap and plan in this
+   step, also walk (the velocity that the walking law wants among others and walls), eagerness and
+   course. `time`: simulated, s; `interval`: since the last plan, s. */
 void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, uint64_t seed,
                   double time, double interval, bool plans, JoxPool *pool);
-/* When agents plan, and for when. */
+/* When agents plan, and for which time. */
 typedef struct JoxPlanTime {
     uint64_t seed;        /* of random numbers */
     double time;          /* s, simulated */
-    double planning_time; /* s from `time`: when the planned velocity is to be reached */
+    double planning_time; /* s from `time` on: when the planned velocity is reached */
     bool plans;           /* false: agents that want to get on keep their plans */
 } JoxPlanTime;
-/* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
-   there is none that meets all half-planes. What agents touch is solved by its contact planes,
-   which are hard as walls are, where `touched` has them. Returns how many agents had a hard
-   half-plane relaxed. */
+/* solve: writes next_x, next_y, the velocity to have `planning_time` seconds from now, and sets
+   `failed` where no velocity meets all half-planes. Contacts in `touched` give hard half-planes, as
+   walls do. Returns how many agents had a hard half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
                        const JoxPlanTime *planning, JoxPool *pool);
@@ -80,40 +83,40 @@ typedef struct JoxConstraint {
     float offset;
 } JoxConstraint;
 enum { JOX_MOST_CONSTRAINTS = 93 };
-/* The half-planes that solve gave the agent at an index, in the order of solving, between solve and
-   move. Returns how many. */
+/* Lists the half-planes of one agent as solve makes them, in the order of solving; valid between
+   solve and move. Returns how many. */
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
                              const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
-/* What an agent would choose as everything stands between two steps. */
+/* The choice of an agent in the state between two steps. */
 typedef struct JoxPlan {
     JoxConstraint planes[JOX_MOST_CONSTRAINTS]; /* in the order of solving */
     uint32_t count;
     JoxV2 chosen; /* m/s */
     bool failed;  /* no velocity meets all of them */
 } JoxPlan;
-/* Looks for the agent's neighbours anew, and solves for it alone, whether or not `planning` says
-   that agents plan, from what it prefers; what it touches and is pressed by are those of the last
-   step, after which this may be called until the next one. Changes nothing. */
+/* Finds the neighbours of one agent anew and solves for it alone, from its preferred velocity,
+   whether or not `planning` says that agents plan. Contacts and forces are those of the last step;
+   call it between that step and the next. Changes nothing. */
 void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
                   const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
                   JoxPlan *out);
-/* move: velocity = forced + (next - forced) * response, the position goes by the mean of that
-   approach over the step, forced + (next - forced) * on_the_way, weak projection of overlaps (of
-   what is touched, where `touched` has it, else of neighbours), never through a wall; prev_x,
-   prev_y keep the old position; updates still, still_x, still_y. */
+/* move: sets the velocity to forced + (next - forced) * response; moves by the mean of that
+   approach over the step, forced + (next - forced) * on_the_way; resolves overlaps weakly (of
+   contacts where `touched` has them, else of neighbours); passes no wall. prev_x, prev_y keep the
+   old position; updates still, still_x, still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
                   double response, double on_the_way, JoxPool *pool);
 
-/* Where somebody would begin. */
+/* Where an agent is to be born. */
 typedef struct JoxBirthWish {
     JoxV2 at;     /* m */
     float radius; /* m */
-    /* Their place, within a box: they are shifted within it if it has room, and those who stay
-       nowhere else. Its number, from 1 on, tells it from others in the same step. NULL and 0: none.
-     */
+    /* Place of the birth, within a box. An agent is shifted within it if it has room; one that
+       `stays`, nowhere else. Places in the same step have different numbers from 1 on. NULL and 0:
+       no place. */
     bool (*holds)(const void *place, JoxV2 spot);
     const void *place;
     JoxV2 low, high; /* m */
@@ -122,37 +125,37 @@ typedef struct JoxBirthWish {
 } JoxBirthWish;
 typedef enum JoxBirthSpot {
     JOX_BIRTH_AS_WISHED,
-    JOX_BIRTH_SHIFTED, /* out of walls that are nearer than 0.99 radii, and of agents that it would
-                          overlap by more than a quarter of the smaller diameter */
-    JOX_BIRTH_NO_ROOM, /* there is no free spot within 25 m */
-    JOX_BIRTH_NOT_FOUND, /* the search was ended by its bound: there may be one */
+    JOX_BIRTH_SHIFTED,   /* out of walls nearer than 0.99 radii, and of agents that it would overlap
+                            by more than a quarter of the smaller diameter */
+    JOX_BIRTH_NO_ROOM,   /* no free spot within 25 m */
+    JOX_BIRTH_NOT_FOUND, /* the search reached its bound: there may be a spot */
     JOX_BIRTH_IN_SOLID   /* the point lies in a wall */
 } JoxBirthSpot;
 static inline bool jox_birth_succeeds(JoxBirthSpot spot) {
     return spot == JOX_BIRTH_AS_WISHED || spot == JOX_BIRTH_SHIFTED;
 }
-/* Finds the nearest free spot of a spiral, with no wall between it and the point; *spot is the
-   point itself where there is none. All searches of births between two steps look at 5 million
-   spots, and those that come after at 1,000 each. Changes nothing; whoever is born there is told to
-   jox_nav_born before the next call. */
+/* Finds the nearest free spot on a spiral, with no wall between it and the point; without one *spot
+   is the point itself. All searches of births between two steps look at 5 million spots together,
+   later ones at 1,000 each. Changes nothing; call jox_nav_born for an agent that is born there
+   before the next call. */
 JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *agents, const JoxBirthWish *wish,
                                 JoxV2 *spot);
-/* The last agent was added, on the spot that was found for it. */
+/* Tells that the last agent was added on the spot found for it. */
 void jox_nav_born(JoxNav *nav, const JoxAgents *agents, uint32_t agent);
-/* Forgets what the searches found, and their memory: people move. */
+/* Frees the tables of the searches, before agents move. */
 void jox_nav_end_births(JoxNav *nav);
-/* The same of the agent at an index, who would stand at *at. */
+/* Finds a free spot for an existing agent, which is to stand at *at. */
 JoxBirthSpot jox_nav_free_spot(JoxNav *nav, const JoxAgents *agents, uint32_t agent, JoxV2 *at);
 
-/* How agents in whose way walls came were moved. */
+/* How agents in the way of new walls were moved. */
 typedef struct JoxCleared {
     uint32_t moved;
-    uint32_t stuck;       /* agents for whom there is no free spot within 25 m */
-    uint32_t first_stuck; /* index of the first of them */
+    uint32_t stuck;       /* agents without a free spot within 25 m */
+    uint32_t first_stuck; /* index of the first of these */
 } JoxCleared;
-/* Moves agents whose centre lies in a solid that came, or nearer than 0.7 radii to an edge that
-   did, in ascending id, to the nearest free spot of a spiral. No wall lies on the way, but for
-   solids that came over the centre: out of these it leads. */
+/* Moves agents whose centre lies in a new solid, or nearer than 0.7 radii to a new edge, in
+   ascending id, to the nearest free spot on a spiral. The way to it crosses no wall, except out of
+   new solids that cover the centre. */
 JoxCleared jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *agents);
 
 #endif

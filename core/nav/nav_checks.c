@@ -1,4 +1,4 @@
-/* Checks of what the stages of navigation hand on; builds with assertions call them. */
+/* Checks the results of the stages of navigation; called in builds with assertions only. */
 #include <math.h>
 #include <string.h>
 
@@ -35,7 +35,7 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
         float before = 0.0f;
         JOX_ASSERT(count <= n->stride && count <= (uint32_t)jox_param(a, JOX_PARAM_neighbours, i));
         JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
-        for (uint32_t k = count; k < n->stride; k++) /* kernels look them up, for nothing */
+        for (uint32_t k = count; k < n->stride; k++) /* kernels read these unused entries too */
             JOX_ASSERT(n->index[jox_neighbour_at(n, i, k)] < n->agents);
         for (uint32_t k = 0; k < count; k++) {
             size_t at = jox_neighbour_at(n, i, k);
@@ -56,7 +56,7 @@ void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count) {
 
 void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, float speed_limit,
                               JoxV2 velocity) {
-    /* Borders that are nearly parallel meet where rounding errors are greatest. */
+    /* The intersection of nearly parallel borders has the greatest rounding errors. */
     const float tolerance = 1e-3f * (1.0f + speed_limit);
     JOX_ASSERT(!(jox_length(velocity) > speed_limit + tolerance));
     for (uint32_t k = 0; k < count; k++)

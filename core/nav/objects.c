@@ -1,26 +1,28 @@
-/* Half-planes of rigid bodies: equation 4. */
+/* Half-planes of rigid bodies: equation 4. half_planes.c calls jox_orca_objects for one agent at a
+   time. */
 #include "base/assert.h"
 #include "nav/internal.h"
 
-/* A body that an agent minds. Its nearest point is looked for once, where somebody asks for it. */
+/* A body that an agent avoids. The nearest point of its footprint is computed at its first use. */
 typedef struct Minded {
     const JoxObject *body;
-    JoxV2 at; /* the agent's centre */
+    JoxV2 at; /* centre of the agent, m */
     bool known;
     JoxFootprintPoint side;
 } Minded;
 
-static const JoxFootprintPoint *side_of(Minded *m) {
+static const JoxFootprintPoint *find_side(Minded *m) {
     if (!m->known)
         m->side = jox_footprint_nearest(m->body, m->at);
     m->known = true;
     return &m->side;
 }
 
-/* A body: its bounding disc from outside; within that disc, the nearest side of its true footprint,
-   so that one can walk along a long wall. Bodies never reciprocate: share 1. */
-static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, Minded *m, float planning_time,
-                                  float tau) {
+/* Makes the half-plane of a body: outside of its bounding disc for that disc; within it for the
+   nearest side of the true footprint, so that agents can walk along a long wall. Bodies never
+   reciprocate, so the share is 1. */
+static JoxHalfPlane make_body_plane(const JoxAgents *a, uint32_t i, Minded *m, float planning_time,
+                                    float tau) {
     const JoxObject *o = m->body;
     JoxV2 own = {a->vx[i], a->vy[i]};
     JoxV2 p = {o->position.x - m->at.x, o->position.y - m->at.y};
@@ -31,15 +33,16 @@ static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, Minded *m, flo
         return jox_orca_half_plane(p, v, radius + disc, tau, planning_time, own, 1.0f,
                                    (JoxV2){1.0f, 0.0f});
     }
-    const JoxFootprintPoint *side = side_of(m);
+    const JoxFootprintPoint *side = find_side(m);
     float gap = side->gap - radius, time = gap < 0.0f ? planning_time : tau;
     moving = jox_object_velocity_at(o, side->point);
     return (JoxHalfPlane){side->normal, jox_dot(moving, side->normal) - gap / time};
 }
 
-/* As printed: the disc of the body's bounding sphere, from outside and from within. */
-static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const JoxObject *o,
-                                         float planning_time, float tau) {
+/* Makes the half-plane that the paper prints: for the disc of the body's bounding sphere, outside
+   and inside of it. */
+static JoxHalfPlane make_sphere_plane(const JoxAgents *a, uint32_t i, const JoxObject *o,
+                                      float planning_time, float tau) {
     JoxV2 own = {a->vx[i], a->vy[i]};
     return jox_orca_half_plane(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]),
                                jox_sub(own, jox_v2(o->velocity.x, o->velocity.y)),
@@ -47,16 +50,16 @@ static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const J
                                own, 1.0f, jox_v2(1.0f, 0.0f));
 }
 
-/* Whether agent i minds the body of a row: its footprint must be within perception, and, where that
-   is given, may be `among` the nearest. A body that it approaches counts even where its kind is
-   ignored. */
-static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
-                  const JoxNearest *among) {
+/* Returns whether agent i avoids the body of a row: the footprint must be within perception and,
+   where `among` is given, may be one of the nearest. A body that the agent approaches counts even
+   where it ignores bodies of this kind. */
+static bool is_body_avoided(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
+                            const JoxNearest *among) {
     const JoxObject *o = &objects->rows[row];
     JoxV2 at = {a->x[i], a->y[i]};
     float sight = jox_param(a, JOX_PARAM_perception, i);
     float away = jox_length(jox_v2(o->position.x - at.x, o->position.y - at.y));
-    float apart = away - jox_maxf(o->disc, o->round); /* the least gap that there can be */
+    float apart = away - jox_maxf(o->disc, o->round); /* lower bound of the gap, m */
     if (apart > sight || (among && !jox_nearest_takes(among, apart)))
         return false;
     if (o->tags & a->ignore[i] && jox_referred(a->approach[i]) != (int32_t)row)
@@ -64,12 +67,12 @@ static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uin
     return away <= sight || jox_footprint_nearest(o, at).gap <= sight;
 }
 
-/* Whether agent i has to keep clear of a body by its feet: not of one that it touches, whose
-   contact plane stands for it, nor, where contacts are looked for, of one that reaches into it
-   without that: a fast one, which is swept, and one behind a wall. Feet would part them at once,
-   and throw people. */
-static bool is_clear(const JoxContactPlanes *touched, const JoxAgents *a, uint32_t i, uint32_t row,
-                     Minded *m) {
+/* Returns whether agent i has to avoid a body by its own motion. It need not avoid one that it
+   touches, whose contact plane replaces this; nor, where contacts are searched for, one that
+   overlaps it without a contact (a fast, swept body, or one behind a wall): avoidance would
+   separate them at once and throw the agent. */
+static bool needs_avoidance(const JoxContactPlanes *touched, const JoxAgents *a, uint32_t i,
+                            uint32_t row, Minded *m) {
     if (!touched)
         return true;
     const JoxContactPlane *planes = touched->planes + touched->starts[i] + touched->people[i];
@@ -77,11 +80,11 @@ static bool is_clear(const JoxContactPlanes *touched, const JoxAgents *a, uint32
         if (planes[k].other == row)
             return false;
     float radius = a->breadth[i];
-    return !jox_object_reaches(m->body, m->at, radius) || side_of(m)->gap >= radius;
+    return !jox_object_reaches(m->body, m->at, radius) || find_side(m)->gap >= radius;
 }
 
-/* Orders by how far off they are those who were minded in the order of the walk. */
-static void measure(JoxNearest *nearest, const JoxObjects *objects, JoxV2 at) {
+/* Sorts the rows listed so far by their gaps to the point `at`. */
+static void sort_by_gap(JoxNearest *nearest, const JoxObjects *objects, JoxV2 at) {
     const JoxNearest all = *nearest;
     nearest->count = 0;
     for (uint32_t k = 0; k < all.count; k++)
@@ -89,22 +92,23 @@ static void measure(JoxNearest *nearest, const JoxObjects *objects, JoxV2 at) {
                           all.rows[k]);
 }
 
-/* Rows of the bodies that agent i minds, ascending; of more than `most` the nearest. */
-static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
-                        JoxNearest *nearest) {
+/* Lists the rows of the bodies that agent i avoids, ascending; the nearest ones if there are more
+   than `most`. Returns how many. */
+static uint32_t list_rows(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
+                          JoxNearest *nearest) {
     JoxV2 at = {a->x[i], a->y[i]};
     JoxObjectWalk walk = jox_objects_near(objects, at, jox_param(a, JOX_PARAM_perception, i));
     uint32_t row;
-    bool many = false; /* only then their gaps matter */
+    bool many = false; /* more bodies than room: the gaps decide */
     while (jox_objects_next(&walk, &row)) {
-        if (!minds(a, i, objects, row, many ? nearest : NULL))
+        if (!is_body_avoided(a, i, objects, row, many ? nearest : NULL))
             continue;
         if (nearest->count < nearest->most && !many) {
             nearest->rows[nearest->count++] = row;
             continue;
         }
         if (!many)
-            measure(nearest, objects, at);
+            sort_by_gap(nearest, objects, at);
         many = true;
         jox_nearest_offer(nearest, jox_footprint_nearest(&objects->rows[row], at).gap, row);
     }
@@ -118,16 +122,16 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
     JoxNearest nearest;
     jox_nearest_begin(&nearest, most);
-    uint32_t count = rows_of(a, i, objects, &nearest), made = 0;
+    uint32_t count = list_rows(a, i, objects, &nearest), made = 0;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t row = nearest.rows[k];
         Minded minded = {.body = &objects->rows[row], .at = {a->x[i], a->y[i]}};
-        if (!is_clear(touched, a, i, row, &minded))
+        if (!needs_avoidance(touched, a, i, row, &minded))
             continue;
         bool approached = jox_referred(a->approach[i]) == (int32_t)row;
         float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);
-        out[made++] = nav->literal ? half_plane_of_sphere(a, i, minded.body, planning_time, tau)
-                                   : half_plane_of(a, i, &minded, planning_time, tau);
+        out[made++] = nav->literal ? make_sphere_plane(a, i, minded.body, planning_time, tau)
+                                   : make_body_plane(a, i, &minded, planning_time, tau);
     }
     return made;
 }

@@ -1,5 +1,5 @@
-/* ORCA's half-plane of one pair: pair_lanes.h at width 1. For bodies, for agents whose centres
-   coincide, and for inspected agents. */
+/* The half-plane of one pair by ORCA: pair_lanes.h at width 1. For bodies, agents whose centres
+   coincide, and inspected agents. */
 #define JOX_ISA_scalar
 #include "base/assert.h"
 #include "nav/internal.h"

@@ -1,11 +1,9 @@
-/* The half-planes of a packet of agents as solve sees them. They stand in rows, one of each lane in
-   a row: first those of walls, of contacts, of neighbours, of bodies, then that of force. A lane
-   that has fewer of a kind than another has rows of zeros there, which no velocity violates and
-   which the programs pass over; so each lane meets its own half-planes in their order, and gets
-   what it would get alone.
-
-   Those of neighbours, by ORCA or of walkers, are made for all lanes at once, those
-   of walls, contacts and bodies one lane at a time. For kernels: part of those that include it. */
+/* The half-planes of a packet of agents for solve. They stand in rows, with one half-plane of each
+   lane in a row: first those of walls, then contacts, neighbours, bodies, force. A lane with fewer
+   of a kind than another has rows of zeros there, which no velocity violates and the programs skip;
+   so each lane meets its own half-planes in their order, and gets the result that it would get
+   alone. Half-planes of neighbours are made for all lanes at once, by ORCA or by the walking law;
+   those of walls, contacts and bodies one lane at a time. Included by solve_wide.c. */
 #ifndef JOX_NAV_PACKET_LANES_H
 #define JOX_NAV_PACKET_LANES_H
 
@@ -21,19 +19,19 @@
 typedef struct JoxPacket {
     const JoxSolve *s;
     uint32_t first; /* agent of lane 0 */
-    uint32_t lanes; /* bits of those that plan in this step */
+    uint32_t lanes; /* bits of the lanes that plan in this step */
     uint32_t near_walls, touching, pressed,
-        walkers;                      /* of them; pressed: who touches or is forced */
-    uint32_t contacts, hard, objects; /* rows from which on these stand; hard: neighbours */
+        walkers;                      /* bits of these lanes; pressed: touching or forced */
+    uint32_t contacts, hard, objects; /* first rows of these kinds; hard: first row of neighbours */
     JoxHalfPlaneCounts made[JOX_WIDTH];
-    uint32_t counted; /* lanes of which they are not all 0 */
-    uint32_t count;   /* rows */
+    uint32_t counted; /* bits of lanes whose `made` is not all 0 */
+    uint32_t count;   /* number of rows */
     JoxRow rows[JOX_MOST_CONSTRAINTS];
-    JoxHalfPlane list[JOX_MOST_CONSTRAINTS]; /* of one lane */
-    JoxRest *unmet, *far; /* who waits: for the least violation, and to be kept within reach */
+    JoxHalfPlane list[JOX_MOST_CONSTRAINTS]; /* half-planes of one lane */
+    JoxRest *unmet, *far; /* waiting agents: for the least violation; to be pulled within reach */
 } JoxPacket;
 
-/* Rows up to `count` are there; new ones are zeros. */
+/* Makes rows up to `count` exist; new ones are zeros. */
 static inline void jox_rows_open(JoxPacket *p, uint32_t count) {
     if (count > p->count) {
         memset(&p->rows[p->count], 0, (count - p->count) * sizeof *p->rows);
@@ -41,12 +39,12 @@ static inline void jox_rows_open(JoxPacket *p, uint32_t count) {
     }
 }
 
-/* ---- half-planes that are made for one lane at a time ---- */
+/* ---- half-planes made for one lane at a time ---- */
 
 typedef uint32_t JoxMaker(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
 
-/* Puts what a maker says of some lanes (bits) into rows from `row` on; `at`: place of their number
-   in JoxHalfPlaneCounts. */
+/* Puts the half-planes that `make` returns for lanes (bits) into rows from `row` on. `at`: offset
+   of their number in JoxHalfPlaneCounts. */
 static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxMaker *make,
                                 size_t at) {
     p->counted |= lanes;
@@ -68,7 +66,8 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
 
 /* ---- half-planes of neighbours ---- */
 
-/* Whom agents touch: a row has one of each lane, or itself. */
+/* Indices of the agents that lanes touch: one per lane in a row, JOX_NO_INDEX where a lane has
+   fewer. */
 typedef struct JoxTouched {
     uint32_t rows;
     uint32_t other[JOX_MOST_TOUCHED][JOX_WIDTH];
@@ -87,7 +86,8 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* The lanes from which a wall may hide their neighbour: is_hidden of half_planes.c asks. */
+/* Returns the lanes from which a wall may hide the neighbour; is_behind_wall of half_planes.c
+   decides. */
 static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
     const JoxFloats d2 = q->x * q->x + q->y * q->y;
     const JoxFloats near = q->radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
@@ -95,8 +95,8 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
     return ~jm_bits(s->clear2 ? jm_or(far, jf_lt(d2, jf_load(s->clear2 + first))) : far);
 }
 
-/* Of `lanes`, those that mind their neighbour, whose indices are given; `picky`: of whom that is
-   asked one by one. */
+/* Returns those of `lanes` that avoid their neighbour, whose indices are given. `picky`: lanes that
+   need the scalar test jox_solve_passes_over. */
 static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint32_t lanes,
                                    uint32_t picky, const uint32_t *index) {
     JoxMask touched = jm_of_bits(0);
@@ -115,7 +115,7 @@ static inline JoxPlaneLanes jox_select_plane(JoxMask m, JoxPlaneLanes a, JoxPlan
                            jf_select(m, a.offset, b.offset)};
 }
 
-/* How many neighbours the lanes have that plan: all of them at least, and any of them at most. */
+/* Numbers of neighbours of the lanes that plan: of each lane, and the least and most of any. */
 typedef struct JoxNeighbourCounts {
     JoxInts each;
     uint32_t least, most;
@@ -133,19 +133,21 @@ static inline JoxNeighbourCounts jox_count_neighbours(const JoxPacket *p) {
     return n;
 }
 
-/* The lanes that have more than k. */
+/* Returns the lanes that have more than k neighbours. */
 static inline uint32_t jox_have_more(const JoxNeighbourCounts *n, uint32_t k) {
     return k < n->least ? JOX_ALL_LANES : jm_bits(ji_less(ji_set((int32_t)k), n->each));
 }
 
-/* A neighbour of each lane: the pair, its velocity, m/s, and half of ORCA's work for it. */
+/* One neighbour of each lane: the pair, the neighbour's velocity, m/s, and the first half of
+   ORCA. */
 typedef struct JoxNeighbour {
     JoxPair pair;
     JoxVector velocity;
     JoxOrcaHalf half;
 } JoxNeighbour;
 
-/* The pairs with the `most` first neighbours of the lanes. A lane that has fewer gets somebody. */
+/* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
+   ones. */
 static inline __attribute__((always_inline)) void
 jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const uint32_t walkers,
                 const bool periodic, JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
@@ -170,7 +172,7 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
     }
 }
 
-/* The half-planes of walkers for a neighbour of each lane; *there: lanes that have one. */
+/* Makes the half-planes of walkers for one neighbour of each lane; *there: lanes that have one. */
 static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxNeighbour *near,
                                              const JoxWalkerGap *gap, JoxInts others,
                                              JoxMask *there) {
@@ -183,8 +185,8 @@ static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxNeighb
     return jox_walker_plane(nav->walk, gap, &minds, towards, near->velocity, there);
 }
 
-/* The half-planes of `lanes` (bits) for a neighbour of each; zeros in the other lanes. `walkers`:
-   lanes that walk by the law; `all`: lanes of the packet. */
+/* Makes the half-planes of `lanes` (bits) for one neighbour of each; zeros in the other lanes.
+   `walkers`: lanes that walk by the law; `all`: lanes of the packet. */
 static inline __attribute__((always_inline)) void
 jox_plane_lanes(const JoxPacket *p, const JoxSelf *self, uint32_t lanes, uint32_t all,
                 const uint32_t walkers, const JoxNeighbour *near, const JoxWalkerGap *gap,
@@ -211,7 +213,7 @@ static inline void jox_store_plane(JoxRow *row, const JoxPlaneLanes *plane) {
     jf_store(row->offset, plane->offset);
 }
 
-/* The rows of neighbours that all lanes have and mind, none of which walks by the law. */
+/* Appends the rows of neighbours that all lanes have and avoid, in packets without walkers. */
 static inline void jox_put_whole_rows(JoxPacket *p, const JoxSelf *self,
                                       const JoxNeighbour *nearest, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
@@ -221,9 +223,9 @@ static inline void jox_put_whole_rows(JoxPacket *p, const JoxSelf *self,
     p->count += count;
 }
 
-/* The rows of the neighbours, less those in which no lane has one that it minds. `walkers`: the
-   lanes that walk by the law. Returns the lanes that may coincide with a neighbour, of which the
-   half-plane depends on who they are. */
+/* Appends the rows of the neighbours, except rows in which no lane avoids its neighbour. `walkers`:
+   lanes that walk by the law. Returns the lanes whose centre may coincide with a neighbour's; those
+   half-planes depend on the ids. */
 static inline __attribute__((always_inline)) uint32_t
 jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSolve *s = p->s;
@@ -270,8 +272,8 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     return coincide;
 }
 
-/* Of agents who see over no periodic edge, and of those who do. Where nobody walks by the law, the
-   former is compiled for that. */
+/* jox_put_rows for packets that see no periodic edge, and for packets that do. The first has a copy
+   compiled for packets without walkers. */
 static inline uint32_t jox_put_rows_bounded(JoxPacket *p) {
     return p->walkers ? jox_put_rows(p, p->walkers, false) : jox_put_rows(p, 0, false);
 }
@@ -280,10 +282,10 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
     return jox_put_rows(p, p->walkers, true);
 }
 
-/* Whether the neighbours of a packet's agents may stand beyond a periodic edge. */
+/* Returns whether neighbours of a packet's agents may stand beyond a periodic edge. */
 static inline bool jox_sees_over_edges(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
-    const JoxFloats margin = jf_set(1e-3f); /* m: more than positions are rounded by */
+    const JoxFloats margin = jf_set(1e-3f); /* m: more than the rounding of positions */
     const JoxFloats reach = jf_load(a->search + p->first) + margin;
     JoxMask over = jm_of_bits(0);
     for (int axis = 0; axis < 2; axis++) {

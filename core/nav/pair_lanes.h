@@ -83,14 +83,14 @@ jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
     return (JoxPlaneLanes){nx, ny, own + change * self->share};
 }
 
-/* What does not change from neighbour to neighbour. */
+/* Data of an agent that is the same for all of its neighbours. */
 typedef struct JoxSelf {
     JoxFloats x, y, radius; /* m */
-    JoxFloats room; /* gap that a walker leaves to whom it follows, as a share of the law's */
+    JoxFloats room; /* gap that a walker keeps to the agent it follows, as a share of the law's */
     JoxOrcaSelf orca;
 } JoxSelf;
 
-/* `walkers`: lanes (bits) that walk by the law. */
+/* Loads it for the agents from `first` on. `walkers`: lanes (bits) that walk by the law. */
 static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t walkers) {
     const JoxAgents *a = s->agents;
     JoxFloats room = jf_set(1.0f);
@@ -111,8 +111,8 @@ static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t wa
 
 /* ---- the walking law (core/walking.md) ---- */
 
-/* Distance of a walker and its neighbour, and the distances within which their ways are one, for a
-   neighbour that is followed and for one that crosses, m. */
+/* Distance of a walker and its neighbour, m, and the distances within which their ways are one, m:
+   for a neighbour that it follows, and for one that crosses. */
 typedef struct JoxWalkerGap {
     JoxFloats distance, follows, crosses;
 } JoxWalkerGap;
@@ -127,14 +127,16 @@ static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *
     };
 }
 
-/* Whether the neighbour is too far away to impose a half-plane, however it is minded. */
+/* Returns the lanes whose neighbour is too far away for a half-plane, whether it is followed or
+   crosses. */
 static inline JoxMask jox_walker_is_far(const JoxWalkLaw *law, const JoxWalkerGap *g) {
     return jf_le(jf_set((float)law->close), g->distance - jf_max(g->crosses, g->follows));
 }
 
-/* The half-plane of a walker for a neighbour that it minds: it comes no faster towards it than uses
-   up the gap within `close_time`, half of the gap where they cross. `towards`: unit vector to the
-   neighbour, which moves at `velocity` (m/s). *there: lanes that have one. */
+/* Makes the half-plane of a walker for a neighbour that it minds: the walker approaches it no
+   faster than uses up the gap within `close_time`, or half of the gap where their ways cross.
+   `towards`: unit vector to the neighbour, which moves at `velocity` (m/s). *there: lanes that have
+   one. */
 static inline JoxPlaneLanes jox_walker_plane(const JoxWalkLaw *law, const JoxWalkerGap *g,
                                              const JoxMindsLanes *minds, JoxVector towards,
                                              JoxVector velocity, JoxMask *there) {

@@ -1,32 +1,34 @@
-/* The kernel of perceive. A lane is an agent; a packet is JOX_WIDTH consecutive agents of the
-   sorted order. Each lane has a list of those within its radius: the agents of the cells within
-   reach are looked at by packets, and those who are near are packed behind each other. Then the
-   lists of all lanes are put in order at once (near_lanes.h). Those whose lists are full search
-   anew, one by one (nearest.c). */
+/* The kernel of perceive. A lane is an agent; a packet is JOX_WIDTH consecutive agents in the order
+   of the grid. Each lane has a list of candidates: the agents of the cells within reach are tested
+   packet by packet, and those within the radius are appended to the list. Then the lists of all
+   lanes are sorted at once (near_lanes.h). Lanes whose lists overflow search again one at a time
+   (nearest.c). */
 #include <math.h>
 #include <string.h>
 
 #include "agents/param_lanes.h"
 #include "nav/near_lanes.h"
 
-/* Columns and rows of cells of each lane, the last ones included. */
+/* Ranges of columns and rows of cells of each lane, both ends included. */
 typedef struct Cells {
     uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
 } Cells;
 
-/* Of the grid, the cells within reach of each lane, and those of it and the next lane together. */
+/* Cells within reach of each lane, and of each lane together with the next one. */
 typedef struct Reach {
-    float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
+    float x[JOX_WIDTH], y[JOX_WIDTH],
+        radius2[JOX_WIDTH]; /* m: position of the image from which the lane searches; m2 */
     Cells own, both;
-    uint32_t pairs; /* lanes of which the cells with the next lane's are not many more */
+    uint32_t pairs; /* lanes whose cells together with those of the next lane are not many more than
+                       their own */
 } Reach;
 
-static inline JoxFloats cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
+static inline JoxFloats find_cells(JoxFloats at, float low, float per_metre, uint32_t cells) {
     const JoxFloats from = (at - low) * per_metre;
     return jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1)));
 }
-/* Stores the first cells that lanes reach, or the last ones, of each and of it with the next lane.
- */
+/* Stores the first (store_last: the last) cells in reach: `own` of each lane, `both` of each lane
+   and the next. */
 static inline void store_first(JoxFloats cells, uint32_t *own, uint32_t *both) {
     ji_store(own, jf_to_ints(cells));
     ji_store(both, jf_to_ints(jf_min(cells, jf_next(cells))));
@@ -37,10 +39,10 @@ static inline void store_last(JoxFloats cells, uint32_t *own, uint32_t *both) {
     ji_store(both, jf_to_ints(jf_max(cells, jf_next(cells))));
 }
 
-/* Whether two lanes together reach many more cells along one axis than the first alone, as those do
-   that do not stand side by side. */
-static inline JoxMask are_apart(const uint32_t *first, const uint32_t *last,
-                                const uint32_t *first_both, const uint32_t *last_both) {
+/* Returns the lanes that together with the next one reach many more cells along an axis than alone:
+   the two agents do not stand side by side. */
+static inline JoxMask reach_many_more(const uint32_t *first, const uint32_t *last,
+                                      const uint32_t *first_both, const uint32_t *last_both) {
     const JoxInts alone = ji_sub(ji_load(last), ji_load(first));
     const JoxInts both = ji_sub(ji_load(last_both), ji_load(first_both));
     return ji_less(ji_add(alone, ji_set(1)), both);
@@ -56,20 +58,20 @@ static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     jf_store(reach->x, x);
     jf_store(reach->y, y);
     jf_store(reach->radius2, radius * radius);
-    store_first(cells_along(x - radius - most.x, low.x, nav->per_metre.x, nav->columns), own->left,
+    store_first(find_cells(x - radius - most.x, low.x, nav->per_metre.x, nav->columns), own->left,
                 both->left);
-    store_last(cells_along(x + radius - least.x, low.x, nav->per_metre.x, nav->columns), own->right,
+    store_last(find_cells(x + radius - least.x, low.x, nav->per_metre.x, nav->columns), own->right,
                both->right);
-    store_first(cells_along(y - radius - most.y, low.y, nav->per_metre.y, nav->rows), own->low,
+    store_first(find_cells(y - radius - most.y, low.y, nav->per_metre.y, nav->rows), own->low,
                 both->low);
-    store_last(cells_along(y + radius - least.y, low.y, nav->per_metre.y, nav->rows), own->high,
+    store_last(find_cells(y + radius - least.y, low.y, nav->per_metre.y, nav->rows), own->high,
                both->high);
-    const JoxMask apart = jm_or(are_apart(own->left, own->right, both->left, both->right),
-                                are_apart(own->low, own->high, both->low, both->high));
-    reach->pairs = ~jm_bits(apart) & JOX_ALL_LANES >> 1; /* the last has no next */
+    const JoxMask apart = jm_or(reach_many_more(own->left, own->right, both->left, both->right),
+                                reach_many_more(own->low, own->high, both->low, both->high));
+    reach->pairs = ~jm_bits(apart) & JOX_ALL_LANES >> 1; /* the last lane has no next one */
 }
 
-/* A lane that looks for others, all lanes of it alike, and its list. */
+/* The data of one lane that searches, broadcast to all lanes, and its list. */
 typedef struct Seeker {
     JoxFloats x, y, radius2; /* m, m2 */
     JoxInts self;
@@ -77,7 +79,7 @@ typedef struct Seeker {
     uint32_t *index;
 } Seeker;
 
-static inline Seeker seeker_of(Packet *packet, const Reach *reach, uint32_t lane) {
+static inline Seeker make_seeker(Packet *packet, const Reach *reach, uint32_t lane) {
     return (Seeker){jf_set(reach->x[lane]),
                     jf_set(reach->y[lane]),
                     jf_set(reach->radius2[lane]),
@@ -86,10 +88,10 @@ static inline Seeker seeker_of(Packet *packet, const Reach *reach, uint32_t lane
                     packet->index + (size_t)lane * LIST};
 }
 
-/* Puts those of a packet of others that are there and within the radius behind the `n` first of the
-   list. Returns how many these are. */
-static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at, JoxInts others,
-                                   JoxMask there) {
+/* Appends the agents of a packet that exist (`there`) and lie within the radius to a list of `n`.
+   Returns how many. */
+static inline uint32_t append_packet(const Seeker *seeker, size_t n, JoxVector at, JoxInts others,
+                                     JoxMask there) {
     const JoxFloats dx = at.x - seeker->x, dy = at.y - seeker->y;
     const JoxFloats d2 = dx * dx + dy * dy;
     const JoxMask near = jm_without(jf_le(d2, seeker->radius2), ji_equal(others, seeker->self));
@@ -99,17 +101,16 @@ static inline uint32_t list_packet(const Seeker *seeker, size_t n, JoxVector at,
     return jm_count(bits);
 }
 
-static inline size_t most_of(size_t a, size_t b) {
+static inline size_t greater_size(size_t a, size_t b) {
     return a > b ? a : b;
 }
 
-/* Lists those within the radius of `seekers` lanes, from `lane` on, until a list is full; `cells`:
-   all that they reach. Returns whether one is, so that another may lack some; then those of all are
-   as before. */
-static inline __attribute__((always_inline)) bool list_near(Packet *packet, const Reach *reach,
-                                                            const uint32_t lane,
-                                                            const uint32_t seekers,
-                                                            const Cells *cells) {
+/* Appends the candidates of `seekers` lanes (1 or 2), from `lane` on, out of `cells` to their
+   lists. Returns true if one of two lists overflows, which may cut the other; then both lists are
+   left as they were. */
+static inline __attribute__((always_inline)) bool
+list_candidates(Packet *packet, const Reach *reach, const uint32_t lane, const uint32_t seekers,
+                const Cells *cells) {
     const JoxNav *nav = packet->p->nav;
     const float *x = packet->p->agents->x, *y = packet->p->agents->y;
     const size_t columns = nav->columns, left = cells->left[lane], right = cells->right[lane] + 1;
@@ -118,13 +119,13 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
     Seeker seeker[2];
     size_t n[2] = {0, 0};
     for (uint32_t s = 0; s < seekers; s++) {
-        seeker[s] = seeker_of(packet, reach, lane + s);
+        seeker[s] = make_seeker(packet, reach, lane + s);
         n[s] = packet->count[lane + s];
     }
     for (; row <= last; row += columns) {
         const size_t begin = row[left], end = row[right];
-        if (most_of(n[0], n[1]) + (end - begin) > ROOM) {
-            n[0] = n[1] = PLACES + 1; /* for all that is known */
+        if (greater_size(n[0], n[1]) + (end - begin) > ROOM) {
+            n[0] = n[1] = PLACES + 1; /* as many as that, at least */
             break;
         }
         const JoxInts ends = ji_set((int32_t)end);
@@ -133,7 +134,7 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
             const JoxVector at = {jf_load(x + j), jf_load(y + j)};
             const JoxMask there = ji_less(others, ends);
             for (uint32_t s = 0; s < seekers; s++)
-                n[s] += list_packet(&seeker[s], n[s], at, others, there);
+                n[s] += append_packet(&seeker[s], n[s], at, others, there);
             others = ji_add(others, ji_set(JOX_WIDTH));
         }
     }
@@ -144,16 +145,16 @@ static inline __attribute__((always_inline)) bool list_near(Packet *packet, cons
     return false;
 }
 
-/* Those who went over a periodic edge since the agents were sorted: their cells are not where they
-   are, so that whoever looks there finds them far away. Of these, they who may be near a packet. */
+/* The agents that crossed a periodic edge since the sort (strays) and may be near a packet. They
+   are not in the cells where they stand, so that the search of the cells misses them there. */
 typedef struct Strays {
     float x[JOX_MOST_STRAYS + JOX_LANES], y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
     uint32_t index[JOX_MOST_STRAYS + JOX_LANES], count;
 } Strays;
 
-/* Corners of the box about all that some lanes see, and somewhat more than that is rounded by. */
-static inline void box_lanes(const Packet *packet, const Reach *reach, uint32_t lanes, JoxV2 *low,
-                             JoxV2 *high) {
+/* Computes the bounding box of all points that `lanes` (bits) see, widened beyond rounding. */
+static inline void bound_lanes(const Packet *packet, const Reach *reach, uint32_t lanes, JoxV2 *low,
+                               JoxV2 *high) {
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
     for (; lanes; lanes &= lanes - 1) {
@@ -170,7 +171,7 @@ static inline void find_strays(const Packet *packet, const Reach *reach, uint32_
                                Strays *out) {
     const JoxNav *nav = packet->p->nav;
     JoxV2 low, high;
-    box_lanes(packet, reach, lanes, &low, &high);
+    bound_lanes(packet, reach, lanes, &low, &high);
     out->count = 0;
     for (uint32_t k = 0; k < nav->stray_count; k += JOX_WIDTH) {
         const JoxVector at = jv_load(nav->stray_x, nav->stray_y, k);
@@ -188,18 +189,18 @@ static inline void find_strays(const Packet *packet, const Reach *reach, uint32_
 
 static inline void list_strays(Packet *packet, const Reach *reach, uint32_t lane,
                                const Strays *strays) {
-    const Seeker seeker = seeker_of(packet, reach, lane);
+    const Seeker seeker = make_seeker(packet, reach, lane);
     uint32_t n = packet->count[lane];
     for (uint32_t k = 0; k < strays->count && n <= PLACES; k += JOX_WIDTH) {
         const JoxInts at = ji_add(ji_set((int32_t)k), ji_lane());
-        n += list_packet(&seeker, n, jv_load(strays->x, strays->y, k), ji_load(strays->index + k),
-                         ji_less(at, ji_set((int32_t)strays->count)));
+        n += append_packet(&seeker, n, jv_load(strays->x, strays->y, k), ji_load(strays->index + k),
+                           ji_less(at, ji_set((int32_t)strays->count)));
     }
     packet->count[lane] = n;
 }
 
-/* Adds to the lists of some lanes (bits) those whom they see of one of their images. Not inline, so
-   that what its loops need stays in registers. */
+/* Adds the candidates that `lanes` (bits) see from one of their periodic images to the lists. Not
+   inline, so that the data of its loops stays in registers. */
 static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes, JoxV2 shift,
                                                  bool strays) {
     Reach reach;
@@ -209,10 +210,10 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
         const uint32_t lane = (uint32_t)__builtin_ctz(left);
         left &= left - 1;
         if (JOX_WIDTH > 1 && (pairs >> lane & 1) &&
-            !list_near(packet, &reach, lane, 2, &reach.both))
+            !list_candidates(packet, &reach, lane, 2, &reach.both))
             left &= left - 1;
         else
-            list_near(packet, &reach, lane, 1, &reach.own);
+            list_candidates(packet, &reach, lane, 1, &reach.own);
     }
     if (!strays)
         return;
@@ -222,13 +223,14 @@ static __attribute__((noinline)) void list_image(Packet *packet, uint32_t lanes,
         list_strays(packet, &reach, (uint32_t)__builtin_ctz(left), &near);
 }
 
-/* The lanes that look at images that are shifted along one axis by -1, 0 and 1 periods: all that
-   have to, see jox_sees_image. Who sees an edge may also see those who went over it. */
+/* The lanes that search from their images shifted along one axis by -1, 0 and 1 periods
+   (jox_sees_image says when). A lane that sees an edge may also see strays. */
 typedef struct Seeing {
     uint32_t lanes[3];
 } Seeing;
 
-static inline Seeing sees_over(const float *along, JoxFloats wide, float origin, float period) {
+static inline Seeing find_seeing_lanes(const float *along, JoxFloats wide, float origin,
+                                       float period) {
     Seeing s = {{0, JOX_ALL_LANES, 0}};
     if (period > 0.0f) {
         const JoxFloats at = jf_load(along);
@@ -238,12 +240,12 @@ static inline Seeing sees_over(const float *along, JoxFloats wide, float origin,
     return s;
 }
 
-/* The lists of some lanes, anew; those of all others are empty. */
+/* Makes the lists of `lanes` (bits) anew; those of the other lanes get empty. */
 static void list_lanes(Packet *packet, uint32_t lanes) {
     const JoxAgents *a = packet->p->agents;
     const JoxFloats wide = jf_load(packet->radius) + packet->p->nav->drift.farthest;
-    const Seeing x = sees_over(packet->at_x, wide, a->origin.x, a->period.x);
-    const Seeing y = sees_over(packet->at_y, wide, a->origin.y, a->period.y);
+    const Seeing x = find_seeing_lanes(packet->at_x, wide, a->origin.x, a->period.x);
+    const Seeing y = find_seeing_lanes(packet->at_y, wide, a->origin.y, a->period.y);
     memset(packet->count, 0, sizeof packet->count);
     const bool strays = (lanes & (x.lanes[0] | x.lanes[2] | y.lanes[0] | y.lanes[2])) != 0;
     for (int row = 0; row < 3; row++)
@@ -263,7 +265,8 @@ static inline void store_bytes(uint8_t *to, JoxMask m, JoxInts a) {
     ji_store_bytes(to, ji_select(m, a, ji_load_bytes(to)));
 }
 
-/* Of some lanes, the first neighbours, as many as are counted: the next JOX_LANES places behind. */
+/* Writes the first `count` neighbours of `lanes` into `index`: one row of JOX_LANES entries per
+   rank. */
 static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts count,
                                     uint32_t *index) {
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
@@ -271,7 +274,7 @@ static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts
         const uint32_t bits = jm_bits(kept);
         if (!bits)
             return;
-        JoxInts who = ji_pick(packet->index, listed_at(packet->keys[k]));
+        JoxInts who = ji_pick(packet->index, find_listed(packet->keys[k]));
         if (bits != JOX_ALL_LANES)
             who = ji_select(kept, who, ji_load(index));
         ji_store(index, who);
@@ -279,21 +282,22 @@ static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts
     }
 }
 
-/* The same where all lanes have as many as there are levels for. */
-static inline void write_whole(const Packet *packet, uint32_t *index) {
+/* Writes the neighbours of lanes that all have as many as there are levels. */
+static inline void write_full_lists(const Packet *packet, uint32_t *index) {
     for (uint32_t k = 0; k + 1 < packet->levels; k++, index += JOX_LANES)
-        ji_store(index, ji_pick(packet->index, listed_at(packet->keys[k])));
+        ji_store(index, ji_pick(packet->index, find_listed(packet->keys[k])));
 }
 
-/* How many of those who are counted an agent may touch, and perhaps some more: by the bits of their
-   keys. */
-static inline JoxInts close_of(const Packet *packet, JoxInts count) {
+/* Returns how many of the `count` neighbours of each lane are within touch range, by the bits of
+   their keys, or slightly more. */
+static inline JoxInts count_close(const Packet *packet, JoxInts count) {
     const float touch = jox_touch_most(packet->p->out);
     const JoxFloats radius = jf_load(packet->radius);
     const JoxFloats farthest2 = jf_min(jf_set(touch * touch), radius * radius);
     const JoxFloats floor2 = jf_load(packet->floor2);
-    const JoxInts key = key_of(farthest2, floor2, first_key(floor2));
-    const JoxFloats beyond = ji_as_floats(ji_add(key, ji_set(PLACES))); /* the next distance's */
+    const JoxInts key = make_lane_key(farthest2, floor2, make_first_key(floor2));
+    const JoxFloats beyond =
+        ji_as_floats(ji_add(key, ji_set(PLACES))); /* key of the next greater distance */
     JoxInts close = ji_set(0);
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask near = jm_and(jf_lt(packet->keys[k], beyond), ji_less(close, count));
@@ -304,36 +308,38 @@ static inline JoxInts close_of(const Packet *packet, JoxInts count) {
     return close;
 }
 
-/* Of those lanes that have a neighbour of this rank, its squared distance. */
+/* Stores the squared distance, m2, of the neighbour of rank JOX_CROWD_RANK for the lanes that have
+   one. */
 static inline void store_crowding(const Packet *packet, JoxMask lanes, JoxInts count) {
     const JoxMask has = jm_and(lanes, ji_less(ji_set(JOX_CROWD_RANK), count));
     if (jm_bits(has))
         store_floats(packet->p->out->crowding2 + packet->first, has,
-                     jf_pick(packet->distance2, listed_at(packet->keys[JOX_CROWD_RANK])));
+                     jf_pick(packet->distance2, find_listed(packet->keys[JOX_CROWD_RANK])));
 }
 
-/* Writes what was found for some lanes. */
-static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloats perception) {
+/* Writes what was found for `lanes` (bits): neighbours, search, density and counts. */
+static void write_found(const Packet *packet, const Found *f, uint32_t lanes,
+                        JoxFloats perception) {
     const JoxPerceive *p = packet->p;
     const JoxMask mask = jm_of_bits(lanes);
     JoxFloats reach = perception;
     if (jm_bits(f->full))
-        reach = jf_select(f->full, jf_sqrt(farthest_of(packet, f)), perception);
+        reach = jf_select(f->full, jf_sqrt(pick_farthest2(packet, f)), perception);
     JoxFloats area = jf_max(reach * reach, jf_set(JOX_DENSITY_LEAST));
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
                  ji_to_floats(f->count) / ((float)JOX_PI * area));
     store_bytes(p->out->count + packet->first, mask, f->count);
-    store_bytes(p->out->close + packet->first, mask, close_of(packet, f->count));
+    store_bytes(p->out->close + packet->first, mask, count_close(packet, f->count));
     store_crowding(packet, mask, f->count);
     uint32_t *index = p->out->index + jox_neighbour_at(p->out, packet->first, 0);
     if (f->whole && lanes == JOX_ALL_LANES)
-        write_whole(packet, index);
+        write_full_lists(packet, index);
     else
         write_neighbours(packet, mask, f->count, index);
 }
 
-/* Those who may touch, of the lanes whose neighbours may lack some. */
+/* Finds the agents within touch range for lanes whose neighbour lists do not cover it. */
 static void find_touching(const Packet *packet, JoxMask sees) {
     const JoxPerceive *p = packet->p;
     const JoxFloats radius = jox_param_lanes(p->agents, JOX_PARAM_radius, packet->first);
@@ -353,8 +359,8 @@ static void find_touching(const Packet *packet, JoxMask sees) {
     }
 }
 
-/* Some lanes, whose lists have no room for all, search one by one. */
-static void search_alone(const Packet *packet, uint32_t lanes) {
+/* Searches for lanes (bits) whose lists overflowed, one at a time. */
+static void search_singly(const Packet *packet, uint32_t lanes) {
     for (uint32_t left = lanes; left; left &= left - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(left);
         jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
@@ -378,25 +384,26 @@ static void perceive_packet(Packet *packet) {
         radius = jf_min(radius, perception);
         jf_store(packet->radius, radius);
         list_lanes(packet, left);
-        const uint32_t full = lists_beyond(packet, PLACES);
-        order(packet);
+        const uint32_t full = find_longer_lists(packet, PLACES);
+        order_packet(packet);
         const Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
         const uint32_t done = full | (left & ~jm_bits(short_of));
         const uint32_t tied = done & jm_bits(f.tied) & ~full;
         if (tied)
             settle_lanes(packet, tied);
-        write(packet, &f, done & ~full, perception);
+        write_found(packet, &f, done & ~full, perception);
         if (full)
-            search_alone(packet, full);
+            search_singly(packet, full);
         left &= ~done;
         radius *= JOX_SEARCH_GROWTH;
     }
     find_touching(packet, sees);
 }
 
-/* One more than the most neighbours of so many agents; mostly all have as many. */
-static uint32_t levels_of(const float *neighbours, uint32_t count) {
+/* Returns 1 plus the greatest number of neighbours wanted by `count` agents, which mostly all want
+   the same. */
+static uint32_t count_levels(const float *neighbours, uint32_t count) {
     float most = neighbours[0];
     const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_load(neighbours) - most));
     for (uint32_t lane = 1; jm_bits(other) && lane < count; lane++)
@@ -405,13 +412,14 @@ static uint32_t levels_of(const float *neighbours, uint32_t count) {
 }
 
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
-    Packet packet; /* large: what stands behind the ends of its lists is read, and thrown away */
+    Packet packet; /* large, and not initialised: entries behind the ends of lists are read and
+                      ignored */
     packet.p = p;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
         packet.first = i;
         packet.lanes = jox_first_lanes(count);
-        packet.levels = levels_of(jox_params(p->agents, JOX_PARAM_neighbours, i), count);
+        packet.levels = count_levels(jox_params(p->agents, JOX_PARAM_neighbours, i), count);
         perceive_packet(&packet);
     }
 }

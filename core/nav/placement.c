@@ -1,4 +1,5 @@
-/* Where those stand who are born, who are put elsewhere, and in whose way walls come. */
+/* Places for agents that are born, are put elsewhere, or stand in the way of new walls, by the
+   search of spots/. world/ calls it between two steps. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -7,8 +8,8 @@
 #include "geom/wall_way.h"
 #include "nav/internal.h"
 
-static const float STANDING = 0.7f; /* radii from a new edge of those whom the next step does not
-                                       push out */
+static const float STANDING = 0.7f; /* radii: agents nearer than this to a new edge are moved; the
+                                       next step pushes the others out */
 
 /* ---- births ---- */
 
@@ -16,8 +17,9 @@ void jox_nav_end_births(JoxNav *nav) {
     jox_spots_free(&nav->spots);
 }
 
-/* The spots of all agents: as they were left by the last birth, or anew. */
-static JoxSpots *spots_of_all(JoxNav *nav, const JoxAgents *a, float radius) {
+/* Returns the table of the spots of all agents: that of the last birth if it still holds, else
+   filled anew. */
+static JoxSpots *fill_spots(JoxNav *nav, const JoxAgents *a, float radius) {
     JoxSpots *t = &nav->spots;
     if (t->agents == a && t->count == a->count && t->next_id == a->next_id && t->widest >= radius)
         return t;
@@ -30,9 +32,10 @@ static JoxSpots *spots_of_all(JoxNav *nav, const JoxAgents *a, float radius) {
     return t;
 }
 
-/* By these spots: within the place where there is one, and elsewhere unless they are to stay. */
-static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirthWish *wish,
-                            JoxV2 *spot) {
+/* Finds a spot in the table `t`: within the place of the wish if it has one; elsewhere too unless
+   the agent has to stay there. */
+static JoxBirthSpot find_spot_in(JoxSpots *t, const JoxWallGrid *grid, const JoxBirthWish *wish,
+                                 JoxV2 *spot) {
     JoxSpotWish search = {.at = wish->at,
                           .radius = wish->radius,
                           .holds = wish->holds,
@@ -55,14 +58,15 @@ static JoxBirthSpot find_by(JoxSpots *t, const JoxWallGrid *grid, const JoxBirth
     const bool found = !wish->stays && jox_spots_find(t, grid, &search, spot);
     JOX_ASSERT(!found || !grid->walls ||
                !jox_walls_lie_between(grid->walls, wish->at, *spot, NULL));
-    if (!found) /* what the search looked at last is taken */
+    if (!found) /* the last spot that was looked at is taken */
         *spot = wish->at;
     return found ? JOX_BIRTH_SHIFTED : ended || t->ended ? JOX_BIRTH_NOT_FOUND : JOX_BIRTH_NO_ROOM;
 }
 
 JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *a, const JoxBirthWish *wish,
                                 JoxV2 *spot) {
-    const JoxBirthSpot found = find_by(spots_of_all(nav, a, wish->radius), &nav->grid, wish, spot);
+    const JoxBirthSpot found =
+        find_spot_in(fill_spots(nav, a, wish->radius), &nav->grid, wish, spot);
     *spot = jox_agents_wrapped(a, *spot);
     return found;
 }
@@ -70,7 +74,7 @@ JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *a, const JoxBirthW
 void jox_nav_born(JoxNav *nav, const JoxAgents *a, uint32_t agent) {
     JoxSpots *t = &nav->spots;
     JOX_ASSERT(t->agents == a && t->count + 1 == a->count && t->next_id + 1 == a->next_id);
-    if (t->mask < a->count) { /* longer lists; laid anew by the next birth */
+    if (t->mask < a->count) { /* the table is too small: the next birth makes a larger one */
         jox_spots_free(t);
         return;
     }
@@ -86,21 +90,21 @@ JoxBirthSpot jox_nav_free_spot(JoxNav *nav, const JoxAgents *a, uint32_t agent, 
     for (uint32_t i = 0; i < a->count; i++)
         if (i != agent)
             jox_spots_enter(&t, i);
-    const JoxBirthSpot found = find_by(&t, &nav->grid, &wish, at);
+    const JoxBirthSpot found = find_spot_in(&t, &nav->grid, &wish, at);
     jox_spots_free(&t);
     return found;
 }
 
-/* ---- walls that came ---- */
+/* ---- new walls ---- */
 
-/* The solids of which an edge came. */
+/* The solids that have a new edge. */
 typedef struct NewSolids {
     struct NewSolid {
-        JoxV2 low, high; /* m: a box about it */
+        JoxV2 low, high; /* m: bounding box */
         uint32_t ring;
     } * items;
     uint32_t count;
-    bool *holds; /* by ring: that it came over the agent in question */
+    bool *holds; /* by ring: the new solid covers the current agent */
 } NewSolids;
 
 static NewSolids list_new_solids(const JoxWalls *walls) {
@@ -127,8 +131,8 @@ static void free_new_solids(NewSolids *solids) {
     jox_free(solids->holds);
 }
 
-/* Marks the new solids that hold a point, and says whether there is one. */
-static bool mark_holding(const JoxWalls *walls, NewSolids *solids, JoxV2 p) {
+/* Marks the new solids that cover a point; returns whether there is one. */
+static bool mark_covering_solids(const JoxWalls *walls, NewSolids *solids, JoxV2 p) {
     bool any = false;
     for (uint32_t s = 0; s < solids->count; s++) {
         const struct NewSolid *solid = &solids->items[s];
@@ -140,8 +144,8 @@ static bool mark_holding(const JoxWalls *walls, NewSolids *solids, JoxV2 p) {
     return any;
 }
 
-/* Whether an edge that came is nearer to p than `clear`, and no older one lies before it. */
-static bool is_on_new_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
+/* Returns whether a new edge is nearer to p than `clear` (m) with no old edge before it. */
+static bool is_near_new_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
     const JoxWallVertex *vertices = grid->walls->vertices;
@@ -160,13 +164,13 @@ static bool is_on_new_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
     return false;
 }
 
-/* Clears one agent: to the nearest free spot with no wall between, but for the solids that came
-   over its centre, out of which it has to go. False where there is none. */
+/* Moves one agent to the nearest free spot with no wall between, except new solids that cover its
+   centre, which it has to leave. Returns false if there is none. */
 static bool clear_agent(JoxSpots *t, JoxNav *nav, JoxAgents *a, uint32_t i, NewSolids *solids) {
     const JoxWalls *walls = nav->grid.walls;
     JoxSpotWish wish = {.at = {a->x[i], a->y[i]}, .radius = jox_param(a, JOX_PARAM_radius, i)};
     JoxV2 spot;
-    if (mark_holding(walls, solids, wish.at))
+    if (mark_covering_solids(walls, solids, wish.at))
         wish.passable = solids->holds;
     if (!jox_spots_find(t, &nav->grid, &wish, &spot))
         return false;
@@ -185,10 +189,10 @@ JoxCleared jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *a) {
     JoxSpots t = jox_spots_begin(&nav->grid, a, 0.0f);
     NewSolids solids = list_new_solids(walls);
     bool *moves = jox_alloc(a->count, sizeof *moves);
-    for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
+    for (uint32_t i = 0; i < a->count; i++) { /* agents that stay take their spots first */
         const JoxV2 p = {a->x[i], a->y[i]};
-        moves[i] = mark_holding(walls, &solids, p) ||
-                   is_on_new_edge(&nav->grid, p, STANDING * jox_param(a, JOX_PARAM_radius, i));
+        moves[i] = mark_covering_solids(walls, &solids, p) ||
+                   is_near_new_edge(&nav->grid, p, STANDING * jox_param(a, JOX_PARAM_radius, i));
         if (!moves[i])
             jox_spots_enter(&t, i);
     }
@@ -204,7 +208,7 @@ JoxCleared jox_nav_clear_new_walls(JoxNav *nav, JoxAgents *a) {
     }
     JOX_ASSERT(result.moved + result.stuck <= a->count);
     if (result.moved)
-        nav->drift = jox_drift_unknown(); /* the order in memory no longer follows space */
+        nav->drift = jox_drift_unknown(); /* the order in memory no longer follows the cells */
     jox_spots_free(&t);
     free_new_solids(&solids);
     jox_free(moves);

@@ -25,8 +25,9 @@ static inline JoxVector jox_row_normal(const JoxRow *row) {
     return (JoxVector){jf_load(row->x), jf_load(row->y)};
 }
 
-/* What remains of the border of a row within the speed limit and the rows before it: along
-   `direction` from `foot`, from `low` to `high`. Returns the lanes in which nothing does. */
+/* The part of a row's border within the speed limit that the rows before it leave: the points foot
+   + t * direction (m/s) for t from `low` to `high`. jox_border_lanes returns the lanes in which
+   nothing is left. */
 typedef struct JoxBorder {
     JoxVector foot, direction;
     JoxFloats low, high;
@@ -58,8 +59,8 @@ static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloa
     return jm_or(none, jf_lt(high, low));
 }
 
-/* The best velocities along borders: nearest to `wanted`, or where there is a direction, farthest
-   along it. */
+/* Returns the best velocities on borders: nearest to `wanted`, or, where `towards` is given,
+   farthest along it. */
 static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wanted,
                                                const JoxVector *towards) {
     const JoxFloats epsilon = jf_set(1e-5f), share = jf_set(JOX_RIGHT_SHARE);
@@ -76,9 +77,9 @@ static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wan
     return (JoxVector){b->foot.x + b->direction.x * t, b->foot.y + b->direction.y * t};
 }
 
-/* The program in two dimensions over the first `count` rows, for the lanes of `all`. Returns those
-   in which not all can be met: *failed_at is the first row that cannot, and *result meets those
-   before it. `towards`, or NULL: see jox_along_border_lanes. */
+/* Solves the two-dimensional program over the first `count` rows, for the lanes of `all`. Returns
+   the lanes in which not all rows can be met: there *failed_at is the first row that cannot, and
+   *result meets the rows before it. `towards`, or NULL: see jox_along_border_lanes. */
 static inline JoxMask jox_program_lanes(const JoxRow *rows, uint32_t count, JoxMask all,
                                         JoxFloats limit, JoxVector wanted, const JoxVector *towards,
                                         JoxVector *result, JoxInts *failed_at) {
@@ -110,8 +111,8 @@ static inline JoxMask jox_program_lanes(const JoxRow *rows, uint32_t count, JoxM
     return failed;
 }
 
-/* Rows that allow the velocities at which row `worst` is violated at least as much as those between
-   `hard` and it; the hard ones stay as they are. */
+/* Makes the rows of the projected program: they allow the velocities at which row `worst` is
+   violated at least as much as the soft rows before it. Hard rows stay as they are. */
 static inline void jox_project_lanes(const JoxRow *rows, uint32_t hard, uint32_t worst,
                                      JoxRow *out) {
     const JoxFloats epsilon = jf_set(1e-5f), zero = jf_set(0.0f), one = jf_set(1.0f);
@@ -130,9 +131,8 @@ static inline void jox_project_lanes(const JoxRow *rows, uint32_t hard, uint32_t
     }
 }
 
-/* The program in three dimensions, for the lanes of `failed`: minimises the greatest violation of
-   those of `count` rows that are not hard, while the `hard` first ones hold, from the row that
-   failed. */
+/* Solves the three-dimensional program for the lanes of `failed`, from the row that failed:
+   minimises the greatest violation of the soft rows (from `hard` on) while the hard ones hold. */
 static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
                                              JoxMask failed, JoxInts failed_at, JoxFloats limit,
                                              JoxVector wanted, JoxVector *result) {
@@ -150,7 +150,7 @@ static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count,
             continue;
         jox_project_lanes(rows, hard, row, projected);
         JoxVector best;
-        JoxInts unmet_at; /* only by rounding: the present result already lies there */
+        JoxInts unmet_at; /* fails only by rounding: the present result already lies there */
         JoxMask unmet =
             jox_program_lanes(projected, row, worse, limit, wanted, &normal, &best, &unmet_at);
         *result = jv_select(jm_without(worse, unmet), best, *result);

@@ -1,7 +1,7 @@
-/* The rest of solve, in lanes: agents of whom the first program found no velocity, or whom what
-   they are pressed by would take far from what they want, gathered from many packets into full
-   ones. Each gets what jox_solve_one would give it, to the bit. For kernels: part of those that
-   include it. */
+/* The rest of solve, in lanes: agents for which the first program found no velocity, or one too far
+   from the wanted one under forces and contacts (out of reach). They are gathered from many packets
+   into full ones. Each gets what jox_solve_one would give it, to the bit. Included by solve_wide.c,
+   and by solve_one.c at width 1. */
 #ifndef JOX_NAV_REST_LANES_H
 #define JOX_NAV_REST_LANES_H
 
@@ -10,26 +10,26 @@
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
 
-/* What agents want and are pressed by: the velocity that forces give, the half-plane of force, who
-   touches something, and who touches something or feels a force. m/s. */
+/* The wanted and the forced velocity of agents, m/s, their half-plane of force, the lanes that
+   touch something, and the lanes that touch something or feel a force. */
 typedef struct JoxPressed {
     JoxVector wanted, forced;
     JoxPlaneLanes force;
     JoxMask touching, pressed;
 } JoxPressed;
 
-/* Agents that wait for their velocity, one a lane, with their half-planes in the rows that they had
-   in their packets: the hard ones end with row JOX_REST_HARD, where the soft ones begin. */
+/* Waiting agents, one per lane, with the rows of half-planes that they had in their packets. Hard
+   rows end before row JOX_REST_HARD, where the soft ones begin. */
 enum { JOX_REST_HARD = JOX_MOST_WALLS + JOX_MOST_CONTACTS };
 typedef struct JoxRest {
     uint32_t count;
     uint32_t agent[JOX_WIDTH];
     bool failed[JOX_WIDTH]; /* a row could not be met */
-    /* Rows: that one; the first of contacts; that of force. */
+    /* Rows: the one that failed; the first of contacts; that of force. */
     uint32_t failed_at[JOX_WIDTH], contacts[JOX_WIDTH], force[JOX_WIDTH];
-    JoxHalfPlaneCounts made[JOX_WIDTH]; /* neighbours aside */
+    JoxHalfPlaneCounts made[JOX_WIDTH]; /* without the number of neighbours */
     float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH], velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
-    uint32_t hard, soft; /* rows, of all */
+    uint32_t hard, soft; /* rows in use, over all lanes */
     JoxRow rows[JOX_MOST_CONSTRAINTS];
 } JoxRest;
 
@@ -37,7 +37,7 @@ static inline void jox_rest_clear(JoxRest *r) {
     r->count = r->hard = r->soft = 0;
 }
 
-/* Room for so many hard and soft rows, which are zeros where they are new. */
+/* Makes room for `hard` and `soft` rows; new ones are zeros. */
 static inline void jox_rest_open(JoxRest *r, uint32_t hard, uint32_t soft) {
     if (hard > r->hard) {
         memset(&r->rows[JOX_REST_HARD - hard], 0, (hard - r->hard) * sizeof *r->rows);
@@ -53,8 +53,8 @@ static inline uint32_t jox_count_of(const JoxHalfPlaneCounts *made) {
     return made->walls + made->contacts + made->agents + made->objects + made->force;
 }
 
-/* Square of how far those who are pressed may be taken from what they want, m2/s2: see
-   keep_within_reach in solve_one.c. */
+/* Returns the square, m2/s2, of how far the own motion may take agents from the wanted velocity:
+   see keep_within_reach in solve_one.c. */
 static inline JoxFloats jox_reach2_lanes(const JoxPressed *p) {
     JoxFloats fx = p->forced.x - p->wanted.x, fy = p->forced.y - p->wanted.y;
     JoxFloats reach2 = fx * fx + fy * fy;
@@ -68,8 +68,8 @@ static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velo
     return jm_without(p->pressed, jf_le(jv_dot(d, d), jox_reach2_lanes(p)));
 }
 
-/* Of those who touch something, who by their feet do nothing but for the program's rounding:
-   contact alone then keeps momentum. */
+/* Returns the forced velocity for agents in contact whose planned one differs from it only by the
+   program's rounding: then contact alone acts, and keeps momentum. */
 static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector velocity) {
     const JoxFloats rounding = jf_set(2e-5f); /* m/s */
     JoxVector d = {velocity.x - p->forced.x, velocity.y - p->forced.y};
@@ -83,16 +83,16 @@ static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, flo
     s->agents->failed[agent] |= failed;
 }
 
-/* ---- of those that were gathered ---- */
+/* ---- the gathered agents ---- */
 
-/* What is known of each, in lanes. Lanes without an agent have those of the first. */
+/* Data of the gathered agents, in lanes. Lanes without an agent repeat the first. */
 typedef struct JoxRestLanes {
     JoxMask all;
     JoxFloats limit;             /* m/s */
-    JoxInts contacts, failed_at; /* rows: the first of a contact; that could not be met */
-    uint32_t count, hard;        /* rows, and from which on their half-planes are soft */
+    JoxInts contacts, failed_at; /* rows: the first of contacts; the one that could not be met */
+    uint32_t count, hard;        /* rows; the first soft row */
     JoxRow *rows;
-    float asked[JOX_REST_HARD + 1][JOX_WIDTH]; /* m/s: offsets of hard rows, and that of force,
+    float asked[JOX_REST_HARD + 1][JOX_WIDTH]; /* m/s: offsets of the hard rows, and of force,
                                                   before any was lowered */
     JoxPressed pressed;
     JoxVector velocity;
@@ -128,8 +128,8 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
                               jm_of_bits(pressed)};
 }
 
-/* One that only hard half-planes that give way allow to move, with its half-planes as they were
-   before any was lowered. Returns whether one was relaxed. */
+/* Plans one agent that can only move if hard half-planes are relaxed, with its half-planes as they
+   were before any was lowered. Returns whether one was relaxed. */
 static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRestLanes *l,
                                 uint32_t k) {
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
@@ -148,8 +148,8 @@ static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRe
     return jox_solve_one(s, r->agent[k], &made, list, jox_v2(r->wanted_x[k], r->wanted_y[k]));
 }
 
-/* The program over the rows of some lanes. Returns those of whom a hard row cannot be met: their
-   result does not hold. */
+/* Solves the program over rows for `lanes`. Returns the lanes in which a hard row cannot be met,
+   whose result is invalid. */
 static inline JoxMask jox_best_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
                                      JoxMask lanes, JoxFloats limit, JoxVector wanted,
                                      JoxVector *result) {
@@ -162,9 +162,9 @@ static inline JoxMask jox_best_lanes(const JoxRow *rows, uint32_t count, uint32_
     return unmet;
 }
 
-/* Lowers contacts and force to the best that there is within reach: see keep_within_reach. Returns
-   the lanes of which any was; *unmet are those of which a hard half-plane gives way, which are not
-   done here. */
+/* Lowers contacts and force to the best velocity within reach: see keep_within_reach. Returns the
+   lanes where any was lowered; *unmet: lanes in which a hard half-plane has to be relaxed, which
+   are not done here. */
 static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask *unmet) {
     const JoxFloats slack = jf_set(1e-5f);
     const JoxVector wanted = l->pressed.wanted, none = {jf_set(0.0f), jf_set(0.0f)};
@@ -206,8 +206,8 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
     return jm_or(lowered, jm_of_bits(lower));
 }
 
-/* Plans those that were gathered, from the velocity that their own program gave them, once what
-   they are pressed by is within reach; they are gone then. Returns how many had a hard half-plane
+/* Plans the gathered agents, from the velocity of their own program, after lowering contacts and
+   force to what is within reach; empties the list. Returns how many had a hard half-plane
    relaxed. */
 static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
     JoxRestLanes l;
@@ -257,9 +257,9 @@ static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
     }
 }
 
-/* Plans those that were gathered as their half-planes cannot all be met: the greatest violation is
-   as small as it can be. Who is then out of reach goes to `far`. Returns how many of those that
-   `far` had to let go had a hard half-plane relaxed. */
+/* Plans the gathered agents whose half-planes cannot all be met, with the least greatest violation.
+   Agents that are then out of reach move on to `far`; if that gets full it is planned. Returns how
+   many of those had a hard half-plane relaxed. */
 static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, JoxRest *far) {
     JoxRestLanes l;
     uint32_t relaxed = 0;

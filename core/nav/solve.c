@@ -1,5 +1,6 @@
-/* The stage solve: every agent's half-planes, and the best velocity that they leave, by the kernel
-   of the run's instruction set. */
+/* The stage solve: makes every agent's half-planes and picks the best velocity that they allow, by
+   the kernel of the run's instruction set. jox_nav_plan does the same for one agent between two
+   steps. */
 #define JOX_ISA_scalar
 #include <assert.h>
 #include <math.h>
@@ -17,13 +18,14 @@ static const struct Kernels {
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static const JoxContactPlanes *in_force(const JoxContactPlanes *touched) {
+static const JoxContactPlanes *use_made_planes(const JoxContactPlanes *touched) {
     return touched && touched->agents ? touched : NULL;
 }
 
-/* Half-planes by their kinds. */
-static uint32_t sort_out(const JoxHalfPlane *half_planes, const JoxHalfPlaneCounts *made,
-                         JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
+/* Labels half-planes, which stand in the order of JoxConstraintKind, with their kinds. Returns how
+   many. */
+static uint32_t label_half_planes(const JoxHalfPlane *half_planes, const JoxHalfPlaneCounts *made,
+                                  JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     const uint32_t hard = made->walls + made->contacts;
     const uint32_t ends[] = {made->walls, hard, hard + made->agents,
                              hard + made->agents + made->objects, UINT32_MAX};
@@ -49,12 +51,12 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                             .agents = (JoxAgents *)agents,
                             .neighbours = neighbours,
                             .objects = objects,
-                            .touched = in_force(touched),
+                            .touched = use_made_planes(touched),
                             .planning_time = (float)planning_time,
                             .plans = true};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
-    return sort_out(half_planes, &made, out);
+    return label_half_planes(half_planes, &made, out);
 }
 
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -67,9 +69,9 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa].solve(s, begin, end);
 }
 
-/* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
+/* Returns how far, m, any agent has to look for walls at most: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
-static float wall_reach(const JoxAgents *a, float planning_time) {
+static float find_wall_reach(const JoxAgents *a, float planning_time) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const JoxParameterColumn speed = a->param[JOX_PARAM_max_speed];
     const JoxParameterColumn horizon = a->param[JOX_PARAM_wall_horizon];
@@ -91,8 +93,8 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
     return most;
 }
 
-/* Agents turn aside by another angle each second. */
-static uint64_t moment_aside(double time) {
+/* Returns the random moment of the angle by which agents turn aside, which changes each second. */
+static uint64_t pick_aside_moment(double time) {
     return jox_random_moment((uint64_t)time, JOX_DRAW_ASIDE);
 }
 
@@ -103,14 +105,14 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                       .agents = agents,
                       .neighbours = neighbours,
                       .objects = objects,
-                      .touched = in_force(touched),
+                      .touched = use_made_planes(touched),
                       .planning_time = (float)planning->planning_time,
                       .plans = planning->plans,
                       .clear2 = nav->grid.walls ? nav->clear2 : NULL,
                       .stream = jox_random_stream(planning->seed),
-                      .moment = moment_aside(planning->time)};
+                      .moment = pick_aside_moment(planning->time)};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, wall_reach(agents, solve.planning_time));
+        jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, solve.planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     if (solve.clear2)
@@ -123,7 +125,8 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
 
 /* ---- one agent, between two steps ---- */
 
-/* As perceive does: the nearest within the agent's perception, nearest first, ties by id. */
+/* Finds the neighbours of one agent exactly as perceive does: the nearest within its perception,
+   nearest first, ties by id. */
 static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
     const uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
     const float reach = jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a));
@@ -154,7 +157,7 @@ static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) 
     }
 }
 
-/* The planes of what one agent touches, under the indices that people have now. */
+/* The contact planes of one agent, with the indices that the touched agents have now. */
 typedef struct Touched {
     JoxContactPlanes all;
     JoxContactPlane planes[JOX_MOST_CONTACTS];
@@ -176,7 +179,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
         const uint32_t other = out->planes[k].other;
         if (k >= in_step->people[was])
             continue;
-        out->planes[k].other = UINT32_MAX; /* unless they are still there */
+        out->planes[k].other = UINT32_MAX; /* until the agent is found again below */
         for (uint32_t m = 0; m < n->count[i]; m++) {
             const uint32_t j = n->index[jox_neighbour_at(n, i, m)];
             if (j + a->moved_up[j] == other)
@@ -185,7 +188,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
     }
 }
 
-/* The velocity that one agent wants: wish_lanes.h at width 1. */
+/* Returns the velocity that one agent wants: wish_lanes.h at width 1. */
 static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                                const JoxHalfPlane *planes) {
     const JoxAgents *a = s->agents;
@@ -203,14 +206,14 @@ static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlane
     return jox_v2(wanted.x, wanted.y);
 }
 
-/* Solves for one agent, whose columns stay as they are. */
+/* Solves for one agent and restores its columns. */
 static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     JoxAgents *a = s->agents;
     const float x = a->next_x[i], y = a->next_y[i];
     const uint8_t failed = a->failed[i];
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, half_planes);
-    out->count = sort_out(half_planes, &made, out->planes);
+    out->count = label_half_planes(half_planes, &made, out->planes);
     a->failed[i] = 0;
     jox_solve_one(s, i, &made, half_planes, find_wanted_alone(s, i, &made, half_planes));
     out->chosen = jox_v2(a->next_x[i], a->next_y[i]);
@@ -224,7 +227,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
                   const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
                   JoxPlan *out) {
     JoxNeighbours neighbours = {0};
-    Touched *own = in_force(touched) ? jox_alloc(1, sizeof *own) : NULL;
+    Touched *own = use_made_planes(touched) ? jox_alloc(1, sizeof *own) : NULL;
     JOX_ASSERT(agent < agents->count);
     find_neighbours(agents, agent, &neighbours);
     if (own)
@@ -237,7 +240,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *
                             .planning_time = (float)planning->planning_time,
                             .plans = true,
                             .stream = jox_random_stream(planning->seed),
-                            .moment = moment_aside(planning->time)};
+                            .moment = pick_aside_moment(planning->time)};
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {

@@ -1,43 +1,45 @@
-/* The velocity of one agent: for those that the kernel of solve leaves over, because a hard
-   half-plane has to give, and for inspected agents. Reach and rounding are those of rest_lanes.h at
-   width 1; what gives way at walls stands here alone. */
+/* The velocity of one agent, in plain C: for inspected agents, and for agents that the kernel of
+   solve leaves over because a hard half-plane has to be relaxed. Reach and rounding are those of
+   rest_lanes.h at width 1; only this file relaxes walls. */
 #define JOX_ISA_scalar
 #include <math.h>
 
 #include "nav/kernels.h"
 #include "nav/rest_lanes.h"
 
-/* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
-   in the contacts. With that the velocity that the forces give meets every hard half-plane. */
-static void give_way_at_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
+/* Relaxes wall planes for an agent that others carry towards a wall: it may come as near as they
+   carry it, as the contact with the wall itself stops it. Then the forced velocity meets every hard
+   half-plane. */
+static void relax_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
     JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
     for (uint32_t k = 0; k < count; k++)
         walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
 }
 
-/* The half-planes that an agent's surroundings and forces impose, those of avoidance apart. */
+/* Returns whether half-plane k is imposed by walls, contacts or force; the others are of
+   avoidance. */
 static bool is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) {
     uint32_t hard = made->walls + made->contacts;
     return k < hard || k >= hard + made->agents + made->objects;
 }
 
-/* How far walls alone take an agent from what it wants, m/s. */
-static float kept_off_by_walls(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
-                               uint32_t count, JoxV2 wanted) {
+/* Returns how far, m/s, walls alone take an agent from the velocity that it wants. */
+static float find_wall_deviation(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
+                                 uint32_t count, JoxV2 wanted) {
     JoxV2 nearest;
     bool relaxed;
     if (count == 0)
         return 0.0f;
     jox_linear_program_solve(walls, count, count, s->agents->speed_limit[i], wanted, &nearest,
                              &relaxed);
-    return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* rounding leaves a solution */
+    return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
 
-/* What an agent is pressed by may leave only velocities far along a valley between half-planes that
-   are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
-   farther from what they want than the forces or walls do. Lowers what is imposed to the best that
-   there is as near as that, walls apart, which all allow to stand still; false where all that is
-   imposed can be met there. */
+/* Keeps the velocity within reach. Contacts and forces may leave only velocities far along a valley
+   between two nearly opposite half-planes, where feet would throw people. So an agent's own motion
+   takes it no farther from the wanted velocity than forces or walls do, avoidance aside. Lowers the
+   imposed half-planes, except walls, which all allow standing still, to the best velocity within
+   that distance. Returns false where all imposed half-planes can be met there. */
 static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                               JoxHalfPlane *half_planes, const JoxPressed *pressed,
                               JoxV2 velocity) {
@@ -46,7 +48,7 @@ static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneC
     uint32_t all = hard + made->agents + made->objects + made->force;
     if (!jox_out_of_reach_lanes(pressed, (JoxVector){velocity.x, velocity.y}))
         return false;
-    const float off = kept_off_by_walls(s, i, half_planes, made->walls, wanted);
+    const float off = find_wall_deviation(s, i, half_planes, made->walls, wanted);
     const float reach2 = jox_maxf(jox_reach2_lanes(pressed), off * off);
     JoxHalfPlane imposed[JOX_MOST_CONSTRAINTS] = {0};
     for (uint32_t k = 0; k < all; k++)
@@ -70,7 +72,7 @@ static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneC
     return lowered;
 }
 
-static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
+static bool meets_walls(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     const float least = 1e-3f; /* m/s */
     for (uint32_t k = 0; k < count; k++)
         if (jox_dot(walls[k].normal, velocity) < walls[k].offset - least)
@@ -78,7 +80,7 @@ static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     return true;
 }
 
-/* Forces on agent i and what it wants, at width 1. */
+/* Returns the forces on agent i and the velocity that it wants, at width 1. */
 static JoxPressed find_pressed(const JoxAgents *a, uint32_t i, const JoxHalfPlaneCounts *made,
                                JoxV2 wanted) {
     const bool touching = made->contacts > 0;
@@ -99,13 +101,13 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
     bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
                                         &velocity, &relaxed);
     if (relaxed && made->contacts) {
-        give_way_at_walls(s, i, half_planes, made->walls);
+        relax_walls(s, i, half_planes, made->walls);
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                  &relaxed);
-        relaxed = relaxed && !meets(half_planes, made->walls, velocity);
+        relaxed = relaxed && !meets_walls(half_planes, made->walls, velocity);
     }
     const JoxPressed pressed = find_pressed(a, i, made, wanted);
-    bool still; /* whether a wall gives is settled above: nothing asks more of one here */
+    bool still; /* ignored: whether a wall gives way was settled above */
     if (keep_within_reach(s, i, made, half_planes, &pressed, velocity))
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                  &still);

@@ -1,15 +1,14 @@
-/* The kernel of solve. A lane is an agent, a packet is JOX_WIDTH of them; their half-planes are
-   made by packet_lanes.h, and the two programs (program_lanes.h) are done for all lanes in lock
-   step. Who is not done by the first program waits until a packet of such agents is full
-   (rest_lanes.h). Lanes of which a hard half-plane has to give, which is rare, are left to
-   solve_one.c, one at a time. */
+/* The kernel of solve. A lane is an agent, a packet is JOX_WIDTH of them. packet_lanes.h makes the
+   half-planes, and both programs (program_lanes.h) run for all lanes in lock step. Agents that the
+   first program does not finish wait until a packet of such agents is full (rest_lanes.h). Lanes
+   whose hard half-planes contradict each other, which is rare, go to solve_one.c one at a time. */
 #include "base/assert.h"
 #include "nav/packet_lanes.h"
 #include "nav/wish_lanes.h"
 
-/* ---- what is wanted, and the velocity ---- */
+/* ---- wanted velocities, and the solution ---- */
 
-/* The lanes (bits) that a half-plane of contacts or neighbours keeps from the velocity wanted. */
+/* Returns the lanes (bits) whose wanted velocity a half-plane of contacts or neighbours forbids. */
 static uint32_t find_kept_off(const JoxPacket *p, const JoxWish *wish) {
     JoxMask kept = jm_of_bits(0);
     for (uint32_t row = p->contacts; row < p->objects; row++)
@@ -18,7 +17,7 @@ static uint32_t find_kept_off(const JoxPacket *p, const JoxWish *wish) {
     return jm_bits(kept);
 }
 
-/* How far each of `lanes` (bits) turns aside, 0 to 1; 0 in the others. */
+/* Returns how far each of `lanes` (bits) turns aside, 0 to 1; 0 in the other lanes. */
 static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
     float turn[JOX_WIDTH] = {0.0f};
     for (; lanes; lanes &= lanes - 1) {
@@ -28,7 +27,8 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
     return jf_load(turn);
 }
 
-/* The velocities wanted: preferred ones, some of them turned aside. Walkers have chosen already. */
+/* Returns the wanted velocities: preferred ones, some of them turned aside; those of walkers were
+   chosen by jox_nav_walk. */
 static JoxVector find_wanted(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const JoxWish wish = jox_wish_of(a, p->first);
@@ -45,8 +45,8 @@ static JoxVector find_wanted(const JoxPacket *p) {
     return wanted;
 }
 
-/* The half-planes of a lane, one after the other. */
-static JoxHalfPlaneCounts list_of(const JoxPacket *p, uint32_t lane, JoxHalfPlane *list) {
+/* Lists the half-planes of one lane; returns their counts. */
+static JoxHalfPlaneCounts list_lane_planes(const JoxPacket *p, uint32_t lane, JoxHalfPlane *list) {
     JoxHalfPlaneCounts made = p->made[lane];
     uint32_t n = 0;
     made.agents = 0;
@@ -60,7 +60,8 @@ static JoxHalfPlaneCounts list_of(const JoxPacket *p, uint32_t lane, JoxHalfPlan
     return made;
 }
 
-/* For JOX_CHECK: half-planes of all lanes, and the velocities of those that meet them all. */
+/* For JOX_CHECK: checks the half-planes of all lanes, and the velocities of the lanes in `met`
+   (bits). */
 static void check_lanes(JoxPacket *p, uint32_t met, JoxFloats limit, JoxVector velocity) {
     float limits[JOX_WIDTH], x[JOX_WIDTH], y[JOX_WIDTH];
     jf_store(limits, limit);
@@ -69,7 +70,7 @@ static void check_lanes(JoxPacket *p, uint32_t met, JoxFloats limit, JoxVector v
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         if (!(p->lanes >> lane & 1))
             continue;
-        JoxHalfPlaneCounts made = list_of(p, lane, p->list);
+        JoxHalfPlaneCounts made = list_lane_planes(p, lane, p->list);
         uint32_t count = jox_count_of(&made);
         jox_half_planes_check(p->list, count);
         if (met >> lane & 1)
@@ -77,18 +78,18 @@ static void check_lanes(JoxPacket *p, uint32_t met, JoxFloats limit, JoxVector v
     }
 }
 
-/* What the first program left of a packet. */
+/* Results of the first program for a packet, by lane. */
 typedef struct Plan {
     float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH];
     float velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
-    uint32_t failed_at[JOX_WIDTH]; /* row, of those that failed */
-    uint32_t failed;               /* lanes */
+    uint32_t failed_at[JOX_WIDTH]; /* row that failed, in lanes that failed */
+    uint32_t failed;               /* bits of lanes */
 } Plan;
 
-/* What is known of a lane that waits as number `at`, its rows aside. */
-static void note_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t lane,
+/* Fills entry `at` of the waiting agents from a lane, except its rows. */
+static void fill_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t lane,
                          const Plan *plan) {
-    const uint32_t first = JOX_REST_HARD - p->hard; /* row of the packet's first */
+    const uint32_t first = JOX_REST_HARD - p->hard; /* row of the packet's first row */
     r->agent[at] = p->first + lane;
     r->failed[at] = plan->failed >> lane & 1;
     r->failed_at[at] = first + plan->failed_at[lane];
@@ -101,14 +102,15 @@ static void note_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t l
     r->force[at] = first + p->count - 1;
 }
 
-/* Puts lanes (bits) of a packet behind those that wait. Returns those for whom there is no room. */
-static uint32_t wait_in(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Plan *plan) {
+/* Appends lanes (bits) of a packet to the waiting agents. Returns the lanes for which there is no
+   room. */
+static uint32_t queue_lanes(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Plan *plan) {
     jox_rest_open(r, p->hard, p->count - p->hard);
     for (uint32_t lane = 0; lanes >> lane && r->count < JOX_WIDTH; lane++) {
         if (!(lanes >> lane & 1))
             continue;
         const uint32_t at = r->count++;
-        note_waiting(r, at, p, lane, plan);
+        fill_waiting(r, at, p, lane, plan);
         JoxRow *to = &r->rows[JOX_REST_HARD - p->hard];
         for (uint32_t row = 0; row < p->count; row++, to++) {
             to->x[at] = p->rows[row].x[lane];
@@ -120,24 +122,26 @@ static uint32_t wait_in(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Pl
     return lanes;
 }
 
-/* Those of whom the first program was not the last. */
-static uint32_t leave_to_rest(JoxPacket *p, const Plan *plan, uint32_t soft, uint32_t hard,
-                              uint32_t far) {
+/* Hands lanes (bits) that the first program did not finish to the next stages: `hard` to
+   solve_one.c at once, `soft` and `far` to the waiting agents. Returns how many had a hard
+   half-plane relaxed. */
+static uint32_t queue_unsolved(JoxPacket *p, const Plan *plan, uint32_t soft, uint32_t hard,
+                               uint32_t far) {
     uint32_t relaxed = 0;
     for (uint32_t lane = 0; hard >> lane; lane++) {
         if (!(hard >> lane & 1))
             continue;
-        JoxHalfPlaneCounts made = list_of(p, lane, p->list);
+        JoxHalfPlaneCounts made = list_lane_planes(p, lane, p->list);
         relaxed += jox_solve_one(p->s, p->first + lane, &made, p->list,
                                  jox_v2(plan->wanted_x[lane], plan->wanted_y[lane]));
     }
     while (soft) {
-        soft = wait_in(p->unmet, p, soft, plan);
+        soft = queue_lanes(p->unmet, p, soft, plan);
         if (p->unmet->count == JOX_WIDTH)
             relaxed += jox_rest_violate_least(p->s, p->unmet, p->far);
     }
     while (far) {
-        far = wait_in(p->far, p, far, plan);
+        far = queue_lanes(p->far, p, far, plan);
         if (p->far->count == JOX_WIDTH)
             relaxed += jox_rest_pull_in(p->s, p->far);
     }
@@ -182,12 +186,13 @@ static uint32_t solve_packet(JoxPacket *p) {
     jf_store(plan.velocity_x, velocity.x);
     jf_store(plan.velocity_y, velocity.y);
     ji_store(plan.failed_at, failed_at);
-    return leave_to_rest(p, &plan, rest & jm_bits(jm_without(failed, hard)), rest & jm_bits(hard),
-                         rest & jm_bits(far));
+    return queue_unsolved(p, &plan, rest & jm_bits(jm_without(failed, hard)), rest & jm_bits(hard),
+                          rest & jm_bits(far));
 }
 
-/* Who plans in this step, and what is about them. */
-static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
+/* Finds the lanes of a packet that plan in this step, and which of them walk, are near walls or
+   touch something. */
+static void begin_solve_packet(JoxPacket *p, uint32_t first, uint32_t end) {
     const JoxSolve *s = p->s;
     const JoxAgents *a = s->agents;
     const JoxContactPlanes *t = s->touched;
@@ -211,7 +216,7 @@ static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
 
 uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t end) {
     JoxRest unmet, far;
-    JoxPacket packet; /* large: each packet of agents begins its rows anew */
+    JoxPacket packet; /* large: only the rows in use are initialised */
     packet.s = s;
     packet.counted = JOX_ALL_LANES;
     packet.unmet = &unmet;
@@ -220,7 +225,7 @@ uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t
     jox_rest_clear(&unmet);
     jox_rest_clear(&far);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        begin_packet(&packet, i, end);
+        begin_solve_packet(&packet, i, end);
         if (packet.lanes)
             relaxed += solve_packet(&packet);
     }

@@ -1,9 +1,9 @@
-/* The walking law: the velocity that one wants who walks among others (core/walking.md). Eleven
-   directions about the way are judged, by the kernel of the run's instruction set (walk_wide.c).
+/* The stage walk: the velocity that the walking law wants among other agents (core/walking.md). The
+   kernel walk_wide.c judges eleven directions around the way.
 
-   The law of a direction e: those ahead leave a gap g, and the speed keeps the time gap T to it;
-   those who cross and walls leave a free path, which is not used up within a fixed time. Of the
-   directions the one that gets on best is taken. */
+   The law of a direction e: agents ahead leave a gap g, and the speed keeps the time gap T to it;
+   crossing agents and walls leave a free path, and the speed does not use it up within a fixed
+   time. The direction with the best progress is taken. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -12,8 +12,8 @@
 #include "nav/kernels.h"
 #include "simd/four.h"
 
-static const float SIGHT = 1.5f; /* m: so near, walls hide people */
-static const double KNOTS = 2.0; /* s between the knots of what a time gap wanders by */
+static const float SIGHT = 1.5f; /* m: least distance within which walls hide agents */
+static const double KNOTS = 2.0; /* s between the knots of the random walk of a time gap */
 
 #define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name, jox_wall_clear_##name},
 static const struct Kernels {
@@ -29,7 +29,8 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
 }
 
-/* How each heads, for those who look at many others, and how far off walls may hide some. */
+/* Packs the headings of agents for lookup by neighbours, and finds the distance within which walls
+   may hide neighbours. */
 static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
@@ -46,8 +47,9 @@ static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     KERNELS[w->nav->isa].walk(w, begin, end);
 }
 
-/* Where everybody heads, and whether anybody walks by the law; *reach: how far walls matter, m. */
-static bool aim_all(JoxWalk *w, float *reach, JoxPool *pool) {
+/* Computes the aims of all agents; *reach: how far walls matter, m. Returns whether any agent walks
+   by the law. */
+static bool aim_agents(JoxWalk *w, float *reach, JoxPool *pool) {
     bool any = false;
     *reach = SIGHT;
     jox_parallel_for(pool, w->agents->count, JOX_NAV_GRAIN, aim_range, w);
@@ -58,8 +60,8 @@ static bool aim_all(JoxWalk *w, float *reach, JoxPool *pool) {
     return any;
 }
 
-/* Time gaps are drawn anew where they are drawn by something else now. */
-static void keep_gap_draws(const JoxWalk *w) {
+/* Discards the draws of time gaps if the random stream or the knots have changed. */
+static void refresh_gap_draws(const JoxWalk *w) {
     JoxNav *nav = w->nav;
     const bool there = nav->gap_room >= w->agents->count;
     if (there && nav->gap_stream == w->stream && nav->gap_knots[0] == w->knots[0] &&
@@ -80,7 +82,7 @@ static void keep_gap_draws(const JoxWalk *w) {
     nav->gap_knots[1] = w->knots[1];
 }
 
-static float share_of(double interval, double time) {
+static float compute_share(double interval, double time) {
     return (float)(1.0 - jox_exp(-interval / time));
 }
 
@@ -91,7 +93,7 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     const double knot = floor(time / KNOTS);
     JoxWalk walk = {.nav = nav, .agents = agents, .neighbours = neighbours, .law = law};
     JOX_ASSERT(nav->capacity >= agents->count);
-    if (!aim_all(&walk, &reach, pool) || !plans)
+    if (!aim_agents(&walk, &reach, pool) || !plans)
         return;
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, reach);
@@ -100,11 +102,11 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.knots[0] = jox_random_moment((uint64_t)knot, JOX_DRAW_GAP);
     walk.knots[1] = jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP);
     walk.own = jox_random_moment(0, JOX_DRAW_GAP);
-    keep_gap_draws(&walk);
+    refresh_gap_draws(&walk);
     walk.between = time / KNOTS - knot;
-    walk.rise = share_of(interval, law->eager_rise);
-    walk.fall = share_of(interval, law->eager_fall);
-    walk.course = share_of(interval, law->course_time);
+    walk.rise = compute_share(interval, law->eager_rise);
+    walk.fall = compute_share(interval, law->eager_fall);
+    walk.course = compute_share(interval, law->course_time);
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, head_range, &walk);

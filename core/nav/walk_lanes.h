@@ -1,6 +1,6 @@
-/* The precedence of the walking law for all lanes of a packet, people's
-   tempers: how eager they are, and the time gap that they keep at present, and how they come to
-   the velocity that they choose. For kernels: part of those that include it. */
+/* Parts of the walking law for all lanes of a packet: precedence among neighbours, tempers
+   (eagerness and the present time gap), and the approach to the chosen velocity. Included by the
+   kernels of walk, and by pair_lanes.h. */
 #ifndef JOX_NAV_WALK_LANES_H
 #define JOX_NAV_WALK_LANES_H
 
@@ -11,7 +11,7 @@
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
 
-/* Of the directions that are judged, left positive: 0 and +-15 to +-75 degrees. */
+/* Of the directions that are judged, left positive: 0, then +-15 to +-75 degrees. */
 static const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
     1.0f,        0.96592583f, 0.96592583f, 0.86602540f, 0.86602540f, 0.70710678f,
     0.70710678f, 0.5f,        0.5f,        0.25881905f, 0.25881905f};
@@ -19,19 +19,19 @@ static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
     0.0f,         0.25881905f, -0.25881905f, 0.5f,        -0.5f,       0.70710678f,
     -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
 
-#define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: who heads so goes the same way */
+#define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: headings within it go the same way */
 
-/* How lanes mind one other each: as one ahead, that is followed, or as one crossing, that is
-   passed; neither: not at all. */
+/* How each lane minds one neighbour: as one ahead, which it follows, or as one crossing, which it
+   passes; neither: not at all. */
 typedef struct JoxMindsLanes {
     JoxMask ahead, crossing;
 } JoxMindsLanes;
 
-/* How agents from `first` on mind one other each, at `offset` (m) from them. Of two bound for the
-   same place, the one with less way left goes first, so that nobody waits for one who waits for
-   them; the older one goes first on a tie. Else the one ahead goes first, if it heads within 60
-   degrees of the same direction. Who goes first is minded as ahead; who crosses, comes the other
-   way or stands, as crossing. `heading`: the others' JoxHeading, member by member. */
+/* Finds how agents from `first` on mind one neighbour each, at `offset` (m). Of two bound for the
+   same place, the one with less way left goes first, so that no two agents wait for each other; on
+   a tie the older one. Otherwise the agent ahead goes first, if it heads within 60 degrees of the
+   same direction. A neighbour that goes first is ahead; one that crosses, comes the other way or
+   stands, is crossing. `heading`: the neighbours' JoxHeading, member by member. */
 static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, JoxInts others,
                                             const JoxFloats heading[4], JoxVector offset) {
     const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way + first);
@@ -43,7 +43,7 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, 
     const JoxMask alike = jm_and(ji_equal(bound, jf_bits(heading[3])), ji_less(ji_set(0), bound));
     JoxMask goes_first = jf_lt(heading[2], way);
     const JoxMask tie = jm_without(jm_without(alike, goes_first), jf_lt(way, heading[2]));
-    if (jm_bits(tie)) { /* few are as far */
+    if (jm_bits(tie)) { /* rare */
         const JoxInts sign = ji_set(INT32_MIN);
         const JoxMask older =
             ji_less(ji_add(ji_pick(a->id, others), sign), ji_add(ji_load(a->id + first), sign));
@@ -57,8 +57,7 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, 
                            jm_or(stands, jm_without(other_bound, along))};
 }
 
-/* The lanes that ignore somebody or mean to touch somebody: who of their neighbours is passed over
-   is asked one by one. */
+/* Returns the lanes that ignore agents or mean to touch one: their neighbours need scalar tests. */
 static inline uint32_t jox_picky_lanes(const JoxAgents *a, uint32_t first) {
     uint32_t picky = 0;
     uint64_t ignoring = 0;
@@ -73,11 +72,12 @@ static inline uint32_t jox_picky_lanes(const JoxAgents *a, uint32_t first) {
 
 /* ---- tempers ---- */
 
-static inline JoxFloats jox_share_lanes(JoxFloats x) { /* within 0 and 1 */
+static inline JoxFloats jox_share_lanes(JoxFloats x) { /* clamped to 0 ... 1 */
     return jf_min(jf_max(x, jf_set(0.0f)), jf_set(1.0f));
 }
 
-/* The crowd makes people eager, between the bounds of their haste. */
+/* Returns the eagerness that the crowd would give agents, 0 to 1, within the bounds of their
+   haste. */
 static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     const JoxNeighbours *n = w->neighbours;
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
@@ -91,7 +91,7 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     const JoxFloats area = (float)JOX_PI * jf_max(d2, jf_set(1e-4f));
     const JoxFloats density =
         jf_select(jm_of_bits(crowded), (float)(JOX_CROWD_RANK + 1) / area, jf_set(0.0f));
-    const JoxFloats keen = jox_share_lanes(twice - one); /* beyond normal */
+    const JoxFloats keen = jox_share_lanes(twice - one); /* haste beyond normal */
     const JoxFloats least = normal * jox_share_lanes(twice) + (one - normal) * keen;
     const JoxFloats bound = most + (one - most) * keen;
     const JoxFloats crowd = jox_share_lanes(density - (float)w->law->crowded);
@@ -105,12 +105,12 @@ static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
     return now + (wanted - now) * rate;
 }
 
-/* From -1 to 1. */
+/* Maps random bits to -1 ... 1. */
 static inline double jox_drawn(uint64_t bits) {
     return 2.0 * jox_random_share(bits) - 1.0;
 }
 
-/* Draws what is not known of some agents. */
+/* Draws the time gaps of `lanes` (bits). */
 static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes) {
     JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
     for (; lanes; lanes &= lanes - 1) {
@@ -125,7 +125,8 @@ static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lane
     }
 }
 
-/* Of `lanes`: differs between people, wanders in time, and falls with eagerness, s. */
+/* Returns the time gaps of `lanes` (bits), s: they differ between agents, wander in time, and fall
+   with eagerness. */
 static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes,
                                       JoxFloats eagerness) {
     const JoxWalkLaw *law = w->law;
@@ -150,8 +151,8 @@ static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t
 
 /* ---- velocities ---- */
 
-/* People get up to a speed slowly, and slow down and turn fast; turning by up to 60 degrees costs
-   them no speed. */
+/* Returns the velocity after a step of approach to speed `allowed` along e, m/s. Agents speed up
+   slowly, and slow down and turn fast; turning by up to 60 degrees costs no speed. */
 static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector e,
                                      JoxFloats allowed) {
     const JoxAgents *a = w->agents;
@@ -167,7 +168,8 @@ static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector
     return (JoxVector){e.x * kept + aside.x * keeps, e.y * kept + aside.y * keeps};
 }
 
-/* The course follows the direction chosen; where they are opposite it becomes that. */
+/* Returns the course after a step of turning it to the direction e; a course opposite to e becomes
+   e. */
 static inline JoxVector jox_turn_course(const JoxWalk *w, uint32_t first, JoxVector e) {
     const JoxAgents *a = w->agents;
     const JoxFloats share = jf_set(w->course), zero = jf_set(0.0f);

@@ -1,65 +1,70 @@
-/* The walking law: how far off walls count, and what they allow one agent, by loops over the
-   directions, of which compilers make lanes of each instruction set, of the same bits. */
+/* The walking law: how far away walls count, and the speeds that they allow one agent. Plain loops
+   over the directions, which compilers vectorise with the same bits on each instruction set. */
 #include <math.h>
 
 #include "geom/polygon.h"
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
-enum { EDGE_LANES = 12 }; /* directions, for whole vectors; the last repeats the one before */
+enum { EDGE_LANES = 12 }; /* directions, padded to whole vectors; the last repeats the one before */
 
-/* One who seeks a way past walls, and what they allow in each direction, m/s. Where that is more
-   than the speed wanted it is of no account. */
+/* An agent that seeks a way past walls, and the speed that walls allow in each direction, m/s; more
+   than the wanted speed has no effect. */
 typedef struct Seeker {
     JoxV2 at;
-    float keep, speed, per_time; /* m from walls; m/s wanted; 1/s: a free path is used up within */
+    float keep, speed, per_time; /* m: distance kept from walls; m/s: wanted; 1/s: inverse of the
+                                    time in which a free path is used up */
     float x[EDGE_LANES], y[EDGE_LANES], allowed[EDGE_LANES];
 } Seeker;
 
-/* In a direction the path is free until it gets within `keep` of an edge. */
-static inline void allow(Seeker *p, int k, float path) {
+/* Limits the speed in direction k to that of a free path (m), which ends at distance `keep` from an
+   edge. */
+static inline void limit_direction(Seeker *p, int k, float path) {
     const float allowed = path > 0.0f ? path * p->per_time : 0.0f;
     p->allowed[k] = allowed < p->allowed[k] ? allowed : p->allowed[k];
 }
 
-/* Who is closer to an edge than that, `off` from it, only goes away from it. */
-static void mind_close(Seeker *p, JoxV2 off) {
+/* Allows an agent closer than `keep` to an edge, which is at `off` from it, only directions away
+   from the edge. */
+static void limit_near_edge(Seeker *p, JoxV2 off) {
     for (int k = 0; k < EDGE_LANES; k++)
-        allow(p, k, off.x * p->x[k] + off.y * p->y[k] > 0.0f ? 0.0f : INFINITY);
+        limit_direction(p, k, off.x * p->x[k] + off.y * p->y[k] > 0.0f ? 0.0f : INFINITY);
 }
 
-/* The line at the distance `keep` from an edge, `far` from here, between the edge's ends; what lies
-   behind is not in the way. t: along the edge; n: towards its line. */
-static void mind_line(Seeker *p, JoxV2 t, JoxV2 n, float far, float from_t, float length) {
+/* Limits directions by the line parallel to an edge at distance `keep`, between the edge's ends; a
+   line behind the agent does not count. t: unit vector along the edge; n: normal towards it; far:
+   distance of the edge, m. */
+static void limit_by_line(Seeker *p, JoxV2 t, JoxV2 n, float far, float from_t, float length) {
     for (int k = 0; k < EDGE_LANES; k++) {
         const float ex = p->x[k], ey = p->y[k], toward = ex * n.x + ey * n.y;
         const float path = (far - p->keep) / (toward > 1e-4f ? toward : 1e-4f);
         const float at = path * (ex * t.x + ey * t.y) - from_t;
         const bool meets = toward > 1e-4f && path >= 0.0f && at >= 0.0f && at <= length;
-        allow(p, k, meets ? path : INFINITY);
+        limit_direction(p, k, meets ? path : INFINITY);
     }
 }
 
-/* The disc about an edge's end. */
-static void mind_end(Seeker *p, JoxV2 end) {
+/* Limits directions by the disc of radius `keep` around an edge's end. */
+static void limit_by_end(Seeker *p, JoxV2 end) {
     const float keep2 = p->keep * p->keep, d2 = jox_length2(end);
     for (int k = 0; k < EDGE_LANES; k++) {
         const float along = end.x * p->x[k] + end.y * p->y[k], rest = keep2 - (d2 - along * along);
         const float path = along - sqrtf(rest > 0.0f ? rest : 0.0f);
-        allow(p, k, rest > 0.0f && along > 0.0f ? path : INFINITY);
+        limit_direction(p, k, rest > 0.0f && along > 0.0f ? path : INFINITY);
     }
 }
 
-/* What is out of reach allows more than is wanted. */
-static void mind_edge(Seeker *p, const JoxWallVertex *edge, JoxV2 to) {
-    const float SLACK = 1.001f; /* more than the paths are rounded by */
+/* Limits directions by one edge; parts out of reach allow more than the wanted speed and are
+   skipped. */
+static void limit_by_edge(Seeker *p, const JoxWallVertex *edge, JoxV2 to) {
+    const float SLACK = 1.001f; /* more than the rounding of paths */
     const float keep = p->keep, ahead = p->speed / p->per_time, reach = keep + ahead;
     const JoxV2 off = jox_sub(jox_segment_nearest(edge->point, to, p->at), p->at);
     const float off2 = jox_length2(off), reach2 = SLACK * reach * reach;
     if (off2 > reach * reach)
         return;
     if (off2 < keep * keep) {
-        mind_close(p, off);
+        limit_near_edge(p, off);
         return;
     }
     const JoxV2 a = jox_sub(edge->point, p->at), b = jox_sub(to, p->at), t = edge->direction;
@@ -67,11 +72,11 @@ static void mind_edge(Seeker *p, const JoxWallVertex *edge, JoxV2 to) {
     const JoxV2 n = jox_scale(jox_left(t), jox_det(way, a) > 0.0f ? 1.0f : -1.0f);
     const float far = jox_dot(a, n);
     if (far - keep <= SLACK * ahead)
-        mind_line(p, t, n, far, jox_dot(a, t), jox_length(way));
+        limit_by_line(p, t, n, far, jox_dot(a, t), jox_length(way));
     if (jox_length2(a) <= reach2)
-        mind_end(p, a);
+        limit_by_end(p, a);
     if (jox_length2(b) <= reach2)
-        mind_end(p, b);
+        limit_by_end(p, b);
 }
 
 void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
@@ -93,13 +98,14 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
     const uint32_t *edges = jox_wall_grid_at(grid, p.at, &count);
     for (uint32_t k = 0; k < count; k++) {
         const JoxWallVertex *edge = &grid->walls->vertices[edges[k]];
-        mind_edge(&p, edge, grid->walls->vertices[edge->next].point);
+        limit_by_edge(&p, edge, grid->walls->vertices[edge->next].point);
     }
     for (int k = 1; k < JOX_WALK_DIRECTIONS; k++)
         table->allowed[k][lane] = p.allowed[k];
 }
 
-/* Where everybody heads, and from how far off walls count for those who walk. */
+/* Computes the aims of agents and returns how far away walls count for walkers, m; -1 without
+   walkers. */
 
 float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
     JoxAgents *a = w->agents;

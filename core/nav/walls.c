@@ -1,16 +1,16 @@
-/* The half-planes of walls (van den Berg et al. 2011). */
+/* The half-planes of walls (van den Berg et al. 2011), for one agent; half_planes.c calls it. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
 
-static const JoxWallVertex *end_of(const JoxWalls *walls, uint32_t edge) {
+static const JoxWallVertex *find_edge_end(const JoxWalls *walls, uint32_t edge) {
     return &walls->vertices[walls->vertices[edge].next];
 }
 
-/* Tangent directions from the origin to the disc of `radius` about p, at distance^2 d2 > radius^2:
-   the leg that leaves the disc on its left, or on its right. */
+/* Tangent directions from the origin to the disc of `radius` about p, with distance^2 d2 >
+   radius^2: left_leg passes the disc on its left, right_leg on its right. */
 static JoxV2 left_leg(JoxV2 p, float radius, float d2) {
     JOX_ASSERT(!(d2 < radius * radius));
     float leg = sqrtf(d2 - radius * radius);
@@ -23,27 +23,30 @@ static JoxV2 right_leg(JoxV2 p, float radius, float d2) {
     return jox_scale((JoxV2){p.x * leg + p.y * radius, -p.x * radius + p.y * leg}, 1.0f / d2);
 }
 
-/* Out of the disc of `radius` about `centre`, through the point nearest to v. */
-static JoxHalfPlane round_half_plane(JoxV2 v, JoxV2 centre, float radius) {
+/* Makes the half-plane that keeps out of the disc of `radius` about `centre`, tangent at its point
+   nearest to v. */
+static JoxHalfPlane make_round_plane(JoxV2 v, JoxV2 centre, float radius) {
     JoxV2 normal = jox_unit(jox_sub(v, centre));
     return (JoxHalfPlane){normal, jox_dot(normal, centre) + radius};
 }
 
-/* Beyond the line through `point` along `direction`, `radius` to its left. */
-static JoxHalfPlane straight_half_plane(JoxV2 point, JoxV2 direction, float radius) {
+/* Makes the half-plane `radius` to the left of the line through `point` along `direction`. */
+static JoxHalfPlane make_straight_plane(JoxV2 point, JoxV2 direction, float radius) {
     JoxV2 normal = jox_left(direction);
     return (JoxHalfPlane){normal, jox_dot(normal, point) + radius};
 }
 
-/* The edge seen from the agent: its two ends, which coincide where it is seen along its length. */
+/* An edge as seen from the agent: its two ends, which coincide where it is seen along its
+   length. */
 typedef struct View {
     const JoxWallVertex *left, *right; /* the edge runs from left to right */
     JoxV2 left_point, right_point;     /* relative to the agent */
     JoxV2 left_leg, right_leg;
 } View;
 
-/* Planes of touching walls pass through zero velocity; true if the edge is settled by that. */
-static bool touching_half_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
+/* Makes the half-plane of an edge within the radius, which allows zero velocity; returns whether
+   the edge is done with that. *made: it has a half-plane. */
+static bool make_touching_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
                                 float s, float line2, float r2, JoxHalfPlane *half_plane,
                                 bool *made) {
     *made = false;
@@ -53,7 +56,7 @@ static bool touching_half_plane(const JoxWallVertex *a, const JoxWallVertex *b, 
         return true;
     }
     if (s > 1.0f && jox_length2(p2) <= r2) {
-        /* The next edge takes care unless the agent is past its start. */
+        /* The next edge makes it unless the agent is past its start. */
         *made = b->convex && jox_det(p2, b->direction) >= 0.0f && jox_length2(p2) > 0.0f;
         *half_plane = (JoxHalfPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
         return true;
@@ -66,12 +69,13 @@ static bool touching_half_plane(const JoxWallVertex *a, const JoxWallVertex *b, 
     return false;
 }
 
-/* Fills the legs; false if a concave corner leaves it to the neighbouring edge. */
+/* Finds the tangents to an edge; returns false if, at a concave corner, the neighbouring edge makes
+   the half-plane. */
 static bool make_view(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2, float s,
                       float line2, float radius, View *view) {
     float r2 = radius * radius, d1 = jox_length2(p1), d2 = jox_length2(p2);
     *view = (View){.left = a, .right = b, .left_point = p1, .right_point = p2};
-    if (s < 0.0f && line2 <= r2) { /* seen along the edge: its near end stands for it */
+    if (s < 0.0f && line2 <= r2) { /* seen along its length: the near end stands for the edge */
         view->right = a;
         view->right_point = p1;
         view->left_leg = left_leg(p1, radius, d1);
@@ -90,12 +94,12 @@ static bool make_view(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, 
     return true;
 }
 
-/* The half-plane of the part of the velocity obstacle nearest to v; false if it is another edge's.
- */
-static bool view_half_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
+/* Makes the half-plane of the part of the velocity obstacle nearest to v; returns false if that
+   part belongs to another edge. */
+static bool make_view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
                             JoxHalfPlane *half_plane) {
-    /* A leg that points into a neighbouring edge is cut by that edge, whose own half-plane counts.
-     */
+    /* A leg that points into a neighbouring edge is cut off by that edge, which has its own
+       half-plane. */
     JoxV2 before = jox_scale(walls->vertices[w->left->previous].direction, -1.0f);
     bool foreign_left = w->left->convex && jox_det(w->left_leg, before) >= 0.0f;
     bool foreign_right = w->right->convex && jox_det(w->right_leg, w->right->direction) <= 0.0f;
@@ -109,11 +113,11 @@ static bool view_half_plane(const JoxWalls *walls, View *w, JoxV2 v, float inver
     float t = point ? 0.5f : jox_dot(from_left, span) / jox_length2(span);
     float t_left = jox_dot(from_left, w->left_leg), t_right = jox_dot(from_right, w->right_leg);
     if ((t < 0.0f && t_left < 0.0f) || (point && t_left < 0.0f && t_right < 0.0f)) {
-        *half_plane = round_half_plane(v, left, radius * inverse);
+        *half_plane = make_round_plane(v, left, radius * inverse);
         return true;
     }
     if (t > 1.0f && t_right < 0.0f) {
-        *half_plane = round_half_plane(v, right, radius * inverse);
+        *half_plane = make_round_plane(v, right, radius * inverse);
         return true;
     }
     JoxV2 on_cut = jox_add(left, jox_scale(span, t));
@@ -124,17 +128,17 @@ static bool view_half_plane(const JoxWalls *walls, View *w, JoxV2 v, float inver
     float to_right = t_right < 0.0f ? INFINITY : jox_length2(jox_sub(v, on_right));
     if (to_cut <= to_left && to_cut <= to_right) {
         *half_plane =
-            straight_half_plane(left, jox_scale(w->left->direction, -1.0f), radius * inverse);
+            make_straight_plane(left, jox_scale(w->left->direction, -1.0f), radius * inverse);
         return true;
     }
     bool use_left = to_left <= to_right;
     *half_plane =
-        use_left ? straight_half_plane(left, w->left_leg, radius * inverse)
-                 : straight_half_plane(right, jox_scale(w->right_leg, -1.0f), radius * inverse);
+        use_left ? make_straight_plane(left, w->left_leg, radius * inverse)
+                 : make_straight_plane(right, jox_scale(w->right_leg, -1.0f), radius * inverse);
     return use_left ? !foreign_left : !foreign_right;
 }
 
-/* True if half-planes made for nearer edges already keep clear of this whole edge. */
+/* Returns whether half-planes of nearer edges already keep clear of this whole edge. */
 static bool is_covered(const JoxHalfPlane *half_planes, uint32_t count, JoxV2 p1, JoxV2 p2,
                        float inverse, float radius) {
     for (uint32_t i = 0; i < count; i++) {
@@ -151,15 +155,16 @@ typedef struct NearEdge {
     uint32_t edge;
 } NearEdge;
 
-/* Edges within range whose outer side the agent is on, nearest first, ties by number. */
-static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range, NearEdge *out,
-                           uint32_t most) {
+/* Lists the edges within range whose outer side the agent is on, nearest first, ties by number.
+   Returns how many. */
+static uint32_t list_near_edges(const JoxWallGrid *grid, JoxV2 position, float range, NearEdge *out,
+                                uint32_t most) {
     uint32_t count, n = 0;
     const uint32_t *edges = jox_wall_grid_at(grid, position, &count);
     for (uint32_t i = 0; i < count; i++) {
         JOX_ASSERT(edges[i] < grid->walls->count);
         const JoxWallVertex *a = &grid->walls->vertices[edges[i]];
-        JoxV2 b = end_of(grid->walls, edges[i])->point;
+        JoxV2 b = find_edge_end(grid->walls, edges[i])->point;
         if (jox_det(a->direction, jox_sub(position, a->point)) >= 0.0f)
             continue;
         float d2 = jox_length2(jox_sub(position, jox_segment_nearest(a->point, b, position)));
@@ -182,11 +187,11 @@ uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
                         float tau, float range, JoxHalfPlane *out, uint32_t most) {
     JOX_ASSERT(tau > 0.0f && radius > 0.0f);
     NearEdge near[16];
-    uint32_t edges = near_edges(grid, position, range, near, 16), made = 0;
+    uint32_t edges = list_near_edges(grid, position, range, near, 16), made = 0;
     float inverse = 1.0f / tau, r2 = radius * radius;
     for (uint32_t i = 0; i < edges && made < most; i++) {
         const JoxWallVertex *a = &grid->walls->vertices[near[i].edge];
-        const JoxWallVertex *b = end_of(grid->walls, near[i].edge);
+        const JoxWallVertex *b = find_edge_end(grid->walls, near[i].edge);
         JoxV2 p1 = jox_sub(a->point, position), p2 = jox_sub(b->point, position);
         if (is_covered(out, made, p1, p2, inverse, radius))
             continue;
@@ -195,10 +200,10 @@ uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
         float line2 = jox_length2(jox_add(p1, jox_scale(edge, s)));
         bool add;
         View view;
-        if (touching_half_plane(a, b, p1, p2, s, line2, r2, &out[made], &add))
+        if (make_touching_plane(a, b, p1, p2, s, line2, r2, &out[made], &add))
             made += add;
         else if (make_view(a, b, p1, p2, s, line2, radius, &view))
-            made += view_half_plane(grid->walls, &view, velocity, inverse, radius, &out[made]);
+            made += make_view_plane(grid->walls, &view, velocity, inverse, radius, &out[made]);
     }
     return made;
 }

@@ -17,7 +17,7 @@ typedef struct JoxWish {
     JoxMask may_turn;    /* turns aside if a half-plane keeps it off */
 } JoxWish;
 
-/* Of the agents from `first` on. */
+/* Makes the wishes of the agents from `first` on. */
 static inline JoxWish jox_wish_of(const JoxAgents *a, uint32_t first) {
     const float slow = 0.2f;
     const JoxVector w = jv_load(a->pref_x, a->pref_y, first);
@@ -29,8 +29,8 @@ static inline JoxWish jox_wish_of(const JoxAgents *a, uint32_t first) {
     return (JoxWish){w, gets_on, jm_without(jm_of_bits(JOX_ALL_LANES), stays)};
 }
 
-/* Whether a half-plane keeps an agent from what it prefers: any that forbids it, or, for an agent
-   that gets on, one straight against it. */
+/* Returns whether a half-plane keeps an agent from its preferred velocity: any that forbids it, or,
+   for an agent that gets on, only one straight against it. */
 static inline JoxMask jox_is_kept_off(const JoxWish *wish, JoxVector normal, JoxFloats offset) {
     const JoxVector w = wish->preferred;
     const float tie = 0.02f; /* sideways share of the way ahead: more is no tie */
@@ -40,7 +40,7 @@ static inline JoxMask jox_is_kept_off(const JoxWish *wish, JoxVector normal, Jox
     return jm_without(jf_lt(along, offset), jm_without(wish->gets_on, head_on));
 }
 
-/* A preferred velocity turned to the right, by jox_turn_aside. */
+/* Returns a preferred velocity turned to the right, by `turn` (0 to 1, jox_turn_aside). */
 static inline JoxVector jox_turn_wish(JoxVector w, JoxFloats turn) {
     const JoxFloats right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
     const JoxFloats on = 1.0f - JOX_ASIDE_BACK * turn;

@@ -11,10 +11,10 @@
 #include "geom/wall_way.h"
 
 static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
-static const float TOUCHING = 0.99f; /* radii from a wall */
+static const float TOUCHING = 0.99f; /* radii: least distance from a wall */
 static const float NEARBY =
-    0.25f;                     /* m: a search goes on with that of a point in the same square, */
-static const float FAR = 1.0f; /* m: as soon as it is so far away */
+    0.25f; /* m: searches about points in one square of this size share their results */
+static const float FAR = 1.0f; /* m: a shared search goes on only from this distance on */
 enum { SEARCHES = 8192, FEW = 1000 };
 
 static uint32_t hash_cell(int32_t x, int32_t y) {
@@ -26,7 +26,7 @@ static uint32_t bucket_of(const JoxSpots *t, int32_t x, int32_t y) {
     return (h ^ h >> 15) & t->mask;
 }
 
-static int32_t cell_of(const JoxSpots *t, float at) {
+static int32_t find_cell(const JoxSpots *t, float at) {
     return (int32_t)floorf(at / t->cell);
 }
 
@@ -60,15 +60,15 @@ void jox_spots_free(JoxSpots *t) {
 
 void jox_spots_enter(JoxSpots *t, uint32_t i) {
     const JoxAgents *a = t->agents;
-    const uint32_t b = bucket_of(t, cell_of(t, a->x[i]), cell_of(t, a->y[i]));
+    const uint32_t b = bucket_of(t, find_cell(t, a->x[i]), find_cell(t, a->y[i]));
     JOX_ASSERT(i < a->count && b <= t->mask && t->head[b] != i);
     JOX_RESERVE(t->next, t->next_capacity, i + 1);
     t->next[i] = t->head[b];
     t->head[b] = i;
 }
 
-/* Whether a disc lies deep in an agent of a cell. */
-static bool is_taken_in(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float radius) {
+/* Returns whether a disc overlaps an agent of a cell by more than DEEP. */
+static bool is_taken_in_cell(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float radius) {
     const JoxAgents *a = t->agents;
     for (uint32_t j = t->head[bucket_of(t, x, y)]; j != JOX_NO_INDEX; j = t->next[j]) {
         const float other = jox_param(a, JOX_PARAM_radius, j);
@@ -79,19 +79,19 @@ static bool is_taken_in(const JoxSpots *t, int32_t x, int32_t y, JoxV2 p, float 
     return false;
 }
 
-/* Its own cell first: of a spot that is taken it mostly tells. */
+/* Tests the cell of p first, which mostly decides for a spot that is taken. */
 static bool is_taken_at(const JoxSpots *t, JoxV2 p, float radius) {
     static const int8_t AROUND[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
                                         {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    const int32_t x = cell_of(t, p.x), y = cell_of(t, p.y);
+    const int32_t x = find_cell(t, p.x), y = find_cell(t, p.y);
     for (int k = 0; k < 9; k++)
-        if (is_taken_in(t, x + AROUND[k][0], y + AROUND[k][1], p, radius))
+        if (is_taken_in_cell(t, x + AROUND[k][0], y + AROUND[k][1], p, radius))
             return true;
     return false;
 }
 
-/* Returns whether a disc lies deep in an agent or in an image of one. */
-static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
+/* Returns whether a disc overlaps an agent, or an image of one, by more than DEEP. */
+static bool is_spot_taken(const JoxSpots *t, JoxV2 p, float radius) {
     const JoxV2 period = t->agents->period, low = t->agents->origin;
     if (!(period.x > 0.0f || period.y > 0.0f))
         return is_taken_at(t, p, radius);
@@ -111,14 +111,15 @@ static bool is_taken(const JoxSpots *t, JoxV2 p, float radius) {
 
 bool jox_spots_is_free(const JoxSpots *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
     JOX_ASSERT(2.0f * jox_maxf(radius, t->widest) <= t->cell * 1.001f);
-    return !is_taken(t, p, radius) && !jox_wall_grid_is_near(grid, p, TOUCHING * radius);
+    return !is_spot_taken(t, p, radius) && !jox_wall_grid_is_near(grid, p, TOUCHING * radius);
 }
 
 /* ---- walls between ---- */
 
 /* Lists the edges that may lie between a wish's point and a spot. */
 static void list_edges(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish) {
-    const float far = JOX_SPOTS_FARTHEST + 2.0f * NEARBY; /* the spiral may be of a point nearby */
+    const float far =
+        JOX_SPOTS_FARTHEST + 2.0f * NEARBY; /* the spiral may start from a point nearby */
     const JoxV2 reach = {far, far};
     const JoxV2 low = jox_sub(wish->at, reach), high = jox_add(wish->at, reach);
     t->edge_count = 0;
@@ -140,8 +141,8 @@ static bool lies_between(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxV2 q)
     return jox_edge_lies_between(v->point, walls->vertices[v->next].point, p, q);
 }
 
-/* Whether a wall lies between; the edge that lay before the last spot mostly lies before this. */
-static bool is_hidden(JoxSpots *t, const JoxWalls *walls, JoxV2 p, JoxV2 q) {
+/* Returns whether a wall lies between; tests the edge that blocked the last spot first. */
+static bool is_behind_edge(JoxSpots *t, const JoxWalls *walls, JoxV2 p, JoxV2 q) {
     if (t->blocking != UINT32_MAX && lies_between(walls, t->blocking, p, q))
         return true;
     for (uint32_t e = 0; e < t->edge_count; e++)
@@ -158,18 +159,18 @@ static bool is_same_point(JoxV2 p, JoxV2 q) {
     return p.x == q.x && p.y == q.y;
 }
 
-/* Where to keep what is known about a point. */
-static JoxSearched *searched_about(const JoxSpots *t, const JoxSpotWish *wish) {
+/* Returns the record of searches about a point. */
+static JoxSearched *find_search_record(const JoxSpots *t, const JoxSpotWish *wish) {
     const int32_t x = (int32_t)floorf(wish->at.x / NEARBY);
     const int32_t y = (int32_t)floorf(wish->at.y / NEARBY);
     return &t->searched[(hash_cell(x, y) ^ wish->kind * 2654435761u) % SEARCHES];
 }
 
-/* Where a search begins: where the last one about this point ended, as what was taken then is taken
-   now. One about a point nearby, on the same side of all walls, goes on with its spiral once that
-   is far from both. */
-static JoxSearched begin_search(const JoxSearched *last, const JoxWallGrid *grid,
-                                const JoxSpotWish *wish, float step) {
+/* Returns where a search begins: where the last one about this point ended, as spots that were
+   taken then are still taken. A search about a point nearby, on the same side of all walls, goes on
+   with the other's spiral once that is far from both. */
+static JoxSearched resume_search(const JoxSearched *last, const JoxWallGrid *grid,
+                                 const JoxSpotWish *wish, float step) {
     JoxSearched own = {wish->at, wish->radius, 0.0f, step, wish->kind, true, false};
     if (wish->passable || !last->known || last->kind != wish->kind || last->radius > wish->radius)
         return own;
@@ -182,8 +183,8 @@ static JoxSearched begin_search(const JoxSearched *last, const JoxWallGrid *grid
     return last->distance > FAR || last->failed ? *last : own;
 }
 
-/* m: how far a search looks: no farther than a corner of its place. */
-static float farthest_of(const JoxSpotWish *wish) {
+/* Returns how far a search looks, m: no farther than a corner of its place. */
+static float limit_distance(const JoxSpotWish *wish) {
     if (!wish->holds)
         return JOX_SPOTS_FARTHEST;
     const JoxV2 corner = {jox_maxf(wish->at.x - wish->low.x, wish->high.x - wish->at.x),
@@ -196,31 +197,32 @@ static bool is_in_place(const JoxSpotWish *wish, JoxV2 spot) {
            (jox_is_within(spot, wish->low, wish->high) && wish->holds(wish->place, spot));
 }
 
-/* Whether a free spot can be gone to: no wall lies between, and no solid holds it. */
-static bool is_reached(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish, JoxV2 spot,
-                       bool *listed) {
+/* Returns whether a free spot can be reached: no wall lies between, and no solid covers it.
+ *listed: the edges are listed. */
+static bool is_reachable(JoxSpots *t, const JoxWalls *walls, const JoxSpotWish *wish, JoxV2 spot,
+                         bool *listed) {
     if (!walls)
         return true;
     if (!*listed)
         list_edges(t, walls, wish);
     *listed = true;
-    return !is_hidden(t, walls, wish->at, spot) && !jox_walls_contain(walls, spot);
+    return !is_behind_edge(t, walls, wish->at, spot) && !jox_walls_contain(walls, spot);
 }
 
 bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wish, JoxV2 *spot) {
     const float radius = wish->radius, step = jox_maxf(radius * 0.5f, 0.05f);
     const JoxWalls *walls = grid->walls && grid->walls->count > 0 ? grid->walls : NULL;
-    JoxSearched *kept = searched_about(t, wish);
-    JoxSearched s = begin_search(kept, grid, wish, step);
+    JoxSearched *kept = find_search_record(t, wish);
+    JoxSearched s = resume_search(kept, grid, wish, step);
     bool found = false, listed = false;
-    const float farthest = farthest_of(wish);
+    const float farthest = limit_distance(wish);
     for (uint32_t looked = 0; s.distance < farthest && !s.failed; looked++, t->looked++) {
         if (t->looked >= JOX_SPOTS_MOST && looked >= FEW)
             break;
         *spot = (JoxV2){s.at.x + s.distance * (float)jox_cos(s.angle),
                         s.at.y + s.distance * (float)jox_sin(s.angle)};
         found = is_in_place(wish, *spot) && jox_spots_is_free(t, grid, *spot, radius) &&
-                is_reached(t, walls, wish, *spot, &listed);
+                is_reachable(t, walls, wish, *spot, &listed);
         if (found)
             break;
         s.angle += step / s.distance;

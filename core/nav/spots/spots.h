@@ -1,5 +1,5 @@
-/* Spots where agents can stand, and the one search for them, by births and for those in whose way
-   walls come. */
+/* Spots where agents can stand, and the search for free ones. nav/placement.c calls it for births,
+   for agents that are put elsewhere, and for agents in the way of new walls. */
 #ifndef JOX_NAV_SPOTS_H
 #define JOX_NAV_SPOTS_H
 
@@ -9,8 +9,8 @@
 #define JOX_SPOTS_FARTHEST 25.0f /* m: how far a search looks */
 enum { JOX_SPOTS_MOST = 5000000 };
 
-/* What a search found about a point, for the next ones near it: all spots about it that are nearer
-   than `distance` are taken. They only fill. */
+/* The state of the last search about a point, for later ones near it: all spots nearer than
+   `distance` (m) are taken. Spots are never freed during a table's life. */
 typedef struct JoxSearched {
     JoxV2 at; /* m */
     float radius, angle, distance;
@@ -18,46 +18,48 @@ typedef struct JoxSearched {
     bool known, failed;
 } JoxSearched;
 
-/* A hash of cells to the agents that have a spot. Valid while nobody moves; who enters is told. */
+/* A hash table from cells to agents. Valid while no agent moves; new agents are added by
+   jox_spots_enter. */
 typedef struct JoxSpots {
     const JoxAgents *agents;
-    uint32_t count, next_id; /* of the agents, once all of them are in it */
+    uint32_t count, next_id; /* count and next id of the agents when all of them were entered */
     float cell, widest;      /* m */
     uint32_t mask;
     uint32_t *head, *next; /* by bucket; by agent index */
     uint32_t next_capacity;
     JoxSearched *searched;
-    uint32_t looked; /* spots that all searches have looked at */
-    bool ended; /* the last search found nothing and was ended by its bound, not by its reach */
-    /* Edges of walls near the point of a search, and the one that lay before the last spot. */
+    uint32_t looked; /* spots that all searches of the table have looked at */
+    bool ended;      /* the last search found nothing because of its bound, not of its reach */
+    /* Edges near the point of a search, and the edge that blocked the last spot (UINT32_MAX:
+       none). */
     uint32_t *edges;
     uint32_t edge_count, edge_capacity, blocking;
 } JoxSpots;
 
-/* Who looks for a spot. */
+/* What a search is for. */
 typedef struct JoxSpotWish {
     JoxV2 at;     /* m */
     float radius; /* m */
-    /* Where it has to lie, within a box; NULL: anywhere. Wishes of one `kind` have the same place.
-     */
+    /* Where the spot has to lie, within a box; NULL: anywhere. Wishes with the same place have the
+       same `kind`. */
     bool (*holds)(const void *place, JoxV2 spot);
     const void *place;
     JoxV2 low, high; /* m */
     uint32_t kind;
-    const bool *passable; /* by ring: solids out of which it leads; NULL: none */
+    const bool *passable; /* by ring: solids that the way may leave; NULL: none */
 } JoxSpotWish;
 
-/* Empty, for agents as wide as these and `widest` m. */
+/* Makes an empty table for agents up to `widest` m in radius, or as wide as the widest agent. */
 JoxSpots jox_spots_begin(JoxWallGrid *grid, const JoxAgents *agents, float widest);
 void jox_spots_free(JoxSpots *spots);
-/* An agent takes the spot on which it stands. */
+/* Enters an agent at its position. */
 void jox_spots_enter(JoxSpots *spots, uint32_t agent);
-/* Whether a disc fits there: clear of edges of walls, and in nobody by more than a quarter of the
-   smaller one's breadth. */
+/* Returns whether a disc fits at p: it keeps clear of walls, and overlaps no agent by more than a
+   quarter of the smaller diameter. */
 bool jox_spots_is_free(const JoxSpots *spots, const JoxWallGrid *grid, JoxV2 p, float radius);
-/* The first free spot of a spiral about the wish whose ways are half a radius apart, 25 m far, with
-   no wall between; all searches by `spots` together look at JOX_SPOTS_MOST, later ones at 1,000
-   each: then `ended` says that there may be one all the same. */
+/* Finds the first free spot on a spiral about the wish, with turns half a radius apart, out to 25
+   m, with no wall between. All searches of a table look at JOX_SPOTS_MOST spots together, later
+   ones at 1,000 each: `ended` then says that a free spot may exist all the same. */
 bool jox_spots_find(JoxSpots *spots, const JoxWallGrid *grid, const JoxSpotWish *wish, JoxV2 *spot);
 
 #endif
