@@ -1,10 +1,11 @@
-/* The stage contact, equations 6 and 7: finds what touches, solves all contacts together, and gives
-   the agents their contact forces. */
+/* The stage contact, equations 6 and 7: finds the contacts, solves all of them together, and writes
+   the agents' contact forces. world/step.c calls it after push. */
 #include "base/assert.h"
 #include "force/internal.h"
 
-/* Sum of the impulses that agent i received, N s; counts those that touch or press. */
-static JoxV2 received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
+/* Returns the sum of the impulses that agent i received, N s; adds the number of its contacts that
+   press or touch to *contacts. */
+static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     const JoxPair *pairs = f->pairs.items;
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
@@ -22,11 +23,11 @@ static JoxV2 received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     return sum;
 }
 
-static void finish_one(JoxForces *f, uint32_t i) {
+static void write_contact_force(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     const float per_second = 1.0f / (float)f->step.dt;
     uint32_t contacts = 0;
-    JoxV2 sum = received(f, i, &contacts);
+    JoxV2 sum = sum_received(f, i, &contacts);
     a->contacts[i] = (uint8_t)(contacts < UINT8_MAX ? contacts : UINT8_MAX);
     a->contact_x[i] = sum.x * per_second;
     a->contact_y[i] = sum.y * per_second;
@@ -39,9 +40,9 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
         if (jox_touch_nothing(f, i, last) && jox_loads_are_none(f, i, last))
-            continue; /* what presses is nothing, as the stage began with it */
+            continue; /* the columns are zero since the stage began */
         for (uint32_t k = i; k < last; k++)
-            finish_one(f, k);
+            write_contact_force(f, k);
     }
 }
 
@@ -67,7 +68,7 @@ void jox_force_contact(JoxForces *f) {
     else if (f->pairs.count || f->wall_count || f->touch_count)
         jox_contacts_solve(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, finish_chunk, f);
-    finish_walls(f); /* in the mode literal no wall presses */
+    finish_walls(f); /* in literal mode walls do not press */
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep(f);
     jox_touches_finish(f);

@@ -1,5 +1,6 @@
-/* Contacts of a step: who touches whom, which wall and which body, and the impulses that keep them
-   from moving into each other. Found, laid out, solved and read by the files contact_*.c. */
+/* Contacts of a step: of agents with agents ("pairs"), walls and bodies ("touches"), and the
+   impulses that keep them from moving into each other. contact_find*.c finds them, contact_layout.c
+   lays them out, contact_solve.c solves them; contact.c runs these in order. */
 #ifndef JOX_FORCE_CONTACT_H
 #define JOX_FORCE_CONTACT_H
 
@@ -11,20 +12,20 @@
 #include "simd/four.h"
 
 enum {
-    JOX_NO_COLOUR = 255,           /* of a contact that is left out */
-    JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
-    JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
+    JOX_NO_COLOUR = 255,           /* a contact that is left out */
+    JOX_CONTACT_MOST_COLOURS = 64, /* most contacts of an agent with other agents */
+    JOX_CONTACT_MOST_WALLS = 6     /* most edges that one agent touches at a time */
 };
 
-/* What one agent was found to touch; normals point to the agent. A contact between two agents is
-   found by one of them. */
+/* A contact that an agent was found to have; the normal points to the agent. One of the two agents
+   finds a contact between them. */
 typedef struct JoxFoundPair {
     uint32_t other, other_id;
     JoxV2 normal;
     float squeeze, target, mass; /* as in JoxPair */
 } JoxFoundPair;
-/* The same one for those who lay contacts out, of as few bytes as that needs: the agent touched,
-   then the colour and the number among the ends of either. */
+/* The part of a found pair that its layout needs, in few bytes: the other agent, its colour, and
+   its number among the contacts of either agent. */
 typedef struct JoxPairSlot {
     uint32_t other;
     uint8_t colour, first_end, second_end;
@@ -35,72 +36,74 @@ typedef struct JoxFoundWall {
     float gap, along; /* m; along: from the start of the edge */
 } JoxFoundWall;
 
-/* What else contacts depend on than motions: one load fetches it. m, kg. */
+/* Data of an agent, other than its motion, that contacts need: one load fetches all of it. m,
+   kg. */
 typedef struct JoxBuild {
     float breadth, radius, mass;
     uint32_t id;
 } JoxBuild;
 
-/* A contact between two agents. The normal points to the first, which has found the contact. Half a
-   line of the cache: whoever looks at a contact takes all of it. */
+/* A contact between two agents; the normal points to the first, which found it. Half a cache line,
+   as every use reads all of it. */
 typedef struct JoxPair {
     uint32_t first, second;
     JoxV2 normal;
     float target;  /* least normal velocity of the first relative to the second, m/s */
     float mass;    /* reduced mass, kg */
-    float squeeze; /* N: of shoulders that are turned, within the radii; besides the impulse */
-    float impulse; /* accumulated, at least 0, N s */
+    float squeeze; /* N: force of turned shoulders, which overlap within the radii; added to the
+                      impulse */
+    float impulse; /* accumulated, not negative, N s */
 } JoxPair;
 
-/* Of an agent, where in ascending ids its contacts come, and its kept impulses begin, or those of
-   who is next among these. */
+/* For an agent with contacts: the number of its first contact in ascending order of ids, and the
+   index of its first kept impulse (or that of the next agent that has some). */
 typedef struct JoxListed {
     uint32_t pair, kept;
 } JoxListed;
 
-/* Contacts between agents, sorted by colour: no agent occurs twice in a colour, so that the
-   contacts of one colour may be solved in any order, at once. */
+/* Contacts between agents, sorted by colour. No agent occurs twice in a colour, so that its
+   contacts may be solved in any order, on any number of threads. */
 typedef struct JoxPairs {
     uint32_t count, colours;
-    uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
+    uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* first item of each colour */
     JoxPair *items;
     size_t capacity;
 } JoxPairs;
 
-/* An agent at the edge of a wall. */
+/* A contact of an agent with an edge of a wall. */
 typedef struct JoxWallContact {
     uint32_t agent, edge;
     JoxV2 normal;
     float along, target, impulse;
 } JoxWallContact;
 
-/* An agent at a body. A push on a body uses the normal's place for its force. */
+/* A contact of an agent with a body. A push on a body stores its force in `normal`. */
 typedef struct JoxTouch {
     uint32_t agent, object;
     JoxV2 normal;
     JoxV3 point;
     float gap, target, mass, impulse; /* m, m/s, kg, N s */
-    float before;                     /* N s: the impulse before a pass */
-    float ahead;   /* of a driven body: share of its speed that it has towards the agent, 0 to 1 */
-    int16_t drive; /* index of its drive, or -1 */
+    float before;                     /* N s: impulse before a pass */
+    float ahead;   /* driven bodies: share of the body's speed that is towards the agent, 0 to 1 */
+    int16_t drive; /* index of the body's drive, or -1 */
 } JoxTouch;
 
-/* A driven body under way that touches somebody (touch.c). */
+/* A kinematic body that moves and touches agents (touch.c). */
 typedef struct JoxDrive {
     uint32_t row;
-    float speed;   /* m/s: its greatest towards anybody whom it touches, or of its middle */
-    float most;    /* N s: what it presses with in the step at most */
-    float pressed; /* N s: with what it does */
+    float speed;   /* m/s: greatest towards an agent that it touches, or of its centre */
+    float most;    /* N s: greatest impulse per step */
+    float pressed; /* N s: present impulse */
 } JoxDrive;
 
-/* An agent's end of a contact with another. */
+/* One agent's end of a contact with another agent. */
 typedef struct JoxEnd {
-    uint32_t pair; /* index */
+    uint32_t pair; /* index of the pair */
     uint32_t other;
 } JoxEnd;
 
-/* The impulse of a contact of the step before, from which the next solve starts; by ascending ids.
-   `other`: id of an agent, edge, or row of a body. */
+/* The impulse of a contact of the last step, from which the next solve starts, in ascending order
+   of ids. `other`: id of an agent, number of an edge, or row of a body. */
 typedef struct JoxKeptImpulse {
     uint32_t id, other;
     float impulse; /* N s */
@@ -110,38 +113,39 @@ typedef struct JoxKeptImpulses {
     size_t count, capacity;
 } JoxKeptImpulses;
 
-/* One direction of a contact of two bodies: what each does along it, and what 1 N s along it, on
-   the first, does to each. All 0 of what is not solved for, but for the way in which it turns. */
+/* One direction of a contact between two bodies: lever and effect on each body of an impulse along
+   it. The effect on a body that is not solved for is 0. */
 typedef struct JoxSupportAxis {
     JoxFour along;                /* unit */
     JoxFour lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
-    float lightness[2], sway[2];  /* 1/kg; what 1 N s does to each, root of 1/kg */
-    float mass, impulse;          /* kg; on the first, N s */
+    float lightness[2],
+        sway[2];         /* 1/kg; root of the velocity gained by 1 N s at the point, root of 1/kg */
+    float mass, impulse; /* kg; impulse on the first body, N s */
 } JoxSupportAxis;
 
-/* A contact of a body with what holds it: solved along the normal and, for friction, across it. */
+/* A contact of a body with its support: solved along the normal and, for friction, across it. */
 typedef struct JoxSupport {
-    uint32_t rows[2];       /* of motions */
+    uint32_t rows[2];       /* indices of motions */
     float target, friction; /* m/s */
     JoxSupportAxis normal, across[2];
 } JoxSupport;
 
-/* Of a support, what says whether it is to be solved again (support_solve.c). */
+/* Decides whether a support has to be solved again (support_solve.c). */
 typedef struct JoxSupportWatch {
     uint32_t rows[2];
-    float answer[2];   /* of the impulse, at most, to unrest of 1 of each body, root of kg */
-    float answered[2]; /* unrest of the bodies when it was looked at last */
-    float left;        /* what it would have changed by then, N s */
+    float answer[2];   /* greatest impulse per unrest of each body, root of kg */
+    float answered[2]; /* unrest of each body when the support was tested last */
+    float left;        /* N s: change that was left then */
 } JoxSupportWatch;
 
-/* Velocity and spin of a body while contacts are solved. */
+/* Motion of a body while contacts are solved. */
 typedef struct JoxBodyMotion {
     JoxFour velocity, spin;
-    JoxV3 given, given_turn; /* by those who touch it, N s and N m s */
-    float held;              /* share of that which its supports took */
-    float unrest; /* sum of all impulses, each by what it does to the body: N s / root of kg */
-    bool solved, touched; /* else it goes on as it moves */
-    uint8_t link;         /* bodies between it and the nearest that is touched */
+    JoxV3 given, given_turn; /* by the agents that touch it, N s and N m s */
+    float held;              /* share of `given` that its supports took */
+    float unrest;            /* sum of all impulses times their sways: N s / root of kg */
+    bool solved, touched;    /* solved: impulses change its motion; touched by agents */
+    uint8_t link;            /* number of bodies between it and the nearest touched one */
 } JoxBodyMotion;
 
 #endif

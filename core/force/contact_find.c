@@ -1,4 +1,5 @@
-/* Who touches whom, and which walls: by the kernel of the run's instruction set. */
+/* Finds the contacts between agents, and of agents with walls and bodies, by the kernel of the
+   run's instruction set, chunk by chunk. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -19,8 +20,9 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
         jox_touches_find(f, begin, end);
 }
 
-/* Whether anybody's list of those within touching range is cut. */
-static bool any_is_cut(const JoxNeighbours *near, uint32_t count) {
+/* Returns whether an agent's list of agents within touch range is full, so that it may lack
+   some. */
+static bool has_full_list(const JoxNeighbours *near, uint32_t count) {
     return near->touch_count && memchr(near->touch_count, JOX_MOST_NEIGHBOURS, count);
 }
 
@@ -41,7 +43,7 @@ void jox_contacts_find(JoxForces *f) {
         JOX_RESERVE(f->touch_first, f->touch_first_capacity, n);
         JOX_RESERVE(f->touch_number, f->touch_number_capacity, n);
     }
-    f->cut = n && any_is_cut(f->step.neighbours, n);
+    f->cut = n && has_full_list(f->step.neighbours, n);
     jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, find_chunk, f);
     for (uint32_t c = 0; c < f->chunks; c++)
         f->totals.pairs += f->chunk[c].overlaps;

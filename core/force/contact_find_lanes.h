@@ -9,18 +9,19 @@
 #include "force/kernels.h"
 #include "simd/vectors.h"
 
-/* Agents of a packet, and the contacts found so far of each, by ascending id of the other. */
+/* The agents of a packet, and the contacts found so far of each, by ascending id of the other
+   agent. */
 typedef struct JoxFindPacket {
     JoxForces *f;
     uint32_t first;  /* agent of lane 0 */
-    uint32_t lanes;  /* bits of the lanes that have an agent, */
-    uint32_t walls;  /* of those near walls, */
-    uint32_t walled; /* and of those that may touch a wall */
+    uint32_t lanes;  /* bits of the lanes that have an agent */
+    uint32_t walls;  /* bits of the lanes near walls */
+    uint32_t walled; /* bits of the lanes that may touch a wall */
     uint32_t count[JOX_WIDTH];
     JoxFoundPair found[JOX_WIDTH][JOX_MOST_NEIGHBOURS];
 } JoxFindPacket;
 
-/* What an agent has in all its contacts. */
+/* Data of an agent that is the same for all of its contacts. */
 typedef struct JoxToucher {
     JoxFloats x, y, vx, vy, breadth, radius, mass, restitution;
     JoxInts least_id; /* neighbours of lesser id find the contact themselves */
@@ -40,7 +41,7 @@ static inline JoxToucher jox_toucher_of(const JoxAgents *a, uint32_t first) {
                         a->period};
 }
 
-/* What one neighbour adds. */
+/* Data of one neighbour of each lane. */
 typedef struct JoxMeeting {
     JoxFloats x, y; /* position of the agent relative to the neighbour, m */
     JoxFloats distance2, distance, gap, squeeze; /* m2, m, m, N */
@@ -48,10 +49,10 @@ typedef struct JoxMeeting {
     JoxFloats mass;                              /* of the neighbour, kg */
 } JoxMeeting;
 
-/* The lanes of `lanes` (bits) whose gap to their neighbour may close within the step. A contact is
-   found a little before the discs meet: agents that would meet within the step are kept from moving
-   into each other, so that people at rest neither overlap nor lose and find each other from step to
-   step. */
+/* Returns those of `lanes` (bits) whose gap to their neighbour may close within the step, and fills
+   *m. A contact is found a little before the discs meet: agents that would meet within the step are
+   kept from moving into each other, so that agents at rest neither overlap nor lose and regain
+   contact from step to step. */
 static inline uint32_t jox_find_meetings(const JoxForces *f, const JoxToucher *self,
                                          const uint32_t *others, uint32_t lanes, JoxMeeting *m) {
     const float *motions = &f->step.neighbours->motions[0].x;
@@ -88,8 +89,9 @@ static inline uint32_t jox_find_meetings(const JoxForces *f, const JoxToucher *s
     return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
 }
 
-/* Least normal velocity after a contact, m/s: the gap (m) may close within dt (s), no more; what
-   meets within it bounces by the restitution. `speed`: normal velocity before, m/s. */
+/* Returns the least normal velocity after a contact, m/s: the gap (m) may close within dt (s), but
+   no more; agents that meet within it bounce by the restitution. `speed`: normal velocity before,
+   m/s. */
 static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloats restitution,
                                          float dt) {
     const JoxFloats zero = jf_set(0.0f), target = jf_select(jf_lt(zero, gap), -gap / dt, zero);
@@ -110,7 +112,7 @@ static inline JoxFloats jox_targets_of(const JoxForces *f, const JoxToucher *sel
 }
 
 /* Adds the contacts of `lanes` (bits) with their neighbours, unless a wall stands between. Agents
-   in one place part along x. */
+   at the same point part along x. */
 static inline void jox_add_contacts(JoxFindPacket *p, const JoxToucher *self, uint32_t lanes,
                                     const uint32_t *other, const JoxMeeting *m) {
     JoxForces *f = p->f;

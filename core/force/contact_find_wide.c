@@ -1,12 +1,12 @@
-/* The kernel that finds contacts. A lane is an agent: of all lanes of a packet the nearest
-   neighbours are looked at, then the second nearest, and so on, until nobody's can touch. What was
-   found is written one by one, as it is little; so are contacts with walls, and contacts of those
-   whose neighbours may lack somebody who touches (contact_near.c). */
+/* The kernel that finds contacts. A lane is an agent: the nearest neighbours of all lanes of a
+   packet are tested, then the second nearest, and so on, until none can touch. Contacts are few, so
+   they are written one at a time; so are contacts with walls, and contacts of agents whose
+   neighbour list does not cover touch range (contact_near.c). */
 #include "force/contact_find_lanes.h"
 #include "geom/wall_grid_lanes.h"
 
-/* Contacts of lanes whose neighbour list covers touch range. */
-static void find_seen(JoxFindPacket *p, uint32_t lanes) {
+/* Adds the contacts of lanes whose neighbour list covers touch range. */
+static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
@@ -25,8 +25,8 @@ static void find_seen(JoxFindPacket *p, uint32_t lanes) {
     }
 }
 
-/* The lanes whose neighbour list covers touch range. */
-static uint32_t lanes_seen(const JoxFindPacket *p) {
+/* Returns the lanes whose neighbour list covers touch range. */
+static uint32_t find_seen_lanes(const JoxFindPacket *p) {
     const uint8_t *touch_count = p->f->step.neighbours->touch_count;
     if (p->f->cut)
         return 0;
@@ -36,7 +36,7 @@ static uint32_t lanes_seen(const JoxFindPacket *p) {
     return p->lanes & jm_bits(ji_equal(count, ji_set(JOX_TOUCH_IS_SEEN)));
 }
 
-/* Writes that none of a packet's agents touches anything. */
+/* Writes that no agent of the packet touches anything. */
 static void write_none(const JoxFindPacket *p) {
     JoxForces *f = p->f;
     const uint32_t i = p->first, chunk = i / JOX_FORCE_GRAIN;
@@ -48,7 +48,7 @@ static void write_none(const JoxFindPacket *p) {
     ji_store_bytes(f->wall_number + i, ji_set(0));
 }
 
-/* Writes what each touches; looks for the contacts of those of whom not all are seen. */
+/* Writes the contacts of each lane; finds those of lanes that are not in `seen` first. */
 static void write_each(JoxFindPacket *p, uint32_t seen) {
     JoxForces *f = p->f;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
@@ -78,7 +78,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
 static void find_packet(JoxFindPacket *p) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
-    const uint32_t seen = lanes_seen(p);
+    const uint32_t seen = find_seen_lanes(p);
     p->walls = p->walled = 0;
     if (f->step.walls) {
         const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
@@ -89,7 +89,7 @@ static void find_packet(JoxFindPacket *p) {
     }
     ji_store(p->count, ji_set(0));
     if (seen)
-        find_seen(p, seen);
+        add_seen_contacts(p, seen);
     const JoxInts none = ji_set(0);
     const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walled | ~seen;
     if (touching & p->lanes)

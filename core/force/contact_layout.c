@@ -1,5 +1,5 @@
-/* The contacts found, laid out for the solve in an order that depends on ids alone, each with the
-   impulse that it had in the step before. */
+/* Lays out the contacts found for the solve, in an order that depends on ids alone, each with the
+   impulse that it had in the last step; keeps the impulses afterwards. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -10,8 +10,7 @@
 static JoxStartKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* Walks the impulses kept from the last step along with contacts that come by ascending ids: 0 for
-   one that was not there. */
+/* Advances *at through the kept impulses, as contacts come in ascending order of ids. */
 float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other) {
     const JoxKeptImpulse *items = kept->items;
     while (*at < kept->count &&
@@ -21,26 +20,27 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
     return found ? items[*at].impulse : 0.0f;
 }
 
-static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
+static inline const JoxFoundPair *get_found(const JoxForces *f, uint32_t i) {
     return (const JoxFoundPair *)f->found.items + f->found_first[i];
 }
 
-static inline JoxPairSlot *slots_of(const JoxForces *f, uint32_t i) {
+static inline JoxPairSlot *get_slots(const JoxForces *f, uint32_t i) {
     return (JoxPairSlot *)f->slots.items + f->found_first[i];
 }
 
-/* Begins to bring what is looked at of an agent that is due soon into the caches: agents that
-   follow each other by id stand anywhere. */
+/* Prefetches the data of an agent that comes AHEAD agents later: consecutive ids are scattered in
+   memory. */
 enum { AHEAD = 6 };
-static inline void fetch(const JoxForces *f, uint32_t i) {
-    __builtin_prefetch(slots_of(f, i));
+static inline void prefetch_agent(const JoxForces *f, uint32_t i) {
+    __builtin_prefetch(get_slots(f, i));
     __builtin_prefetch(&f->colours_of[i], 1);
     __builtin_prefetch(&f->found_number[i]);
     __builtin_prefetch(&f->end_starts[i], 1);
 }
 
-/* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and a
-   number among the ends of both. Finds where the impulses that each agent keeps begin. */
+/* Gives each pair, in ascending order of ids, the first colour that neither of its agents has, and
+   its number among the contacts of either agent. Finds where the kept impulses of each agent
+   begin. */
 static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxKeptImpulses *were = &f->kept_pairs;
@@ -50,16 +50,16 @@ static void colour_pairs(JoxForces *f) {
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];
         if (r + AHEAD < a->count)
-            fetch(f, a->by_rank[r + AHEAD]);
+            prefetch_agent(f, a->by_rank[r + AHEAD]);
         if (!number)
             continue;
         while (kept < were->count && were->items[kept].id < id)
             kept++;
         f->listed[i] = (JoxListed){listed, kept};
-        JoxPairSlot *slot = slots_of(f, i);
+        JoxPairSlot *slot = get_slots(f, i);
         for (uint32_t k = 0; k < number; k++, slot++) {
             const uint64_t open = ~(f->colours_of[i] | f->colours_of[slot->other]);
-            if (open == 0) { /* in a heap of hundreds */
+            if (open == 0) { /* only in a heap of hundreds of agents */
                 slot->colour = JOX_NO_COLOUR;
                 continue;
             }
@@ -72,7 +72,7 @@ static void colour_pairs(JoxForces *f) {
         }
     }
     uint32_t ends = 0;
-    for (uint32_t i = 0; i <= a->count; i++) { /* to where the agent's ends begin */
+    for (uint32_t i = 0; i <= a->count; i++) { /* turns numbers of contacts into starts */
         const uint32_t number = i < a->count ? f->end_starts[i] : 0;
         f->end_starts[i] = ends;
         ends += number;
@@ -81,7 +81,7 @@ static void colour_pairs(JoxForces *f) {
     f->pairs.count = listed;
 }
 
-/* How many pairs of each colour agents [begin, end) found. */
+/* Counts the pairs of each colour that agents [begin, end) found. */
 static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)end, (void)worker;
     JoxForces *f = context;
@@ -94,7 +94,7 @@ static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
             sizes[slots[n].colour]++;
 }
 
-/* From how many pairs of each colour each chunk has to where its first stands. */
+/* Turns the counts of pairs, per chunk and colour, into the place of the first one. */
 static void start_colours(JoxForces *f) {
     JoxPairs *p = &f->pairs;
     uint32_t sum = 0;
@@ -113,15 +113,15 @@ static void start_colours(JoxForces *f) {
     p->starts[JOX_CONTACT_MOST_COLOURS] = sum;
 }
 
-/* Puts the pairs of agents [begin, end) among those of their colours, with the impulses kept. */
+/* Places the pairs that agents [begin, end) found into their colours, with the kept impulses. */
 static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const JoxAgents *a = f->step.agents;
     uint32_t *next = f->colour_sizes[begin / JOX_FORCE_GRAIN];
     for (uint32_t i = begin; i < end; i++) {
-        const JoxFoundPair *found = found_of(f, i);
-        const JoxPairSlot *slots = slots_of(f, i);
+        const JoxFoundPair *found = get_found(f, i);
+        const JoxPairSlot *slots = get_slots(f, i);
         size_t kept = f->found_number[i] ? f->listed[i].kept : 0;
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
             if (slots[k].colour == JOX_NO_COLOUR)
@@ -141,7 +141,7 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     }
 }
 
-/* The contacts with walls, in the order of ids. */
+/* Lists the contacts with walls, in ascending order of agent ids. */
 static void lay_walls(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
@@ -152,7 +152,7 @@ static void lay_walls(JoxForces *f) {
         JoxFoundWall *found = (JoxFoundWall *)f->found_walls.items + f->wall_first[i];
         if (f->wall_number[i])
             f->wall_first[i] = f->wall_group[f->wall_groups++] = f->wall_count;
-        for (uint32_t k = 1; k < f->wall_number[i]; k++) { /* by ascending edge */
+        for (uint32_t k = 1; k < f->wall_number[i]; k++) { /* sorts by edge */
             JoxFoundWall moved = found[k];
             uint32_t at = k;
             for (; at > 0 && found[at - 1].edge > moved.edge; at--)
@@ -173,17 +173,17 @@ static void lay_walls(JoxForces *f) {
     f->wall_group[f->wall_groups] = f->wall_count;
 }
 
-static uint32_t sum_of(const uint32_t *counts, uint32_t chunks) {
+static uint32_t sum_counts(const uint32_t *counts, uint32_t chunks) {
     uint32_t sum = 0;
     for (uint32_t c = 0; c < chunks; c++)
         sum += counts[c];
     return sum;
 }
 
-/* Room for `pairs` and `walls` found. */
-static void reserve(JoxForces *f, uint32_t pairs, uint32_t walls) {
+/* Makes room for all contacts. */
+static void reserve_layout(JoxForces *f, uint32_t pairs, uint32_t walls) {
     const uint32_t agents = f->step.agents->count;
-    /* For a dense crowd from the start, so that no steady step grows it. */
+    /* Room for a dense crowd from the start, so that a steady step never allocates. */
     const uint32_t room = pairs > 4 * agents ? pairs : 4 * agents;
     f->colours_of = jox_stage_memory_take(f->memory, agents, sizeof *f->colours_of);
     JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
@@ -197,19 +197,20 @@ static void reserve(JoxForces *f, uint32_t pairs, uint32_t walls) {
     JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
 }
 
-/* The velocities of a chunk of agents that all but contacts gives. */
+/* Computes the velocities of a chunk of agents without contacts. */
 static void start_chunk(JoxForces *f, uint32_t chunk) {
     const uint32_t count = f->step.agents->count, begin = chunk * JOX_FORCE_GRAIN;
     const uint32_t end = begin + JOX_FORCE_GRAIN;
     KERNELS[f->isa](f, begin, end < count ? end : count);
 }
 
-/* What one thread does, as it goes through all agents by ids: pairs, and walls. Beside these, by
-   chunks of agents: what the solve begins with. */
+/* Tasks of the layout, which run at the same time: pairs and walls, each on one thread through all
+   agents in the order of ids; from STARTS on, one task per chunk, which computes the velocities
+   that the solve starts from. */
 enum { PAIRS, WALLS, STARTS };
 typedef struct Layout {
     JoxForces *forces;
-    uint32_t pairs, walls; /* found */
+    uint32_t pairs, walls; /* numbers found */
 } Layout;
 
 static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -226,10 +227,10 @@ static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worke
 
 void jox_contacts_lay(JoxForces *f) {
     const uint32_t agents = f->step.agents->count;
-    Layout layout = {f, sum_of(f->found.counts, f->chunks),
-                     sum_of(f->found_walls.counts, f->chunks)};
-    const bool touched = f->bodies && sum_of(f->touches.counts, f->chunks);
-    reserve(f, layout.pairs, layout.walls);
+    Layout layout = {f, sum_counts(f->found.counts, f->chunks),
+                     sum_counts(f->found_walls.counts, f->chunks)};
+    const bool touched = f->bodies && sum_counts(f->touches.counts, f->chunks);
+    reserve_layout(f, layout.pairs, layout.walls);
     f->wall_count = f->wall_groups = 0;
     f->pairs.count = f->pairs.colours = 0;
     if (layout.pairs || layout.walls || touched)
@@ -245,14 +246,14 @@ void jox_contacts_lay(JoxForces *f) {
     memset(f->end_starts, 0, ((size_t)agents + 1) * sizeof *f->end_starts);
 }
 
-/* Those of the pairs that agents [begin, end) found, in the order in which these were listed. */
+/* Keeps the impulses of the pairs that agents [begin, end) found, in ascending order of ids. */
 static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const uint32_t *id = f->step.agents->id;
     for (uint32_t i = begin; i < end; i++) {
-        const JoxFoundPair *found = found_of(f, i);
-        const JoxPairSlot *slots = slots_of(f, i);
+        const JoxFoundPair *found = get_found(f, i);
+        const JoxPairSlot *slots = get_slots(f, i);
         uint32_t n = f->found_number[i] ? f->listed[i].pair : 0;
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
             if (slots[k].colour == JOX_NO_COLOUR)

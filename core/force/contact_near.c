@@ -11,7 +11,7 @@ float jox_contact_target(float gap, float speed, float restitution, float dt) {
     return jox_target_lanes(gap, speed, restitution, dt);
 }
 
-static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
+static bool is_in_touch_list(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;
     for (uint32_t k = 0; k < near->touch_count[i]; k++)
         if (index[k] == other)
@@ -19,8 +19,9 @@ static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     return false;
 }
 
-/* Whether more may be within touching range of an agent than its list holds. */
-static bool is_cut(const JoxNeighbours *near, uint32_t i) {
+/* Returns whether an agent's list of agents within touch range is full, so that it may lack
+   some. */
+static bool is_touch_list_full(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
@@ -31,12 +32,13 @@ uint32_t jox_contacts_of(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out
     const uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i];
     JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
     JoxToucher self = jox_toucher_of(a, i);
-    self.least_id = INT32_MIN; /* asked here */
+    self.least_id = INT32_MIN; /* the other agent is tested below */
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
                                     : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
         JoxMeeting m;
-        if (a->id[other] < a->id[i] && (!is_cut(near, other) || lists(near, other, i)))
+        if (a->id[other] < a->id[i] &&
+            (!is_touch_list_full(near, other) || is_in_touch_list(near, other, i)))
             continue;
         if (jox_find_meetings(f, &self, &other, 1, &m))
             jox_add_contacts(&packet, &self, 1, &other, &m);
@@ -46,16 +48,16 @@ uint32_t jox_contacts_of(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out
     return packet.count[0];
 }
 
-/* The nearest point of an edge, if it is this edge's to touch: its inner points, and a convex
-   corner seen from beyond both of its edges, which counts for the edge that it starts. */
-static bool edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxFoundWall *out) {
+/* Finds the point of an edge nearest to p if it belongs to this edge: its inner points, and a
+   convex start corner seen from beyond both of its edges. Returns false otherwise. */
+static bool find_edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxFoundWall *out) {
     const JoxWallVertex *a = &walls->vertices[edge], *b = &walls->vertices[a->next];
     if (jox_det(a->direction, jox_sub(p, a->point)) >= 0.0f)
         return false; /* on the inner side */
     float length = jox_length(jox_sub(b->point, a->point));
     float along = jox_dot(jox_sub(p, a->point), a->direction);
     if (along > length)
-        return false; /* the next edge's start, or nobody's */
+        return false; /* belongs to the next edge, or to none */
     JoxV2 at = jox_add(a->point, jox_scale(a->direction, jox_maxf(along, 0.0f)));
     if (along < 0.0f) {
         const JoxWallVertex *before = &walls->vertices[a->previous];
@@ -84,9 +86,9 @@ uint32_t jox_contacts_walls_of(const JoxForces *f, uint32_t i,
     float most = JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing);
     for (uint32_t k = 0; k < count; k++) {
         JoxFoundWall contact;
-        if (!edge_contact(f->step.walls->walls, edges[k], at, &contact))
+        if (!find_edge_contact(f->step.walls->walls, edges[k], at, &contact))
             continue;
-        if (f->images) /* what presses on an image presses on its wall */
+        if (f->images) /* a contact with an image counts for its wall */
             contact.edge = jox_wall_images_origin(f->images, edges[k], &contact.along);
         contact.gap -= radius;
         if (contact.gap > most)

@@ -1,7 +1,7 @@
-/* The half-planes of what agents touch, from the velocities that the forces give all of them by the
-   end of the step: two that touch may move in the normal direction as their mean
-   does, so that neither plans to move into the other. What is being pushed may brake by its feet;
-   what follows another that recedes need not. */
+/* The half-planes of contacts, from the velocities that forces give all agents by the end of the
+   step. Along the normal, two agents in contact may move as their mean does, so that neither plans
+   to move into the other. An agent that is pushed may brake with its feet; an agent that follows a
+   receding one need not. */
 #include <math.h>
 #include <string.h>
 
@@ -10,33 +10,35 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-/* m/s: what is left of the solve of contacts must not make planes contradict each other. */
+/* m/s: residuals of the contact solve must not make planes contradict each other */
 static const float SLACK = 1e-3f;
 
-/* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
-   step does a share. */
-static inline float braking(const JoxForceStep *step, uint32_t i, float speed, JoxDecay *decay) {
+/* Returns how much of a speed the feet can take away by the end of the step, m/s; for a longer plan
+   more, of which the step does a share. */
+static inline float find_braking(const JoxForceStep *step, uint32_t i, float speed,
+                                 JoxDecay *decay) {
     const JoxPlanning plan = jox_planning_of(step, i);
     float damping = jox_param(step->agents, JOX_PARAM_damping, i);
     float lost = 1.0f - jox_decay(decay, damping, plan.interval);
     return speed * jox_minf(1.0f, lost / plan.response);
 }
 
-/* Least normal speed of agent i, away from j, where both together move at `speed`: who is pushed
-   may brake; who follows one that wants to be slower makes allowance for that. */
-static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed,
-                      JoxDecay *decay) {
+/* Returns the least normal speed of agent i, away from j, where both together move at `speed`, m/s.
+   An agent that is pushed may brake; one that follows an agent that wants to be slower leaves room
+   for that. */
+static float find_least_speed(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal,
+                              float speed, JoxDecay *decay) {
     const JoxAgents *a = step->agents;
     if (speed > 0.0f)
-        return speed - braking(step, i, speed, decay);
+        return speed - find_braking(step, i, speed, decay);
     float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
-    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, j, -speed, decay));
+    float brakes = jox_clampf(-speed - wanted, 0.0f, find_braking(step, j, -speed, decay));
     return speed + brakes;
 }
 
-/* The agents that i touches: those that press on it or that it overlaps. */
-static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
-                              JoxDecay *decay) {
+/* Makes the planes of the agents that press on agent i or overlap it. Returns how many. */
+static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
+                                   JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const JoxPair *pairs = f->pairs.items;
     const float time = (float)f->step.planning_time;
@@ -53,14 +55,15 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
         float gap = p->target < 0.0f ? -p->target * (float)f->step.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
-        float least = bound_of(&f->step, i, j, normal, both, decay) - SLACK;
+        float least = find_least_speed(&f->step, i, j, normal, both, decay) - SLACK;
         float radii = a->breadth[i] + a->breadth[j];
         out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
     }
     return n;
 }
 
-static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out, JoxDecay *decay) {
+static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
+                                 JoxDecay *decay) {
     const float time = (float)f->step.planning_time;
     uint32_t n = 0;
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
@@ -71,14 +74,14 @@ static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out
         float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
         float least = speed;
         if (speed > 0.0f && f->step.objects->rows[t->object].moves) /* else nothing brakes it */
-            least -= braking(&f->step, i, speed, decay);
+            least -= find_braking(&f->step, i, speed, decay);
         least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
     }
     return n;
 }
 
-static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     JoxContactPlanes *planes = &f->planes;
@@ -92,8 +95,8 @@ static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
         }
         for (uint32_t k = i; k < last; k++) {
             JoxContactPlane *own = planes->planes + planes->starts[k];
-            planes->people[k] = (uint8_t)people_planes(f, k, own, &decay);
-            planes->bodies[k] = (uint8_t)body_planes(f, k, own + planes->people[k], &decay);
+            planes->people[k] = (uint8_t)make_people_planes(f, k, own, &decay);
+            planes->bodies[k] = (uint8_t)make_body_planes(f, k, own + planes->people[k], &decay);
         }
     }
 }
@@ -109,14 +112,15 @@ void jox_contact_planes_make(JoxForces *f) {
     JOX_RESERVE(planes->bodies, planes->bodies_capacity, n + JOX_LANES);
     uint32_t most = f->end_starts[n];
     memcpy(planes->starts, f->end_starts, n * sizeof *planes->starts);
-    for (uint32_t i = 0, touches = 0; f->touch_count && i < n; i++) { /* and those with bodies */
+    for (uint32_t i = 0, touches = 0; f->touch_count && i < n;
+         i++) { /* adds room for contacts with bodies */
         planes->starts[i] += touches;
         touches += f->touch_number[i];
         most += f->touch_number[i];
     }
     JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
     planes->agents = n;
-    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, plane_chunk, f);
+    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, make_chunk_planes, f);
 }
 
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *f) {

@@ -1,8 +1,8 @@
-/* The impulses of all contacts at once: velocities start from what the other forces give
-   (contact_layout.c), and Gauss-Seidel passes over the contacts (sequential impulses with
-   accumulated clamping, as E. Catto, Game Developers Conference 2006) go on until a pass changes no
-   force by more than the tolerance. Contacts of one colour share no agent, so that threads and the
-   order in memory change no bit. */
+/* Solves the impulses of all contacts together. Velocities start from what the other forces give
+   (contact_layout.c); Gauss-Seidel passes over the contacts (sequential impulses with accumulated
+   clamping, E. Catto, Game Developers Conference 2006) repeat until a pass changes no force by more
+   than the tolerance. Contacts of one colour share no agent, so that neither threads nor the order
+   in memory change a bit. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -11,20 +11,20 @@
 
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
-/* What a pass over a part of the contacts needs. */
+/* One pass over a part of the contacts. */
 typedef struct Pass {
     JoxForces *forces;
-    uint32_t first;   /* of the colour */
+    uint32_t first;   /* first contact of the colour */
     float *residuals; /* per chunk: greatest change of an impulse, N s */
-    uint32_t chunk;   /* of the first of them */
+    uint32_t chunk;   /* index of the part's first chunk */
 } Pass;
 
-static inline void move_by(JoxV2 *velocity, JoxV2 normal, float change) {
+static inline void add_along(JoxV2 *velocity, JoxV2 normal, float change) {
     velocity->x += normal.x * change;
     velocity->y += normal.y * change;
 }
 
-/* The impulses that contacts begin with: velocities that fit them. */
+/* Applies the impulses that the contacts of a colour start with. */
 static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
@@ -34,8 +34,8 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
         float impulse = p->impulse + p->squeeze * (float)f->step.dt;
         if (!(impulse > 0.0f))
             continue;
-        move_by(&f->work[p->first], p->normal, impulse * f->lightness[p->first]);
-        move_by(&f->work[p->second], p->normal, -impulse * f->lightness[p->second]);
+        add_along(&f->work[p->first], p->normal, impulse * f->lightness[p->first]);
+        add_along(&f->work[p->second], p->normal, -impulse * f->lightness[p->second]);
     }
 }
 
@@ -53,8 +53,8 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
         float change = after - before;
         p->impulse = after;
         most = jox_maxf(most, fabsf(change));
-        move_by(vi, p->normal, change * f->lightness[p->first]);
-        move_by(vj, p->normal, -change * f->lightness[p->second]);
+        add_along(vi, p->normal, change * f->lightness[p->first]);
+        add_along(vj, p->normal, -change * f->lightness[p->second]);
     }
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
@@ -62,11 +62,11 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
 static void warm_walls(JoxForces *f) {
     for (uint32_t k = 0; k < f->wall_count; k++) {
         const JoxWallContact *w = &f->wall[k];
-        move_by(&f->work[w->agent], w->normal, w->impulse * f->lightness[w->agent]);
+        add_along(&f->work[w->agent], w->normal, w->impulse * f->lightness[w->agent]);
     }
 }
 
-/* Over the walls of agents [begin, end) of those that touch any. */
+/* Solves the contacts of agents [begin, end) of those at walls. */
 static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
@@ -79,27 +79,27 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
         w->impulse = jox_maxf(0.0f, before + (w->target - speed) * jox_at(mass, w->agent));
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
-        move_by(&f->work[w->agent], w->normal, change * f->lightness[w->agent]);
+        add_along(&f->work[w->agent], w->normal, change * f->lightness[w->agent]);
     }
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }
 
-static uint32_t chunks_of(uint32_t count, uint32_t grain) {
+static uint32_t count_chunks(uint32_t count, uint32_t grain) {
     return (count + grain - 1) / grain;
 }
 
-/* One pass over everything; returns the greatest change of an impulse, N s. */
-static float pass_over(JoxForces *f) {
+/* Runs one pass over all contacts; returns the greatest change of an impulse, N s. */
+static float run_pass(JoxForces *f) {
     JoxPairs *p = &f->pairs;
     Pass pass = {.forces = f, .residuals = f->residuals};
     for (uint32_t c = 0; c < p->colours; c++) {
         uint32_t count = p->starts[c + 1] - p->starts[c];
         pass.first = p->starts[c];
         jox_parallel_for(f->step.pool, count, PAIR_GRAIN, solve_colour, &pass);
-        pass.chunk += chunks_of(count, PAIR_GRAIN);
+        pass.chunk += count_chunks(count, PAIR_GRAIN);
     }
     jox_parallel_for(f->step.pool, f->wall_groups, WALL_GRAIN, solve_walls, &pass);
-    pass.chunk += chunks_of(f->wall_groups, WALL_GRAIN);
+    pass.chunk += count_chunks(f->wall_groups, WALL_GRAIN);
     float most = jox_touches_pass(f);
     for (uint32_t k = 0; k < pass.chunk; k++)
         most = jox_maxf(most, f->residuals[k]);
@@ -108,9 +108,9 @@ static float pass_over(JoxForces *f) {
 
 static void begin_solve(JoxForces *f) {
     const JoxPairs *p = &f->pairs;
-    uint32_t chunks = chunks_of(f->wall_groups, WALL_GRAIN);
+    uint32_t chunks = count_chunks(f->wall_groups, WALL_GRAIN);
     for (uint32_t c = 0; c < p->colours; c++)
-        chunks += chunks_of(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
+        chunks += count_chunks(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
     JOX_RESERVE(f->residuals, f->residual_capacity, chunks);
     for (uint32_t c = 0; c < p->colours; c++) {
         Pass pass = {.forces = f, .first = p->starts[c]};
@@ -126,7 +126,7 @@ void jox_contacts_solve(JoxForces *f) {
     f->totals.passes = 0;
     float enough = f->options.tolerance * (float)f->step.dt, most = INFINITY;
     while (most > enough && f->totals.passes < f->options.iterations) {
-        most = pass_over(f);
+        most = run_pass(f);
         f->totals.passes++;
     }
     f->totals.residual = most / (float)f->step.dt;

@@ -1,15 +1,16 @@
-/* The kernel of what the solve of contacts begins with: a lane is an agent. */
+/* The kernel that computes the start of the contact solve; a lane is an agent. */
 #include <float.h>
 
 #include "force/kernels.h"
 #include "force/pushes_lanes.h"
 
-static inline JoxMask is_finite(JoxFloats x) {
+static inline JoxMask are_finite(JoxFloats x) {
     return jf_le(jf_abs(x), jf_set(FLT_MAX));
 }
 
-/* The velocities that all but contacts gives by the end of the step, and 1 / mass. What is no
-   number stays with whom it came from, who is named when the step has ended. */
+/* Computes the velocities that all forces except contacts give by the end of the step, and 1 /
+   mass. A velocity that is not finite starts as 0, so that it does not spread to other agents; the
+   step reports its agent at the end. */
 void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
@@ -18,7 +19,7 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
         const JoxVector force = jox_moving_lanes(a, i, jox_stands_lanes(a, i));
         const JoxVector change = jv_scale(jv_scale(force, lightness), dt);
         const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
-        const JoxMask finite = jm_and(is_finite(begins.x), is_finite(begins.y));
+        const JoxMask finite = jm_and(are_finite(begins.x), are_finite(begins.y));
         float x[JOX_WIDTH], y[JOX_WIDTH];
         jf_store(f->lightness + i, lightness);
         jv_store(x, y, 0, jv_select(finite, begins, (JoxVector){zero, zero}));

@@ -1,4 +1,5 @@
-/* The equations of forces on plain values; numbers are those of the paper. N, m, s, kg. */
+/* The equations of forces as functions of plain values, numbered as in the paper. N, m, s, kg. The
+   stages of force apply them to columns. */
 #ifndef JOX_FORCE_EQUATIONS_H
 #define JOX_FORCE_EQUATIONS_H
 
@@ -8,22 +9,23 @@
 #include "base/vec.h"
 #include "geom/objects.h"
 
-/* Whether `offset` lies within the cone about the unit vector `axis` whose half-angle has this
-   cosine. A zero offset has no direction and counts as inside. */
+/* Returns whether `offset` lies within the cone about the unit vector `axis` whose half-angle has
+   this cosine. A zero offset counts as inside. */
 static inline bool jox_cone_holds(JoxV2 offset, JoxV2 axis, float cosine) {
     float along = jox_dot(offset, axis);
-    /* Squares that keep their sign: no root, and no branch to guess wrong. */
+    /* Squares that keep their sign avoid the root and a branch that would be mispredicted. */
     bool within = along * fabsf(along) >= cosine * fabsf(cosine) * jox_length2(offset);
     return within | (cosine <= -1.0f);
 }
 
-/* (5) Share of one among `n` in a push of `newtons` along `offset`, from the pusher. */
+/* (5) Returns the part of one of `n` targets, at `offset` from the pusher, in a push of
+   `newtons`. */
 static inline JoxV2 jox_push_share(JoxV2 offset, float newtons, uint32_t n) {
     return jox_scale(jox_unit(offset), newtons / (float)n);
 }
 
-/* (6) Impulse along the normal that points to the first of two bodies, from the normal part of its
-   velocity relative to the second; zero unless they approach. N s. */
+/* (6) Returns the impulse, N s, along the normal, which points to the first of two bodies, from the
+   normal part of its velocity relative to the second; zero unless they approach. */
 static inline float jox_contact_impulse(float normal_velocity, float restitution,
                                         float inverse_mass) {
     if (!(normal_velocity < 0.0f) || !(inverse_mass > 0.0f))
@@ -42,9 +44,9 @@ static inline JoxV3 jox_turn3(const float m[9], JoxV3 v) {
                    m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
 
-/* (7) Inverse of the mass that a body opposes to an impulse along the level unit vector `normal`
-   at `point`. Printed, it is the body's alone; it is the rotation that keeps energy from growing
-   off the centre. */
+/* (7) Returns the inverse of the mass that a body opposes to an impulse along the horizontal unit
+   vector `normal` at `point`, 1/kg. The paper prints the body's own mass alone; with its rotation
+   an off-centre hit does not add energy. */
 static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, JoxV2 normal) {
     if (!(body->inverse_mass > 0.0f))
         return body->inverse_mass;
@@ -54,7 +56,7 @@ static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, Jo
     return body->inverse_mass + jox_dot3(turn, jox_turn3(body->inverse_inertia, turn));
 }
 
-/* exp(-damping time), computed once as long as both stay the same; begins with damping -1. */
+/* A cached exp(-damping * time), computed anew when either changes. Initialise with damping -1. */
 typedef struct JoxDecay {
     float damping, time, value;
 } JoxDecay;
@@ -65,30 +67,31 @@ static inline float jox_decay(JoxDecay *decay, float damping, float time) {
     return decay->value;
 }
 
-/* (11) Velocity that the force alone would give; `decay` is exp(-damping dt). */
+/* (11) Returns the velocity that the force alone would give; `decay` is exp(-damping dt). */
 static inline JoxV2 jox_forced_velocity(JoxV2 velocity, JoxV2 force, float mass, float decay,
                                         float dt) {
     return jox_add(jox_scale(velocity, decay), jox_scale(force, dt / mass));
 }
 
-/* (11) Speed along the unit vector of a force of `size` newtons that it alone would give. The feet
-   wear down motion along the force, but do not help it against motion the other way: else the
-   faintest force from ahead would brake a walker as hard as the feet can. */
+/* (11) Returns the speed along the unit vector of a force of `size` newtons that the force alone
+   would give. The feet wear down motion along the force, but do not slow motion against it: else
+   the faintest force from ahead would brake a walker as hard as the feet can. */
 static inline float jox_forced_speed(JoxV2 velocity, JoxV2 force_unit, float size, float mass,
                                      float decay, float dt) {
     float along = jox_dot(velocity, force_unit);
     return (along > 0.0f ? along * decay : along) + size * dt / mass;
 }
 
-/* (9) What each of n people ahead gets of a force that did not move its receiver. */
+/* (9) Returns the force on each of n agents ahead of one that a force did not move by `shortfall`
+   m/s. */
 static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float absorb, float mass,
                                    uint32_t n, float dt) {
     return jox_scale(force_unit, absorb * mass * shortfall / ((float)n * dt));
 }
 
-/* (8) Whether someone slows down rather than turns: the change of velocity points against the way
-   travelled within the step, that is against the mean of both velocities, within an angle of this
-   cosine. Printed, it is the new velocity, which has no direction after a full stop. */
+/* (8) Returns whether an agent slows down rather than turns: the change of velocity points against
+   the mean of both velocities, within an angle with this cosine. The paper prints the new velocity
+   instead, which has no direction after a full stop. */
 static inline bool jox_slows(JoxV2 before, JoxV2 after, float cosine) {
     JoxV2 change = jox_sub(after, before), way = jox_add(after, before);
     float against = -jox_dot(change, way); /* |before|^2 - |after|^2 */
@@ -98,39 +101,40 @@ static inline bool jox_slows(JoxV2 before, JoxV2 after, float cosine) {
            against * against > cosine * cosine * jox_length2(change) * jox_length2(way);
 }
 
-/* (8) Change of a velocity, no longer than the old velocity: else a turn would count as a stop
-   harder than a full one. */
+/* (8) Returns the change of velocity, cut to the length of the old velocity: else a turn would
+   count as a harder stop than a full one. */
 static inline JoxV2 jox_slowing(JoxV2 before, JoxV2 after) {
     JoxV2 change = jox_sub(after, before);
     float size = jox_length(change), most = jox_length(before);
     return size > most ? jox_scale(change, most / size) : change;
 }
 
-/* (8) What each of n people ahead gets from someone who slowed by `change`: forward, as their
-   momentum goes. The printed sign pulls them back. */
+/* (8) Returns the force on each of n agents ahead of one that slowed by `change`: forward, along
+   its momentum. The printed sign would pull them back. */
 static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uint32_t n, float dt) {
     return jox_scale(change, -absorb * mass / ((float)n * dt));
 }
 
-/* (8) The greatest share, up to 1, of a momentum along a unit vector that gives a mass of `speed`
-   along it no more than `energy`. N s, kg, m/s, J. */
+/* (8) Returns the greatest share, up to 1, of a momentum (N s) that gives a mass (kg) of `speed`
+   (m/s) along it at most `energy` (J). */
 static inline float jox_share_within_energy(float momentum, float mass, float speed, float energy) {
     float most = mass * (sqrtf(speed * speed + 2.0f * energy / mass) - speed);
     return momentum > most ? most / momentum : 1.0f;
 }
 
-/* (8) The same upon oneself, with nobody ahead: kept from reversing the motion. */
+/* (8) Returns the force on the slowing agent itself, with no agent ahead: cut so that it does not
+   reverse the motion. */
 static inline JoxV2 jox_keep_from_reversing(JoxV2 force, JoxV2 velocity, float mass, float dt) {
     float against = -jox_dot(force, velocity), speed2 = jox_length2(velocity);
     if (!(against * dt > speed2 * mass) || !(speed2 > 0.0f))
         return force;
-    /* Only the part along the motion is cut back, to what stops it. */
+    /* Cuts only the part along the motion, to what stops it. */
     float surplus = (against - speed2 * mass / dt) / speed2;
     return jox_add(force, jox_scale(velocity, surplus));
 }
 
-/* Share of a new passed-on force that arrives within a step; 1 without a filter. It makes the mean
-   delay of what arrives `filter` seconds at any step that is not longer than that. */
+/* Returns the share of a new passed-on force that arrives within a step; 1 without a filter. The
+   mean delay is `filter` seconds for any step up to that length. */
 static inline float jox_filter_share(double dt, double filter) {
     return filter > dt ? (float)(dt / filter) : 1.0f;
 }

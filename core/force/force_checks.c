@@ -1,4 +1,4 @@
-/* Checks of what the stages of force hand on; builds with assertions call them. */
+/* Checks the results of the stages of force; called in builds with assertions only. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -15,7 +15,8 @@ void jox_transfers_check(const JoxForces *f) {
     }
 }
 
-/* No agent occurs twice in a colour; nothing pulls; what one gets another gives. */
+/* Asserts that no agent occurs twice in a colour, that no contact pulls, and that the forces of
+   contacts between agents cancel out. */
 void jox_contacts_check(const JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *p = &f->pairs;

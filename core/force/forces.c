@@ -1,4 +1,4 @@
-/* Scratch, transfers between agents, and the list of impulses on bodies. */
+/* Creates, frees and configures the stages of force; begins a step; lists what outlasts it. */
 #include <math.h>
 #include <string.h>
 
@@ -95,7 +95,7 @@ void jox_forces_free(JoxForces *f) {
     jox_free(f);
 }
 
-/* What does not carry over from the last step, of agents [begin, end). */
+/* Zeroes the columns of agents [begin, end) that do not carry over from the last step. */
 static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
 #define ZERO_SCRATCH(column) jox_mem_fill((column) + begin, 0, (end - begin) * sizeof *(column));
@@ -124,8 +124,9 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
                        end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
 }
 
-/* Of so many agents: builds, by fours, and what contact_layout.c takes, bytes. */
-static size_t memory_of_push(size_t agents) {
+/* Returns the stage memory for so many agents, bytes: builds, padded to fours, and what
+   contact_layout.c takes. */
+static size_t measure_memory(size_t agents) {
     return jox_stage_memory_bytes(agents + 3, sizeof(JoxBuild)) +
            jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxV2)) +
@@ -153,12 +154,13 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
     JOX_RESERVE(f->chunk, f->chunk_capacity, f->chunks);
     JOX_RESERVE(f->starts, f->start_capacity, (size_t)n + 1);
-    if (n > f->braced_capacity) { /* what stays zero takes no memory */
+    if (n >
+        f->braced_capacity) { /* freshly allocated zeros take no memory until they are written */
         jox_free(f->braced);
         f->braced_capacity = n + n / 4;
         f->braced = jox_alloc(f->braced_capacity, sizeof *f->braced);
     }
-    jox_stage_memory_begin(f->memory, memory_of_push(n));
+    jox_stage_memory_begin(f->memory, measure_memory(n));
     f->builds = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->builds);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
@@ -168,7 +170,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     f->bodies = n && step->objects && step->objects->grid.columns;
 }
 
-static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
+static void list_kept_impulses(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
     JOX_SECTION_ARRAY(s, name, kept->items, kept->count, kept->capacity);
     for (size_t k = 0; s->mode == JOX_SECTIONS_RESTORE && k < kept->count; k++)
         if (!(kept->items[k].impulse >= 0.0f && kept->items[k].impulse < INFINITY))
@@ -177,9 +179,9 @@ static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
 
 void jox_forces_sections(JoxForces *f, JoxSections *s) {
     jox_sections_module(s, "force");
-    list_kept(s, "pairs", &f->kept_pairs);
-    list_kept(s, "walls", &f->kept_walls);
-    list_kept(s, "touches", &f->kept_touches);
+    list_kept_impulses(s, "pairs", &f->kept_pairs);
+    list_kept_impulses(s, "walls", &f->kept_walls);
+    list_kept_impulses(s, "touches", &f->kept_touches);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

@@ -1,4 +1,5 @@
-/* What braced and slowing people pass on: equations 8 and 9. */
+/* The stage infer, equations 8 and 9: forces that bracing and slowing agents pass on to those
+   ahead. */
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +12,8 @@
 static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* (9) Someone under force who falls short of where it would take them. */
+/* (9) Passes the resistance of agent i, under force, on: it falls short of the velocity that the
+   force would give, by `shortfall`, m/s. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shortfall) {
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
@@ -24,9 +26,10 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
         jox_transfer_give(f, chunk, i, found[k], each);
 }
 
-/* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:
-   who is faster already, or soon will be, is not driven by more than was lost. */
-static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float energy) {
+/* Returns the share of a force that agent `to` takes from an agent that slowed down and lost
+   `energy` (J). An agent that is faster already, or soon will be, gains no more energy than was
+   lost. */
+static float find_taken_share(const JoxForces *f, uint32_t to, JoxV2 force, float energy) {
     const JoxAgents *a = f->step.agents;
     float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, to);
     if (!(size > 0.0f))
@@ -39,7 +42,7 @@ static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float ene
     return jox_share_within_energy(size * (float)f->step.dt, mass, speed, energy);
 }
 
-/* (8) Someone under no force who slowed down. */
+/* (8) Passes on the momentum of agent i, which slowed down under no force. */
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
@@ -50,11 +53,11 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     JoxV2 given = jox_deceleration(change, absorb, mass, n > 0 ? n : 1, dt);
     float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
     for (uint32_t k = 0; k < n; k++) {
-        float share = share_taken(f, found[k], given, absorb * lost / (float)n);
+        float share = find_taken_share(f, found[k], given, absorb * lost / (float)n);
         jox_transfer_give(f, chunk, i, found[k], jox_scale(given, share));
     }
     if (n || jox_stands(a, i))
-        return; /* who wants to stand brakes as they plan: nothing carries them on */
+        return; /* an agent that wants to stand brakes as planned: nothing carries it on */
     jox_transfer_give(f, chunk, i, i,
                       jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
 }
@@ -65,7 +68,7 @@ static inline bool all_pass_nothing(const uint8_t kinds[8]) {
     return bytes == JOX_PASSES_NOTHING;
 }
 
-/* Whole packets are looked at by the kernel of the run's instruction set. */
+/* Whole packets are tested by the kernel of the run's instruction set. */
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -99,7 +102,7 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
         return;
     for (uint32_t i = begin; i < end; i++) {
         const float x = a->inferred_x[i], y = a->inferred_y[i];
-        /* What is left of a force after seconds is nothing, and slow to compute with. */
+        /* A force fades to zero after some seconds; denormal numbers would be slow. */
         const bool fades = fabsf(x * kept) + fabsf(y * kept) < 1e-6f && fabsf(x) + fabsf(y) > 0.0f;
         a->inferred_x[i] = fades ? 0.0f : x * kept;
         a->inferred_y[i] = fades ? 0.0f : y * kept;

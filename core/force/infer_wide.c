@@ -1,23 +1,23 @@
-/* The kernel of infer: who passes on what, equations 8 and 9; a lane is an agent. Lanes behind the
-   last agent have numbers of no meaning. tests/unit/force_one.h says the same of one agent, to the
-   bit. */
+/* The kernel of infer: which agents pass forces on, equations 8 and 9; a lane is an agent. Lanes
+   behind the last agent hold meaningless numbers. tests/unit/force_one.h has the same for one
+   agent, equal to the bit. */
 #include <string.h>
 
 #include "force/kernels.h"
 #include "force/pushes_lanes.h"
 
-static inline JoxMask is_set(JoxVector a) {
+static inline JoxMask is_nonzero(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f);
     const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
     return jm_without(jm_of_bits(JOX_ALL_LANES), none);
 }
 
-/* (9) By how much the feet keep agents, in this step, below where the force along a unit vector
-   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
-   forces give, less what they wear down in any case. Counted step by step, it is the same at any
-   step and however long a plan is kept. `old`: velocities before the step. */
-static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
-                           JoxDecay *decay) {
+/* (9) Returns by how much the feet keep agents, in this step, below the velocity along a unit
+   vector that the force would give, m/s: the part of others' pushes that they hold, and what they
+   take from the forced velocity, minus what they wear down anyway. It adds up step by step, so that
+   neither the step nor the length of a plan changes it. `old`: velocities before the step. */
+static JoxFloats find_shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
+                                JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
@@ -33,9 +33,9 @@ static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVec
     return holds + takes - worn;
 }
 
-/* (8) Who, under no force, slowed down so that others feel it. What the feet took counts: contacts
-   and other forces have their share already. */
-static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
+/* (8) Returns the lanes that, under no force, slowed down enough for others to feel. Only what the
+   feet took counts, as contacts and other forces have acted on others already. */
+static JoxMask find_slowing(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxFloats least = jf_set(f->options.least * (float)f->step.dt);
@@ -52,7 +52,7 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxFloats absorb = jox_param_lanes(a, JOX_PARAM_absorb, i);
     const JoxFloats felt = jf_sqrt(jv_dot(slowing, slowing)) * absorb;
     return jm_and(jm_and(jf_lt(zero, against), aligned),
-                  jm_and(jm_and(is_set(old), jf_lt(zero, absorb)), jf_le(least, felt)));
+                  jm_and(jm_and(is_nonzero(old), jf_lt(zero, absorb)), jf_le(least, felt)));
 }
 
 void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t end,
@@ -62,18 +62,18 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
     JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector unit = jv_load(a->half_plane_x, a->half_plane_y, i);
-        const uint32_t forced = jm_bits(is_set(unit));
+        const uint32_t forced = jm_bits(is_nonzero(unit));
         JoxFloats motion[4];
         jf_fours((const float *)&f->step.neighbours->motions[i], 4, motion);
         const JoxVector old = {motion[2], motion[3]};
         JoxFloats lacks = zero;
         uint32_t resists = 0;
         if (forced) {
-            lacks = shortfall(f, i, old, unit, &decay);
+            lacks = find_shortfall(f, i, old, unit, &decay);
             resists = jm_bits(
                 jm_and(jf_lt(least, lacks), jf_lt(zero, jox_param_lanes(a, JOX_PARAM_absorb, i))));
         }
-        const uint32_t slows = jm_bits(slows_down(f, i, old)) & ~forced;
+        const uint32_t slows = jm_bits(find_slowing(f, i, old)) & ~forced;
         if (!(resists | slows)) {
             memset(passing->kind + (i - begin), JOX_PASSES_NOTHING, JOX_WIDTH);
             continue;

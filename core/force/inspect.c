@@ -1,10 +1,10 @@
-/* What one agent's forces are made of, for who looks at it. */
+/* Parts of one agent's forces, for inspection. */
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
 JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
-    JOX_ASSERT(agent < f->step.agents->capacity); /* some may have left since */
+    JOX_ASSERT(agent < f->step.agents->capacity); /* agents may have left since */
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < f->touch_count; k++)
         if (f->touch[k].agent == agent)

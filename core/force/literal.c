@@ -1,9 +1,9 @@
-/* What only the mode `literal` does: terms of the net force as the paper prints them. */
+/* Literal mode: the terms of the net force as the paper prints them. */
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
-/* m/s: a force that changes a velocity by less in a step is rounding, and none. */
+/* m/s: a force that changes a velocity by less in a step counts as rounding */
 static const float ROUNDING = 1e-5f;
 
 JoxV2 jox_literal_push_offset(const JoxForces *f, uint32_t pusher, JoxV2 to_centre) {
@@ -12,8 +12,8 @@ JoxV2 jox_literal_push_offset(const JoxForces *f, uint32_t pusher, JoxV2 to_cent
     return jox_sub(to_centre, jox_scale(way, (float)f->step.dt));
 }
 
-/* (6) Each overlapping pair by itself, at the velocities that the step began with. */
-static void pair_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* (6) Solves each overlapping pair by itself, from the velocities before the step. */
+static void solve_single_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const JoxAgents *a = f->step.agents;
@@ -33,8 +33,9 @@ static void pair_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     }
 }
 
-/* (6), (7) Each touch of a body by itself; the body opposes its mass alone, wherever it is hit. */
-static void touch_bodies(JoxForces *f) {
+/* (6), (7) Solves each contact with a body by itself; the body opposes its mass alone, wherever it
+   is hit. */
+static void solve_single_touches(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
@@ -55,8 +56,8 @@ static void touch_bodies(JoxForces *f) {
 
 void jox_literal_contacts(JoxForces *f) {
     JOX_ASSERT(f->options.literal);
-    jox_parallel_for(f->step.pool, f->pairs.count, JOX_FORCE_GRAIN, pair_chunk, f);
-    touch_bodies(f);
+    jox_parallel_for(f->step.pool, f->pairs.count, JOX_FORCE_GRAIN, solve_single_pairs, f);
+    solve_single_touches(f);
 }
 
 bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
@@ -65,19 +66,21 @@ bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
     return impulse >= ROUNDING * jox_param(a, JOX_PARAM_mass, i) && isfinite(impulse);
 }
 
-/* (11) From the velocity that the step began with. */
-static JoxV2 forced_velocity(const JoxForces *f, uint32_t i) {
+/* (11) Returns the velocity before the step plus what the force gives. */
+static JoxV2 find_forced_velocity(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     return jox_forced_velocity(jox_velocity_before(f, i), jox_v2(a->force_x[i], a->force_y[i]),
                                jox_param(a, JOX_PARAM_mass, i), 1.0f, (float)f->step.dt);
 }
 
-/* (11), (12) The greatest speed of ORCA never keeps the forced velocity out. */
-static void bound_by_force(JoxForces *f, uint32_t i) {
+/* (11), (12) Makes the half-plane of the force; the speed limit is raised so that it allows the
+   forced velocity. */
+static void make_force_plane(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     if (!jox_literal_under_force(f, i))
         return;
-    JoxV2 normal = jox_unit(jox_v2(a->force_x[i], a->force_y[i])), forced = forced_velocity(f, i);
+    JoxV2 normal = jox_unit(jox_v2(a->force_x[i], a->force_y[i])),
+          forced = find_forced_velocity(f, i);
     JOX_ASSERT(jox_is_unit(normal));
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
@@ -97,16 +100,17 @@ void jox_literal_sum(JoxForces *f, uint32_t i) {
     a->forced_x[i] = a->vx[i] + given.x * dt / mass;
     a->forced_y[i] = a->vy[i] + given.y * dt / mass;
     if (force.x != 0.0f || force.y != 0.0f)
-        bound_by_force(f, i);
+        make_force_plane(f, i);
 }
 
-/* (8) Whether the change of a velocity points against the new one, within the angle. */
+/* (8) Returns whether the change of a velocity points against the new velocity, within the
+   angle. */
 static bool decelerates(JoxV2 change, JoxV2 velocity, float cosine) {
     return jox_dot(jox_unit(change), jox_unit(velocity)) < -cosine;
 }
 
-/* Shares a force among the people in the cone; with nobody there its giver has all of it. */
-static void share(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 force) {
+/* Shares a force among the agents in the cone; without any its giver gets all of it. */
+static void share_in_cone(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 force) {
     uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
     if (axis.x != 0.0f || axis.y != 0.0f)
         n = jox_people_in_cone(f, i, jox_unit(axis), found);
@@ -116,7 +120,8 @@ static void share(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 fo
         jox_transfer_give(f, chunk, i, i, force);
 }
 
-/* (8), (9) k m dv/dt about the old velocity, k m (v - v_f)/dt about the forced one. */
+/* (8), (9) k m dv/dt in the cone about the old velocity, k m (v - v_f)/dt in that about the forced
+   one. */
 void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     float size =
@@ -125,13 +130,13 @@ void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     if (!(size > 0.0f))
         return;
     if (jox_literal_under_force(f, i)) {
-        JoxV2 forced = forced_velocity(f, i), change = jox_sub(after, forced);
+        JoxV2 forced = find_forced_velocity(f, i), change = jox_sub(after, forced);
         if ((forced.x != 0.0f || forced.y != 0.0f) && jox_length(change) > ROUNDING)
-            share(f, chunk, i, forced, jox_scale(change, size));
+            share_in_cone(f, chunk, i, forced, jox_scale(change, size));
         return;
     }
     JoxV2 change = jox_sub(after, before);
     if (jox_length(change) > ROUNDING &&
         decelerates(change, after, jox_param(a, JOX_PARAM_brace_angle, i)))
-        share(f, chunk, i, before, jox_scale(change, size));
+        share_in_cone(f, chunk, i, before, jox_scale(change, size));
 }

@@ -1,4 +1,4 @@
-/* Equation 5: deliberate pushes. */
+/* The stage push, equation 5: deliberate pushes on agents and bodies ahead. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -8,15 +8,15 @@
 typedef struct Target {
     bool is_body;
     uint32_t index;
-    JoxV2 offset;    /* from the pusher */
-    JoxV2 to_centre; /* from the pusher to the middle of what is pushed */
-    JoxV3 point;     /* where a body is pushed */
+    JoxV2 offset;    /* from the pusher, m */
+    JoxV2 to_centre; /* from the pusher to the centre of the target, m */
+    JoxV3 point;     /* point at which a body is pushed, m */
     float gap;
 } Target;
 
 enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
-static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
+static JoxV2 find_push_aim(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
     if (step->push_toward_x && step->push_toward_y) {
         JoxV2 toward = jox_unit(jox_v2(step->push_toward_x[i], step->push_toward_y[i]));
@@ -26,9 +26,9 @@ static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
     return jox_unit(jox_v2(a->pref_x[i], a->pref_y[i]));
 }
 
-/* People within reach and within the cone ahead, nearest first. All are written, and kept if they
-   count: no branch that would be guessed wrong. */
-static uint32_t people_in_reach(const JoxForces *f, uint32_t i, JoxV2 aim, uint32_t *found) {
+/* Lists the agents within reach and within the cone ahead, nearest first; returns how many. All are
+   written, and only those that count are kept: no branch to mispredict. */
+static uint32_t list_reachable(const JoxForces *f, uint32_t i, JoxV2 aim, uint32_t *found) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
@@ -41,16 +41,16 @@ static uint32_t people_in_reach(const JoxForces *f, uint32_t i, JoxV2 aim, uint3
         const JoxV2 offset = jox_offset(a, i, other);
         const float most = reach + jox_at(radius, other), d2 = jox_length2(offset);
         if (d2 > widest * widest)
-            break; /* nearest first */
+            break; /* the rest is farther away */
         found[n] = other;
         n += (d2 < most * most) & jox_cone_holds(offset, aim, cosine);
     }
     return n;
 }
 
-/* Whether a wall stands between agent i and another, who is at `offset`: there itself, or its image
-   beyond a periodic edge. */
-static bool is_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
+/* Returns whether a wall stands between agent i and another agent, or its image beyond a periodic
+   edge, at `offset`. */
+static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
     const JoxAgents *a = f->step.agents;
     const float *clear2 = f->step.clear2, d2 = jox_length2(offset);
     const bool images = a->period.x > 0.0f || a->period.y > 0.0f;
@@ -60,17 +60,17 @@ static bool is_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offs
     return jox_force_is_walled_off(f, centre, jox_add(centre, offset));
 }
 
-static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+static uint32_t find_people_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint64_t only = a->push_only[i];
     uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
-    const uint32_t count = people_in_reach(f, i, aim, found);
+    const uint32_t count = list_reachable(f, i, aim, found);
     for (uint32_t k = 0; k < count; k++) {
         const JoxV2 offset = jox_offset(a, i, found[k]);
         if (only && !(a->tags[found[k]] & only))
             continue;
-        if (is_hidden(f, i, found[k], offset))
+        if (is_target_hidden(f, i, found[k], offset))
             continue;
         targets[n++] =
             (Target){.index = found[k],
@@ -81,7 +81,7 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     return n;
 }
 
-static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+static uint32_t find_body_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     float radius = jox_param(a, JOX_PARAM_radius, i), reach = jox_param(a, JOX_PARAM_push_reach, i);
     float cosine = jox_param(a, JOX_PARAM_push_angle, i);
@@ -113,7 +113,7 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     return n;
 }
 
-/* Only the nearest is left: of equals the first found, which is the one of least id. */
+/* Keeps the nearest target; of equals the first found, which has the least id. */
 static uint32_t keep_nearest(Target *targets, uint32_t n) {
     JOX_ASSERT(n > 0);
     uint32_t best = 0;
@@ -124,20 +124,21 @@ static uint32_t keep_nearest(Target *targets, uint32_t n) {
     return 1;
 }
 
-static JoxV2 push_on(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *target, uint32_t n) {
+static JoxV2 compute_push(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *target,
+                          uint32_t n) {
     const JoxAgents *a = f->step.agents;
     float newtons = jox_param(a, JOX_PARAM_push, i);
     JoxV2 offset = target->offset;
     if (f->options.literal)
         offset = jox_literal_push_offset(f, i, target->to_centre);
     if (offset.x == 0.0f && offset.y == 0.0f)
-        offset = aim; /* in the same place */
+        offset = aim; /* both at the same place */
     return jox_push_share(offset, newtons, n);
 }
 
-/* Pushes on bodies wait in the list of touches, which contacts use later in the step. */
-static void wait_for_body(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
-                          JoxV2 force) {
+/* Queues a push on a body in the list of touches, whose room contacts use later in the step. */
+static void queue_body_push(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
+                            JoxV2 force) {
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
     JOX_ASSERT(chunk < f->chunks && f->touches.counts[chunk] < f->touches.room);
     list[f->touches.counts[chunk]++] =
@@ -149,14 +150,14 @@ static int64_t to_fixed(double momentum) {
     return scaled > 1e14 ? (int64_t)1e14 : scaled > -1e14 ? (int64_t)scaled : (int64_t)-1e14;
 }
 
-static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
-    JoxV2 aim = aim_of(&f->step, i);
+static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
+    JoxV2 aim = find_push_aim(&f->step, i);
     if (aim.x == 0.0f && aim.y == 0.0f)
         return;
     Target targets[MOST_TARGETS];
-    uint32_t n = people_ahead(f, i, aim, targets);
+    uint32_t n = find_people_targets(f, i, aim, targets);
     if (f->bodies)
-        n += bodies_ahead(f, i, aim, targets + n);
+        n += find_body_targets(f, i, aim, targets + n);
     JOX_ASSERT(n <= MOST_TARGETS);
     if (!n)
         return;
@@ -164,11 +165,11 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
         n = keep_nearest(targets, n);
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < n; k++) {
-        JoxV2 force = push_on(f, i, aim, &targets[k], n);
+        JoxV2 force = compute_push(f, i, aim, &targets[k], n);
         JOX_ASSERT(targets[k].is_body || targets[k].index != i);
         sum = jox_add(sum, force);
         if (targets[k].is_body)
-            wait_for_body(f, chunk, i, &targets[k], force);
+            queue_body_push(f, chunk, i, &targets[k], force);
         else
             jox_transfer_give(f, chunk, i, targets[k].index, force);
     }
@@ -193,7 +194,7 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     jox_chunk_empty(&f->touches, chunk);
     for (uint32_t i = begin; i < end; i++)
         if (jox_at(push, i) > 0.0f && (!on || on[i]))
-            push_by(f, chunk, i);
+            push_from_agent(f, chunk, i);
 }
 
 void jox_force_push(JoxForces *f) {

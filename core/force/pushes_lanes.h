@@ -1,5 +1,6 @@
 /* Forces on the agents of a packet, from agent `i` on: sums of force terms, and the part of pushes
-   that feet hold. internal.h has the same of one agent. Kernels include it. */
+   that feet hold. internal.h has the same for one agent. Included by the kernels of sum, infer and
+   the start of contacts. */
 #ifndef JOX_FORCE_PUSHES_LANES_H
 #define JOX_FORCE_PUSHES_LANES_H
 
@@ -7,13 +8,13 @@
 #include "force/equations.h"
 #include "simd/vectors.h"
 
-/* jox_stands */
+/* jox_stands, by lane. */
 static inline JoxMask jox_stands_lanes(const JoxAgents *a, uint32_t i) {
     const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
     return jf_lt(jv_dot(preferred, preferred), jf_set((float)(JOX_STANDS * JOX_STANDS)));
 }
 
-/* jox_sum_terms; `roles` is a constant, so that no lane asks for it. */
+/* jox_sum_terms, by lane; `roles` is a compile-time constant. */
 static inline JoxVector jox_sum_terms_lanes(const JoxAgents *a, uint32_t i, uint32_t roles) {
     JoxVector sum = {jf_set(-0.0f), jf_set(-0.0f)};
 #define ADD_TERM(X, keep, role, name, label)                                                       \
@@ -24,7 +25,7 @@ static inline JoxVector jox_sum_terms_lanes(const JoxAgents *a, uint32_t i, uint
     return sum;
 }
 
-/* jox_unheld_pushes, of the sum `others` of the braced terms. */
+/* jox_unheld_pushes, by lane; `others`: sum of the braced terms, N. */
 static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVector others,
                                          JoxMask stands) {
     const JoxFloats zero = jf_set(0.0f), size = jf_sqrt(jv_dot(others, others));
@@ -33,14 +34,14 @@ static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVect
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
 }
 
-/* jox_moving_force */
+/* jox_moving_force, by lane. */
 static inline JoxVector jox_moving_lanes(const JoxAgents *a, uint32_t i, JoxMask stands) {
     const JoxVector others = jox_sum_terms_lanes(a, i, JOX_FORCE_BRACED);
     return jv_add(jox_sum_terms_lanes(a, i, JOX_FORCE_FREE),
                   jox_unheld_lanes(a, i, others, stands));
 }
 
-/* exp(-damping time) of each: jox_decay. Most have the damping of those before. */
+/* exp(-damping time) by lane, as jox_decay. Mostly all lanes have the damping that is cached. */
 static inline JoxFloats jox_decay_lanes(const float *damping, float time, JoxDecay *decay) {
     const JoxMask other = jf_lt(jf_set(0.0f), jf_abs(jf_load(damping) - damping[0]));
     if (!jm_bits(other))

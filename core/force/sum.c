@@ -1,11 +1,12 @@
-/* Equations 10 to 12. */
+/* The stage sum, equations 10 to 12: net force, half-plane and speed limit, by the kernel of the
+   run's instruction set or as printed. */
 #include "force/kernels.h"
 
 #define X(name, isa) [isa] = jox_sum_packets_##name,
 static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void sum_forces_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     if (!f->options.literal)
@@ -15,6 +16,6 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
 }
 
 void jox_force_sum(JoxForces *f) {
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, f);
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_forces_chunk, f);
     jox_contact_planes_make(f);
 }

@@ -1,7 +1,7 @@
-/* What holds bodies while people press on them: weight, the floor and its friction, walls, and
-   other bodies that stand in the way. These contacts, as Bullet found them, are solved together
-   with those of people, so that a box at a wall bears what it is pressed with from the first step
-   on, and yields in the step in which the wall is gone. What comes of it here is only what people
+/* Supports: what holds bodies while agents press on them, that is weight, the floor and its
+   friction, walls, and other bodies in the way. The contacts that Bullet found are solved together
+   with those of agents, so that a box at a wall bears the pressure from the first step on, and
+   yields in the step in which the wall is gone. The result matters only for the forces that agents
    feel: the bodies themselves move as Bullet says, from the same impulses. */
 #include <math.h>
 
@@ -11,31 +11,31 @@
 #include "force/internal.h"
 
 enum {
-    LINKS = 4 /* bodies behind each other, from the one that is touched; the next is as a wall */
+    LINKS = 4 /* bodies in a row, from the touched one on; the next one acts as a wall */
 };
 
-static JoxV3 plus(JoxV3 a, JoxV3 b, float times) {
+static JoxV3 add_scaled(JoxV3 a, JoxV3 b, float times) {
     return (JoxV3){a.x + b.x * times, a.y + b.y * times, a.z + b.z * times};
 }
 
-static JoxFour four(JoxV3 v) {
+static JoxFour to_four(JoxV3 v) {
     return (JoxFour){v.x, v.y, v.z, 0.0f};
 }
 
-static JoxV3 three(JoxFour v) {
+static JoxV3 to_three(JoxFour v) {
     return (JoxV3){v[0], v[1], v[2]};
 }
 
-static JoxV3 arm_of(const JoxObject *body, JoxV3 point) {
-    return plus(point, body->position, -1.0f);
+static JoxV3 find_arm(const JoxObject *body, JoxV3 point) {
+    return add_scaled(point, body->position, -1.0f);
 }
 
 JoxV3 jox_body_velocity(const JoxForces *f, uint32_t row, JoxV3 point) {
     if (row == JOX_NO_OBJECT)
         return (JoxV3){0.0f, 0.0f, 0.0f};
     const JoxBodyMotion *m = &f->motions[row];
-    JoxV3 turning = jox_cross3(three(m->spin), arm_of(&f->step.objects->rows[row], point));
-    return plus(three(m->velocity), turning, 1.0f);
+    JoxV3 turning = jox_cross3(to_three(m->spin), find_arm(&f->step.objects->rows[row], point));
+    return add_scaled(to_three(m->velocity), turning, 1.0f);
 }
 
 void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
@@ -43,22 +43,22 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
         return;
     const JoxObject *body = &f->step.objects->rows[row];
     JoxBodyMotion *m = &f->motions[row];
-    JoxV3 turn = jox_cross3(arm_of(body, point), impulse);
+    JoxV3 turn = jox_cross3(find_arm(body, point), impulse);
     JoxV3 turned = jox_turn3(body->inverse_inertia, turn);
-    m->velocity += four(impulse) * body->inverse_mass;
-    m->spin += four(turned);
+    m->velocity += to_four(impulse) * body->inverse_mass;
+    m->spin += to_four(turned);
     m->unrest += sqrtf(jox_dot3(impulse, impulse) * body->inverse_mass + jox_dot3(turn, turned));
 }
 
-/* All bodies as they are, and behind them what is static, at rest; of those that can be pushed the
-   touched, and what they stand at, are solved for. */
+/* Loads the motions of all bodies, and behind them the static world at rest. Marks the touched
+   bodies; those that can be pushed are solved for. */
 static void reset_motions(JoxForces *f) {
     const JoxObjects *objects = f->step.objects;
     JOX_RESERVE(f->motions, f->motion_capacity, objects->count + 1);
     f->motions[objects->count] = (JoxBodyMotion){0};
     for (uint32_t row = 0; row < objects->count; row++)
-        f->motions[row] = (JoxBodyMotion){.velocity = four(objects->rows[row].velocity),
-                                          .spin = four(objects->rows[row].spin)};
+        f->motions[row] = (JoxBodyMotion){.velocity = to_four(objects->rows[row].velocity),
+                                          .spin = to_four(objects->rows[row].spin)};
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const uint32_t row = f->touch[k].object;
         f->motions[row].touched = true;
@@ -66,52 +66,52 @@ static void reset_motions(JoxForces *f) {
     }
 }
 
-/* Whether a body is solved for by now, before this link. */
-static bool is_reached(const JoxForces *f, uint32_t row, uint32_t link) {
+/* Returns whether a body is solved for already, at `link` or nearer to a touched body. */
+static bool is_linked(const JoxForces *f, uint32_t row, uint32_t link) {
     return row != JOX_NO_OBJECT && f->motions[row].solved && f->motions[row].link <= link;
 }
 
-static void reach_next(JoxForces *f, uint32_t row, uint32_t link) {
+static void link_next(JoxForces *f, uint32_t row, uint32_t link) {
     if (row == JOX_NO_OBJECT || f->motions[row].solved || !f->step.objects->rows[row].moves)
         return;
     f->motions[row].solved = true;
     f->motions[row].link = (uint8_t)(link + 1);
 }
 
-static void reach_bodies(JoxForces *f, JoxObjectContacts contacts) {
+static void link_bodies(JoxForces *f, JoxObjectContacts contacts) {
     for (uint32_t link = 0; link < LINKS; link++)
         for (uint32_t k = 0; k < contacts.count; k++) {
             const JoxObjectContact *c = &contacts.items[k];
-            if (is_reached(f, c->first, link))
-                reach_next(f, c->second, link);
-            if (is_reached(f, c->second, link))
-                reach_next(f, c->first, link);
+            if (is_linked(f, c->first, link))
+                link_next(f, c->second, link);
+            if (is_linked(f, c->second, link))
+                link_next(f, c->first, link);
         }
 }
 
-/* Two unit vectors that are square to a unit vector and to each other. */
-static void square_to(JoxV3 n, JoxV3 across[2]) {
+/* Makes two unit vectors that are orthogonal to a unit vector and to each other. */
+static void make_orthogonal(JoxV3 n, JoxV3 across[2]) {
     JoxV3 axis = fabsf(n.z) < 0.7f ? (JoxV3){0.0f, 0.0f, 1.0f} : (JoxV3){1.0f, 0.0f, 0.0f};
     JoxV3 side = jox_cross3(n, axis);
-    across[0] = plus((JoxV3){0.0f, 0.0f, 0.0f}, side, 1.0f / sqrtf(jox_dot3(side, side)));
+    across[0] = add_scaled((JoxV3){0.0f, 0.0f, 0.0f}, side, 1.0f / sqrtf(jox_dot3(side, side)));
     across[1] = jox_cross3(n, across[0]);
 }
 
-/* An axis of the contact of the bodies of two rows. */
-static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 point,
-                              JoxV3 along) {
-    JoxSupportAxis axis = {.along = four(along)};
-    float gain = 0.0f; /* of velocity by 1 N s */
+/* Makes an axis of the contact of the bodies of two rows, at a point. */
+static JoxSupportAxis make_axis(const JoxForces *f, const uint32_t rows[2], JoxV3 point,
+                                JoxV3 along) {
+    JoxSupportAxis axis = {.along = to_four(along)};
+    float gain = 0.0f; /* m/s per N s */
     for (int side = 0; side < 2; side++) {
         if (rows[side] == f->step.objects->count)
             continue;
         const JoxObject *body = &f->step.objects->rows[rows[side]];
-        JoxV3 lever = jox_cross3(arm_of(body, point), along);
-        axis.lever[side] = four(lever);
+        JoxV3 lever = jox_cross3(find_arm(body, point), along);
+        axis.lever[side] = to_four(lever);
         if (!f->motions[rows[side]].solved)
             continue;
         JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
-        axis.turning[side] = four(turning);
+        axis.turning[side] = to_four(turning);
         axis.lightness[side] = body->inverse_mass;
         float sway2 = body->inverse_mass + jox_dot3(lever, turning);
         axis.sway[side] = sqrtf(sway2);
@@ -121,8 +121,8 @@ static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 
     return axis;
 }
 
-/* Watches a contact, which is solved before anything is asked of it. */
-static JoxSupportWatch watch_of(const JoxSupport *s) {
+/* Makes the watch of a contact that is yet to be solved for the first time. */
+static JoxSupportWatch make_watch(const JoxSupport *s) {
     const JoxSupportAxis *axes[] = {&s->normal, &s->across[0], &s->across[1]};
     JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}};
     for (int k = 0; k < 3; k++)
@@ -139,12 +139,12 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
     *s = (JoxSupport){.rows = {c->first, second},
                       .friction = c->friction,
                       .target = jox_contact_target(c->gap - JOX_BODY_SLACK, 0.0f, 0.0f, dt)};
-    s->normal = axis_of(f, s->rows, c->point, c->normal);
+    s->normal = make_axis(f, s->rows, c->point, c->normal);
     s->normal.impulse = jox_maxf(0.0f, c->force * dt);
-    square_to(c->normal, across);
+    make_orthogonal(c->normal, across);
     for (int k = 0; k < 2; k++)
-        s->across[k] = axis_of(f, s->rows, c->point, across[k]);
-    f->watch[f->support_count - 1] = watch_of(s);
+        s->across[k] = make_axis(f, s->rows, c->point, across[k]);
+    f->watch[f->support_count - 1] = make_watch(s);
     JOX_ASSERT(isfinite(s->normal.mass) && s->normal.mass > 0.0f && isfinite(s->target));
 }
 
@@ -152,7 +152,7 @@ void jox_supports_begin(JoxForces *f) {
     const JoxObjects *objects = f->step.objects;
     const JoxObjectContacts contacts = jox_objects_contacts(objects);
     reset_motions(f);
-    reach_bodies(f, contacts);
+    link_bodies(f, contacts);
     for (uint32_t row = 0; row < objects->count; row++)
         if (f->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
             f->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
@@ -166,22 +166,23 @@ void jox_supports_begin(JoxForces *f) {
             add_support(f, c);
     }
     jox_supports_warm(f);
-    uint32_t pushes; /* sorted by who pushes: the order in memory changes no bit */
+    uint32_t pushes; /* sorted by the pusher's id: the order in memory changes no bit */
     const JoxImpulse *push = jox_force_impulses(f, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
         jox_body_give(f, push[k].object, push[k].point, push[k].impulse);
 }
 
-/* How much of what people give a body its supports take: all where it is held, nothing where it is
-   free. By work: of impulses, the velocity gained along them, against that of a free body. */
-static float held_share(const JoxForces *f, uint32_t row) {
+/* Returns the share of the impulses that agents gave a body which its supports took: 1 if it is
+   held, 0 if it is free. It compares work: the velocity gained along the impulses, against that of
+   a free body. */
+static float find_held_share(const JoxForces *f, uint32_t row) {
     const JoxObject *body = &f->step.objects->rows[row];
     const JoxBodyMotion *m = &f->motions[row];
     JoxV3 turned = jox_turn3(body->inverse_inertia, m->given_turn);
     float free =
         jox_dot3(m->given, m->given) * body->inverse_mass + jox_dot3(m->given_turn, turned);
-    float done = jox_dot3(m->given, plus(three(m->velocity), body->velocity, -1.0f)) +
-                 jox_dot3(m->given_turn, plus(three(m->spin), body->spin, -1.0f));
+    float done = jox_dot3(m->given, add_scaled(to_three(m->velocity), body->velocity, -1.0f)) +
+                 jox_dot3(m->given_turn, add_scaled(to_three(m->spin), body->spin, -1.0f));
     return free > 0.0f ? 1.0f - jox_clampf(done / free, 0.0f, 1.0f) : 0.0f;
 }
 
@@ -190,11 +191,11 @@ void jox_supports_finish(JoxForces *f) {
         const JoxTouch *t = &f->touch[k];
         const JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
         JoxBodyMotion *m = &f->motions[t->object];
-        JoxV3 arm = arm_of(&f->step.objects->rows[t->object], t->point);
-        m->given = plus(m->given, impulse, 1.0f);
-        m->given_turn = plus(m->given_turn, jox_cross3(arm, impulse), 1.0f);
+        JoxV3 arm = find_arm(&f->step.objects->rows[t->object], t->point);
+        m->given = add_scaled(m->given, impulse, 1.0f);
+        m->given_turn = add_scaled(m->given_turn, jox_cross3(arm, impulse), 1.0f);
     }
     for (uint32_t row = 0; row < f->step.objects->count; row++)
         if (f->motions[row].touched)
-            f->motions[row].held = held_share(f, row);
+            f->motions[row].held = find_held_share(f, row);
 }

@@ -1,5 +1,5 @@
-/* Equation 7: contacts of agents with bodies. What holds a body where it stands is solved with them
-   (support.c). */
+/* Equation 7: contacts of agents with bodies ("touches"). The supports of the bodies are solved
+   with them (support.c). */
 #include <math.h>
 #include <string.h>
 
@@ -9,15 +9,15 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-static const float CHEST = 1.1f; /* m; people push and are hit there */
+static const float CHEST = 1.1f; /* m: height at which agents push and are hit */
 
 float jox_touch_height(const JoxObject *body) {
     return jox_minf(jox_maxf(CHEST, body->low), body->high);
 }
 
-/* Body `row` as agent i touches it: false where the gap cannot close within the step, or
-   where a wall stands between them. */
-static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
+/* Finds the contact of agent i with body `row`. Returns false if the gap cannot close within the
+   step, or a wall stands between them. */
+static bool find_touch(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
     const JoxAgents *a = f->step.agents;
     const JoxObject *body = &f->step.objects->rows[row];
     JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
@@ -50,20 +50,21 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
         uint32_t row;
         while (jox_objects_next(&walk, &row)) {
             const JoxObject *body = &f->step.objects->rows[row];
-            if (!body->swept && jox_object_reaches(body, at, reach) && touches(f, i, row, &touch))
+            if (!body->swept && jox_object_reaches(body, at, reach) &&
+                find_touch(f, i, row, &touch))
                 jox_nearest_offer(&nearest, touch.gap, row);
         }
         f->touch_number[i] = (uint8_t)nearest.count;
         for (uint32_t k = 0; k < nearest.count; k++) {
-            touches(f, i, nearest.rows[k], &touch);
+            find_touch(f, i, nearest.rows[k], &touch);
             list[f->touches.counts[chunk]++] = touch;
         }
         JOX_ASSERT(f->touches.counts[chunk] <= f->touches.room);
     }
 }
 
-/* By agent id, then row. `context`: the agents. */
-static int by_agent(const void *a, const void *b, const void *context) {
+/* Compares by agent id, then row. `context`: the agents. */
+static int compare_touches(const void *a, const void *b, const void *context) {
     const JoxTouch *x = a, *y = b;
     const uint32_t *id = ((const JoxAgents *)context)->id;
     if (x->agent != y->agent)
@@ -84,7 +85,7 @@ void jox_touches_collect(JoxForces *f) {
             memcpy(f->touch + f->touch_count, list, f->touches.counts[c] * sizeof *list);
         f->touch_count += f->touches.counts[c];
     }
-    jox_sort(f->touch, count, sizeof *f->touch, by_agent, a, f->touch + count);
+    jox_sort(f->touch, count, sizeof *f->touch, compare_touches, a, f->touch + count);
     f->totals.touches = count;
     for (uint32_t t = count; t-- > 0;)
         f->touch_first[f->touch[t].agent] = t;
@@ -104,7 +105,7 @@ float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
     return velocity.x * t->normal.x + velocity.y * t->normal.y;
 }
 
-static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
+static void apply_touch_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
     float lightness = f->lightness[t->agent];
     f->work[t->agent].x += t->normal.x * impulse * lightness;
     f->work[t->agent].y += t->normal.y * impulse * lightness;
@@ -114,22 +115,23 @@ static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
 
 /* ---- driven bodies ----
 
-   What moves by a velocity of its own presses people whom it moves towards with a limited force.
-   Where they would bear more, all contacts ahead are scaled down together, pass by pass, and the
-   body goes only as fast as those whom it presses give way. So one that stands presses with its
-   limit, and one that nobody resists goes on as it is driven. */
+   A kinematic body presses the agents in its way with a limited force. Where the sum would exceed
+   the limit, all contacts ahead are scaled down together, pass by pass, and the body goes only as
+   fast as those agents give way. So a body that they stop presses with its limit, and one that
+   nothing resists moves as driven. */
 
-static const float MET = 0.999f; /* of the limit */
+static const float MET = 0.999f; /* share of the limit that counts as reached */
 
-static float speed_of(JoxV3 velocity) {
+static float measure_level_speed(JoxV3 velocity) {
     return jox_length(jox_v2(velocity.x, velocity.y));
 }
 
-/* The drive of a body, new where it has none; -1 of a body that is not under way. */
-static int drive_of(JoxForces *f, uint32_t row) {
+/* Returns the index of a body's drive, made at its first use; -1 for a body that does not move by
+   itself. */
+static int find_drive(JoxForces *f, uint32_t row) {
     const JoxObject *body = &f->step.objects->rows[row];
-    if (!body->kinematic ||
-        !(speed_of(body->drive) > 0.0f || jox_dot3(body->drive_spin, body->drive_spin) > 0.0f))
+    if (!body->kinematic || !(measure_level_speed(body->drive) > 0.0f ||
+                              jox_dot3(body->drive_spin, body->drive_spin) > 0.0f))
         return -1;
     for (uint32_t d = 0; d < f->drive_count; d++)
         if (f->drives[d].row == row)
@@ -139,7 +141,7 @@ static int drive_of(JoxForces *f, uint32_t row) {
     JOX_RESERVE(f->drives, f->drive_capacity, f->drive_count + 1);
     f->drives[f->drive_count] = (JoxDrive){
         .row = row,
-        .speed = speed_of(body->drive),
+        .speed = measure_level_speed(body->drive),
         .most = body->force_limit > 0.0f ? body->force_limit * (float)f->step.dt : INFINITY};
     f->motions[row].velocity = (JoxFour){body->drive.x, body->drive.y, body->drive.z, 0.0f};
     f->motions[row].spin =
@@ -159,7 +161,7 @@ static void begin_drives(JoxForces *f) {
     f->drive_count = 0;
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
-        t->drive = (int16_t)drive_of(f, t->object);
+        t->drive = (int16_t)find_drive(f, t->object);
         t->ahead = t->drive < 0 ? 0.0f : jox_maxf(0.0f, jox_touch_speed_before(f, t));
         if (t->drive >= 0)
             f->drives[t->drive].speed = jox_maxf(f->drives[t->drive].speed, t->ahead);
@@ -168,7 +170,7 @@ static void begin_drives(JoxForces *f) {
         if (f->touch[k].ahead > 0.0f)
             f->touch[k].ahead /= f->drives[f->touch[k].drive].speed;
     sum_drives(f);
-    for (uint32_t k = 0; k < f->touch_count; k++) { /* the impulses kept are given after this */
+    for (uint32_t k = 0; k < f->touch_count; k++) { /* before the kept impulses are applied */
         JoxTouch *t = &f->touch[k];
         const JoxDrive *d = t->ahead > 0.0f ? &f->drives[t->drive] : NULL;
         if (d && d->pressed > d->most)
@@ -185,13 +187,13 @@ static void limit_drives(JoxForces *f) {
             continue;
         const float less = t->impulse * (d->most / d->pressed) - t->impulse;
         t->impulse += less;
-        add_impulse(f, t, less);
+        apply_touch_impulse(f, t, less);
     }
 }
 
-/* The share of its way that a body goes which meets its limit: that of those whom it presses and
-   who give way least. */
-static float share_of(const JoxForces *f, uint32_t drive) {
+/* Returns the share of its way that a body at its limit goes: that of the pressed agent that gives
+   way least. */
+static float find_way_share(const JoxForces *f, uint32_t drive) {
     float share = 1.0f;
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
@@ -228,7 +230,7 @@ static void finish_drives(JoxForces *f) {
         }
         if (!load->met)
             continue;
-        load->share = share_of(f, d);
+        load->share = find_way_share(f, d);
         f->motions[drive->row].velocity *= load->share;
         f->motions[drive->row].spin *= load->share;
     }
@@ -263,10 +265,10 @@ void jox_touches_begin(JoxForces *f) {
     }
     begin_drives(f);
     for (uint32_t k = 0; k < f->touch_count; k++)
-        add_impulse(f, &f->touch[k], f->touch[k].impulse);
+        apply_touch_impulse(f, &f->touch[k], f->touch[k].impulse);
 }
 
-/* In ascending agent id, on one thread: touches are few. */
+/* Runs in ascending agent id, on one thread: touches are few. */
 float jox_touches_pass(JoxForces *f) {
     if (!f->touch_count)
         return 0.0f;
@@ -276,7 +278,7 @@ float jox_touches_pass(JoxForces *f) {
         float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
         t->before = t->impulse;
         t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
-        add_impulse(f, t, t->impulse - t->before);
+        apply_touch_impulse(f, t, t->impulse - t->before);
     }
     limit_drives(f);
     for (uint32_t k = 0; k < f->touch_count; k++)
@@ -284,11 +286,11 @@ float jox_touches_pass(JoxForces *f) {
     return most;
 }
 
-/* Impulses for the bodies: what people got, with the opposite sign. */
+/* Gives the bodies the opposite of the impulses that agents got. */
 void jox_touches_finish(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxForceTotals *totals = &f->totals;
-    uint32_t inside = JOX_NO_INDEX; /* who was counted last: touches are sorted by agent */
+    uint32_t inside = JOX_NO_INDEX; /* agent counted last: touches are sorted by agent */
     JOX_RESERVE(f->kept_touches.items, f->kept_touches.capacity, f->touch_count);
     f->kept_touches.count = f->touch_count;
     if (f->touch_count && !f->options.literal) {
@@ -304,7 +306,7 @@ void jox_touches_finish(JoxForces *f) {
             inside = t->agent;
             totals->inside++;
         }
-        if (!(t->impulse > 0.0f) || !(moves || body->kinematic)) /* that feels it, and no more */
+        if (!(t->impulse > 0.0f) || !(moves || body->kinematic)) /* other bodies feel nothing */
             continue;
         JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
         JoxV2 impulse = jox_scale(t->normal, t->impulse);

@@ -1,4 +1,5 @@
-/* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
+/* Lists that the stages of force fill in parallel and sort afterwards: forces between agents, and
+   impulses on bodies. */
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
@@ -7,7 +8,7 @@
 
 void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
     if (need > list->capacity) {
-        /* Not a reallocation: nothing is kept, and untouched pages stay unused. */
+        /* No realloc: nothing has to be kept, and pages that are not written stay unused. */
         jox_free(list->items);
         list->capacity = need + need / 2;
         list->items = jox_alloc(list->capacity, 1);
@@ -17,14 +18,14 @@ void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
 }
 
 bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
-    /* From either end: the grid knows the edges as far as half the way. */
+    /* Tests from either end, as the grid lists edges up to half of the distance only. */
     const JoxWallGrid *walls = f->step.walls;
     return walls &&
            (jox_wall_grid_separates(walls, from, to) || jox_wall_grid_separates(walls, to, from));
 }
 
-/* Keeps those of `found` that no wall separates from agent i. */
-static uint32_t beyond_no_wall(const JoxForces *f, uint32_t i, uint32_t *found, uint32_t count) {
+/* Removes the agents from `found` that a wall separates from agent i. Returns how many are left. */
+static uint32_t drop_walled_off(const JoxForces *f, uint32_t i, uint32_t *found, uint32_t count) {
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
     uint32_t n = 0;
@@ -46,16 +47,17 @@ uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t
         JoxV2 offset = jox_offset(a, i, other);
         float most = jox_at(radius, i) + jox_at(radius, other) + f->options.reach;
         bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
-        found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
+        found[n] = other; /* kept only if it counts; no branch to mispredict */
         n += near_enough & jox_cone_holds(offset, axis, cosine);
     }
-    n = f->options.literal ? n : beyond_no_wall(f, i, found, n);
+    n = f->options.literal ? n : drop_walled_off(f, i, found, n);
     JOX_ASSERT(n <= near->count[i]);
     return n;
 }
 
-/* What a chunk lists stands in runs of this many. The first runs of all chunks stand side by side,
-   then the second ones, and so on: where each gives little, few pages of memory are written. */
+/* Length of a run, in which the list of a chunk is split. The first runs of all chunks are stored
+   together, then the second ones, and so on: with few transfers per chunk, few pages are
+   written. */
 enum { RUN = 16 };
 
 void jox_transfers_begin(JoxForces *f) {
@@ -63,8 +65,8 @@ void jox_transfers_begin(JoxForces *f) {
     jox_chunks_begin(&f->transfers, f->chunks, (most + RUN - 1) / RUN * RUN, sizeof(JoxTransfer));
 }
 
-/* The first of a run. */
-static JoxTransfer *run_of(const JoxForces *f, uint32_t chunk, uint32_t run) {
+/* Returns the first entry of a run of a chunk. */
+static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
     return (JoxTransfer *)f->transfers.items + ((size_t)run * f->chunks + chunk) * RUN;
 }
 
@@ -72,7 +74,7 @@ void jox_transfer_give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, Jo
     const uint32_t at = f->transfers.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
     JOX_ASSERT(chunk < f->chunks && at < f->transfers.room);
-    run_of(f, chunk, at / RUN)[at % RUN] =
+    get_run(f, chunk, at / RUN)[at % RUN] =
         (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
@@ -88,15 +90,15 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     memset(f->starts, 0, ((size_t)n + 1) * sizeof *f->starts);
     for (uint32_t c = 0; c < f->chunks; c++)
         for (uint32_t k = 0; k < f->transfers.counts[c]; k++)
-            f->starts[run_of(f, c, k / RUN)[k % RUN].to]++;
+            f->starts[get_run(f, c, k / RUN)[k % RUN].to]++;
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) {
         sum += f->starts[i];
-        f->starts[i] = sum; /* the end; filling backwards makes it the start */
+        f->starts[i] = sum; /* its end; filling backwards turns it into the start */
     }
     for (uint32_t c = 0; c < f->chunks; c++)
         for (uint32_t k = 0; k < f->transfers.counts[c]; k++) {
-            const JoxTransfer *t = &run_of(f, c, k / RUN)[k % RUN];
+            const JoxTransfer *t = &get_run(f, c, k / RUN)[k % RUN];
             f->sorted[--f->starts[t->to]] = *t;
         }
     JOX_ASSERT(f->starts[0] == 0 && f->starts[n] == total);
@@ -104,7 +106,7 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     return total;
 }
 
-static void order_by_giver(JoxTransfer *t, uint32_t count) {
+static void sort_by_giver(JoxTransfer *t, uint32_t count) {
     for (uint32_t i = 1; i < count; i++) {
         JoxTransfer moved = t[i];
         uint32_t j = i;
@@ -119,7 +121,7 @@ typedef struct SumTask {
     float *x, *y;
 } SumTask;
 
-static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void sum_received_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const SumTask *task = context;
     JoxForces *f = task->forces;
@@ -128,7 +130,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (!count)
             continue;
         JoxTransfer *t = f->sorted + first;
-        order_by_giver(t, count);
+        sort_by_giver(t, count);
         JOX_ASSERT(t[0].to == i && t[count - 1].to == i);
         float x = 0.0f, y = 0.0f;
         for (uint32_t k = 0; k < count; k++) {
@@ -143,7 +145,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
 
 void jox_transfers_sum(JoxForces *f, float *x, float *y) {
     SumTask task = {f, x, y};
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, &task);
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_received_chunk,
+                     &task);
 }
 
 void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse,
@@ -155,7 +158,7 @@ void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, Jox
     f->pending_count++;
 }
 
-static int by_key(const void *a, const void *b, const void *context) {
+static int compare_impulse_keys(const void *a, const void *b, const void *context) {
     const JoxPendingImpulse *x = a, *y = b;
     (void)context;
     return (x->key > y->key) - (x->key < y->key);
@@ -165,7 +168,7 @@ const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
     if (f->pending_sorted != f->pending_count) {
         JOX_RESERVE(f->pending, f->pending_capacity,
                     f->pending_count + JOX_SORT_SPARE(f->pending_count));
-        jox_sort(f->pending, f->pending_count, sizeof *f->pending, by_key, NULL,
+        jox_sort(f->pending, f->pending_count, sizeof *f->pending, compare_impulse_keys, NULL,
                  f->pending + f->pending_count);
         JOX_RESERVE(f->impulses, f->impulse_capacity, f->pending_count);
         for (uint32_t i = 0; i < f->pending_count; i++)
