@@ -45,8 +45,8 @@ static inline JoxToucher jox_toucher_of(const JoxAgents *a, uint32_t first) {
 typedef struct JoxMeeting {
     JoxFloats x, y; /* position of the agent relative to the neighbour, m */
     JoxFloats distance2, distance, gap, squeeze; /* m2, m, m, N */
-    JoxVector velocity;                          /* of the agent relative to the neighbour, m/s */
-    JoxFloats mass;                              /* of the neighbour, kg */
+    JoxVector velocity; /* velocity of the agent relative to the neighbour, m/s */
+    JoxFloats mass;     /* mass of the neighbour, kg */
 } JoxMeeting;
 
 /* Returns those of `lanes` (bits) whose gap to their neighbour may close within the step, and fills

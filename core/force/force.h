@@ -126,7 +126,7 @@ JoxV2 jox_force_of_bodies(const JoxForces *forces, uint32_t agent);
    others (equation 8; the rest is equation 9); *kept: share that remains of the previous force. */
 JoxV2 jox_force_slowed(const JoxForces *forces, uint32_t agent, float *kept);
 
-/* What a driven body presses the agents in its way with, in the last contact. */
+/* Load of a driven body on the agents in its way, in the last contact. */
 typedef struct JoxDriveLoad {
     uint32_t row;
     uint32_t people,

@@ -68,15 +68,15 @@ struct JoxForces {
     uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk: numbers of pairs, then place
                                                            of the next one */
     size_t colour_size_capacity;
-    JoxEnd *ends; /* those of agent i: end_starts[i] to end_starts[i + 1], in an order that depends
-                     on ids alone */
+    JoxEnd *ends; /* agent i has end_starts[i] to end_starts[i + 1], in an order that depends on ids
+                     alone */
     uint32_t *end_starts;
     size_t end_capacity, end_start_capacity;
     JoxWallContact *wall; /* sorted by agent id, then edge */
     uint32_t *wall_group; /* first contact of each agent that has any, plus one */
     uint32_t wall_count, wall_groups;
     size_t wall_capacity, wall_group_capacity;
-    JoxTouch *touch; /* all touches, sorted by agent id, then row */
+    JoxTouch *touch; /* first contact of each agent at a wall, and the end */
     size_t touch_capacity;
     uint32_t touch_count;
     JoxDrive *drives;

@@ -34,8 +34,8 @@ JOX_ISAS(X)
 
 #define JOX_SHORTFALL_LEAST 1e-6f /* m/s: lesser shortfalls are not passed on */
 
-/* What an agent passes on: its resistance to a force (9), or the momentum lost by slowing down
-   (8). */
+/* Kind of force that an agent passes on: its resistance to a force (9), or the momentum lost by
+   slowing down (8). */
 typedef enum JoxPassKind {
     JOX_PASSES_NOTHING,
     JOX_PASSES_RESISTANCE,

@@ -1,4 +1,5 @@
-/* What contacts press agents and walls with.
+/* Measures what contacts press agents and walls with; contact.c calls it once the contacts are
+   solved.
 
    Compression is the sum of |f.n| over all contacts of an agent, with agents, walls and bodies,
    divided by the girth 2 pi r, N/m. Load is the greatest, over all directions d, of the sum of the
@@ -96,7 +97,7 @@ static inline void add_force_if(Pressing *p, JoxV2 force, bool counts) {
 }
 
 /* Lists all forces that press on agent i. */
-static void list_forces(const JoxForces *f, uint32_t i, Pressing *out) {
+static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     const JoxPair *pairs = f->pairs.items;
     const float per_second = 1.0f / (float)f->step.dt;
     out->count = 0;
@@ -136,7 +137,7 @@ bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
 void jox_load_measure(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     Pressing pressing; /* only the entries in use are initialised */
-    list_forces(f, i, &pressing);
+    list_pressing(f, i, &pressing);
     float sum = 0.0f;
     if (pressing.count == 0) {
         a->compression[i] = a->load[i] = 0.0f;

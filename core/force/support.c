@@ -67,7 +67,7 @@ static void reset_motions(JoxForces *f) {
 }
 
 /* Returns whether a body is solved for already, at `link` or nearer to a touched body. */
-static bool is_linked(const JoxForces *f, uint32_t row, uint32_t link) {
+static bool is_in_reach_of_link(const JoxForces *f, uint32_t row, uint32_t link) {
     return row != JOX_NO_OBJECT && f->motions[row].solved && f->motions[row].link <= link;
 }
 
@@ -82,9 +82,9 @@ static void link_bodies(JoxForces *f, JoxObjectContacts contacts) {
     for (uint32_t link = 0; link < LINKS; link++)
         for (uint32_t k = 0; k < contacts.count; k++) {
             const JoxObjectContact *c = &contacts.items[k];
-            if (is_linked(f, c->first, link))
+            if (is_in_reach_of_link(f, c->first, link))
                 link_next(f, c->second, link);
-            if (is_linked(f, c->second, link))
+            if (is_in_reach_of_link(f, c->second, link))
                 link_next(f, c->first, link);
         }
 }

@@ -91,7 +91,7 @@ static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id,
         sum += first[cell];
         first[cell] = sum;
     }
-    for (uint32_t k = a->count; k-- > 0;) /* fills each cell from its end to its start */
+    for (uint32_t k = a->count; k-- > 0;) /* fills each cell backwards, from its end */
         order[--first[a->cell[by_id[k]]]] = by_id[k];
 }
 

@@ -39,7 +39,7 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
 
 /* Returns whether a wall stands between two agents that would else touch, or soon could: then
    neither avoids the other. */
-static bool is_behind_wall(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
+static bool is_hidden_by_wall(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
     const float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST, d2 = jox_length2(offset);
     if (!s->touched || d2 > near * near || (s->clear2 && d2 < s->clear2[i]))
         return false;
@@ -51,7 +51,7 @@ bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return (a->tags[j] & a->ignore[i]) ||
            (s->touched && (jox_is_close_to(a, i, j) || is_touched(s->touched, i, j))) ||
-           is_behind_wall(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
+           is_hidden_by_wall(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 
 /* Makes the half-plane of agent i for agent j by the walking law; `q` is j relative to i. Returns

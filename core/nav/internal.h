@@ -75,8 +75,8 @@ struct JoxNav {
     uint32_t gap_room;
     uint64_t gap_stream, gap_knots[2];
     JoxWallGrid grid;
-    JoxSpots spots;                     /* of births, between two steps */
-    JoxStageMemory *memory, own_memory; /* own_memory: used where none was given */
+    JoxSpots spots; /* draws of walk, for gap_room agents, gap_stream and gap_knots */
+    JoxStageMemory *memory, own_memory; /* table of births, between two steps */
     bool literal;
     JoIsa isa;              /* instruction set of the kernels */
     const JoxWalkLaw *walk; /* belongs to the model */

@@ -134,9 +134,8 @@ typedef struct JoxWalk {
     const JoxNeighbours *neighbours;
     const JoxWalkLaw *law;
     double interval; /* s: since agents planned last */
-    /* Of the random walk of time gaps: the random stream, the moments of the knots before and after
-       the present time and of the agents' own draws, and how far time is between the knots, 0 to
-       1. */
+    /* Random walk of time gaps: the random stream, the moments of the knots before and after the
+       present time and of the agents' own draws, and how far time is between the knots, 0 to 1. */
     uint64_t stream, knots[2], own;
     double between;
     float rise, fall, course; /* shares covered in `interval`: eagerness up, down; course */

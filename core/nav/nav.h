@@ -58,7 +58,7 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double time, double interval, bool plans, JoxPool *pool);
 /* When agents plan, and for which time. */
 typedef struct JoxPlanTime {
-    uint64_t seed;        /* of random numbers */
+    uint64_t seed;        /* seeds the random numbers */
     double time;          /* s, simulated */
     double planning_time; /* s from `time` on: when the planned velocity is reached */
     bool plans;           /* false: agents that want to get on keep their plans */

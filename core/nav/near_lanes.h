@@ -69,7 +69,7 @@ typedef struct Reading {
     JoxInts place, one;
 } Reading;
 
-static inline Reading begin_reading(JoxInts count, JoxFloats floor2) {
+static inline Reading begin_key_reading(JoxInts count, JoxFloats floor2) {
     return (Reading){count, floor2, make_first_key(floor2), ji_opaque(ji_set(1))};
 }
 
@@ -99,7 +99,7 @@ static inline JoxFloats choose_floor(Packet *packet) {
 /* Sorts the least `levels` keys of all lists; lists within the network are sorted whole. */
 static inline __attribute__((always_inline)) void order_lists(Packet *packet,
                                                               const uint32_t levels) {
-    Reading reading = begin_reading(ji_load(packet->count), choose_floor(packet));
+    Reading reading = begin_key_reading(ji_load(packet->count), choose_floor(packet));
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
@@ -135,7 +135,7 @@ static void order_many(Packet *packet) {
 /* Sorts lists that all have at most SPARSE places. */
 static void order_sparse(Packet *packet) {
     JoxFloats *keys = packet->keys;
-    Reading reading = begin_reading(ji_load(packet->count), choose_floor(packet));
+    Reading reading = begin_key_reading(ji_load(packet->count), choose_floor(packet));
     read_places(packet, &reading, 0, keys);
     jox_order_4(keys);
     for (uint32_t k = SPARSE; k < ORDERED || k < packet->levels; k++)
@@ -151,7 +151,7 @@ static inline void order_packet(Packet *packet) {
         order_many(packet);
 }
 
-/* What the keys of a packet say, by lane. */
+/* Result of reading the keys of a packet, by lane. */
 typedef struct Found {
     JoxMask full, tied;  /* full: as many found as wanted; tied: two keys of equal distance */
     JoxInts most, count; /* neighbours wanted; found */

@@ -86,7 +86,7 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* Returns the lanes from which a wall may hide the neighbour; is_behind_wall of half_planes.c
+/* Returns the lanes from which a wall may hide the neighbour; is_hidden_by_wall of half_planes.c
    decides. */
 static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
     const JoxFloats d2 = q->x * q->x + q->y * q->y;

@@ -16,8 +16,8 @@ typedef struct JoxPair {
 
 /* ---- ORCA (van den Berg et al. 2011) ---- */
 
-/* What the half-planes of one agent have in common: its velocity, m/s, the inverse of its horizon,
-   1/s, and the share of the correction that it takes. */
+/* Data of one agent for all of its half-planes: velocity, m/s, inverse of the horizon, 1/s, and
+   share of the correction that it takes. */
 typedef struct JoxOrcaSelf {
     JoxVector velocity;
     JoxFloats inverse, share;
@@ -29,7 +29,7 @@ typedef struct JoxOrcaSelf {
 typedef struct JoxOrcaHalf {
     JoxVector w;      /* relative velocity less the one that leads to contact at the horizon, m/s */
     JoxMask disc;     /* the disc bounds; else a leg does */
-    JoxFloats length; /* of w where the disc bounds, m/s; else of the leg, m */
+    JoxFloats length; /* length of w where the disc bounds, m/s; else of the leg, m */
     JoxFloats inverse; /* 1 / length where the disc bounds; else 1 / distance^2 */
     JoxFloats round;   /* radius of the disc, m/s */
 } JoxOrcaHalf;

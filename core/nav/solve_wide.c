@@ -29,7 +29,7 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
 
 /* Returns the wanted velocities: preferred ones, some of them turned aside; those of walkers were
    chosen by jox_nav_walk. */
-static JoxVector find_wanted(const JoxPacket *p) {
+static JoxVector find_wanted_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const JoxWish wish = jox_wish_of(a, p->first);
     JoxVector wanted = wish.preferred;
@@ -153,7 +153,7 @@ static uint32_t solve_packet(JoxPacket *p) {
     const uint32_t i = p->first;
     jox_put_half_planes(p);
     const JoxPressed pressed = {
-        find_wanted(p),
+        find_wanted_lanes(p),
         {jf_load(a->forced_x + i), jf_load(a->forced_y + i)},
         {jf_load(a->half_plane_x + i), jf_load(a->half_plane_y + i),
          jf_load(a->half_plane_offset + i)},

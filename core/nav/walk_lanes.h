@@ -11,7 +11,7 @@
 #include "nav/kernels.h"
 #include "nav/program_lanes.h"
 
-/* Of the directions that are judged, left positive: 0, then +-15 to +-75 degrees. */
+/* Cosines and sines of the judged directions, left positive: 0, then +-15 to +-75 degrees. */
 static const float jox_walk_cosine[JOX_WALK_DIRECTIONS] = {
     1.0f,        0.96592583f, 0.96592583f, 0.86602540f, 0.86602540f, 0.70710678f,
     0.70710678f, 0.5f,        0.5f,        0.25881905f, 0.25881905f};
@@ -21,8 +21,8 @@ static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
 
 #define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: headings within it go the same way */
 
-/* How each lane minds one neighbour: as one ahead, which it follows, or as one crossing, which it
-   passes; neither: not at all. */
+/* Lanes that mind their neighbour as one ahead, to be followed, or as one crossing, to be passed;
+   in neither set: not at all. */
 typedef struct JoxMindsLanes {
     JoxMask ahead, crossing;
 } JoxMindsLanes;

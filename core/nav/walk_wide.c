@@ -38,8 +38,8 @@ typedef struct Crossing {
 typedef struct Packet {
     const JoxWalk *w;
     uint32_t first, lanes; /* agent of lane 0; bits of walkers that want to get on */
-    uint32_t near_walls;   /* of these: a wall may stand between them and a neighbour */
-    uint32_t at_walls;     /* of these: may reach a wall soon */
+    uint32_t near_walls;   /* walkers that may have a wall between them and a neighbour */
+    uint32_t at_walls;     /* walkers that may reach a wall soon */
     uint32_t ahead_count, crossing_count;
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* wanted speed, m/s; time gap, s; eagerness; radius, m */

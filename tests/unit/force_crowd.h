@@ -1,4 +1,4 @@
-/* A crowd with brute-force neighbours, for the tests of forces. */
+/* A crowd whose neighbours are found by brute force, for the tests of forces. */
 #ifndef TESTS_UNIT_FORCE_CROWD_H
 #define TESTS_UNIT_FORCE_CROWD_H
 
@@ -35,8 +35,8 @@ static inline uint32_t add_agent(Crowd *c, float x, float y, float vx, float vy)
     return i;
 }
 
-/* The k nearest within perception, nearest first, ties by id. */
-static inline void see(Crowd *c) {
+/* Finds the k nearest within perception, nearest first, ties by id. */
+static inline void find_crowd_neighbours(Crowd *c) {
     JoxAgents *a = &c->agents;
     JoxNeighbours *n = &c->near;
     float distance2[JOX_MOST_NEIGHBOURS];
@@ -44,7 +44,7 @@ static inline void see(Crowd *c) {
     if (room > n->agents) {
         n->agents = room;
         n->stride = JOX_MOST_NEIGHBOURS;
-        jox_free(n->index); /* what is beyond a count is an index all the same: zeros */
+        jox_free(n->index); /* entries beyond a count must be indices too: zeros */
         n->index = jox_alloc((size_t)room * n->stride, sizeof *n->index);
         n->count = jox_realloc(n->count, room, 1);
         jox_free(n->motions);
@@ -93,8 +93,8 @@ static inline void set_literal(Crowd *c) {
     jox_forces_set_options(c->forces, &options);
 }
 
-static inline void begin(Crowd *c) {
-    see(c);
+static inline void begin_crowd_step(Crowd *c) {
+    find_crowd_neighbours(c);
     jox_force_begin(c->forces, &c->step);
 }
 

@@ -1,4 +1,4 @@
-/* The equations of forces on plain values: sign, size, momentum. */
+/* The equations of forces as functions of plain values: sign, size, momentum. */
 #include "unit/force_crowd.h"
 
 static void a_cone_has_an_edge(void **state) {
@@ -40,7 +40,7 @@ static void impulses_keep_momentum_and_restitution(void **state) {
 
 static void damped_force_settles(void **state) {
     (void)state;
-    /* 100 N on 70 kg with damping 2.5 tends to 100 / (70 * 2.5) = 0.571 m/s, whatever dt. */
+    /* 100 N on 70 kg with damping 2.5 tends to 100 / (70 * 2.5) = 0.571 m/s, for any dt. */
     for (float dt = 0.01f; dt < 0.06f; dt *= 2.0f) {
         JoxV2 v = {0.0f, 0.0f};
         float decay = (float)jox_exp(-2.5 * dt);
@@ -68,7 +68,7 @@ static void slowing_throws_forward(void **state) {
     assert_near(force.x * 3 * 0.05, 0.8 * 70 * 1.5, 1e-3);
 }
 
-static void slowing_is_told_from_turning(void **state) {
+static void slowing_differs_from_turning(void **state) {
     (void)state;
     /* Half-angle 60: from (1, 0) to 0.9 at 90 degrees the change is (-1, 0.9), the mean (0.5,
        0.45): the cosine between them is -0.095 / (1.3454 * 0.6727) = -0.105. */
@@ -92,7 +92,7 @@ static void a_turn_is_no_harder_than_a_stop(void **state) {
     assert_near(jox_length(jox_slowing(before, after)), 2.0, 1e-6);
 }
 
-static void ones_own_force_never_reverses(void **state) {
+static void own_force_never_reverses_the_motion(void **state) {
     (void)state;
     JoxV2 v = {0.1f, 0.0f}, f = jox_keep_from_reversing(jox_v2(-1000.0f, 30.0f), v, 70.0f, 0.05f);
     assert_near(v.x + f.x * 0.05 / 70, 0.0, 1e-6);
@@ -110,7 +110,7 @@ static void the_filter_keeps_the_impulse_and_its_delay(void **state) {
         for (int i = 0; i < 2000; i++) {
             force += share * ((i == 0 ? 10 / dt : 0) - force);
             sum += force * dt;
-            delay += force * dt * (i + 1) * dt / 10; /* what is given in a step acts in the next */
+            delay += force * dt * (i + 1) * dt / 10; /* the force of a step acts in the next one */
         }
         assert_near(sum, 10.0, 1e-5);
         assert_near(delay, dt > 0.13 ? dt : 0.13, 1e-5);
@@ -126,9 +126,9 @@ int main(void) {
         cmocka_unit_test(damped_force_settles),
         cmocka_unit_test(resistance_passes_the_shortfall_on),
         cmocka_unit_test(slowing_throws_forward),
-        cmocka_unit_test(slowing_is_told_from_turning),
+        cmocka_unit_test(slowing_differs_from_turning),
         cmocka_unit_test(a_turn_is_no_harder_than_a_stop),
-        cmocka_unit_test(ones_own_force_never_reverses),
+        cmocka_unit_test(own_force_never_reverses_the_motion),
         cmocka_unit_test(the_filter_keeps_the_impulse_and_its_delay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-/* The kernel that finds contacts against plain C of one agent, by every
-   instruction set that the machine runs: over random crowds and hard ones, packed into heaps,
-   coincident, on a lattice of touching discs, far apart, among walls, with periodic edges. */
+/* The kernel that finds contacts against plain C for one agent, on every instruction set that the
+   machine runs: over random crowds and hard ones, packed into heaps, coincident, on a lattice of
+   touching discs, far apart, among walls, with periodic edges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,24 +28,24 @@ typedef struct Crowd {
     JoxForces *forces;
 } Crowd;
 
-/* What the crowds were good for. */
+/* Numbers of cases that the crowds covered. */
 typedef struct Seen {
     uint32_t pairs, walls, alone, cut, overlaps;
 } Seen;
 
-static float draw(Crowd *c, double from, double to) {
+static float draw_find(Crowd *c, double from, double to) {
     double unit = jox_random_unit(11, c->number, 0, JOX_DRAW_FILL, c->drawn++);
     return (float)(from + (to - from) * unit);
 }
 
-static void add(Crowd *c, uint32_t k) {
+static void add_find_agent(Crowd *c, uint32_t k) {
     JoxAgents *a = &c->agents;
     const float size = c->kind == PACKED ? 0.9f : c->kind == FAR ? 300.0f : 6.0f;
     uint32_t i = jox_agents_add(a);
-    a->x[i] = draw(c, 0.0, size);
-    a->y[i] = draw(c, 0.0, size);
-    jox_param_set(a, JOX_PARAM_radius, i, draw(c, 0.15, 0.3));
-    if (c->kind == LATTICE) { /* neighbours touch in a point */
+    a->x[i] = draw_find(c, 0.0, size);
+    a->y[i] = draw_find(c, 0.0, size);
+    jox_param_set(a, JOX_PARAM_radius, i, draw_find(c, 0.15, 0.3));
+    if (c->kind == LATTICE) { /* neighbours touch in one point */
         a->x[i] = 0.5f * (float)(k % 19);
         a->y[i] = 0.5f * (float)(k / 19);
         jox_param_set(a, JOX_PARAM_radius, i, 0.25f);
@@ -54,28 +54,28 @@ static void add(Crowd *c, uint32_t k) {
         a->x[i] = 0.5f * (float)(k % 9);
         a->y[i] = 0.25f * (float)(k % 5);
     }
-    a->vx[i] = draw(c, -1.5, 1.5);
-    a->vy[i] = draw(c, -1.5, 1.5);
-    a->pref_x[i] = draw(c, -1.0, 1.0);
-    jox_param_set(a, JOX_PARAM_mass, i, draw(c, 40.0, 110.0));
-    jox_param_set(a, JOX_PARAM_restitution, i, draw(c, -0.5, 0.5));
+    a->vx[i] = draw_find(c, -1.5, 1.5);
+    a->vy[i] = draw_find(c, -1.5, 1.5);
+    a->pref_x[i] = draw_find(c, -1.0, 1.0);
+    jox_param_set(a, JOX_PARAM_mass, i, draw_find(c, 40.0, 110.0));
+    jox_param_set(a, JOX_PARAM_restitution, i, draw_find(c, -0.5, 0.5));
     if (c->number / KINDS % 2) {
-        jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw(c, 0.0, 16.999)));
-        jox_param_set(a, JOX_PARAM_perception, i, draw(c, 0.2, 4.0));
+        jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw_find(c, 0.0, 16.999)));
+        jox_param_set(a, JOX_PARAM_perception, i, draw_find(c, 0.2, 4.0));
     }
 }
 
-static void begin(Crowd *c, JoIsa isa, uint32_t number) {
+static void open_find_crowd(Crowd *c, JoIsa isa, uint32_t number) {
     *c = (Crowd){.number = number, .kind = (Kind)(number % KINDS)};
-    const uint32_t people = 1 + (uint32_t)draw(c, 0.0, MOST_PEOPLE - 1);
+    const uint32_t people = 1 + (uint32_t)draw_find(c, 0.0, MOST_PEOPLE - 1);
     c->nav = jox_nav_create(NULL);
     if (number % 7 == 3)
         c->agents.period = (JoxV2){6.0f, number % 2 ? 6.0f : 0.0f};
     for (uint32_t k = 0; k < people; k++)
-        add(c, k);
+        add_find_agent(c, k);
     for (uint32_t k = 0; k < (c->kind == WALLED ? 25 : 0); k++) {
-        JoxV2 from = {draw(c, 0.0, 6.0), draw(c, 0.0, 6.0)};
-        JoxV2 ends[2] = {from, {from.x + draw(c, -2.0, 2.0), from.y + draw(c, 0.1, 2.0)}};
+        JoxV2 from = {draw_find(c, 0.0, 6.0), draw_find(c, 0.0, 6.0)};
+        JoxV2 ends[2] = {from, {from.x + draw_find(c, -2.0, 2.0), from.y + draw_find(c, 0.1, 2.0)}};
         jox_walls_add_polyline(&c->walls, ends, 2, false, INFINITY);
     }
     if (c->walls.count)
@@ -95,7 +95,7 @@ static void begin(Crowd *c, JoIsa isa, uint32_t number) {
     jox_contacts_find(c->forces);
 }
 
-static void end(Crowd *c) {
+static void close_find_crowd(Crowd *c) {
     jox_forces_free(c->forces);
     jox_nav_free(c->nav);
     jox_agents_free(&c->agents);
@@ -105,8 +105,8 @@ static void end(Crowd *c) {
 
 /* ---- contacts of one agent in plain C ---- */
 
-/* Least normal velocity after the contact: the gap may close within the step, no more; what meets
-   in the step bounces as restitution has it. */
+/* Returns the least normal velocity after the contact, m/s: the gap may close within the step, but
+   no more; agents that meet within it bounce by the restitution. */
 static float plain_target(float gap, float speed, float restitution, float dt) {
     float target = gap > 0.0f ? -gap / dt : 0.0f;
     if (restitution > 0.0f && speed < target)
@@ -114,14 +114,15 @@ static float plain_target(float gap, float speed, float restitution, float dt) {
     return target;
 }
 
-/* The contact of agent i and j, over that gap (m); a normal of (0, 0): they stand in one place. */
-static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal, float gap,
-                            float squeeze) {
+/* Returns the contact of agents i and j over a gap (m); a normal of (0, 0): both at the same
+   point. */
+static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal,
+                                    float gap, float squeeze) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
     if (normal.x == 0.0f && normal.y == 0.0f)
-        normal.x = 1.0f; /* people in one place part along x */
+        normal.x = 1.0f; /* agents at the same point part along x */
     float speed = (a->vx[i] - a->vx[j]) * normal.x + (a->vy[i] - a->vy[j]) * normal.y;
     JOX_ASSERT(jox_is_unit(normal));
     return (JoxFoundPair){
@@ -133,7 +134,7 @@ static JoxFoundPair pair_of(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 no
         .mass = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j))};
 }
 
-static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
+static bool is_in_plain_list(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;
     for (uint32_t k = 0; k < near->touch_count[i]; k++)
         if (index[k] == other)
@@ -141,13 +142,15 @@ static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     return false;
 }
 
-/* Whether more may be within touching range of an agent than its list holds. */
-static bool is_cut(const JoxNeighbours *near, uint32_t i) {
+/* Returns whether an agent's list of agents within touch range is full, so that it may lack
+   some. */
+static bool is_plain_list_full(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
-/* Two agents, if the gap between them may close within the step. */
-static bool touches(JoxForces *f, uint32_t i, uint32_t other, bool walls, JoxFoundPair *out) {
+/* Finds the contact of two agents; false if the gap between them cannot close within the step. */
+static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool walls,
+                             JoxFoundPair *out) {
     const JoxAgents *a = f->step.agents;
     JoxV2 offset = jox_offset(a, other, i);
     float distance2 = jox_length2(offset);
@@ -169,7 +172,7 @@ static bool touches(JoxForces *f, uint32_t i, uint32_t other, bool walls, JoxFou
     if (walls && jox_wall_grid_separates(f->step.walls, at, jox_sub(at, offset)))
         return false;
     f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap < 0.0f;
-    *out = pair_of(f, i, other, jox_unit(offset), gap, squeeze);
+    *out = make_plain_pair(f, i, other, jox_unit(offset), gap, squeeze);
     return true;
 }
 
@@ -181,10 +184,11 @@ static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPai
     for (uint32_t k = 0; k < count; k++) {
         uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
                               : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
-        if (a->id[other] < a->id[i] && (!is_cut(near, other) || lists(near, other, i)))
+        if (a->id[other] < a->id[i] &&
+            (!is_plain_list_full(near, other) || is_in_plain_list(near, other, i)))
             continue;
         JoxFoundPair pair;
-        if (touches(f, i, other, walls, &pair))
+        if (find_plain_touch(f, i, other, walls, &pair))
             jox_pair_insert(out, found++, &pair);
     }
     JOX_ASSERT(found <= JOX_MOST_NEIGHBOURS);
@@ -220,9 +224,9 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     seen->alone += c->neighbours.touch_count[i] != JOX_TOUCH_IS_SEEN;
 }
 
-static void compare_crowd(JoIsa isa, uint32_t number, Seen *seen) {
+static void compare_find_crowd(JoIsa isa, uint32_t number, Seen *seen) {
     Crowd c;
-    begin(&c, isa, number);
+    open_find_crowd(&c, isa, number);
     const uint32_t overlaps = c.forces->totals.pairs;
     for (uint32_t k = 0; k < c.forces->chunks; k++)
         c.forces->chunk[k].overlaps = 0;
@@ -234,7 +238,7 @@ static void compare_crowd(JoIsa isa, uint32_t number, Seen *seen) {
     assert_int_equal(overlaps, again);
     seen->overlaps += overlaps;
     seen->cut += c.forces->cut;
-    end(&c);
+    close_find_crowd(&c);
 }
 
 static void test_contacts(void **state) {
@@ -242,7 +246,7 @@ static void test_contacts(void **state) {
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
         Seen seen = {0};
         for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++)
-            compare_crowd(isa, number, &seen);
+            compare_find_crowd(isa, number, &seen);
         if (!jox_isa_runs(isa))
             continue;
         assert_true(seen.pairs > 1000 && seen.overlaps > 1000 && seen.walls > 20);

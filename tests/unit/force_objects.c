@@ -1,9 +1,9 @@
-/* Agents against bodies: footprints, momentum, angular momentum, energy. */
+/* Agents against bodies: footprints, momentum, angular momentum, energy, supports. */
 #include "geom/objects.h"
 #include "unit/force_crowd.h"
 
 /* A box at rest about the origin, 2 by 1 m and 2 m high, its inertia scaled by `thin`. */
-static JoxObject make_box(float mass, float thin) {
+static JoxObject make_light_box(float mass, float thin) {
     JoxObject box = {.live = true, .in_band = true, .moves = true};
     box.position.z = 1.0f;
     box.disc = 1.2f;
@@ -23,10 +23,10 @@ static void put_bodies(Crowd *c, JoxObjects *objects, JoxObject *rows, uint32_t 
     c->step.objects = objects;
 }
 
-/* Starts a step once the bodies are as they shall be. */
+/* Starts a step once the bodies are laid out. */
 static void begin_with(Crowd *c, JoxObjects *objects) {
     jox_objects_lay(objects);
-    begin(c);
+    begin_crowd_step(c);
 }
 
 static void close_with(Crowd *c, JoxObjects *objects) {
@@ -34,19 +34,19 @@ static void close_with(Crowd *c, JoxObjects *objects) {
     close_crowd(c);
 }
 
-static JoxV3 spun(const JoxObject *box, const JoxImpulse *impulse) {
+static JoxV3 turn_box(const JoxObject *box, const JoxImpulse *impulse) {
     JoxV3 arm = {impulse->point.x - box->position.x, impulse->point.y - box->position.y,
                  impulse->point.z - box->position.z};
     return jox_turn3(box->inverse_inertia, jox_cross3(arm, impulse->impulse));
 }
 
-/* Energy after a contact over energy before; the box is at rest. */
+/* Returns the energy after a contact over that before; the box is at rest. */
 static double energy_share(bool literal, float mass, float thin, float restitution) {
     Crowd c;
     open_crowd(&c, 0.05);
     if (literal)
         set_literal(&c);
-    JoxObject box = make_box(mass, thin);
+    JoxObject box = make_light_box(mass, thin);
     box.restitution = restitution;
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
@@ -65,16 +65,16 @@ static double energy_share(bool literal, float mass, float thin, float restituti
     assert_near(pending[0].point.y, 0.5, 1e-6);
     assert_near(pending[0].point.z, 1.1, 1e-6);
     assert_int_equal(c.agents.contacts[0], 1);
-    JoxV3 spin = spun(&box, &pending[0]);
+    JoxV3 spin = turn_box(&box, &pending[0]);
     double vy = -2 + j / 70, by = -j / mass;
-    /* Angular momentum about the vertical through the origin, where the box is. */
+    /* Angular momentum about the vertical through the origin, where the box is, is kept. */
     double before = 70 * 0.8 * -2, after = 70 * 0.8 * vy + spin.z / box.inverse_inertia[8];
     assert_near(after, before, 1e-3 * fabs(before));
     double rotation = 0;
     const float w[3] = {spin.x, spin.y, spin.z};
     for (int k = 0; k < 3; k++)
         rotation += w[k] * w[k] / box.inverse_inertia[4 * k];
-    if (!literal) { /* the relative velocity at the point is turned round by restitution */
+    if (!literal) { /* restitution reverses the relative velocity at the point */
         double point = by + spin.z * 0.8 - spin.x * 0.1;
         assert_near(vy - point, 2 * restitution, 1e-4);
     }
@@ -113,7 +113,7 @@ static void footprints_have_sides_corners_and_insides(void **state) {
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Crowd c;
         open_crowd(&c, 0.05);
-        JoxObject box = make_box(40, 1);
+        JoxObject box = make_light_box(40, 1);
         JoxObjects objects;
         put_bodies(&c, &objects, &box, 1);
         add_agent(&c, cases[k].at.x, cases[k].at.y, -cases[k].normal.x, -cases[k].normal.y);
@@ -132,7 +132,7 @@ static void a_ball_and_the_height_of_contact(void **state) {
     (void)state;
     Crowd c;
     open_crowd(&c, 0.05);
-    JoxObject balls[3] = {make_box(1, 1), make_box(1, 1), make_box(1, 1)};
+    JoxObject balls[3] = {make_light_box(1, 1), make_light_box(1, 1), make_light_box(1, 1)};
     JoxObjects objects;
     put_bodies(&c, &objects, balls, 3);
     for (int k = 0; k < 3; k++) {
@@ -158,16 +158,17 @@ static void a_ball_and_the_height_of_contact(void **state) {
     close_with(&c, &objects);
 }
 
-static void many_on_one_body_share_it(void **state) {
+static void agents_on_one_body_are_solved_together(void **state) {
     (void)state;
-    /* Four walk into a light box together: solved as one, none is thrown back, and momentum is
-       kept. Independent impulses would send the box off at several times their speed. */
+    /* Four agents walk into a light box together: solved together, none is thrown back, and
+       momentum is kept. Independent impulses would send the box off at several times their
+       speed. */
     Crowd c;
     open_crowd(&c, 0.05);
     JoxForceOptions options = jox_force_default_options();
     options.iterations = 200;
     jox_forces_set_options(c.forces, &options);
-    JoxObject box = make_box(10, 1);
+    JoxObject box = make_light_box(10, 1);
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
     for (int k = 0; k < 4; k++)
@@ -197,13 +198,13 @@ static void the_nearest_bodies_are_touched_and_pushed(void **state) {
     JoxObject balls[9];
     for (int k = 0; k < 9; k++) {
         float away = 0.29f - 0.01f * (float)k, angle = 0.1f * (float)(k - 4);
-        balls[k] = make_box(1, 1);
+        balls[k] = make_light_box(1, 1);
         balls[k].footprint_count = 0;
         balls[k].disc = balls[k].round = 0.1f;
         balls[k].position = (JoxV3){away * cosf(angle), away * sinf(angle), 1.0f};
         balls[k].velocity.x = -1;
     }
-    balls[8].position.x *= -1; /* the very nearest is behind */
+    balls[8].position.x *= -1; /* the nearest one is behind the agent */
     JoxObjects objects;
     put_bodies(&c, &objects, balls, 9);
     add_agent(&c, 0, 0, 0, 0);
@@ -222,7 +223,7 @@ static void the_nearest_bodies_are_touched_and_pushed(void **state) {
     uint32_t hit = 0;
     for (uint32_t k = 0; k < count; k++)
         hit |= 1u << pending[k].object;
-    assert_int_equal(hit & 0xe0, 0xe0); /* those that approach, of the nearest */
+    assert_int_equal(hit & 0xe0, 0xe0); /* the nearest of the approaching ones */
     assert_true(c.agents.contacts[0] >= 4);
     close_with(&c, &objects);
 }
@@ -231,7 +232,7 @@ static void static_bodies_stop_people_and_receive_nothing(void **state) {
     (void)state;
     Crowd c;
     open_crowd(&c, 0.05);
-    JoxObject box = make_box(40, 1);
+    JoxObject box = make_light_box(40, 1);
     box.inverse_mass = 0;
     memset(box.inverse_inertia, 0, sizeof box.inverse_inertia);
     JoxObjects objects;
@@ -246,8 +247,8 @@ static void static_bodies_stop_people_and_receive_nothing(void **state) {
     close_with(&c, &objects);
 }
 
-/* Four points of a face of the box: the one at the far side from people, or the one on the ground.
- */
+/* Makes contacts at four points of a face of the box: the far side from the agents, or the
+   bottom. */
 static void stand_at(JoxObjectContact out[4], bool ground, float friction) {
     for (int k = 0; k < 4; k++) {
         float x = k & 1 ? 1.0f : -1.0f, other = k & 2 ? 1.0f : -1.0f;
@@ -257,11 +258,12 @@ static void stand_at(JoxObjectContact out[4], bool ground, float friction) {
     }
 }
 
-/* Somebody walks at 2 m/s into the middle of the 40 kg box's long side. The impulse on the box. */
+/* An agent walks at 2 m/s into the middle of the 40 kg box's long side. Returns the impulse on the
+   box. */
 static JoxImpulse walk_into(const JoxObjectContact *contacts, uint32_t count, float gravity) {
     Crowd c;
     open_crowd(&c, 0.05);
-    JoxObject box = make_box(40, 1);
+    JoxObject box = make_light_box(40, 1);
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
     objects.contacts = (JoxObjectContacts){contacts, count};
@@ -277,14 +279,14 @@ static JoxImpulse walk_into(const JoxObjectContact *contacts, uint32_t count, fl
     return impulse;
 }
 
-static void what_holds_a_body_is_felt_at_once(void **state) {
+static void supports_are_felt_at_once(void **state) {
     (void)state;
     JoxObjectContact contacts[8];
     JoxImpulse free = walk_into(NULL, 0, 0);
     /* 1.1 m up is 0.1 m above the middle: inverse mass 1/40 + 0.1^2 12 / 200. */
     assert_near(-free.impulse.y, 2 / (1 / 70.0 + 1 / 40.0 + 0.01 * 12 / 200), 0.01);
     assert_near(free.lasting, 0, 1e-5);
-    /* At a wall it stops them, and all they give it lasts as long as they press. */
+    /* At a wall the box stops the agent, and all that it gives lasts as long as it presses. */
     stand_at(contacts, false, 0);
     JoxImpulse wall = walk_into(contacts, 4, 0);
     assert_near(-wall.impulse.y, 140, 0.7);
@@ -294,12 +296,13 @@ static void what_holds_a_body_is_felt_at_once(void **state) {
     stand_at(contacts, true, 0.5f);
     JoxImpulse rough = walk_into(contacts, 4, 200.0f);
     assert_near(-rough.impulse.y, 140, 0.7);
-    /* Of 0.1 times 19.62 N s it takes just that: (140 - 1.962) shared by 70 and 40 kg, and that. */
+    /* Of 0.1 times 19.62 N s friction takes exactly that; 70 and 40 kg share the rest, 140 -
+       1.962. */
     stand_at(contacts, true, 0.1f);
     JoxImpulse slips = walk_into(contacts, 4, 9.81f);
     assert_true(-slips.impulse.y > -free.impulse.y + 0.5);
     assert_near(-slips.impulse.y, 140 - 70 * (140 - 1.962) / 110, 0.5);
-    double free_gain = 1 / 40.0 + 0.01 * 12 / 200; /* held share: by work, of a body free to turn */
+    double free_gain = 1 / 40.0 + 0.01 * 12 / 200; /* share held, by work, of a body free to turn */
     assert_near(slips.lasting, 1 - 1.2549 / (52.16 * free_gain), 0.005);
     /* A wall that is out of reach within the step changes nothing. */
     stand_at(contacts, false, 0);
@@ -312,12 +315,12 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
     (void)state;
     Crowd c;
     open_crowd(&c, 0.05);
-    JoxObject box = make_box(40, 1);
+    JoxObject box = make_light_box(40, 1);
     box.tags = 2;
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
     add_agent(&c, 0.8f, -0.75f, 0, 0); /* a gap of 5 cm */
-    add_agent(&c, 0.0f, -0.85f, 0, 0); /* of 15 cm */
+    add_agent(&c, 0.0f, -0.85f, 0, 0); /* a gap of 15 cm */
     for (uint32_t i = 0; i < 2; i++) {
         set_param(&c, i, JOX_PARAM_push, 200);
         c.agents.pref_y[i] = 1;
@@ -342,12 +345,12 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
 
 static void a_printed_push_aims_at_the_middle(void **state) {
     (void)state;
-    /* From (0.8, -0.75), that walks at (0, 1) and will be at (0.8, -0.7): the middle of the box is
-       (-0.8, 0.7) off, sqrt(1.13) m. 200 N for 0.05 s are 10 N s. */
+    /* From (0.8, -0.75), for an agent that walks at (0, 1) and will be at (0.8, -0.7): the centre
+       of the box is (-0.8, 0.7) off, sqrt(1.13) m. 200 N for 0.05 s are 10 N s. */
     Crowd c;
     open_crowd(&c, 0.05);
     set_literal(&c);
-    JoxObject box = make_box(40, 1);
+    JoxObject box = make_light_box(40, 1);
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
     add_agent(&c, 0.8f, -0.75f, 0, 1);
@@ -364,11 +367,12 @@ static void a_printed_push_aims_at_the_middle(void **state) {
     close_with(&c, &objects);
 }
 
-static void far_and_broken_bodies_are_passed_over(void **state) {
+static void far_and_broken_bodies_are_skipped(void **state) {
     (void)state;
     Crowd c;
     open_crowd(&c, 0.05);
-    JoxObject boxes[4] = {make_box(40, 1), make_box(40, 1), make_box(40, 1), make_box(40, 1)};
+    JoxObject boxes[4] = {make_light_box(40, 1), make_light_box(40, 1), make_light_box(40, 1),
+                          make_light_box(40, 1)};
     for (int k = 0; k < 4; k++)
         boxes[0].footprint[k].x = NAN;
     for (int k = 0; k < 4; k++)
@@ -397,13 +401,13 @@ int main(void) {
         cmocka_unit_test(as_printed_energy_grows),
         cmocka_unit_test(footprints_have_sides_corners_and_insides),
         cmocka_unit_test(a_ball_and_the_height_of_contact),
-        cmocka_unit_test(many_on_one_body_share_it),
+        cmocka_unit_test(agents_on_one_body_are_solved_together),
         cmocka_unit_test(the_nearest_bodies_are_touched_and_pushed),
         cmocka_unit_test(static_bodies_stop_people_and_receive_nothing),
-        cmocka_unit_test(what_holds_a_body_is_felt_at_once),
+        cmocka_unit_test(supports_are_felt_at_once),
         cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
         cmocka_unit_test(a_printed_push_aims_at_the_middle),
-        cmocka_unit_test(far_and_broken_bodies_are_passed_over),
+        cmocka_unit_test(far_and_broken_bodies_are_skipped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

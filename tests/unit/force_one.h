@@ -1,4 +1,4 @@
-/* What the kernels sum_wide.c and infer_wide.c do for a packet, of one agent in plain C. */
+/* Plain C for one agent of what the kernels sum_wide.c and infer_wide.c do for a packet. */
 #ifndef TESTS_FORCE_ONE_H
 #define TESTS_FORCE_ONE_H
 
@@ -7,8 +7,8 @@
 #include "base/assert.h"
 #include "force/kernels.h"
 
-/* (10) The net force. */
-static JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
+/* (10) Returns the net force, N. */
+static JoxV2 plain_sum_terms(const JoxAgents *a, uint32_t i) {
 #define PLUS_X(X, keep, role, name, label) +a->name##_x[i]
 #define PLUS_Y(X, keep, role, name, label) +a->name##_y[i]
     return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
@@ -16,20 +16,20 @@ static JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
 #undef PLUS_Y
 }
 
-/* Whether a net force of `size` newtons bounds agent i's plan. The faintest contact does: what the
-   feet took of it would be missing from the momentum of all. */
-static bool is_felt(const JoxForces *f, uint32_t i, float size) {
+/* Returns whether a net force of `size` newtons bounds agent i's plan. Even the faintest contact
+   does: otherwise what the feet took of it would be missing from the total momentum. */
+static bool plain_is_felt(const JoxForces *f, uint32_t i, float size) {
     const JoxAgents *a = f->step.agents;
     bool touched = a->contact_x[i] != 0.0f || a->contact_y[i] != 0.0f;
     float least = touched ? 1e-6f : f->options.least;
     return size >= least * jox_param(a, JOX_PARAM_mass, i) && isfinite(size);
 }
 
-/* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
-   the velocity is to have the part along the force that (11) says; it goes the share `response` of
-   the way from what the force gives to what is planned. */
-static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
-                           JoxPlanning plan, float step) {
+/* (11), (12): writes the half-plane of the force, and the speed limit of this step. By the end of
+   the step the velocity has the part along the force that (11) gives; the step goes the share
+   `response` of the way from the forced velocity to the planned one. */
+static void plain_bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
+                                 JoxPlanning plan, float step) {
     float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, i);
     float most = jox_param(a, JOX_PARAM_max_speed, i);
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
@@ -38,7 +38,7 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, 
     JOX_ASSERT(jox_is_unit(normal));
     float wanted = jox_forced_speed(velocity, normal, size, mass, decay, plan.interval);
     float pressed = jox_dot(contact, normal) / mass, driven = jox_dot(moving, normal) / mass;
-    /* Contacts act within this step, however long the plan is kept. */
+    /* Contacts act within this step only, however long the plan is kept. */
     wanted -= pressed * (plan.interval - step);
     float moved = jox_dot(velocity, normal) + pressed * step + driven * plan.forced;
     a->half_plane_x[i] = normal.x;
@@ -46,34 +46,34 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, 
     a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
-    /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
+    /* Only contacts may carry an agent faster than its greatest speed. */
     a->speed_limit[i] = jox_maxf(most, jox_length((JoxV2){a->forced_x[i], a->forced_y[i]}));
 }
 
-/* (10) to (12) of agent i. `decay`: that of who came before. */
-static void sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
+/* (10) to (12) for agent i. `decay`: cached from the agent before. */
+static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
-    JoxV2 force = sum_of_terms(a, i);
+    JoxV2 force = plain_sum_terms(a, i);
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
     JoxV2 moving = jox_moving_force(a, i);
     a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass;
     a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
-    if ((force.x == 0.0f && force.y == 0.0f) || !is_felt(f, i, jox_length(force)))
+    if ((force.x == 0.0f && force.y == 0.0f) || !plain_is_felt(f, i, jox_length(force)))
         return;
     const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
     const float worn = jox_decay(decay, jox_param(a, JOX_PARAM_damping, i), plan.interval);
-    bound_by_force(a, i, force, moving, worn, plan, dt);
+    plain_bound_by_force(a, i, force, moving, worn, plan, dt);
 }
 
-/* (9) By how much the feet keep agent i, in this step, below where the force along a unit vector
-   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
-   forces give, less what they wear down in any case. Counted step by step, it is the same at any
-   step and however long a plan is kept. */
-static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
+/* (9) Returns by how much the feet keep agent i, in this step, below the velocity along a unit
+   vector that the force would give, m/s: the part of others' pushes that they hold, and what they
+   take from the forced velocity, minus what they wear down anyway. It adds up step by step, so that
+   neither the step nor the length of a plan changes it. */
+static float plain_shortfall(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, response = (float)f->step.response;
     float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
@@ -86,15 +86,15 @@ static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *
     return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
 }
 
-static bool is_under_force(const JoxAgents *a, uint32_t i) {
+static bool plain_is_under_force(const JoxAgents *a, uint32_t i) {
     return a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
 }
 
-/* (8) Whether someone under no force slowed down so that others feel it. */
-static bool slows_down(const JoxForces *f, uint32_t i) {
+/* (8) Returns whether an agent under no force slowed down enough for others to feel. */
+static bool plain_slows_down(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.dt;
-    /* What the feet took: contacts and other forces have their share already. */
+    /* Only what the feet took counts: contacts and other forces have acted on others already. */
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     const JoxV2 old = jox_velocity_before(f, i);
     return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
@@ -102,12 +102,13 @@ static bool slows_down(const JoxForces *f, uint32_t i) {
            jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
 }
 
-static JoxPassKind passes_on(const JoxForces *f, uint32_t i, JoxDecay *decay, float *shortfall) {
+static JoxPassKind plain_pass_kind(const JoxForces *f, uint32_t i, JoxDecay *decay,
+                                   float *shortfall) {
     const JoxAgents *a = f->step.agents;
     *shortfall = 0.0f;
-    if (!is_under_force(a, i))
-        return slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
-    *shortfall = shortfall_of(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
+    if (!plain_is_under_force(a, i))
+        return plain_slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
+    *shortfall = plain_shortfall(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
     return *shortfall > JOX_SHORTFALL_LEAST && jox_param(a, JOX_PARAM_absorb, i) > 0.0f
                ? JOX_PASSES_RESISTANCE
                : JOX_PASSES_NOTHING;

@@ -1,6 +1,6 @@
-/* The kernels of move, and that of the radius at which people touch, against plain loops, by every
-   instruction set that the machine runs: people of random velocities and plans, in the open, about
-   walls, over periodic edges, and with numbers that are none. */
+/* The kernels of move and of breadth against plain loops, on every instruction set that the machine
+   runs: agents with random velocities and plans, in the open, around walls, over periodic edges,
+   and with NaN. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@
 
 enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 9 }; /* not a whole number of packets */
 
-static float draw(uint32_t crowd, uint32_t *drawn, double from, double to) {
+static float draw_move(uint32_t crowd, uint32_t *drawn, double from, double to) {
     double unit = jox_random_unit(7, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
     return (float)(from + (to - from) * unit);
 }
@@ -30,7 +30,7 @@ typedef struct Crowd {
     JoxV2 at[PEOPLE + JOX_LANES];
 } Crowd;
 
-static void begin(Crowd *c, uint32_t number) {
+static void open_move_crowd(Crowd *c, uint32_t number) {
     static const JoxV2 bar[] = {{2.0f, -1.0f}, {4.0f, 6.0f}, {7.0f, 3.0f}};
     JoxAgents *a = &c->agents;
     uint32_t drawn = 0;
@@ -38,8 +38,8 @@ static void begin(Crowd *c, uint32_t number) {
     c->nav = jox_nav_create(NULL);
     for (uint32_t k = 0; k < PEOPLE; k++) {
         uint32_t i = jox_agents_add(a);
-        a->x[i] = draw(number, &drawn, 0.0, 10.0);
-        a->y[i] = draw(number, &drawn, 0.0, 7.0);
+        a->x[i] = draw_move(number, &drawn, 0.0, 10.0);
+        a->y[i] = draw_move(number, &drawn, 0.0, 7.0);
     }
     if (number % 3 == 1) {
         jox_walls_add_polyline(&c->walls, bar, 3, false, INFINITY);
@@ -51,14 +51,14 @@ static void begin(Crowd *c, uint32_t number) {
     }
     jox_nav_sort(c->nav, a, 0);
     for (uint32_t i = 0; i < PEOPLE; i++) {
-        const float hurry = draw(number, &drawn, 0.0, 1.0) < 0.1f ? 40.0f : 2.0f;
-        a->forced_x[i] = draw(number, &drawn, -2.0, 2.0);
-        a->forced_y[i] = draw(number, &drawn, -2.0, 2.0);
-        a->next_x[i] = draw(number, &drawn, -1.0, 1.0) * hurry;
-        a->next_y[i] = number == 11 && i == 30 ? NAN : draw(number, &drawn, -1.0, 1.0) * hurry;
-        a->still_x[i] = a->x[i] + draw(number, &drawn, -0.3, 0.3);
+        const float hurry = draw_move(number, &drawn, 0.0, 1.0) < 0.1f ? 40.0f : 2.0f;
+        a->forced_x[i] = draw_move(number, &drawn, -2.0, 2.0);
+        a->forced_y[i] = draw_move(number, &drawn, -2.0, 2.0);
+        a->next_x[i] = draw_move(number, &drawn, -1.0, 1.0) * hurry;
+        a->next_y[i] = number == 11 && i == 30 ? NAN : draw_move(number, &drawn, -1.0, 1.0) * hurry;
+        a->still_x[i] = a->x[i] + draw_move(number, &drawn, -0.3, 0.3);
         a->still_y[i] = a->y[i];
-        a->still[i] = draw(number, &drawn, 0.0, 5.0);
+        a->still[i] = draw_move(number, &drawn, 0.0, 5.0);
         a->breadth[i] = 0.2f;
     }
     c->move = (JoxMove){.nav = c->nav,
@@ -69,14 +69,14 @@ static void begin(Crowd *c, uint32_t number) {
                         .position = {c->at}};
 }
 
-static void end(Crowd *c) {
+static void close_move_crowd(Crowd *c) {
     jox_nav_free(c->nav);
     jox_agents_free(&c->agents);
     jox_walls_free(&c->walls);
 }
 
-/* By plain loops. Returns how they moved. */
-static JoxDrift by_hand(Crowd *c) {
+/* Moves the agents by plain loops. Returns their drift. */
+static JoxDrift move_by_loops(Crowd *c) {
     const JoxMove *m = &c->move;
     JoxAgents *a = &c->agents;
     JoxDrift drift = {0.0f, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -111,7 +111,7 @@ static JoxDrift by_hand(Crowd *c) {
     return drift;
 }
 
-static void columns_of(const JoxAgents *a, float *out[COLUMNS]) {
+static void list_move_columns(const JoxAgents *a, float *out[COLUMNS]) {
     float *columns[COLUMNS] = {a->x,  a->y,     a->prev_x,  a->prev_y, a->vx,
                                a->vy, a->still, a->still_x, a->still_y};
     memcpy(out, columns, sizeof columns);
@@ -132,14 +132,14 @@ static void test_move(void **state) {
                 continue;
             Crowd plain, wide;
             float *expected[COLUMNS], *got[COLUMNS];
-            begin(&plain, number);
-            begin(&wide, number);
-            const JoxDrift by_one = by_hand(&plain);
+            open_move_crowd(&plain, number);
+            open_move_crowd(&wide, number);
+            const JoxDrift by_one = move_by_loops(&plain);
             INTEGRATE[isa](&wide.move, 0, PEOPLE);
             const JoxDrift drift = SETTLE[isa](&wide.move, 0, PEOPLE);
             assert_true(memcmp(&drift, &by_one, sizeof drift) == 0 || number == 11);
-            columns_of(&plain.agents, expected);
-            columns_of(&wide.agents, got);
+            list_move_columns(&plain.agents, expected);
+            list_move_columns(&wide.agents, got);
             for (uint32_t k = 0; k < COLUMNS; k++)
                 assert_memory_equal(expected[k], got[k], PEOPLE * sizeof(float));
             assert_int_equal(plain.nav->stray_count, wide.nav->stray_count);
@@ -147,14 +147,15 @@ static void test_move(void **state) {
             over += wide.nav->stray_count;
             for (uint32_t i = 0; i < PEOPLE; i++)
                 moved += wide.agents.still[i] == 0.0f;
-            end(&plain);
-            end(&wide);
+            close_move_crowd(&plain);
+            close_move_crowd(&wide);
         }
     assert_true(over > 0 && moved > 0);
 }
 
-/* As it is said: a share of `turn` between two values that were drawn, evenly in time. */
-static float breadth_by_hand(const JoxForceStep *step, uint32_t i) {
+/* Returns the breadth by its definition: a share of `turn` that runs linearly in time between two
+   random values. */
+static float compute_plain_breadth(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
     const float radius = jox_param(a, JOX_PARAM_radius, i), turn = jox_param(a, JOX_PARAM_turn, i);
     if (!step->turning || jox_stands(a, i))
@@ -177,12 +178,12 @@ static void test_breadth(void **state) {
         for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++) {
             Crowd c;
             uint32_t drawn = 0, turned = 0;
-            begin(&c, 0);
+            open_move_crowd(&c, 0);
             JoxAgents *a = &c.agents;
             for (uint32_t i = 0; i < PEOPLE; i++) {
-                jox_param_set(a, JOX_PARAM_radius, i, draw(number, &drawn, 0.1, 0.4));
-                jox_param_set(a, JOX_PARAM_turn, i, draw(number, &drawn, 0.0, 0.5));
-                a->pref_x[i] = draw(number, &drawn, -0.1, 0.3);
+                jox_param_set(a, JOX_PARAM_radius, i, draw_move(number, &drawn, 0.1, 0.4));
+                jox_param_set(a, JOX_PARAM_turn, i, draw_move(number, &drawn, 0.0, 0.5));
+                a->pref_x[i] = draw_move(number, &drawn, -0.1, 0.3);
                 a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
             }
             JoxForces *f = jox_forces_create(NULL);
@@ -193,13 +194,13 @@ static void test_breadth(void **state) {
                                      .time = number * number * 1234.567};
             KERNELS[isa](f, 0, PEOPLE);
             for (uint32_t i = 0; i < PEOPLE; i++) {
-                const float expected = breadth_by_hand(&f->step, i);
+                const float expected = compute_plain_breadth(&f->step, i);
                 assert_memory_equal(&a->breadth[i], &expected, sizeof expected);
                 turned += expected < jox_param(a, JOX_PARAM_radius, i);
             }
             assert_true(number == 5 ? turned == 0 : turned > PEOPLE / 4);
             jox_forces_free(f);
-            end(&c);
+            close_move_crowd(&c);
         }
 }
 

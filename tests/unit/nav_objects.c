@@ -1,4 +1,4 @@
-/* Half-planes of bodies: whichever the rows, the nearest bodies have one each. */
+/* Half-planes of bodies: the nearest bodies have one each, whatever their rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,9 +12,10 @@
 
 enum { PILLARS = 40 };
 
-static void of_many_bodies_the_nearest_are_avoided(void **state) {
+static void nearest_of_many_bodies_are_avoided(void **state) {
     (void)state;
-    /* Pillars 0.5 to 2.45 m away all round, the farthest first; two are ignored, one is gone. */
+    /* Pillars 0.5 to 2.45 m away all around, the farthest first; two are ignored, one does not
+       exist. */
     JoxObject rows[PILLARS];
     for (int k = 0; k < PILLARS; k++) {
         float away = 0.5f + 0.05f * (float)(PILLARS - 1 - k), angle = 2.4f * (float)k;
@@ -33,10 +34,11 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
         uint32_t made = jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, most),
                  at = most;
         assert_int_equal(made, most);
-        for (int k = PILLARS - 1; at > 0; k--) { /* the nearest, which are the last */
+        for (int k = PILLARS - 1; at > 0; k--) { /* the nearest ones, which come last */
             if (k == 33 || k == 37 || k == 38)
                 continue;
-            /* At rest: no faster towards it than what closes the gap within the horizon. */
+            /* The pillars rest: the agent may approach no faster than closes the gap within the
+               horizon. */
             float away = jox_length(jox_v2(rows[k].position.x, rows[k].position.y));
             const JoxHalfPlane *plane = &planes[--at];
             assert_true(fabsf(plane->normal.x + rows[k].position.x / away) < 1e-5f);
@@ -49,10 +51,10 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     jox_nav_free(nav);
 }
 
-static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
+static void approached_body_counts_even_if_its_kind_is_ignored(void **state) {
     (void)state;
-    /* Two balls at 1 m; the second is approached: not anticipated, but not run over within the
-       planning time either, 0.6 m in 0.05 s. */
+    /* Two balls at 1 m. The second is approached: it is not anticipated, but not run over within
+       the planning time either (0.6 m in 0.05 s). */
     JoxObject rows[2];
     for (int k = 0; k < 2; k++) {
         rows[k] = (JoxObject){.live = true, .in_band = true, .disc = 0.2f, .round = 0.2f};
@@ -79,8 +81,8 @@ static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_many_bodies_the_nearest_are_avoided),
-        cmocka_unit_test(what_is_approached_counts_though_its_kind_is_ignored),
+        cmocka_unit_test(nearest_of_many_bodies_are_avoided),
+        cmocka_unit_test(approached_body_counts_even_if_its_kind_is_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
-/* The kernel of perceive against a plain reference, by every instruction set that the machine runs:
-   each agent's neighbours are found by looking at all others. Random crowds, and those that are
-   hard: coincident, on a lattice where distances tie, packed closer than a packet has room for, far
-   apart, across periodic edges, of mixed wishes, and moved since they were sorted. */
+/* The kernel of perceive against a plain reference, which tests all agents, on every instruction
+   set that the machine runs. Random crowds, and hard ones: coincident, on a lattice where distances
+   tie, packed closer than lists have room for, far apart, across periodic edges, of mixed
+   parameters, and moved since the sort. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,13 +17,13 @@
 
 enum { CROWDS = 30, MOST_PEOPLE = 700 };
 
-static double draw(uint32_t crowd, uint32_t *drawn, double from, double to) {
+static double draw_near(uint32_t crowd, uint32_t *drawn, double from, double to) {
     return from + (to - from) * jox_random_unit(4, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
 }
 
 typedef enum Kind { RANDOM, LATTICE, COINCIDENT, PACKED, FAR, LINE, KINDS } Kind;
 
-static JoxV2 place(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
+static JoxV2 place_crowd(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
     float size = kind == PACKED ? 2.0f : kind == FAR ? 4000.0f : 14.0f;
     switch (kind) {
     case LATTICE:
@@ -31,42 +31,43 @@ static JoxV2 place(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
     case COINCIDENT:
         return (JoxV2){0.25f * (float)(i % 9), 0.0f};
     case LINE:
-        return (JoxV2){(float)draw(crowd, drawn, 0.0, 300.0), 1.0f};
+        return (JoxV2){(float)draw_near(crowd, drawn, 0.0, 300.0), 1.0f};
     default:
-        return (JoxV2){(float)draw(crowd, drawn, 0.0, (double)size),
-                       (float)draw(crowd, drawn, 0.0, (double)size)};
+        return (JoxV2){(float)draw_near(crowd, drawn, 0.0, (double)size),
+                       (float)draw_near(crowd, drawn, 0.0, (double)size)};
     }
 }
 
-static void fill(JoxAgents *a, uint32_t crowd) {
+static void fill_crowd(JoxAgents *a, uint32_t crowd) {
     uint32_t drawn = 0;
     const Kind kind = (Kind)(crowd % KINDS);
-    const uint32_t people = 1 + (uint32_t)draw(crowd, &drawn, 0.0, MOST_PEOPLE - 1);
+    const uint32_t people = 1 + (uint32_t)draw_near(crowd, &drawn, 0.0, MOST_PEOPLE - 1);
     const bool mixed = crowd / KINDS % 2, periodic = crowd / KINDS % 3 == 1;
     if (periodic)
         a->period = (JoxV2){15.0f, crowd % 2 ? 15.0f : 0.0f};
     for (uint32_t k = 0; k < people; k++) {
         uint32_t i = jox_agents_add(a);
-        JoxV2 at = place(kind, k, crowd, &drawn);
+        JoxV2 at = place_crowd(kind, k, crowd, &drawn);
         a->x[i] = periodic ? fmodf(at.x, 15.0f) : at.x;
         a->y[i] = periodic ? fmodf(at.y, 15.0f) : at.y;
-        jox_param_set(a, JOX_PARAM_radius, i, (float)draw(crowd, &drawn, 0.1, 0.3));
+        jox_param_set(a, JOX_PARAM_radius, i, (float)draw_near(crowd, &drawn, 0.1, 0.3));
         if (!mixed)
             continue;
-        jox_param_set(a, JOX_PARAM_neighbours, i, floorf((float)draw(crowd, &drawn, 0.0, 16.999)));
-        jox_param_set(a, JOX_PARAM_perception, i, (float)draw(crowd, &drawn, 0.0, 5.0));
+        jox_param_set(a, JOX_PARAM_neighbours, i,
+                      floorf((float)draw_near(crowd, &drawn, 0.0, 16.999)));
+        jox_param_set(a, JOX_PARAM_perception, i, (float)draw_near(crowd, &drawn, 0.0, 5.0));
     }
 }
 
-/* Somewhat away from where they were when they were sorted, and known to be so. */
+/* Moves agents away from where they were sorted, with a known drift. */
 static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
     const JoxV2 least = {crowd % 2 ? 0.05f : -0.2f, -0.3f},
                 most = {0.35f, crowd % 3 ? 0.1f : -0.1f};
     uint32_t drawn = 100000;
     bool stays = false;
     for (uint32_t i = 0; i < a->count; i++) {
-        const float x = a->x[i] + (float)draw(crowd, &drawn, (double)least.x, (double)most.x);
-        const float y = a->y[i] + (float)draw(crowd, &drawn, (double)least.y, (double)most.y);
+        const float x = a->x[i] + (float)draw_near(crowd, &drawn, (double)least.x, (double)most.x);
+        const float y = a->y[i] + (float)draw_near(crowd, &drawn, (double)least.y, (double)most.y);
         const bool out = (a->period.x > 0.0f && (x < 0.0f || x >= a->period.x)) ||
                          (a->period.y > 0.0f && (y < 0.0f || y >= a->period.y));
         stays |= out;
@@ -82,7 +83,7 @@ static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
     drift->most = jox_add(drift->most, way.most);
 }
 
-/* Everybody to where another was, and how far that is is not known. */
+/* Moves half of the agents to the places of others, with an unknown drift. */
 static void scatter(JoxNav *nav, JoxAgents *a) {
     for (uint32_t i = 0; i < a->count / 2; i++) {
         const uint32_t j = a->count - 1 - i;
@@ -96,8 +97,8 @@ static void scatter(JoxNav *nav, JoxAgents *a) {
     jox_nav_forget(nav);
 }
 
-/* Somebody from each edge to the opposite one, and known to have gone there. */
-static void cross(JoxNav *nav, JoxAgents *a) {
+/* Moves agents over periodic edges, and lists them as strays. */
+static void send_over_edges(JoxNav *nav, JoxAgents *a) {
     for (uint32_t i = 0; i < a->count && nav->stray_count < JOX_MOST_STRAYS; i++) {
         const float left = a->x[i] < 0.1f ? 15.0f : a->x[i] > 14.9f ? -15.0f : 0.0f;
         if (a->period.x <= 0.0f || left == 0.0f)
@@ -108,8 +109,8 @@ static void cross(JoxNav *nav, JoxAgents *a) {
     jox_nav_place_strays(nav, a);
 }
 
-/* A few, here and there; the grid is told of it by the next sort, which is none. */
-static void some_leave(JoxNav *nav, JoxAgents *a, uint32_t tick) {
+/* Removes a few agents; the next sort, which sorts nothing, takes them out of the grid. */
+static void remove_some(JoxNav *nav, JoxAgents *a, uint32_t tick) {
     for (uint32_t i = 0; i < a->count; i++)
         a->removed[i] = a->id[i] % 13 == tick;
     jox_agents_compact(a);
@@ -128,9 +129,9 @@ static int by_distance(const void *one, const void *two) {
     return a->id < b->id ? -1 : 1;
 }
 
-/* All within a radius, nearest first, ties by id; whoever is seen from two sides is seen from the
-   nearer one. The distance is computed from the image of the one who looks. */
-static uint32_t reference(const JoxAgents *a, uint32_t i, float radius, Other *out) {
+/* Lists all agents within a radius, nearest first, ties by id; an agent seen from two sides counts
+   on the nearer one. The distance is computed from the image of the agent that looks. */
+static uint32_t list_reference(const JoxAgents *a, uint32_t i, float radius, Other *out) {
     uint32_t count = 0;
     for (uint32_t j = 0; j < a->count; j++) {
         float least = INFINITY;
@@ -148,7 +149,7 @@ static uint32_t reference(const JoxAgents *a, uint32_t i, float radius, Other *o
     return count;
 }
 
-static float sight_of(const JoxAgents *a, float reach) {
+static float find_sight(const JoxAgents *a, float reach) {
     if (a->period.x > 0.0f)
         reach = jox_minf(reach, 0.49f * a->period.x);
     return a->period.y > 0.0f ? jox_minf(reach, 0.49f * a->period.y) : reach;
@@ -156,27 +157,27 @@ static float sight_of(const JoxAgents *a, float reach) {
 
 static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
                              Other *all) {
-    float range = sight_of(a, jox_touch_reach(n, jox_param(a, JOX_PARAM_radius, i)));
+    float range = find_sight(a, jox_touch_reach(n, jox_param(a, JOX_PARAM_radius, i)));
     assert_int_equal(n->touch_count[i] == JOX_TOUCH_IS_SEEN, seen >= range);
     if (n->touch_count[i] == JOX_TOUCH_IS_SEEN)
         return;
-    uint32_t count = reference(a, i, range, all);
+    uint32_t count = list_reference(a, i, range, all);
     count = count < JOX_MOST_NEIGHBOURS ? count : JOX_MOST_NEIGHBOURS;
     assert_int_equal(n->touch_count[i], count);
     for (uint32_t k = 0; k < count; k++)
         assert_int_equal(n->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k], all[k].index);
 }
 
-static void compare(const JoxAgents *a, const JoxNeighbours *n) {
+static void compare_agent_neighbours(const JoxAgents *a, const JoxNeighbours *n) {
     static Other all[MOST_PEOPLE];
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
-        const float perception = sight_of(a, jox_param(a, JOX_PARAM_perception, i));
-        uint32_t count = reference(a, i, perception, all);
+        const float perception = find_sight(a, jox_param(a, JOX_PARAM_perception, i));
+        uint32_t count = list_reference(a, i, perception, all);
         count = count < most ? count : most;
         assert_int_equal(n->count[i], count);
         const float touch = jox_touch_most(n);
-        uint32_t close = 0, perhaps = 0; /* may touch; and those nearly as near */
+        uint32_t close = 0, perhaps = 0; /* within touch range; slightly beyond it too */
         for (uint32_t k = 0; k < count; k++) {
             assert_int_equal(n->index[jox_neighbour_at(n, i, k)], all[k].index);
             close += all[k].d2 <= touch * touch;
@@ -193,20 +194,20 @@ static void compare(const JoxAgents *a, const JoxNeighbours *n) {
     }
 }
 
-static void compare_crowd(JoIsa isa, uint32_t crowd) {
+static void compare_near_crowd(JoIsa isa, uint32_t crowd) {
     JoxAgents agents = {0};
     JoxNeighbours neighbours = {0};
     JoxNav *nav = jox_nav_create(NULL);
     jox_nav_set_isa(nav, isa);
-    fill(&agents, crowd);
+    fill_crowd(&agents, crowd);
     jox_nav_sort(nav, &agents, 0);
     for (uint32_t pass = 0; pass < 4; pass++) {
         jox_nav_perceive(nav, &agents, &neighbours, NULL);
-        compare(&agents, &neighbours);
-        some_leave(nav, &agents, pass + 1);
+        compare_agent_neighbours(&agents, &neighbours);
+        remove_some(nav, &agents, pass + 1);
         stir(nav, &agents, crowd);
         if (pass == 0)
-            cross(nav, &agents);
+            send_over_edges(nav, &agents);
         if (pass == 2)
             scatter(nav, &agents);
         jox_nav_place_strays(nav, &agents);
@@ -220,10 +221,10 @@ static void test_neighbours(void **state) {
     (void)state;
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
         for (uint32_t crowd = 0; jox_isa_runs(isa) && crowd < CROWDS; crowd++)
-            compare_crowd(isa, crowd);
+            compare_near_crowd(isa, crowd);
 }
 
-/* Names, and what is said where a machine lacks one. */
+/* Names of instruction sets, and the error where a machine lacks one. */
 static void test_instruction_sets(void **state) {
     (void)state;
     JoIsa isa = JO_ISA_WIDEST;

@@ -1,8 +1,7 @@
-/* The laws of navigation for one agent in plain C, as references for the kernels and for what core
-   compiles from the same source at width 1: ORCA, the linear programs (de Berg et al.,
-   Computational Geometry, ch. 4; van den Berg et al. 2011 for three dimensions), who minds whom by
-   the walking law, and the velocity of one agent. Written apart from core/nav; nothing of it is
-   used there. */
+/* The laws of navigation for one agent in plain C, as references for the kernels and for core at
+   width 1: ORCA; the linear programs (de Berg et al., Computational Geometry, ch. 4; van den Berg
+   et al. 2011 for three dimensions); precedence by the walking law; and the velocity of one agent.
+   Written independently of core/nav. */
 #ifndef TESTS_NAV_PLAIN_H
 #define TESTS_NAV_PLAIN_H
 
@@ -14,40 +13,41 @@
 
 /* ---- ORCA ---- */
 
-/* The half-plane of outward normal n whose border passes through own + share * u, where the least
-   change u of the relative velocity, which is along n, is `change` long. */
-static inline JoxHalfPlane half_plane_through(JoxV2 normal, JoxV2 own, float change, float share) {
+/* Returns the half-plane with outward normal n whose border passes through own + share * u, where
+   u, the least change of the relative velocity, is along n and `change` long, m/s. */
+static inline JoxHalfPlane plain_plane_through(JoxV2 normal, JoxV2 own, float change, float share) {
     JOX_ASSERT(jox_is_unit(normal));
     return (JoxHalfPlane){normal, jox_dot(normal, own) + change * share};
 }
 
-/* Outward from a disc of the velocity obstacle: its centre is at `centre` in velocity space. */
-static inline JoxHalfPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, float share,
-                                     JoxV2 away) {
+/* Returns the half-plane for a disc of the velocity obstacle, with its centre at `centre` in
+   velocity space. */
+static inline JoxHalfPlane plain_disc_plane(JoxV2 v, JoxV2 centre, float radius, JoxV2 own,
+                                            float share, JoxV2 away) {
     JoxV2 w = jox_sub(v, centre);
     float length = jox_length(w);
     JoxV2 normal = length > 1e-6f ? jox_scale(w, 1.0f / length) : away;
-    return half_plane_through(normal, own, radius - length, share);
+    return plain_plane_through(normal, own, radius - length, share);
 }
 
 static inline JoxHalfPlane plain_orca(JoxV2 p, JoxV2 v, float radius, float tau, float dt,
                                       JoxV2 own, float share, JoxV2 away) {
     JOX_ASSERT(tau > 0.0f && dt > 0.0f && radius >= 0.0f);
     float d2 = jox_length2(p), r2 = radius * radius;
-    if (d2 <= r2) /* overlapping: apart within one step */
-        return from_disc(v, jox_scale(p, 1.0f / dt), radius / dt, own, share, away);
+    if (d2 <= r2) /* overlapping: they part within one step */
+        return plain_disc_plane(v, jox_scale(p, 1.0f / dt), radius / dt, own, share, away);
     float inverse = 1.0f / tau;
     JoxV2 w = jox_sub(v, jox_scale(p, inverse));
     float along = jox_dot(w, p);
     if (along < 0.0f && along * along > r2 * jox_length2(w)) /* the cut-off disc is nearest */
-        return from_disc(v, jox_scale(p, inverse), radius * inverse, own, share, away);
-    /* Else one of the cone's legs; the left one if w points to the left of p. */
+        return plain_disc_plane(v, jox_scale(p, inverse), radius * inverse, own, share, away);
+    /* Else one of the cone's legs: the left one if w points to the left of p. */
     float leg = sqrtf(d2 - r2), by = 1.0f / d2;
     bool left = jox_det(p, w) > 0.0f;
     JoxV2 direction = left ? (JoxV2){p.x * leg - p.y * radius, p.x * radius + p.y * leg}
                            : (JoxV2){-p.x * leg - p.y * radius, p.x * radius - p.y * leg};
     JoxV2 normal = jox_left(jox_scale(direction, by));
-    return half_plane_through(normal, own, -jox_dot(normal, v), share);
+    return plain_plane_through(normal, own, -jox_dot(normal, v), share);
 }
 
 /* ---- the linear programs ---- */
@@ -55,17 +55,18 @@ static inline JoxHalfPlane plain_orca(JoxV2 p, JoxV2 v, float radius, float tau,
 static const float PROGRAM_EPSILON = 1e-5f;
 enum { MOST_HALF_PLANES = 128 };
 
-/* What is optimised: the velocity nearest to `wanted`; or, where directed, the one farthest along
-   `direction`, and of several such the nearest to `wanted`. */
+/* Objective of a program: the velocity nearest to `wanted`; or, where directed, the one farthest
+   along `direction`, ties by the distance to `wanted`. */
 typedef struct Objective {
     JoxV2 wanted, direction;
     bool directed;
 } Objective;
 
-/* Along the border of half_planes[last]: the best velocity within the speed limit that meets
+/* Finds the best velocity on the border of half_planes[last] within the speed limit that meets
    half_planes[0..last). False if there is none. */
-static inline bool along_border(const JoxHalfPlane *half_planes, uint32_t last, float speed_limit,
-                                const Objective *objective, JoxV2 *result) {
+static inline bool plain_best_on_border(const JoxHalfPlane *half_planes, uint32_t last,
+                                        float speed_limit, const Objective *objective,
+                                        JoxV2 *result) {
     JoxV2 normal = half_planes[last].normal, direction = {normal.y, -normal.x};
     float offset = half_planes[last].offset, half2 = speed_limit * speed_limit - offset * offset;
     if (half2 < 0.0f)
@@ -89,7 +90,8 @@ static inline bool along_border(const JoxHalfPlane *half_planes, uint32_t last, 
             return false;
     }
     JoxV2 wanted = objective->wanted;
-    /* Ties are broken somewhat to the right: two who meet head-on would else stand for ever. */
+    /* Ties are broken slightly to the right: two agents that meet head-on would else stand
+       forever. */
     if (objective->directed)
         wanted = jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
     float t = jox_clampf(jox_dot(direction, jox_sub(wanted, foot)), low, high);
@@ -100,10 +102,11 @@ static inline bool along_border(const JoxHalfPlane *half_planes, uint32_t last, 
     return true;
 }
 
-/* Returns `count` if all half-planes could be met, else the first that could not; *result then
-   meets those before it. */
-static inline uint32_t incremental(const JoxHalfPlane *half_planes, uint32_t count,
-                                   float speed_limit, const Objective *objective, JoxV2 *result) {
+/* Solves the program in two dimensions. Returns `count` if all half-planes are met, else the first
+   one that cannot be; *result then meets those before it. */
+static inline uint32_t plain_solve_2d(const JoxHalfPlane *half_planes, uint32_t count,
+                                      float speed_limit, const Objective *objective,
+                                      JoxV2 *result) {
     float length2 = jox_length2(objective->wanted);
     if (objective->directed)
         *result = jox_scale(objective->direction, speed_limit);
@@ -114,7 +117,7 @@ static inline uint32_t incremental(const JoxHalfPlane *half_planes, uint32_t cou
     for (uint32_t i = 0; i < count; i++)
         if (jox_dot(half_planes[i].normal, *result) < half_planes[i].offset) {
             JoxV2 before = *result;
-            if (!along_border(half_planes, i, speed_limit, objective, result)) {
+            if (!plain_best_on_border(half_planes, i, speed_limit, objective, result)) {
                 *result = before;
                 return i;
             }
@@ -124,8 +127,8 @@ static inline uint32_t incremental(const JoxHalfPlane *half_planes, uint32_t cou
 
 /* Minimises the greatest violation of half_planes[hard..count) while the hard ones hold, starting
    from the first that failed. */
-static inline void least_violation(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
-                                   uint32_t begin, float speed_limit, JoxV2 wanted, JoxV2 *result) {
+static inline void plain_solve_3d(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
+                                  uint32_t begin, float speed_limit, JoxV2 wanted, JoxV2 *result) {
     JOX_ASSERT(hard <= begin && begin < count);
     JoxHalfPlane projected[MOST_HALF_PLANES];
     float violation = 0.0f;
@@ -136,21 +139,21 @@ static inline void least_violation(const JoxHalfPlane *half_planes, uint32_t cou
         if (worst.offset - jox_dot(worst.normal, *result) <= violation)
             continue;
         /* Where half-plane i is violated at least as much as half-plane j: (n_j - n_i) . v >= c_j -
-         * c_i. */
+           c_i. */
         uint32_t n = hard;
         for (uint32_t j = hard; j < i; j++) {
             JoxV2 difference = jox_sub(half_planes[j].normal, worst.normal);
             float length = jox_length(difference);
             if (length <= PROGRAM_EPSILON)
-                continue; /* the same direction: whichever is farther out decides by itself */
+                continue; /* equal directions: the one farther out decides by itself */
             projected[n++] = (JoxHalfPlane){jox_scale(difference, 1.0f / length),
                                             (half_planes[j].offset - worst.offset) / length};
             JOX_ASSERT(jox_is_unit(projected[n - 1].normal));
         }
         JoxV2 before = *result;
         Objective objective = {wanted, worst.normal, true};
-        if (incremental(projected, n, speed_limit, &objective, result) < n)
-            *result = before; /* only by rounding: the present result already lies there */
+        if (plain_solve_2d(projected, n, speed_limit, &objective, result) < n)
+            *result = before; /* fails only by rounding: the present result already lies there */
         violation = worst.offset - jox_dot(worst.normal, *result);
     }
 }
@@ -161,31 +164,31 @@ static inline bool plain_program(const JoxHalfPlane *half_planes, uint32_t count
     JOX_ASSERT(!(speed_limit < 0.0f));
     *relaxed = false;
     Objective objective = {.wanted = wanted};
-    uint32_t met = incremental(half_planes, count, speed_limit, &objective, velocity);
+    uint32_t met = plain_solve_2d(half_planes, count, speed_limit, &objective, velocity);
     if (met == count) {
         JOX_CHECK(jox_linear_program_check(half_planes, count, speed_limit, *velocity));
         return true;
     }
-    if (met < hard) { /* the walls alone leave nothing: the deepest offset that can be met */
+    if (met < hard) { /* the walls alone contradict each other: find the least violation */
         *relaxed = true;
-        least_violation(half_planes, hard, 0, met, speed_limit, wanted, velocity);
+        plain_solve_3d(half_planes, hard, 0, met, speed_limit, wanted, velocity);
         return false;
     }
-    least_violation(half_planes, count, hard, met, speed_limit, wanted, velocity);
+    plain_solve_3d(half_planes, count, hard, met, speed_limit, wanted, velocity);
     return false;
 }
 
-/* ---- who minds whom ---- */
+/* ---- precedence ---- */
 
 typedef enum Minds {
     MINDS_NOT,
-    MINDS_AHEAD,   /* one who goes the same way and goes first: is followed */
-    MINDS_CROSSING /* one who crosses, comes the other way or stands: is passed */
+    MINDS_AHEAD,   /* goes the same way, and first: is followed */
+    MINDS_CROSSING /* crosses, comes the other way or stands: is passed */
 } Minds;
 
-/* How agent i minds j, who is at `offset` from it. Of those bound for the same place, who has less
-   way left goes first, so that nobody waits for one who waits for them; ties go to the older.
-   Others go first when they are ahead and head within 60 degrees of the same direction. */
+/* Returns how agent i minds j, at `offset` from it. Of two bound for the same place, the one with
+   less way left goes first, so that no two agents wait for each other; ties go to the older.
+   Otherwise the one ahead goes first, if it heads within 60 degrees of the same direction. */
 static inline Minds plain_minds(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 offset) {
     JoxV2 own = {a->aim_x[i], a->aim_y[i]}, other = {a->aim_x[j], a->aim_y[j]};
     if (other.x == 0.0f && other.y == 0.0f)
@@ -199,7 +202,8 @@ static inline Minds plain_minds(const JoxAgents *a, uint32_t i, uint32_t j, JoxV
     return MINDS_CROSSING;
 }
 
-/* Distance of the centres, m, within which i's way and j's are one, by how i minds j. */
+/* Returns the distance of the centres, m, within which the ways of i and j are one, by how i minds
+   j. */
 static inline float plain_walk_width(const JoxWalkLaw *law, const JoxAgents *a, uint32_t i,
                                      uint32_t j, Minds minds) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
@@ -211,31 +215,32 @@ static inline float plain_walk_width(const JoxWalkLaw *law, const JoxAgents *a, 
 
 /* ---- half-planes of neighbours ---- */
 
-/* Where two centres coincide they part in opposite directions that depend on their ids alone. */
-static inline JoxV2 parting(uint32_t id, uint32_t other) {
+/* Returns the direction in which agent `id` leaves `other` where their centres coincide: opposite
+   for the two, by their ids alone. */
+static inline JoxV2 plain_parting(uint32_t id, uint32_t other) {
     uint32_t low = id < other ? id : other, high = id < other ? other : id;
     uint64_t bits = jox_random_bits(0, low, high, JOX_DRAW_AIM, 0);
     JoxV2 d = {(float)(bits & 0xffff) - 32767.5f, (float)(bits >> 16 & 0xffff) - 32767.5f};
     return jox_unit(id < other ? d : jox_scale(d, -1.0f));
 }
 
-/* ORCA's half-plane of agent i for j, who is at p from it. */
-static inline JoxHalfPlane orca_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
-                                           float radii) {
+/* Returns ORCA's half-plane of agent i for j, which is at p from it. */
+static inline JoxHalfPlane plain_orca_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
+                                            float radii) {
     const JoxAgents *a = s->agents;
     float share = s->nav->literal ? 0.5f : jox_param(a, JOX_PARAM_yield, i); /* (3) prints u/2 */
     JoxV2 velocity = {a->vx[i], a->vy[i]}, away = {1.0f, 0.0f};
     if (p.x == 0.0f && p.y == 0.0f)
-        away = parting(a->id[i], a->id[j]);
+        away = plain_parting(a->id[i], a->id[j]);
     return plain_orca(p, jox_v2(velocity.x - a->vx[j], velocity.y - a->vy[j]), radii,
                       jox_param(a, JOX_PARAM_horizon, i), s->planning_time, velocity, share, away);
 }
 
-/* The half-plane of one who walks by the law, in place of ORCA's: those it minds are not approached
-   faster than uses up the gap within `close_time`, half of it where they cross. False: the law has
-   none for j. */
-static inline bool walker_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
-                                     JoxHalfPlane *out) {
+/* Makes the half-plane of a walker, instead of ORCA's: it approaches agents that it minds no faster
+   than uses up the gap within `close_time`, or half of the gap where they cross. False: none for
+   j. */
+static inline bool plain_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
+                                      JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     const JoxWalkLaw *law = s->nav->walk;
     Minds minds = plain_minds(a, i, j, p);
@@ -246,7 +251,7 @@ static inline bool walker_half_plane(const JoxSolve *s, uint32_t i, uint32_t j, 
     if (gap >= (float)law->close)
         return false;
     JoxV2 towards = distance > 0.0f ? jox_scale(p, 1.0f / distance)
-                                    : jox_scale(parting(a->id[i], a->id[j]), -1.0f);
+                                    : jox_scale(plain_parting(a->id[i], a->id[j]), -1.0f);
     float share = minds == MINDS_CROSSING ? 0.5f : 1.0f;
     float leaves = towards.x * a->vx[j] + towards.y * a->vy[j];
     float most = jox_maxf(0.0f, leaves) + share * jox_maxf(gap, 0.0f) / (float)law->close_time;
@@ -265,8 +270,8 @@ static inline uint32_t plain_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPl
             continue;
         JoxV2 p = jox_offset(a, i, j);
         if (!walker)
-            out[made++] = orca_half_plane(s, i, j, p, jox_at(radius, i) + jox_at(radius, j));
-        else if (walker_half_plane(s, i, j, p, &out[made]))
+            out[made++] = plain_orca_plane(s, i, j, p, jox_at(radius, i) + jox_at(radius, j));
+        else if (plain_walker_plane(s, i, j, p, &out[made]))
             made++;
     }
     return made;
@@ -274,39 +279,42 @@ static inline uint32_t plain_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPl
 
 /* ---- one agent ---- */
 
-/* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
-   in the contacts. With that the velocity that the forces give meets every hard half-plane. */
-static inline void give_way_at_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls,
+/* Relaxes wall planes for an agent that others carry towards a wall, which the contact with the
+   wall itself stops. Then the forced velocity meets every hard half-plane. */
+static inline void plain_relax_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls,
                                      uint32_t count) {
     JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
     for (uint32_t k = 0; k < count; k++)
         walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
 }
 
-/* The half-planes that an agent's surroundings and forces impose, those of avoidance apart. */
-static inline bool is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) {
+/* Returns whether half-plane k is imposed by walls, contacts or force; the others are of
+   avoidance. */
+static inline bool plain_is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) {
     uint32_t hard = made->walls + made->contacts;
     return k < hard || k >= hard + made->agents + made->objects;
 }
 
-/* How far walls alone take an agent from what it wants, m/s. */
-static inline float kept_off_by_walls(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
-                                      uint32_t count, JoxV2 wanted) {
+/* Returns how far, m/s, walls alone take an agent from the velocity that it wants. */
+static inline float plain_wall_deviation(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
+                                         uint32_t count, JoxV2 wanted) {
     JoxV2 nearest;
     bool relaxed;
     if (count == 0)
         return 0.0f;
     plain_program(walls, count, count, s->agents->speed_limit[i], wanted, &nearest, &relaxed);
-    return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* rounding leaves a solution */
+    return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
 
-/* What an agent is pressed by may leave only velocities far along a valley between half-planes that
-   are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
-   farther from what they want than the forces or walls do. Lowers what is imposed to the best that
-   there is as near as that, walls apart, which all allow to stand still; false where all that is
-   imposed can be met there. */
-static inline bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
-                                     JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
+/* Keeps the velocity within reach: an agent's own motion takes it no farther from the wanted
+   velocity than forces or walls do, avoidance aside. Contacts and forces may leave only velocities
+   far along a valley between two nearly opposite half-planes, where feet would throw people. Lowers
+   the imposed half-planes, except walls, to the best velocity within that distance; returns false
+   where all of them can be met there. */
+static inline bool plain_keep_within_reach(const JoxSolve *s, uint32_t i,
+                                           const JoxHalfPlaneCounts *made,
+                                           JoxHalfPlane *half_planes, JoxV2 wanted,
+                                           JoxV2 velocity) {
     JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
     uint32_t hard = made->walls + made->contacts, n = 0;
     uint32_t all = hard + made->agents + made->objects + made->force;
@@ -318,11 +326,11 @@ static inline bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHal
     }
     if (jox_length2(jox_sub(velocity, wanted)) <= reach2)
         return false;
-    const float off = kept_off_by_walls(s, i, half_planes, made->walls, wanted);
+    const float off = plain_wall_deviation(s, i, half_planes, made->walls, wanted);
     reach2 = jox_maxf(reach2, off * off);
     JoxHalfPlane imposed[JOX_MOST_CONSTRAINTS] = {0};
     for (uint32_t k = 0; k < all; k++)
-        if (is_imposed(k, made)) {
+        if (plain_is_imposed(k, made)) {
             imposed[n] = half_planes[k];
             imposed[n++].offset -= jox_dot(half_planes[k].normal, wanted);
         }
@@ -333,7 +341,7 @@ static inline bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHal
     bool lowered = false;
     for (uint32_t k = made->walls; k < all; k++) {
         float least = jox_dot(half_planes[k].normal, best);
-        if (!is_imposed(k, made) || half_planes[k].offset <= least + 1e-5f)
+        if (!plain_is_imposed(k, made) || half_planes[k].offset <= least + 1e-5f)
             continue;
         half_planes[k].offset = least - 1e-5f;
         lowered = true;
@@ -341,14 +349,15 @@ static inline bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHal
     return lowered;
 }
 
-/* Whether feet do nothing but for the program's rounding: contact alone then keeps momentum. */
-static inline bool is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
+/* Returns whether the planned velocity is the forced one but for rounding: contact alone then keeps
+   momentum. */
+static inline bool plain_is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
     const float rounding = 2e-5f; /* m/s */
     JoxV2 by_feet = {velocity.x - a->forced_x[i], velocity.y - a->forced_y[i]};
     return jox_length2(by_feet) < rounding * rounding;
 }
 
-static inline bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
+static inline bool plain_meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     const float least = 1e-3f; /* m/s */
     for (uint32_t k = 0; k < count; k++)
         if (jox_dot(walls[k].normal, velocity) < walls[k].offset - least)
@@ -366,15 +375,15 @@ static inline bool plain_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfP
     bool met =
         plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &relaxed);
     if (relaxed && made->contacts) {
-        give_way_at_walls(s, i, half_planes, made->walls);
+        plain_relax_walls(s, i, half_planes, made->walls);
         plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &relaxed);
-        relaxed = relaxed && !meets(half_planes, made->walls, velocity);
+        relaxed = relaxed && !plain_meets(half_planes, made->walls, velocity);
     }
-    bool still; /* whether a wall gives is settled above: nothing asks more of one here */
+    bool still; /* ignored: whether a wall gives way was settled above */
     if ((made->contacts || made->force) &&
-        keep_within_reach(s, i, made, half_planes, wanted, velocity))
+        plain_keep_within_reach(s, i, made, half_planes, wanted, velocity))
         plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &still);
-    if (made->contacts && is_as_forced(a, i, velocity))
+    if (made->contacts && plain_is_as_forced(a, i, velocity))
         velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
     a->failed[i] |= !met;
     a->next_x[i] = velocity.x;

@@ -1,8 +1,7 @@
-/* The kernel of solve, and the path of one agent at a time, against plain references
-   (nav_plain.h): half-planes of neighbours, what is wanted, the linear programs. By
-   every instruction set that the machine runs, over random crowds and hard ones: packed,
-   coincident, far apart, on a lattice, among many walls, with contacts that leave no velocity,
-   pressed, with walkers between. */
+/* The kernel of solve, and the path for one agent, against plain references (nav_plain.h):
+   half-planes of neighbours, wanted velocities, linear programs. On every instruction set that the
+   machine runs, over random crowds and hard ones: packed, coincident, far apart, on a lattice,
+   among many walls, under contacts that leave no velocity, under forces, with walkers. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -32,59 +31,61 @@ typedef struct Crowd {
     JoxContactPlanes touched;
 } Crowd;
 
-static float draw(Crowd *c, double from, double to) {
+static float draw_solve(Crowd *c, double from, double to) {
     double unit = jox_random_unit(6, c->number, 0, JOX_DRAW_FILL, c->drawn++);
     return (float)(from + (to - from) * unit);
 }
 
-static bool chance(Crowd *c, double share) {
-    return draw(c, 0.0, 1.0) < (float)share;
+static bool draw_chance(Crowd *c, double share) {
+    return draw_solve(c, 0.0, 1.0) < (float)share;
 }
 
 static JoxV2 direction(Crowd *c) {
-    JoxV2 d = {draw(c, -1.0, 1.0), draw(c, -1.0, 1.0)};
+    JoxV2 d = {draw_solve(c, -1.0, 1.0), draw_solve(c, -1.0, 1.0)};
     return jox_length2(d) > 1e-4f ? jox_unit(d) : (JoxV2){1.0f, 0.0f};
 }
 
-static JoxV2 place(Crowd *c, uint32_t k) {
+static JoxV2 place_agent(Crowd *c, uint32_t k) {
     double size = c->kind == PACKED ? 3.0 : c->kind == FAR ? 300.0 : 9.0;
     if (c->kind == LATTICE)
         return (JoxV2){0.45f * (float)(k % 17), 0.45f * (float)(k / 17)};
     if (c->kind == COINCIDENT)
         return (JoxV2){0.5f * (float)(k % 7), 0.25f * (float)(k % 3)};
-    return (JoxV2){draw(c, 0.0, size), draw(c, 0.0, size)};
+    return (JoxV2){draw_solve(c, 0.0, size), draw_solve(c, 0.0, size)};
 }
 
-/* `mixed`: some walk by the law, some ignore others, and perception and neighbours differ. */
-static void add(Crowd *c, uint32_t k, bool mixed) {
+/* Adds agent k. `mixed`: some walk by the law, some ignore others, and perception and neighbours
+   differ. */
+static void add_solve_agent(Crowd *c, uint32_t k, bool mixed) {
     JoxAgents *a = &c->agents;
     uint32_t i = jox_agents_add(a);
-    JoxV2 at = place(c, k), wants = jox_scale(direction(c), draw(c, 0.0, 1.6));
-    float stands = chance(c, 0.1) ? 0.0f : 1.0f, share = draw(c, -0.2, 1.2);
+    JoxV2 at = place_agent(c, k), wants = jox_scale(direction(c), draw_solve(c, 0.0, 1.6));
+    float stands = draw_chance(c, 0.1) ? 0.0f : 1.0f, share = draw_solve(c, -0.2, 1.2);
     a->x[i] = at.x;
     a->y[i] = at.y;
     a->pref_x[i] = stands * wants.x;
     a->pref_y[i] = stands * wants.y;
-    a->vx[i] = share * wants.x + draw(c, -0.3, 0.3);
-    a->vy[i] = share * wants.y + draw(c, -0.3, 0.3);
-    if (c->kind == COINCIDENT && chance(c, 0.5)) /* who moves alike: their ids alone part them */
+    a->vx[i] = share * wants.x + draw_solve(c, -0.3, 0.3);
+    a->vy[i] = share * wants.y + draw_solve(c, -0.3, 0.3);
+    if (c->kind == COINCIDENT &&
+        draw_chance(c, 0.5)) /* agents that move alike part by their ids alone */
         a->vx[i] = a->vy[i] = 0.25f;
     a->walk_x[i] = 0.7f * wants.x;
     a->walk_y[i] = 0.7f * wants.y;
-    a->still[i] = draw(c, 0.0, 8.0);
-    jox_param_set(a, JOX_PARAM_radius, i, c->number % 3 == 1 ? 0.22f : draw(c, 0.15, 0.3));
-    jox_param_set(a, JOX_PARAM_push, i, chance(c, 0.5) ? 100.0f : 0.0f);
-    a->tags[i] = chance(c, 0.5);
+    a->still[i] = draw_solve(c, 0.0, 8.0);
+    jox_param_set(a, JOX_PARAM_radius, i, c->number % 3 == 1 ? 0.22f : draw_solve(c, 0.15, 0.3));
+    jox_param_set(a, JOX_PARAM_push, i, draw_chance(c, 0.5) ? 100.0f : 0.0f);
+    a->tags[i] = draw_chance(c, 0.5);
     if (!mixed)
         return;
-    jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw(c, 0.0, 16.999)));
-    jox_param_set(a, JOX_PARAM_perception, i, draw(c, 0.5, 4.0));
-    jox_param_set(a, JOX_PARAM_time_gap, i, chance(c, 0.3) ? 0.8f : 0.0f);
-    a->ignore[i] = chance(c, 0.2);
+    jox_param_set(a, JOX_PARAM_neighbours, i, floorf(draw_solve(c, 0.0, 16.999)));
+    jox_param_set(a, JOX_PARAM_perception, i, draw_solve(c, 0.5, 4.0));
+    jox_param_set(a, JOX_PARAM_time_gap, i, draw_chance(c, 0.3) ? 0.8f : 0.0f);
+    a->ignore[i] = draw_chance(c, 0.2);
 }
 
-/* What forces leave behind: after the agents were sorted, as these columns are scratch. */
-static void press(Crowd *c, bool pressed) {
+/* Writes what forces leave behind; called after the sort, as these columns are scratch. */
+static void press_agents(Crowd *c, bool pressed) {
     JoxAgents *a = &c->agents;
     JoxContactPlanes *t = &c->touched;
     t->starts = jox_alloc(a->count, sizeof *t->starts);
@@ -94,10 +95,10 @@ static void press(Crowd *c, bool pressed) {
     t->agents = pressed ? a->count : 0;
     for (uint32_t i = 0; i < a->count; i++) {
         a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
-        a->speed_limit[i] = draw(c, 0.8, 2.5);
-        a->forced_x[i] = a->vx[i] + draw(c, -0.2, 0.2);
-        a->forced_y[i] = a->vy[i] + draw(c, -0.2, 0.2);
-        if (chance(c, 0.2)) { /* carried where they want to go, but for rounding */
+        a->speed_limit[i] = draw_solve(c, 0.8, 2.5);
+        a->forced_x[i] = a->vx[i] + draw_solve(c, -0.2, 0.2);
+        a->forced_y[i] = a->vy[i] + draw_solve(c, -0.2, 0.2);
+        if (draw_chance(c, 0.2)) { /* carried where they want to go, but for rounding */
             a->forced_x[i] = a->pref_x[i] + 1e-5f;
             a->forced_y[i] = a->pref_y[i];
         }
@@ -105,44 +106,44 @@ static void press(Crowd *c, bool pressed) {
         if (!pressed)
             continue;
         JoxV2 push = direction(c);
-        if (chance(c, 0.4)) {
+        if (draw_chance(c, 0.4)) {
             a->half_plane_x[i] = push.x;
             a->half_plane_y[i] = push.y;
-            a->half_plane_offset[i] = draw(c, -1.0, 1.0);
+            a->half_plane_offset[i] = draw_solve(c, -1.0, 1.0);
         }
         uint32_t most = c->neighbours.count[i] < MOST_PLANES ? c->neighbours.count[i] : MOST_PLANES;
-        t->people[i] = (uint8_t)draw(c, 0.0, (double)most + 0.999);
+        t->people[i] = (uint8_t)draw_solve(c, 0.0, (double)most + 0.999);
         for (uint32_t k = 0; k < t->people[i]; k++)
             t->planes[t->starts[i] + k] = (JoxContactPlane){
-                direction(c), draw(c, -1.0, 0.6),
+                direction(c), draw_solve(c, -1.0, 0.6),
                 c->neighbours.index[jox_neighbour_at(&c->neighbours, i, k)], 0.3f};
     }
 }
 
-static void begin(Crowd *c, JoIsa isa, uint32_t number) {
+static void open_solve_crowd(Crowd *c, JoIsa isa, uint32_t number) {
     *c = (Crowd){.number = number, .kind = (Kind)(number % KINDS), .law = jox_walk_law()};
     const bool mixed = number / KINDS % 2, pressed = number / KINDS / 2 % 2;
-    const uint32_t people = 1 + (uint32_t)draw(c, 0.0, MOST_PEOPLE - 1);
+    const uint32_t people = 1 + (uint32_t)draw_solve(c, 0.0, MOST_PEOPLE - 1);
     c->nav = jox_nav_create(&c->law);
     jox_nav_set_isa(c->nav, isa);
     jox_nav_set_literal(c->nav, number % 5 == 4);
     if (number % 7 == 3)
         c->agents.period = (JoxV2){9.0f, number % 2 ? 9.0f : 0.0f};
     for (uint32_t k = 0; k < people; k++)
-        add(c, k, mixed);
+        add_solve_agent(c, k, mixed);
     for (uint32_t k = 0; k < (c->kind == WALLED ? 30 : 0); k++) {
-        JoxV2 ends[2] = {{draw(c, 0.0, 9.0), draw(c, 0.0, 9.0)}, {0.0f, 0.0f}};
-        ends[1] = jox_add(ends[0], jox_scale(direction(c), draw(c, 0.2, 3.0)));
+        JoxV2 ends[2] = {{draw_solve(c, 0.0, 9.0), draw_solve(c, 0.0, 9.0)}, {0.0f, 0.0f}};
+        ends[1] = jox_add(ends[0], jox_scale(direction(c), draw_solve(c, 0.2, 3.0)));
         jox_walls_add_polyline(&c->walls, ends, 2, false, INFINITY);
     }
     if (c->walls.count)
         jox_nav_set_walls(c->nav, &c->walls);
     jox_nav_sort(c->nav, &c->agents, 0);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
-    press(c, pressed);
+    press_agents(c, pressed);
 }
 
-static void end(Crowd *c) {
+static void close_solve_crowd(Crowd *c) {
     jox_nav_free(c->nav);
     jox_agents_free(&c->agents);
     jox_neighbours_free(&c->neighbours);
@@ -159,8 +160,8 @@ static JoxV2 turn_right(JoxV2 wanted, float turn) {
     return jox_v2(on * wanted.x + right * wanted.y, on * wanted.y - right * wanted.x);
 }
 
-/* All half-planes of an agent, those of neighbours by the reference. Those that core finds are the
-   same. */
+/* Lists all half-planes of an agent, those of neighbours by the reference, and checks that core's
+   are the same. */
 static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     JoxHalfPlane neighbours[JOX_MOST_NEIGHBOURS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, out);
@@ -170,9 +171,10 @@ static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHal
     return made;
 }
 
-/* The preferred velocity, turned to the right for an agent that stands before others or pushes
-   somebody straight ahead. */
-static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
+/* Returns the preferred velocity, turned to the right for an agent that stands before others or
+   pushes one straight ahead. */
+static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others,
+                             uint32_t count) {
     const JoxAgents *a = s->agents;
     JoxV2 wanted = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
     if (jox_solve_walks(s, i))
@@ -189,12 +191,12 @@ static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uin
     return wanted;
 }
 
-/* How many agents of a crowd the programs could not satisfy. */
-static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
+/* Returns how many agents of a crowd the programs could not satisfy. */
+static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
     static float next_x[MOST_PEOPLE], next_y[MOST_PEOPLE];
     static uint8_t failed[MOST_PEOPLE];
     Crowd c;
-    begin(&c, isa, number);
+    open_solve_crowd(&c, isa, number);
     JoxAgents *a = &c.agents;
     const JoxContactPlanes *touched = c.touched.agents ? &c.touched : NULL;
     const JoxPlanTime planning = {6, 2.5, 0.05, plans};
@@ -218,7 +220,7 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
         if (plans || (!jox_solve_walks(&s, i) && jox_stands_pressed(a, i))) {
             JoxHalfPlaneCounts made = list_half_planes(&s, i, list);
-            JoxV2 wanted = wish(&s, i, list + made.walls, made.contacts + made.agents);
+            JoxV2 wanted = find_plain_wish(&s, i, list + made.walls, made.contacts + made.agents);
             relaxed -= plain_solve_one(&s, i, &made, list, wanted);
         }
         assert_true(next_x[i] == a->next_x[i] && next_y[i] == a->next_y[i]);
@@ -226,7 +228,7 @@ static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
         failures += failed[i];
     }
     assert_int_equal(relaxed, 0);
-    end(&c);
+    close_solve_crowd(&c);
     return failures;
 }
 
@@ -235,7 +237,7 @@ static void test_velocities(void **state) {
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
         uint32_t failures = 0;
         for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++)
-            failures += compare_crowd(isa, number, number % 4 != 1);
+            failures += compare_solve_crowd(isa, number, number % 4 != 1);
         assert_true(failures > 100 || !jox_isa_runs(isa)); /* the program in three dimensions */
     }
 }

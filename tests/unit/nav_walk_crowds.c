@@ -1,5 +1,5 @@
-/* The walking law over crowds: turned and mirrored crowds do the same, people who keep no time gap
-   do what they did, threads change nothing, and nothing is ever not finite. */
+/* The walking law in crowds: turned and mirrored crowds behave the same, agents without a time gap
+   choose by ORCA as ever, threads change nothing, and all values stay finite. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,17 +17,17 @@
 enum { PEOPLE = 400 };
 static const double PI = 3.14159265358979323846;
 
-static float draw(uint32_t k, uint32_t sub) {
+static float draw_walk(uint32_t k, uint32_t sub) {
     return (float)jox_random_unit(5, k, 0, JOX_DRAW_FILL, sub);
 }
 
-/* How a crowd is put before it is looked at: mirrored at the x axis, then turned. */
+/* Transformation of a crowd: mirrored at the x axis, then turned. */
 typedef struct Frame {
     double angle;
     bool mirrored;
 } Frame;
 
-static JoxV2 put(Frame f, JoxV2 p) {
+static JoxV2 transform(Frame f, JoxV2 p) {
     double c = jox_cos(f.angle), s = jox_sin(f.angle), y = f.mirrored ? -(double)p.y : (double)p.y;
     return (JoxV2){(float)(c * (double)p.x - s * y), (float)(s * (double)p.x + c * y)};
 }
@@ -40,65 +40,67 @@ typedef struct Crowd {
     Frame frame;
 } Crowd;
 
-static void end(Crowd *c) {
+static void free_walk_crowd(Crowd *c) {
     jox_nav_free(c->nav);
     jox_agents_free(&c->agents);
     jox_walls_free(&c->walls);
     jox_neighbours_free(&c->neighbours);
 }
 
-/* The direction in which one of them heads and moves, unit. */
-static JoxV2 way_of(uint32_t k) {
-    double angle = floor(4.0 * (double)draw(k, 2)) * PI / 2 + 0.3 * (double)draw(k, 3);
+/* Returns the direction in which agent k heads and moves, a unit vector. */
+static JoxV2 draw_heading(uint32_t k) {
+    double angle = floor(4.0 * (double)draw_walk(k, 2)) * PI / 2 + 0.3 * (double)draw_walk(k, 3);
     return (JoxV2){(float)jox_cos(angle), (float)jox_sin(angle)};
 }
 
-/* Where people of several ways stand in a square, and how they move. */
-static void add_people(Crowd *c, float side) {
+/* Adds agents in a square, with several directions and velocities. */
+static void add_crowd(Crowd *c, float side) {
     JoxAgents *a = &c->agents;
     for (uint32_t k = 0; k < PEOPLE; k++) {
         uint32_t i = jox_agents_add(a);
-        JoxV2 at = put(c->frame, (JoxV2){side * draw(k, 0), side * draw(k, 1)});
-        JoxV2 v = put(c->frame, jox_scale(way_of(k), 1.3f * draw(k, 5)));
+        JoxV2 at = transform(c->frame, (JoxV2){side * draw_walk(k, 0), side * draw_walk(k, 1)});
+        JoxV2 v = transform(c->frame, jox_scale(draw_heading(k), 1.3f * draw_walk(k, 5)));
         a->x[i] = a->prev_x[i] = at.x;
         a->y[i] = a->prev_y[i] = at.y;
         a->vx[i] = v.x;
         a->vy[i] = v.y;
         a->bound[i] = k % 2 ? 1 : 0;
         jox_param_set(a, JOX_PARAM_time_gap, i, 1.0f);
-        jox_param_set(a, JOX_PARAM_haste, i, draw(k, 8));
+        jox_param_set(a, JOX_PARAM_haste, i, draw_walk(k, 8));
     }
 }
 
-/* What they want in a step, which does not outlast the sorting of the next. Half are bound for the
-   same place. */
-static void want(Crowd *c) {
+/* Writes what agents want in a step, after the sort, which discards it. Half are bound for the same
+   place. */
+static void set_wishes(Crowd *c) {
     JoxAgents *a = &c->agents;
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t k = a->id[i];
-        JoxV2 pref = put(c->frame, jox_scale(way_of(k), 0.3f + 1.4f * draw(k, 4)));
-        a->pref_x[i] = draw(k, 6) < 0.1f ? 0.0f : pref.x;
-        a->pref_y[i] = draw(k, 6) < 0.1f ? 0.0f : pref.y;
-        a->way[i] = 20.0f * draw(k, 7);
+        JoxV2 pref = transform(c->frame, jox_scale(draw_heading(k), 0.3f + 1.4f * draw_walk(k, 4)));
+        a->pref_x[i] = draw_walk(k, 6) < 0.1f ? 0.0f : pref.x;
+        a->pref_y[i] = draw_walk(k, 6) < 0.1f ? 0.0f : pref.y;
+        a->way[i] = 20.0f * draw_walk(k, 7);
         a->speed_limit[i] = 3.0f;
         a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }
 }
 
-static void begin(Crowd *c, Frame f, const JoxWalkLaw *law, float side) {
+static void make_walk_crowd(Crowd *c, Frame f, const JoxWalkLaw *law, float side) {
     *c = (Crowd){.nav = jox_nav_create(law), .frame = f};
     for (uint32_t k = 0; k < 12; k++) {
-        JoxV2 from = {side * draw(k, 20), side * draw(k, 21)};
-        JoxV2 to = {from.x + 4.0f * draw(k, 22) - 2.0f, from.y + 4.0f * draw(k, 23) - 2.0f};
-        jox_walls_add_polyline(&c->walls, (JoxV2[]){put(f, from), put(f, to)}, 2, false, INFINITY);
+        JoxV2 from = {side * draw_walk(k, 20), side * draw_walk(k, 21)};
+        JoxV2 to = {from.x + 4.0f * draw_walk(k, 22) - 2.0f,
+                    from.y + 4.0f * draw_walk(k, 23) - 2.0f};
+        jox_walls_add_polyline(&c->walls, (JoxV2[]){transform(f, from), transform(f, to)}, 2, false,
+                               INFINITY);
     }
     jox_nav_set_walls(c->nav, &c->walls);
-    add_people(c, side);
+    add_crowd(c, side);
 }
 
-static void plan(Crowd *c, JoxPool *pool, bool walks) {
+static void plan_walks(Crowd *c, JoxPool *pool, bool walks) {
     jox_nav_sort(c->nav, &c->agents, 0);
-    want(c);
+    set_wishes(c);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, pool);
     if (walks)
         jox_nav_walk(c->nav, &c->agents, &c->neighbours, 3, 1.7, 0.05, true, pool);
@@ -106,48 +108,49 @@ static void plan(Crowd *c, JoxPool *pool, bool walks) {
                   &(JoxPlanTime){3, 1.7, 0.05, true}, pool);
 }
 
-/* How many want another velocity in the frame than outside of it: rounding decides between
-   directions that are nearly as good. */
-static uint32_t differing(Frame f, const JoxWalkLaw *law, float side) {
+/* Returns how many agents want another velocity in the frame than outside of it: rounding decides
+   between directions of nearly equal worth. */
+static uint32_t count_differing(Frame f, const JoxWalkLaw *law, float side) {
     Crowd plain, other;
     uint32_t differ = 0;
-    begin(&plain, (Frame){0}, law, side);
-    begin(&other, f, law, side);
-    plan(&plain, NULL, true);
-    plan(&other, NULL, true);
+    make_walk_crowd(&plain, (Frame){0}, law, side);
+    make_walk_crowd(&other, f, law, side);
+    plan_walks(&plain, NULL, true);
+    plan_walks(&other, NULL, true);
     for (uint32_t id = 0; id < PEOPLE; id++) {
         uint32_t i = jox_agents_find(&plain.agents, id), j = jox_agents_find(&other.agents, id);
-        JoxV2 v = put(f, (JoxV2){plain.agents.walk_x[i], plain.agents.walk_y[i]});
+        JoxV2 v = transform(f, (JoxV2){plain.agents.walk_x[i], plain.agents.walk_y[i]});
         JoxV2 u = {other.agents.walk_x[j], other.agents.walk_y[j]};
         differ += jox_length(jox_sub(u, v)) > 1e-3f;
     }
-    end(&plain);
-    end(&other);
+    free_walk_crowd(&plain);
+    free_walk_crowd(&other);
     return differ;
 }
 
-static void a_turned_crowd_does_the_same(void **state) {
+static void turned_crowd_chooses_the_same(void **state) {
     (void)state;
     const JoxWalkLaw law = jox_walk_law();
     for (int k = 0; k < 3; k++)
-        assert_true(differing((Frame){.angle = 37.0 / 180.0 * PI}, &law, 6.0f + 6.0f * (float)k) <=
-                    PEOPLE / 50);
+        assert_true(count_differing((Frame){.angle = 37.0 / 180.0 * PI}, &law,
+                                    6.0f + 6.0f * (float)k) <= PEOPLE / 50);
 }
 
-/* Who finds both sides equally good takes the left one in either frame: few do. */
-static void a_mirrored_crowd_does_the_same_but_for_passing_on_the_right(void **state) {
+/* An agent that finds both sides equally good takes the left one in either frame; this is rare. */
+static void mirrored_crowd_differs_only_in_passing_on_the_right(void **state) {
     (void)state;
     const uint32_t few = PEOPLE / 16;
     JoxWalkLaw law = jox_walk_law();
     law.right = 0.0;
     for (int k = 0; k < 3; k++)
-        assert_true(differing((Frame){.mirrored = true}, &law, 12.0f + 6.0f * (float)k) <= few);
+        assert_true(count_differing((Frame){.mirrored = true}, &law, 12.0f + 6.0f * (float)k) <=
+                    few);
     law.right = 0.5;
-    assert_true(differing((Frame){.mirrored = true}, &law, 12.0f) > 2 * few);
+    assert_true(count_differing((Frame){.mirrored = true}, &law, 12.0f) > 2 * few);
 }
 
-/* What the law wants never exceeds what is wanted by more than is left of the present velocity, and
-   is finite; eagerness stays a share. */
+/* The velocity that the law wants is finite, and exceeds the wanted speed by no more than what is
+   left of the present velocity; eagerness stays within 0 and 1. */
 static void expect_sane(const JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++) {
         float most = jox_maxf(jox_length((JoxV2){a->pref_x[i], a->pref_y[i]}),
@@ -161,48 +164,48 @@ static void expect_sane(const JoxAgents *a) {
     }
 }
 
-static void people_in_one_place_stay_finite(void **state) {
+static void coincident_agents_stay_finite(void **state) {
     (void)state;
     const JoxWalkLaw law = jox_walk_law();
     const float sides[] = {0.0f, 1e-6f, 0.5f, 3.0f, 40.0f};
     for (int k = 0; k < 5; k++) {
         Crowd c;
-        begin(&c, (Frame){0}, &law, sides[k]);
+        make_walk_crowd(&c, (Frame){0}, &law, sides[k]);
         for (int n = 0; n < 3; n++)
-            plan(&c, NULL, true);
+            plan_walks(&c, NULL, true);
         expect_sane(&c.agents);
-        end(&c);
+        free_walk_crowd(&c);
     }
 }
 
-/* Those who keep no time gap choose by ORCA to the bit, whatever the constants of the law. */
+/* Agents without a time gap choose by ORCA, equal to the bit for any constants of the law. */
 static void without_a_time_gap_orca_is_unchanged(void **state) {
     (void)state;
     JoxWalkLaw law = jox_walk_law();
     law.turn_cost = 0.0;
     law.close = 3.0;
     Crowd with, without;
-    begin(&with, (Frame){0}, &law, 10.0f);
-    begin(&without, (Frame){0}, &law, 10.0f);
+    make_walk_crowd(&with, (Frame){0}, &law, 10.0f);
+    make_walk_crowd(&without, (Frame){0}, &law, 10.0f);
     for (uint32_t i = 0; i < PEOPLE; i++) {
         jox_param_set(&with.agents, JOX_PARAM_time_gap, i, 0.0f);
         jox_param_set(&without.agents, JOX_PARAM_time_gap, i, 0.0f);
     }
-    plan(&with, NULL, true);
-    plan(&without, NULL, false);
+    plan_walks(&with, NULL, true);
+    plan_walks(&without, NULL, false);
     assert_memory_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
     assert_memory_equal(with.agents.next_y, without.agents.next_y, PEOPLE * sizeof(float));
-    /* The same people with a time gap do something else. */
+    /* The same agents with a time gap choose otherwise. */
     for (uint32_t i = 0; i < PEOPLE; i++)
         jox_param_set(&with.agents, JOX_PARAM_time_gap, i, 1.0f);
-    plan(&with, NULL, true);
+    plan_walks(&with, NULL, true);
     assert_memory_not_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
-    end(&with);
-    end(&without);
+    free_walk_crowd(&with);
+    free_walk_crowd(&without);
 }
 
-/* A world of people who walk to and fro; its hash after some seconds. */
-static uint64_t hash(int threads, double time_gap) {
+/* Returns the hash of a world of agents that walk to and fro, after some seconds. */
+static uint64_t hash_walking_world(int threads, double time_gap) {
     JoWorldDef def = jo_default_world_def();
     def.threads = threads;
     JoWorld *world = jo_world_create(&def, NULL);
@@ -210,10 +213,10 @@ static uint64_t hash(int threads, double time_gap) {
     JoAgent people[3 * PEOPLE];
     for (uint32_t k = 0; k < 3 * PEOPLE; k++) {
         JoAgentDef person = jo_default_agent_def();
-        person.x = 24.0 * (double)draw(k, 30);
-        person.y = 24.0 * (double)draw(k, 31);
+        person.x = 24.0 * (double)draw_walk(k, 30);
+        person.y = 24.0 * (double)draw_walk(k, 31);
         person.time_gap = time_gap;
-        person.haste = (double)draw(k, 32);
+        person.haste = (double)draw_walk(k, 32);
         people[k] = jo_world_add_agent(world, &person, NULL);
         assert_true(people[k].generation > 0);
         jo_agent_set_preferred(world, people[k], k % 3 == 0 ? 1.2 : -0.9, k % 3 == 1 ? 0.8 : 0.0);
@@ -225,18 +228,18 @@ static uint64_t hash(int threads, double time_gap) {
     return result;
 }
 
-static void threads_change_nothing(void **state) {
+static void walking_is_equal_on_any_number_of_threads(void **state) {
     (void)state;
-    uint64_t one = hash(1, 1.0);
-    assert_true(hash(2, 1.0) == one && hash(4, 1.0) == one);
-    assert_true(hash(1, 0.0) != one);
+    uint64_t one = hash_walking_world(1, 1.0);
+    assert_true(hash_walking_world(2, 1.0) == one && hash_walking_world(4, 1.0) == one);
+    assert_true(hash_walking_world(1, 0.0) != one);
 }
 
-/* People go elsewhere, so that they stand in another order, and walk by what is drawn of a seed for
-   a moment; `anew`: by a nav that has drawn nothing yet. */
+/* Moves agents to new places, so that their order changes, and walks them with the draws of a seed
+   and a time; `anew`: by a nav that has drawn nothing yet. */
 static void walk_from(Crowd *c, uint32_t step, uint64_t seed, double time, bool anew) {
     for (uint32_t i = 0; i < c->agents.count; i++) {
-        c->agents.x[i] = 8.0f * draw(c->agents.id[i], 30 + step);
+        c->agents.x[i] = 8.0f * draw_walk(c->agents.id[i], 30 + step);
         c->agents.prev_x[i] = c->agents.x[i];
     }
     if (anew) {
@@ -246,7 +249,7 @@ static void walk_from(Crowd *c, uint32_t step, uint64_t seed, double time, bool 
         jox_nav_set_walls(c->nav, &c->walls);
     }
     jox_nav_sort(c->nav, &c->agents, 0);
-    want(c);
+    set_wishes(c);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
     jox_nav_walk(c->nav, &c->agents, &c->neighbours, seed, time, 0.05, true, NULL);
 }
@@ -259,8 +262,8 @@ static void time_gaps_depend_on_no_earlier_draw(void **state) {
         double time;
     } steps[] = {{3, 1.7}, {3, 1.75}, {3, 1.8}, {3, 2.1}, {4, 2.1}, {3, 2.1}, {3, 1.7}};
     Crowd kept, anew;
-    begin(&kept, (Frame){0}, &law, 8.0f);
-    begin(&anew, (Frame){0}, &law, 8.0f);
+    make_walk_crowd(&kept, (Frame){0}, &law, 8.0f);
+    make_walk_crowd(&anew, (Frame){0}, &law, 8.0f);
     for (uint32_t k = 0; k < sizeof steps / sizeof *steps; k++) {
         walk_from(&kept, k, steps[k].seed, steps[k].time, false);
         walk_from(&anew, k, steps[k].seed, steps[k].time, true);
@@ -269,18 +272,18 @@ static void time_gaps_depend_on_no_earlier_draw(void **state) {
         assert_memory_equal(kept.agents.walk_x, anew.agents.walk_x, size);
         assert_memory_equal(kept.agents.walk_y, anew.agents.walk_y, size);
     }
-    end(&kept);
-    end(&anew);
+    free_walk_crowd(&kept);
+    free_walk_crowd(&anew);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_turned_crowd_does_the_same),
-        cmocka_unit_test(a_mirrored_crowd_does_the_same_but_for_passing_on_the_right),
-        cmocka_unit_test(people_in_one_place_stay_finite),
+        cmocka_unit_test(turned_crowd_chooses_the_same),
+        cmocka_unit_test(mirrored_crowd_differs_only_in_passing_on_the_right),
+        cmocka_unit_test(coincident_agents_stay_finite),
         cmocka_unit_test(without_a_time_gap_orca_is_unchanged),
         cmocka_unit_test(time_gaps_depend_on_no_earlier_draw),
-        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(walking_is_equal_on_any_number_of_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

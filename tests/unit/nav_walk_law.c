@@ -1,6 +1,6 @@
-/* The walking law against a plain reference, a direction at a time and in double precision: over
-   random neighbourhoods, with constants drawn anew for each. What is free before a wall is found by
-   walking there. */
+/* The walking law against a plain reference, which judges one direction at a time in double
+   precision: over random neighbourhoods, each with constants drawn anew. The free path before a
+   wall is found by walking in small steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,60 +29,63 @@ typedef struct Packet {
     JoxV2 ends[EDGES][2];
     JoxNav *nav;
     uint32_t me;    /* index of the walker, with id 0 */
-    uint32_t edges; /* how many walls there are */
-    bool on_edge; /* rounding decides whether somebody is in the way or minded, or a wall grazed */
+    uint32_t edges; /* number of walls */
+    bool on_edge; /* rounding decides whether an agent is in the way or minded, or a wall is touched
+                   */
 } Packet;
 
-static double draw(Packet *p, double from, double to) {
+static double draw_law_value(Packet *p, double from, double to) {
     return from + (to - from) * jox_random_unit(9, p->number, 0, JOX_DRAW_FILL, p->drawn++);
 }
 
-/* Constants within a third of their defaults; time gaps neither differ nor wander, and eagerness
-   keeps what it is given. */
+/* Draws constants within a third of their defaults; time gaps neither differ nor wander, and
+   eagerness stays as given. */
 static void draw_law(Packet *p) {
     p->law = jox_walk_law();
 #define X(name, unit, least, greatest, value, meaning)                                             \
-    p->law.name = fmin(fmax(p->law.name * draw(p, 0.67, 1.33), least), greatest);
+    p->law.name = fmin(fmax(p->law.name * draw_law_value(p, 0.67, 1.33), least), greatest);
     JOX_WALK_CONSTANTS(X)
 #undef X
     p->law.gap_spread = p->law.gap_noise = 0.0;
     p->law.eager_rise = p->law.eager_fall = 60.0;
 }
 
-static void add(Packet *p, double x, double y) {
+static void add_law_agent(Packet *p, double x, double y) {
     JoxAgents *a = &p->agents;
     uint32_t i = jox_agents_add(a);
-    double angle = draw(p, 0.0, 2.0 * PI), speed = draw(p, 0.0, 1) < 0.2 ? 0.0 : draw(p, 0.3, 1.8);
-    double heading = angle + draw(p, -0.7, 0.7), moves = draw(p, 0.0, 1.4);
+    double angle = draw_law_value(p, 0.0, 2.0 * PI),
+           speed = draw_law_value(p, 0.0, 1) < 0.2 ? 0.0 : draw_law_value(p, 0.3, 1.8);
+    double heading = angle + draw_law_value(p, -0.7, 0.7), moves = draw_law_value(p, 0.0, 1.4);
     a->x[i] = a->prev_x[i] = (float)x;
     a->y[i] = a->prev_y[i] = (float)y;
     a->pref_x[i] = (float)(speed * jox_cos(angle));
     a->pref_y[i] = (float)(speed * jox_sin(angle));
     a->vx[i] = (float)(moves * jox_cos(heading));
     a->vy[i] = (float)(moves * jox_sin(heading));
-    a->eager[i] = (float)draw(p, 0.0, 1.0);
+    a->eager[i] = (float)draw_law_value(p, 0.0, 1.0);
     a->course_x[i] = (float)jox_cos(heading);
     a->course_y[i] = (float)jox_sin(heading);
-    a->bound[i] = draw(p, 0.0, 1.0) < 0.5 ? 1 : 0;
-    a->way[i] = (float)draw(p, 0.0, 9.0);
-    jox_param_set(a, JOX_PARAM_radius, i, (float)draw(p, 0.15, 0.25));
-    jox_param_set(a, JOX_PARAM_time_gap, i, (float)draw(p, 0.4, 1.6));
+    a->bound[i] = draw_law_value(p, 0.0, 1.0) < 0.5 ? 1 : 0;
+    a->way[i] = (float)draw_law_value(p, 0.0, 9.0);
+    jox_param_set(a, JOX_PARAM_radius, i, (float)draw_law_value(p, 0.15, 0.25));
+    jox_param_set(a, JOX_PARAM_time_gap, i, (float)draw_law_value(p, 0.4, 1.6));
 }
 
-static void begin(Packet *p, uint32_t number) {
+static void open_law(Packet *p, uint32_t number) {
     *p = (Packet){.number = number};
     draw_law(p);
     p->nav = jox_nav_create(&p->law);
-    add(p, 0.0, 0.0);
-    int others = 1 + (int)draw(p, 0.0, OTHERS);
+    add_law_agent(p, 0.0, 0.0);
+    int others = 1 + (int)draw_law_value(p, 0.0, OTHERS);
     for (int k = 0; k < others; k++) {
-        double far = draw(p, 0.35, 2.5), angle = draw(p, 0.0, 2.0 * PI);
-        add(p, far * jox_cos(angle), far * jox_sin(angle));
+        double far = draw_law_value(p, 0.35, 2.5), angle = draw_law_value(p, 0.0, 2.0 * PI);
+        add_law_agent(p, far * jox_cos(angle), far * jox_sin(angle));
     }
-    p->edges = draw(p, 0.0, 1.0) < 0.5 ? 0 : EDGES;
+    p->edges = draw_law_value(p, 0.0, 1.0) < 0.5 ? 0 : EDGES;
     for (uint32_t k = 0; k < p->edges; k++) {
         for (int e = 0; e < 2; e++)
-            p->ends[k][e] = (JoxV2){(float)draw(p, -1.0, 1.0), (float)draw(p, -1.0, 1.0)};
+            p->ends[k][e] =
+                (JoxV2){(float)draw_law_value(p, -1.0, 1.0), (float)draw_law_value(p, -1.0, 1.0)};
         jox_walls_add_polyline(&p->walls, p->ends[k], 2, false, INFINITY);
     }
     if (p->edges)
@@ -93,7 +96,7 @@ static void begin(Packet *p, uint32_t number) {
         p->me++;
 }
 
-static void end(Packet *p) {
+static void close_law(Packet *p) {
     jox_nav_free(p->nav);
     jox_agents_free(&p->agents);
     jox_walls_free(&p->walls);
@@ -106,7 +109,7 @@ typedef struct Way {
     double x, y, allowed, worth; /* unit; m/s */
 } Way;
 
-static void lower(double *value, double to) {
+static void lower_to(double *value, double to) {
     *value = to < *value ? to : *value;
 }
 
@@ -115,9 +118,9 @@ static double radii(const Packet *p, uint32_t j) {
     return (double)jox_at(radius, p->me) + (double)jox_at(radius, j);
 }
 
-/* Behind one who goes first: the speed that keeps the time gap, in the way or beside it,
-   which people come down to gradually. */
-static void follow(Packet *p, Way *w, uint32_t j, double wanted) {
+/* Limits a way by an agent that goes first: the speed that keeps the time gap, in the way or beside
+   it, eased from the wanted speed. */
+static void limit_by_leader(Packet *p, Way *w, uint32_t j, double wanted) {
     const JoxAgents *a = &p->agents;
     const JoxWalkLaw *law = &p->law;
     double eager = (double)a->eager[p->me], r = radii(p, j);
@@ -136,19 +139,19 @@ static void follow(Packet *p, Way *w, uint32_t j, double wanted) {
     double speed = (free + law->ahead_share * gap * ahead) / (gap + law->ahead_share * gap);
     if (speed > 0.0)
         speed /= pow(1.0 + pow(law->ease * speed / wanted, 4.0), 0.25);
-    lower(&w->allowed, speed);
-    lower(&w->worth, speed);
+    lower_to(&w->allowed, speed);
+    lower_to(&w->worth, speed);
 }
 
-/* Past one who crosses: the free path, and when the two would meet. */
-static void cross(Packet *p, Way *w, uint32_t j, double speed) {
+/* Limits a way by an agent that crosses: the free path, and the time until the two meet. */
+static void limit_by_crossing(Packet *p, Way *w, uint32_t j, double speed) {
     const JoxAgents *a = &p->agents;
     double x = (double)a->x[j], y = (double)a->y[j], width = p->law.width_cross * radii(p, j);
     double along = x * w->x + y * w->y, aside = w->x * y - w->y * x;
     if (fabs(aside) < width && along > 0.0) {
         double path = (along - sqrt(width * width - aside * aside)) / p->law.cross_time;
-        lower(&w->allowed, path);
-        lower(&w->worth, path);
+        lower_to(&w->allowed, path);
+        lower_to(&w->worth, path);
     }
     double ux = speed * w->x - (double)a->vx[j], uy = speed * w->y - (double)a->vy[j];
     double u2 = ux * ux + uy * uy, closing = x * ux + y * uy;
@@ -156,32 +159,32 @@ static void cross(Packet *p, Way *w, uint32_t j, double speed) {
     double meets = closing * closing - u2 * apart2;
     p->on_edge |= fabs(meets) < 1e-5 * closing * closing || fabs(fabs(aside) - width) < 1e-6;
     if (meets > 0.0 && closing > 0.0)
-        lower(&w->worth, (closing - sqrt(meets)) / u2 * speed / p->law.contact_time);
+        lower_to(&w->worth, (closing - sqrt(meets)) / u2 * speed / p->law.contact_time);
 }
 
-static double distance(const Packet *p, uint32_t edge, double x, double y) {
+static double measure_distance(const Packet *p, uint32_t edge, double x, double y) {
     JoxV2 at = {(float)x, (float)y};
     return (double)jox_length(
         jox_sub(jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], at), at));
 }
 
-/* Going aside: how far somebody gets before they are `keep` from a wall. */
-static void mind_wall(Packet *p, Way *w, uint32_t edge, double speed) {
+/* Limits a way by a wall: how far the walker gets before it is `keep` from it. */
+static void limit_by_plain_wall(Packet *p, Way *w, uint32_t edge, double speed) {
     const double stride = 0.0005;
     double keep = p->law.wall_radius * (double)jox_param(&p->agents, JOX_PARAM_radius, p->me),
            path = 0.0;
-    if (distance(p, edge, 0.0, 0.0) < keep) { /* so near, not towards it */
+    if (measure_distance(p, edge, 0.0, 0.0) < keep) { /* too near: not towards it */
         JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
         path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;
     } else {
-        double far = INFINITY; /* a way that grazes may come too near between two strides */
+        double far = INFINITY; /* a grazing way may come too near between two strides */
         for (; path < speed * p->law.wall_time && far >= keep; path += far >= keep ? stride : 0.0) {
-            far = distance(p, edge, path * w->x, path * w->y);
+            far = measure_distance(p, edge, path * w->x, path * w->y);
             p->on_edge |= fabs(far - keep) < 2e-6;
         }
     }
-    lower(&w->allowed, path / p->law.wall_time);
-    lower(&w->worth, path / p->law.wall_time);
+    lower_to(&w->allowed, path / p->law.wall_time);
+    lower_to(&w->worth, path / p->law.wall_time);
 }
 
 static bool is_hidden(const Packet *p, uint32_t j) {
@@ -192,7 +195,7 @@ static bool is_hidden(const Packet *p, uint32_t j) {
     return false;
 }
 
-static Way judge(Packet *p, double degrees, double speed) {
+static Way judge_way(Packet *p, double degrees, double speed) {
     const JoxAgents *a = &p->agents;
     double angle = degrees / 180.0 * PI, c = jox_cos(angle), s = jox_sin(angle);
     double ax = (double)a->aim_x[p->me], ay = (double)a->aim_y[p->me];
@@ -203,26 +206,27 @@ static Way judge(Packet *p, double degrees, double speed) {
             continue;
         Minds minds = plain_minds(a, p->me, j, offset);
         if (minds == MINDS_AHEAD)
-            follow(p, &w, j, speed);
+            limit_by_leader(p, &w, j, speed);
         else if (minds == MINDS_CROSSING)
-            cross(p, &w, j, speed);
+            limit_by_crossing(p, &w, j, speed);
     }
     for (uint32_t k = 0; k < p->edges && degrees != 0.0; k++)
-        mind_wall(p, &w, k, speed);
+        limit_by_plain_wall(p, &w, k, speed);
     return w;
 }
 
-/* The direction that is worth most along the way; *lead: by how much more than the next best. */
-static Way choose(Packet *p, double cx, double cy, double speed, double *lead) {
+/* Returns the direction of greatest worth along the way; *lead: by how much it beats the next
+   best. */
+static Way choose_way(Packet *p, double cx, double cy, double speed, double *lead) {
     double most = -INFINITY;
-    Way best = judge(p, 0.0, speed);
+    Way best = judge_way(p, 0.0, speed);
     *lead = fabs(best.worth - 0.98 * speed);
     if (best.worth >= 0.98 * speed)
         return best;
     double margin = INFINITY;
     for (int k = 0; k < DIRECTIONS; k++) {
         double degrees = 15.0 * (k - DIRECTIONS / 2);
-        Way w = judge(p, degrees, speed);
+        Way w = judge_way(p, degrees, speed);
         double worth = fmax(w.worth, -0.2) * jox_cos(degrees / 180.0 * PI);
         worth -= p->law.turn_cost * speed * (1.0 - (w.x * cx + w.y * cy));
         worth += degrees < 0.0 ? p->law.right * speed : 0.0;
@@ -236,8 +240,8 @@ static Way choose(Packet *p, double cx, double cy, double speed, double *lead) {
     return best;
 }
 
-/* What comes of the present velocity within the interval. */
-static void approach(const Packet *p, const Way *w, double *x, double *y) {
+/* Applies the approach to a way's velocity within the interval. */
+static void approach_way(const Packet *p, const Way *w, double *x, double *y) {
     double vx = (double)p->agents.vx[p->me], vy = (double)p->agents.vy[p->me];
     double start = fmin(1.0, INTERVAL / p->law.start_time);
     double stop = fmin(1.0, INTERVAL / p->law.stop_time), speed = fmax(w->allowed, 0.0);
@@ -248,36 +252,36 @@ static void approach(const Packet *p, const Way *w, double *x, double *y) {
     *y = w->y * kept + (vy - w->y * along) * (1.0 - stop);
 }
 
-/* ---- both ---- */
+/* ---- comparison ---- */
 
-/* By how much the engine's velocity is off, m/s; NAN where two directions are as good, somebody is
-   on an edge, or nobody wants to go anywhere. */
-static double off(uint32_t number, bool *aside) {
+/* Returns the error of the engine's velocity, m/s; NAN where two directions are equally good, an
+   agent is on an edge, or no agent wants to move. */
+static double measure_error(uint32_t number, bool *aside) {
     Packet p;
     double x, y, lead, result = NAN;
-    begin(&p, number);
+    open_law(&p, number);
     JoxAgents *a = &p.agents;
     double cx = (double)a->course_x[p.me], cy = (double)a->course_y[p.me];
     jox_nav_walk(p.nav, a, &p.neighbours, 1, 0.0, INTERVAL, true, NULL);
     double px = (double)a->pref_x[p.me], py = (double)a->pref_y[p.me];
     double speed = sqrt(px * px + py * py);
     if (speed > 0.0) {
-        Way w = choose(&p, cx, cy, speed, &lead);
-        approach(&p, &w, &x, &y);
+        Way w = choose_way(&p, cx, cy, speed, &lead);
+        approach_way(&p, &w, &x, &y);
         *aside = w.x * px + w.y * py < 0.99 * speed;
         if (lead > 0.004 && !p.on_edge)
             result = hypot(x - (double)a->walk_x[p.me], y - (double)a->walk_y[p.me]);
     }
-    end(&p);
+    close_law(&p);
     return result;
 }
 
-static void velocities_are_those_of_the_reference(void **state) {
+static void velocities_match_the_reference(void **state) {
     (void)state;
     int compared = 0, turned = 0;
     for (uint32_t number = 0; number < PACKETS; number++) {
         bool aside = false;
-        double error = off(number, &aside);
+        double error = measure_error(number, &aside);
         if (isnan(error))
             continue;
         if (!(error < 0.004)) /* steps of half a millimetre towards walls */
@@ -290,7 +294,7 @@ static void velocities_are_those_of_the_reference(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(velocities_are_those_of_the_reference),
+        cmocka_unit_test(velocities_match_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,7 +36,7 @@ typedef struct JoxSpots {
     uint32_t edge_count, edge_capacity, blocking;
 } JoxSpots;
 
-/* What a search is for. */
+/* The request of a search. */
 typedef struct JoxSpotWish {
     JoxV2 at;     /* m */
     float radius; /* m */
