@@ -23,6 +23,7 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     return sum;
 }
 
+/* Writes the contact force and the number of contacts of agent i, and measures its load. */
 static void write_contact_force(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
     const float per_second = 1.0f / (float)f->step.dt;
@@ -46,6 +47,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
     }
 }
 
+/* Adds the forces of walls, which have a list of their own. */
 static void finish_walls(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     float per_second = 1.0f / (float)f->step.dt;

@@ -99,6 +99,7 @@ static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloa
     return jf_select(bounces, jf_max(target, -restitution * speed), target);
 }
 
+/* Returns the targets (JoxPair) of the contacts with the lanes' neighbours, m/s. */
 static inline JoxFloats jox_targets_of(const JoxForces *f, const JoxToucher *self,
                                        const uint32_t *others, const JoxMeeting *m,
                                        JoxVector normal) {

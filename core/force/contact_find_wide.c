@@ -75,6 +75,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
     }
 }
 
+/* Finds the contacts of one packet of agents. */
 static void find_packet(JoxFindPacket *p) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;

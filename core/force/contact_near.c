@@ -1,5 +1,5 @@
-/* Contacts of one agent: with agents, where its neighbour list may lack somebody within touch range
-   (contact_find_lanes.h at width 1), and with walls. */
+/* Contacts of one agent, in plain C: with agents, where its neighbour list does not cover touch
+   range (contact_find_lanes.h at width 1), and with walls. */
 #define JOX_ISA_scalar
 #include <math.h>
 

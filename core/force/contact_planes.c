@@ -62,6 +62,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
     return n;
 }
 
+/* Makes the planes of the bodies that press on agent i or overlap it. Returns how many. */
 static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                                  JoxDecay *decay) {
     const float time = (float)f->step.planning_time;

@@ -39,6 +39,8 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
     }
 }
 
+/* Solves the contacts [begin, end) of a colour once: each impulse becomes what its target asks for
+   at the present velocities, but never pulls. */
 static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
@@ -106,6 +108,7 @@ static float run_pass(JoxForces *f) {
     return most;
 }
 
+/* Applies the kept impulses of all contacts, which make the solve converge sooner. */
 static void begin_solve(JoxForces *f) {
     const JoxPairs *p = &f->pairs;
     uint32_t chunks = count_chunks(f->wall_groups, WALL_GRAIN);

@@ -129,9 +129,8 @@ JoxV2 jox_force_slowed(const JoxForces *forces, uint32_t agent, float *kept);
 /* Load of a driven body on the agents in its way, in the last contact. */
 typedef struct JoxDriveLoad {
     uint32_t row;
-    uint32_t people,
-        agent;            /* number of agents; id of the one that bears most, JOX_NO_INDEX: none */
-    float force, hardest; /* N: on all, along the body's way; on that one */
+    uint32_t people, agent; /* number of agents; id of the most loaded, or JOX_NO_INDEX */
+    float force, hardest;   /* N: on all, along the body's way; on that one */
     float share; /* share of its way that the body goes: below 1 only where it reached its limit */
     bool met;
 } JoxDriveLoad;

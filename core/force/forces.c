@@ -111,6 +111,8 @@ static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
 #undef ZERO_SCRATCH
 }
 
+/* Begins the step for the agents of a chunk: zeroes columns, computes breadths, and packs the
+   builds. */
 static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;

@@ -91,6 +91,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     }
 }
 
+/* Fades the inferred forces of the last step: exponential filter. */
 static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -109,6 +110,7 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     }
 }
 
+/* Scales the new transfers to the share of the filter that arrives in this step. */
 static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;

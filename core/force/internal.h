@@ -59,8 +59,7 @@ struct JoxForces {
     uint32_t *found_first, *wall_first; /* wall_first: after the layout an index into `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
-    bool cut; /* a list of agents within touch range is full: contacts are found one agent at a time
-               */
+    bool cut; /* some list of agents within touch range is full: contacts are found singly */
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bits of the colours of its pairs */
     JoxListed *listed;    /* per agent */
@@ -68,15 +67,14 @@ struct JoxForces {
     uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk: numbers of pairs, then place
                                                            of the next one */
     size_t colour_size_capacity;
-    JoxEnd *ends; /* agent i has end_starts[i] to end_starts[i + 1], in an order that depends on ids
-                     alone */
+    JoxEnd *ends; /* agent i: end_starts[i] to end_starts[i + 1], ordered by ids alone */
     uint32_t *end_starts;
     size_t end_capacity, end_start_capacity;
     JoxWallContact *wall; /* sorted by agent id, then edge */
-    uint32_t *wall_group; /* first contact of each agent that has any, plus one */
+    uint32_t *wall_group; /* first contact of each agent at a wall, and the end */
     uint32_t wall_count, wall_groups;
     size_t wall_capacity, wall_group_capacity;
-    JoxTouch *touch; /* first contact of each agent at a wall, and the end */
+    JoxTouch *touch; /* all touches, sorted by agent id, then row */
     size_t touch_capacity;
     uint32_t touch_count;
     JoxDrive *drives;

@@ -46,6 +46,7 @@ static inline JoxV2 get_force(const Pressing *p, uint32_t k) {
     return (JoxV2){p->x[k], p->y[k]};
 }
 
+/* Returns whether another force fits; more than MOST_FORCES are dropped. */
 static inline bool has_room(const Pressing *p) {
     return p->count < MOST_FORCES;
 }

@@ -16,6 +16,8 @@ typedef struct Target {
 
 enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
+/* Returns the direction of agent i's push, a unit vector: `push_toward`, else that of the preferred
+   velocity; (0, 0) without either. */
 static JoxV2 find_push_aim(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
     if (step->push_toward_x && step->push_toward_y) {
@@ -60,6 +62,8 @@ static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, Jox
     return jox_force_is_walled_off(f, centre, jox_add(centre, offset));
 }
 
+/* Lists the agents that agent i pushes: in reach, with a tag that it pushes, and no wall between.
+   Returns how many. */
 static uint32_t find_people_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
@@ -81,6 +85,7 @@ static uint32_t find_people_targets(const JoxForces *f, uint32_t i, JoxV2 aim, T
     return n;
 }
 
+/* Lists the bodies that agent i pushes, the nearest ones in ascending row. Returns how many. */
 static uint32_t find_body_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
     const JoxAgents *a = f->step.agents;
     float radius = jox_param(a, JOX_PARAM_radius, i), reach = jox_param(a, JOX_PARAM_push_reach, i);
@@ -124,6 +129,7 @@ static uint32_t keep_nearest(Target *targets, uint32_t n) {
     return 1;
 }
 
+/* Returns agent i's push on one of n targets, N. */
 static JoxV2 compute_push(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *target,
                           uint32_t n) {
     const JoxAgents *a = f->step.agents;
@@ -145,11 +151,13 @@ static void queue_body_push(JoxForces *f, uint32_t chunk, uint32_t i, const Targ
         (JoxTouch){.agent = i, .object = target->index, .normal = force, .point = target->point};
 }
 
+/* Converts a momentum, N s, to fixed point, so that sums do not depend on the order of threads. */
 static int64_t to_fixed(double momentum) {
     double scaled = momentum * 1048576.0;
     return scaled > 1e14 ? (int64_t)1e14 : scaled > -1e14 ? (int64_t)scaled : (int64_t)-1e14;
 }
 
+/* Applies the pushes of agent i to its targets, and the reaction to itself or the ground. */
 static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
     JoxV2 aim = find_push_aim(&f->step, i);
     if (aim.x == 0.0f && aim.y == 0.0f)

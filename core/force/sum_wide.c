@@ -50,6 +50,8 @@ static Planning load_planning(const JoxForceStep *step, uint32_t i, JoxMask stan
     };
 }
 
+/* Writes the net force, the forced velocity, the half-plane and the speed limit of the packet from
+   agent i on. */
 static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);

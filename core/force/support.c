@@ -26,6 +26,7 @@ static JoxV3 to_three(JoxFour v) {
     return (JoxV3){v[0], v[1], v[2]};
 }
 
+/* Returns the vector from a body's centre to a point, m. */
 static JoxV3 find_arm(const JoxObject *body, JoxV3 point) {
     return add_scaled(point, body->position, -1.0f);
 }
@@ -71,6 +72,7 @@ static bool is_in_reach_of_link(const JoxForces *f, uint32_t row, uint32_t link)
     return row != JOX_NO_OBJECT && f->motions[row].solved && f->motions[row].link <= link;
 }
 
+/* Marks a movable body that is not solved for yet as one link farther than `link`. */
 static void link_next(JoxForces *f, uint32_t row, uint32_t link) {
     if (row == JOX_NO_OBJECT || f->motions[row].solved || !f->step.objects->rows[row].moves)
         return;
@@ -78,6 +80,7 @@ static void link_next(JoxForces *f, uint32_t row, uint32_t link) {
     f->motions[row].link = (uint8_t)(link + 1);
 }
 
+/* Marks the bodies that stand behind touched ones, up to LINKS deep, as solved for. */
 static void link_bodies(JoxForces *f, JoxObjectContacts contacts) {
     for (uint32_t link = 0; link < LINKS; link++)
         for (uint32_t k = 0; k < contacts.count; k++) {
@@ -131,6 +134,7 @@ static JoxSupportWatch make_watch(const JoxSupport *s) {
     return watch;
 }
 
+/* Adds a contact that Bullet found, with the force that it had there as the first impulse. */
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
     const float dt = (float)f->step.dt;
     const uint32_t second = c->second == JOX_NO_OBJECT ? f->step.objects->count : c->second;

@@ -30,6 +30,7 @@ static inline float measure_speed(const JoxBodyMotion *first, const JoxBodyMotio
     return p[0] + p[1] + p[2];
 }
 
+/* Applies an impulse, N s, along an axis to both bodies, and adds to their unrest. */
 static inline void apply_impulse(JoxBodyMotion *first, JoxBodyMotion *second,
                                  const JoxSupportAxis *axis, float impulse) {
     const float size = fabsf(impulse);

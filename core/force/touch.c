@@ -105,6 +105,7 @@ float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
     return velocity.x * t->normal.x + velocity.y * t->normal.y;
 }
 
+/* Applies an impulse, N s, to the agent and the opposite one to the body of a touch. */
 static void apply_touch_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
     float lightness = f->lightness[t->agent];
     f->work[t->agent].x += t->normal.x * impulse * lightness;
@@ -149,6 +150,7 @@ static int find_drive(JoxForces *f, uint32_t row) {
     return (int)f->drive_count++;
 }
 
+/* Sums the impulses along the way of each drive. */
 static void sum_drives(JoxForces *f) {
     for (uint32_t d = 0; d < f->drive_count; d++)
         f->drives[d].pressed = 0.0f;
@@ -157,6 +159,7 @@ static void sum_drives(JoxForces *f) {
             f->drives[f->touch[k].drive].pressed += f->touch[k].ahead * f->touch[k].impulse;
 }
 
+/* Finds the drives of the touched bodies, and scales kept impulses down to the limits. */
 static void begin_drives(JoxForces *f) {
     f->drive_count = 0;
     for (uint32_t k = 0; k < f->touch_count; k++) {
@@ -178,6 +181,7 @@ static void begin_drives(JoxForces *f) {
     }
 }
 
+/* Scales the impulses ahead of drives over their limit down, after each pass. */
 static void limit_drives(JoxForces *f) {
     sum_drives(f);
     for (uint32_t k = 0; f->drive_count && k < f->touch_count; k++) {
@@ -206,6 +210,7 @@ static float find_way_share(const JoxForces *f, uint32_t drive) {
     return jox_clampf(share, 0.0f, 1.0f);
 }
 
+/* Writes the loads of all drives, and slows bodies that reached their limit. */
 static void finish_drives(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     sum_drives(f);

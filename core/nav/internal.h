@@ -71,12 +71,12 @@ struct JoxNav {
     float *chunk_reach;     /* m: per chunk of walk; below 0 without walkers */
     float *clear2;          /* m2: jox_wall_grid_clear2 of each agent, filled by walk or by solve */
     float clear_reach;      /* m: reach of the wall grid when clear2 was filled; -1: it was not */
-    JoxGapDraws *gap_draws; /* of walk, for gap_room agents, gap_stream and gap_knots */
+    JoxGapDraws *gap_draws; /* draws of walk, for gap_room agents, gap_stream and gap_knots */
     uint32_t gap_room;
     uint64_t gap_stream, gap_knots[2];
     JoxWallGrid grid;
-    JoxSpots spots; /* draws of walk, for gap_room agents, gap_stream and gap_knots */
-    JoxStageMemory *memory, own_memory; /* table of births, between two steps */
+    JoxSpots spots;                     /* table of births, between two steps */
+    JoxStageMemory *memory, own_memory; /* own_memory: used where none was given */
     bool literal;
     JoIsa isa;              /* instruction set of the kernels */
     const JoxWalkLaw *walk; /* belongs to the model */

@@ -18,10 +18,11 @@
 
 typedef struct JoxPacket {
     const JoxSolve *s;
-    uint32_t first; /* agent of lane 0 */
-    uint32_t lanes; /* bits of the lanes that plan in this step */
-    uint32_t near_walls, touching, pressed,
-        walkers;                      /* bits of these lanes; pressed: touching or forced */
+    uint32_t first;                   /* agent of lane 0 */
+    uint32_t lanes;                   /* bits of the lanes that plan in this step */
+    uint32_t near_walls, touching;    /* bits of these lanes */
+    uint32_t pressed;                 /* bits of lanes that touch something or feel a force */
+    uint32_t walkers;                 /* bits of lanes that walk by the law */
     uint32_t contacts, hard, objects; /* first rows of these kinds; hard: first row of neighbours */
     JoxHalfPlaneCounts made[JOX_WIDTH];
     uint32_t counted; /* bits of lanes whose `made` is not all 0 */
@@ -73,6 +74,7 @@ typedef struct JoxTouched {
     uint32_t other[JOX_MOST_TOUCHED][JOX_WIDTH];
 } JoxTouched;
 
+/* Lists the agents that the lanes touch. */
 static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     const JoxContactPlanes *planes = p->s->touched;
     t->rows = 0;
@@ -121,6 +123,7 @@ typedef struct JoxNeighbourCounts {
     uint32_t least, most;
 } JoxNeighbourCounts;
 
+/* Counts the neighbours of the lanes. */
 static inline JoxNeighbourCounts jox_count_neighbours(const JoxPacket *p) {
     const uint8_t *count = p->s->neighbours->count + p->first;
     JoxNeighbourCounts n = {ji_select(jm_of_bits(p->lanes), ji_load_bytes(count), ji_set(0)),
@@ -299,6 +302,8 @@ static inline bool jox_sees_over_edges(const JoxPacket *p) {
     return jm_bits(over) & p->lanes;
 }
 
+/* Appends the rows of neighbours; lanes with a coincident neighbour get theirs from
+   half_planes.c. */
 static inline void jox_put_neighbours(JoxPacket *p) {
     const uint32_t alone =
         (jox_sees_over_edges(p) ? jox_put_rows_periodic : jox_put_rows_bounded)(p);
@@ -309,6 +314,7 @@ static inline void jox_put_neighbours(JoxPacket *p) {
         JOX_PUT_EACH(p, alone, p->hard, jox_solve_neighbours, agents);
 }
 
+/* Appends the row of the forces' half-planes, and sets `pressed`. */
 static inline void jox_put_force(JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const JoxFloats zero = jf_set(0.0f);
@@ -327,6 +333,7 @@ static inline void jox_put_force(JoxPacket *p) {
         p->made[lane].force = forced >> lane & 1;
 }
 
+/* Makes all rows of a packet. */
 static inline void jox_put_half_planes(JoxPacket *p) {
     p->count = 0;
     for (uint32_t lane = 0; p->counted >> lane; lane++)

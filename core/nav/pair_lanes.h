@@ -117,6 +117,7 @@ typedef struct JoxWalkerGap {
     JoxFloats distance, follows, crosses;
 } JoxWalkerGap;
 
+/* Computes the gaps of walkers to one neighbour each. */
 static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *self,
                                           const JoxPair *q) {
     const JoxVector offset = {q->x, q->y};

@@ -48,6 +48,7 @@ static inline JoxMask reach_many_more(const uint32_t *first, const uint32_t *las
     return ji_less(ji_add(alone, ji_set(1)), both);
 }
 
+/* Finds the cells in reach of the images of the lanes' agents, which are shifted by `shift` (m). */
 static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     const JoxNav *nav = packet->p->nav;
     const JoxV2 least = nav->drift.least, most = nav->drift.most, low = nav->low;
@@ -167,6 +168,7 @@ static inline void bound_lanes(const Packet *packet, const Reach *reach, uint32_
     }
 }
 
+/* Finds the strays in the bounding box of what `lanes` (bits) see. */
 static inline void find_strays(const Packet *packet, const Reach *reach, uint32_t lanes,
                                Strays *out) {
     const JoxNav *nav = packet->p->nav;
@@ -187,6 +189,7 @@ static inline void find_strays(const Packet *packet, const Reach *reach, uint32_
     }
 }
 
+/* Appends the strays within the radius to the list of one lane. */
 static inline void list_strays(Packet *packet, const Reach *reach, uint32_t lane,
                                const Strays *strays) {
     const Seeker seeker = make_seeker(packet, reach, lane);
@@ -274,10 +277,10 @@ static inline void write_neighbours(const Packet *packet, JoxMask lanes, JoxInts
         const uint32_t bits = jm_bits(kept);
         if (!bits)
             return;
-        JoxInts who = ji_pick(packet->index, find_listed(packet->keys[k]));
+        JoxInts picked = ji_pick(packet->index, find_listed(packet->keys[k]));
         if (bits != JOX_ALL_LANES)
-            who = ji_select(kept, who, ji_load(index));
-        ji_store(index, who);
+            picked = ji_select(kept, picked, ji_load(index));
+        ji_store(index, picked);
         index += JOX_LANES;
     }
 }
@@ -367,6 +370,8 @@ static void search_singly(const Packet *packet, uint32_t lanes) {
     }
 }
 
+/* Searches for the lanes of a packet, with growing radii, until each has as many neighbours as it
+   wants or has looked as far as it perceives. */
 static void perceive_packet(Packet *packet) {
     const JoxPerceive *p = packet->p;
     const JoxAgents *a = p->agents;

@@ -33,6 +33,7 @@ typedef struct JoxBorder {
     JoxFloats low, high;
 } JoxBorder;
 
+/* Computes what is left of a row's border; returns the lanes in which nothing is. */
 static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloats limit,
                                        JoxBorder *b) {
     const JoxFloats epsilon = jf_set(1e-5f), zero = jf_set(0.0f);

@@ -63,6 +63,7 @@ static inline JoxFloats jox_reach2_lanes(const JoxPressed *p) {
     return jf_max(reach2, lacks * lacks);
 }
 
+/* Returns the lanes whose velocity is out of reach. */
 static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velocity) {
     JoxVector d = {velocity.x - p->wanted.x, velocity.y - p->wanted.y};
     return jm_without(p->pressed, jf_le(jv_dot(d, d), jox_reach2_lanes(p)));
@@ -77,6 +78,7 @@ static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector veloc
     return jv_select(same, p->forced, velocity);
 }
 
+/* Writes the planned velocity of an agent, m/s. */
 static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, float y, bool failed) {
     s->agents->next_x[agent] = x;
     s->agents->next_y[agent] = y;
@@ -98,6 +100,7 @@ typedef struct JoxRestLanes {
     JoxVector velocity;
 } JoxRestLanes;
 
+/* Loads the gathered agents into lanes. */
 static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l) {
     const JoxAgents *a = s->agents;
     uint32_t touching = 0, pressed = 0;
@@ -237,6 +240,7 @@ static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
     return relaxed;
 }
 
+/* Appends entry k of a list to another one. */
 static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
     const uint32_t at = to->count++;
     to->agent[at] = from->agent[k];

@@ -18,6 +18,7 @@ static const struct Kernels {
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
+/* Returns NULL for contact planes that were not made in this step. */
 static const JoxContactPlanes *use_made_planes(const JoxContactPlanes *touched) {
     return touched && touched->agents ? touched : NULL;
 }
@@ -163,6 +164,8 @@ typedef struct Touched {
     JoxContactPlane planes[JOX_MOST_CONTACTS];
 } Touched;
 
+/* Copies the contact planes of agent i, which hold indices of the last step, with the present
+   indices. */
 static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
                          const JoxContactPlanes *in_step, Touched *out) {
     const uint32_t was = i + a->moved_up[i];

@@ -148,6 +148,7 @@ static uint32_t queue_unsolved(JoxPacket *p, const Plan *plan, uint32_t soft, ui
     return relaxed;
 }
 
+/* Solves one packet; returns how many agents had a hard half-plane relaxed. */
 static uint32_t solve_packet(JoxPacket *p) {
     JoxAgents *a = p->s->agents;
     const uint32_t i = p->first;

@@ -82,6 +82,8 @@ static void refresh_gap_draws(const JoxWalk *w) {
     nav->gap_knots[1] = w->knots[1];
 }
 
+/* Returns the share of an exponential approach with time constant `time` that an interval covers,
+   both in s. */
 static float compute_share(double interval, double time) {
     return (float)(1.0 - jox_exp(-interval / time));
 }

@@ -98,6 +98,7 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
     return jf_max(least, jf_min(bound, crowd));
 }
 
+/* Returns the eagerness at the end of the step: it approaches the wanted one. */
 static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
     const JoxFloats now = jf_load(w->agents->eager + first);
     const JoxFloats wanted = jox_eagerness_wanted(w, first);

@@ -21,11 +21,10 @@ static const float NO_LIMIT =
 
 /* One neighbour ahead per lane. Lanes without one have a neighbour behind, which limits nothing. */
 typedef struct Ahead {
-    JoxVector offset,
-        foreseen; /* m: offset of the neighbour, and its displacement within the foreseen time */
-    JoxFloats distance2;  /* m2 */
-    JoxFloats per_width2; /* 1/m2: inverse square of the way's width */
-    JoxFloats length;     /* m: length that the neighbour takes up along the way */
+    JoxVector offset, foreseen; /* m; foreseen: displacement within the foreseen time */
+    JoxFloats distance2;        /* m2 */
+    JoxFloats per_width2;       /* 1/m2: inverse square of the way's width */
+    JoxFloats length;           /* m: length that the neighbour takes up along the way */
 } Ahead;
 
 /* One crossing neighbour per lane. */
@@ -43,12 +42,11 @@ typedef struct Packet {
     uint32_t ahead_count, crossing_count;
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* wanted speed, m/s; time gap, s; eagerness; radius, m */
-    JoxFloats clear2; /* m2: no wall hides neighbours within this squared distance */
-    JoxFloats
-        beside2; /* weight of the squared lateral distance for neighbours beside the way, minus 1 */
-    JoxFloats per_time; /* 1/s: speed per metre of room behind an agent ahead */
-    JoxFloats per_cross,
-        meeting; /* 1/s: speed per metre of free path; m/s2: worth per second until a meeting */
+    JoxFloats clear2;    /* m2: no wall hides neighbours within this squared distance */
+    JoxFloats beside2;   /* weight of the squared lateral distance beside the way, minus 1 */
+    JoxFloats per_time;  /* 1/s: speed per metre of room behind an agent ahead */
+    JoxFloats per_cross; /* 1/s: speed per metre of free path */
+    JoxFloats meeting;   /* m/s2: worth of a direction per second until a meeting in it */
     Ahead ahead[JOX_MOST_NEIGHBOURS];
     Crossing crossing[JOX_MOST_NEIGHBOURS];
 } Packet;
@@ -105,6 +103,7 @@ static uint32_t find_passed_over(const Packet *p, uint32_t lanes, JoxInts others
     return passed;
 }
 
+/* Finds which neighbours each lane minds, and how. */
 static inline __attribute__((always_inline)) Minded find_minded(const Packet *p,
                                                                 const bool periodic) {
     const JoxAgents *a = p->w->agents;
@@ -176,6 +175,7 @@ static inline __attribute__((always_inline)) bool take_nearest(const Packet *p, 
     return true;
 }
 
+/* Fills the rows of neighbours ahead and crossing. */
 static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
     const JoxWalkLaw *law = p->w->law;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
@@ -271,6 +271,7 @@ static Judgement judge_room(const Packet *p, JoxFloats room, JoxVector e) {
     return j;
 }
 
+/* Judges one direction for all lanes. */
 static Judgement judge_direction(const Packet *p, JoxVector e) {
     JoxFloats room = jf_set(INFINITY);
     for (uint32_t k = 0; k < p->ahead_count; k++) {
@@ -417,6 +418,7 @@ static Choice choose_direction(const Packet *p) {
 
 /* ---- packets ---- */
 
+/* Chooses direction and speed of one packet's walkers, and writes their columns. */
 static void walk_packet(Packet *p) {
     JoxAgents *a = p->w->agents;
     const uint32_t i = p->first;

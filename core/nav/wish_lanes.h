@@ -1,7 +1,7 @@
 /* The velocity that an agent wants by ORCA: its preferred one, or that one turned to its right. An
    agent that stands before others wants to go more to its right, by an angle of its own once it has
    stood for a second: two that meet head-on, and any number that meet in one point, would else
-   stand for ever. An agent that pushes somebody straight ahead wants to go somewhat to its right
+   stand for ever. An agent that pushes another straight ahead wants to go somewhat to its right
    too, or it would push them along for ever. solve_wide.c includes it for packets, solve.c at
    width 1. */
 #ifndef JOX_NAV_WISH_LANES_H

@@ -296,8 +296,7 @@ static void supports_are_felt_at_once(void **state) {
     stand_at(contacts, true, 0.5f);
     JoxImpulse rough = walk_into(contacts, 4, 200.0f);
     assert_near(-rough.impulse.y, 140, 0.7);
-    /* Of 0.1 times 19.62 N s friction takes exactly that; 70 and 40 kg share the rest, 140 -
-       1.962. */
+    /* Friction takes its limit, 0.1 times 19.62 N s; 70 and 40 kg share the rest, 140 - 1.962. */
     stand_at(contacts, true, 0.1f);
     JoxImpulse slips = walk_into(contacts, 4, 9.81f);
     assert_true(-slips.impulse.y > -free.impulse.y + 0.5);
