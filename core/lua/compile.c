@@ -66,7 +66,7 @@ int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
     return (int16_t)m->name_count++;
 }
 
-/* The same of a state or memory of others, which has a place. */
+/* Adds a name with its place in the text. */
 static int16_t build_written(JoxBuild *build, const char *text, JoxNameUse use,
                              const JoxNamePlace *written) {
     const int16_t number = jox_build_name(build, text, use);
@@ -181,8 +181,9 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     else if (node->op == JOX_OP_THEIRS)
         in.name = build_written(code->build, node->name, JOX_NAME_MEMORY, &node->written);
     else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_OPEN)
-        in.name = jox_build_name(code->build, node->name,
-                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE);
+        in.name = build_written(code->build, node->name,
+                                node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE,
+                                &node->written);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)

@@ -7,6 +7,28 @@
 #include "lua/loader.h"
 #include "lua/read.h"
 
+/* Finds the token of a line at which Lua's parser stopped; NULL where too many are alike. */
+static const JoxToken *find_stop(JoxScript *script, int line, const char *name) {
+    enum { MOST_ALIKE = 16 };
+    const JoxSource *source = script->vm.sources[script->vm.failed_source];
+    const JoxToken *alike[MOST_ALIKE];
+    size_t count = 0;
+    for (size_t n = 0; n < source->token_count && source->tokens[n].line <= line; n++) {
+        const JoxToken *t = &source->tokens[n];
+        if (t->line < line || !jox_token_says(t, name))
+            continue;
+        if (count == MOST_ALIKE)
+            return NULL;
+        alike[count++] = t;
+    }
+    for (size_t k = 0; k + 1 < count; k++) {
+        const size_t end = (size_t)(alike[k]->text - source->text) + alike[k]->length;
+        if (jox_vm_stops_within(&script->vm, script->vm.failed_source, end))
+            return alike[k];
+    }
+    return count > 0 ? alike[count - 1] : NULL;
+}
+
 /* Where Lua's parser stopped: it names the line and, mostly, the token "near" it. */
 static void report_failure(JoxScript *script, const char *why, int line) {
     JoxSource *source = script->vm.sources[script->vm.failed_source];
@@ -16,7 +38,7 @@ static void report_failure(JoxScript *script, const char *why, int line) {
     if (near) {
         char name[64];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(near + 7, "'"), near + 7);
-        const JoxToken *t = jox_source_find(source, line, name);
+        const JoxToken *t = find_stop(script, line, name);
         if (t)
             position = (JoxPosition){source->path, line, t->column, t->end_column};
         const bool item = strncmp(why, "'}' expected", 12) == 0;

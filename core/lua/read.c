@@ -129,8 +129,8 @@ JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *i
         value.number = lua_tonumber(L, -1);
         if (!(value.number >= info->least && value.number <= info->greatest))
             jox_build_error(b, position, "out-of-range", NULL,
-                            "%s must be from %g to %g %s, not %g", info->name, info->least,
-                            info->greatest, info->unit, value.number);
+                            "%s must be from %g to %g%s%s, not %g", info->name, info->least,
+                            info->greatest, *info->unit ? " " : "", info->unit, value.number);
     } else if (node && node->kind == JOX_NODE_DIST) {
         *is_dist = true;
         *dist = node->dist;

@@ -195,7 +195,9 @@ static int meta_newindex(lua_State *L) {
 static int meta_call(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
-    return jox_word_error(L, "(", "bad-call", NULL, "%s cannot be called", jox_node_kind(L, 1));
+    const bool table = lua_type(L, 2) == LUA_TTABLE;
+    return jox_word_error(L, "(", "bad-call", table ? "Is a comma missing after it?" : NULL,
+                          "%s cannot be called", jox_node_kind(L, 1));
 }
 
 static int compare(lua_State *L, int op, const char *name) {

@@ -99,7 +99,11 @@ int jox_require(lua_State *L) {
             "library",
             name);
     luaL_getsubtable(L, LUA_REGISTRYINDEX, "jostle loaded");
-    if (lua_getfield(L, -1, path) != LUA_TNIL) {
+    if (lua_getfield(L, -1, path) == LUA_TLIGHTUSERDATA)
+        return jox_word_error(L, name, "require-circle", "Put what both need into a third file",
+                              "cannot require '%s': it is being loaded, and leads back to itself",
+                              name);
+    if (!lua_isnil(L, -1)) {
         keep_required(script, jox_vm_place(L).file, name, path);
         return 1;
     }
@@ -109,7 +113,7 @@ int jox_require(lua_State *L) {
     if (!source)
         return jox_node_push_error(L);
     jox_vm_charge(L, source->length / 4);
-    lua_pushboolean(L, 1); /* a circle of requires sees this */
+    lua_pushlightuserdata(L, script); /* marks a file that is being loaded */
     lua_setfield(L, 2, path);
     if (!jox_vm_compile(&script->vm, number))
         return lua_error(L);

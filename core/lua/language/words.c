@@ -152,8 +152,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* carries the name alone */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
-        if (letter == 's')
-            result->written = jox_word_written(L, result->name);
+        result->written = jox_word_written(L, result->name);
     }
     if (result)
         return result;
@@ -167,9 +166,9 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         snprintf(hint, sizeof hint, "%s: %s", known->signature, known->meaning);
     jox_word_error(L, word, "bad-argument", *hint ? hint : NULL,
                    "argument %d of %s must be %s, not %s", index, word, what,
-                   lua_gettop(L) < index ? "nothing"
-                   : node                ? "another value"
-                                         : luaL_typename(L, index));
+                   lua_isnoneornil(L, index) ? "nothing"
+                   : node                    ? "another value"
+                                             : luaL_typename(L, index));
     return NULL;
 }
 
@@ -286,7 +285,9 @@ static int make_word(lua_State *L) {
             L, "'%s' makes a value of the machine's table and cannot be used in a function",
             word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
-    int count = 0, given = lua_gettop(L); /* reading arguments pushes more */
+    int count = 0;
+    const int given = lua_gettop(L);
+    lua_settop(L, given < 3 ? 3 : given); /* reading pushes behind what is missing, which is nil */
     uint32_t numbers = 0;
     for (const char *t = word->takes; *t; t++) {
         bool optional = *t == '?';

@@ -140,6 +140,19 @@ bool jox_vm_compile(JoxVm *vm, size_t number) {
     return lua_load(vm->L, next_piece, &piece, chunk, "t") == LUA_OK;
 }
 
+bool jox_vm_stops_within(JoxVm *vm, size_t number, size_t length) {
+    JOX_ASSERT(number < vm->source_count && length <= vm->sources[number]->length);
+    Piece piece = {vm, vm->sources[number]->text, length};
+    const int top = lua_gettop(vm->L);
+    bool stops = false;
+    if (lua_load(vm->L, next_piece, &piece, "=part", "t") != LUA_OK) {
+        const char *why = lua_tostring(vm->L, -1);
+        stops = why && !strstr(why, "near <eof>");
+    }
+    lua_settop(vm->L, top);
+    return stops;
+}
+
 int jox_vm_stop(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     vm->over = true;

@@ -96,6 +96,9 @@ void jox_vm_tried(JoxVm *vm, const char *path);
 /* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. Within
    the time of a load. */
 bool jox_vm_compile(JoxVm *vm, size_t number);
+/* Whether the parser stops within the first `length` bytes of source `number`: what follows cannot
+   mend them. */
+bool jox_vm_stops_within(JoxVm *vm, size_t number, size_t length);
 
 /* ---- the sandbox ---- */
 
