@@ -269,6 +269,33 @@ static JoxPosition named_at(const JoxMachine *machine, const JoxName *name, cons
     return (JoxPosition){file, name->line, name->column, name->end_column};
 }
 
+/* Finds where people wait for a signal or gate: the step of a journey, else the condition. */
+static JoxPosition find_wait(const JoScene *scene, const JoxMachine *machine, const JoxName *name,
+                             const JoxLuaFile *files, uint32_t count) {
+    for (uint32_t g = 0; g < scene->spec->group_count; g++) {
+        const JoxGroup *group = &scene->spec->groups[g];
+        if (group->journey_count == 0 || strcmp(group->mix[0].behaviour, machine->path) != 0)
+            continue;
+        for (uint32_t s = 0; s < group->journey_count; s++) {
+            const JoxJourneyStep *step = &group->journey[s];
+            if ((step->until && strcmp(step->until, name->text) == 0) ||
+                (step->gate && strcmp(step->gate, name->text) == 0))
+                return step->position;
+        }
+    }
+    return named_at(machine, name, files, count);
+}
+
+/* Whether walls of a name are closed from the start and stay so. */
+static bool stays_closed(const JoScene *scene, const char *gate) {
+    const JoxWalls *walls = &scene->world->model.all_walls;
+    bool closed = false;
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        closed |= walls->rings[r].name && strcmp(walls->rings[r].name, gate) == 0 &&
+                  !walls->rings[r].open;
+    return closed && !jox_run_opens(scene, gate);
+}
+
 /* What a state or memory of others is called now that is named as it was called; else NULL. */
 static const char *renamed_name(const JoxMachineRun *machines, const JoxName *name) {
     const char *now = NULL;
@@ -300,8 +327,13 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
             if (heard && !is_signalled(machines, name->text) && !announced(scene, name->text) &&
                 !may_be_called(scene, name->text))
-                jox_diag_warn(diagnostics, in, "unheard-signal", NULL,
+                jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
+                              "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
+            if ((name->uses & JOX_NAME_GATE) && stays_closed(scene, name->text))
+                jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
+                              "never-opened", "Add an event that opens it, or begin with it open",
+                              "gate '%s' is closed, and nothing opens it", name->text);
             if (state && !is_state(machines, name->text))
                 warn_of_state(machines, at, name->text, diagnostics);
             if ((name->uses & JOX_NAME_MACHINE) && !is_machine(machines, name->text))

@@ -146,6 +146,8 @@ void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, 
 /* Whether an event or a line of the input log opens the walls of a name, or somebody at the page or
    a program has set them. */
 bool jox_run_opens(const JoScene *scene, const char *gate);
+/* The same by ring of the world's walls, to be freed by jox_free. */
+bool *jox_run_opening_gates(const JoScene *scene);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */

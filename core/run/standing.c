@@ -163,7 +163,7 @@ static bool tell_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t fi
     const JoxV2 at = {a->x[first], a->y[first]};
     const char *name = machines->places[place].name;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
-    JoxHindrances *hindrances = jox_hindrances_create(&stage, place);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, place, NULL);
     const JoxHindrance why = jox_hindrances_find(hindrances, at, radius_of(a, first));
     uint32_t count = 0;
     for (uint32_t i = 0; is_blocked(why.kind) && i < a->count; i++)
@@ -318,11 +318,11 @@ static JoxKept *find_kept(const JoScene *scene, JoxKeptList *list, uint32_t plac
 }
 
 /* Those who go to one place. */
-static void add_kept(Standing *s, const JoScene *scene, uint32_t place) {
+static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bool *opening) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
-    JoxHindrances *hindrances = jox_hindrances_create(&stage, place);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, place, opening);
     for (uint32_t i = 0; i < a->count; i++) {
         if (jox_machines_field_goal(machines, i, NULL) != (int32_t)place)
             continue;
@@ -351,9 +351,11 @@ const JoxKeptList *jox_run_kept(const JoScene *scene) {
         return &s->kept;
     s->kept_at = now;
     free_kept(&s->kept);
+    bool *opening = jox_run_opening_gates(scene);
     for (uint32_t p = 0; p < s->told_count && p < scene->world->machines.place_count; p++)
         if (s->told[p] == TOLD || !isnan(s->shut_since[p]))
-            add_kept(s, scene, p);
+            add_kept(s, scene, p, opening);
+    jox_free(opening);
     return &s->kept;
 }
 

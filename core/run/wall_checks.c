@@ -94,7 +94,8 @@ enum { MOST_GOALS = 64, MOST_PLACES = 64 }; /* of one person; that are looked at
 /* Places that people go to, and who goes where. */
 typedef struct Goals {
     uint32_t places[MOST_PLACES], count;
-    uint64_t *of; /* by person: a bit for each of the places */
+    uint64_t *of;  /* by person: a bit for each of the places */
+    bool *opening; /* by ring of walls: a gate that something opens */
 } Goals;
 
 /* People of a group, or of a source, whom one kind of hindrance keeps from a place. */
@@ -173,6 +174,14 @@ bool jox_run_opens(const JoScene *scene, const char *gate) {
         set |=
             walls->rings[r].name && strcmp(walls->rings[r].name, gate) == 0 && walls->rings[r].set;
     return set && !closes; /* by people at the page, or by a program */
+}
+
+bool *jox_run_opening_gates(const JoScene *scene) {
+    const JoxWalls *walls = &scene->world->model.all_walls;
+    bool *opening = jox_alloc((size_t)walls->ring_count + 1, sizeof *opening);
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        opening[r] = walls->rings[r].name && jox_run_opens(scene, walls->rings[r].name);
+    return opening;
 }
 
 /* Whether a check tells of it: doors and gates that something moves are no fault. */
@@ -267,7 +276,7 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     const uint32_t rows = spec->group_count + spec->source_count;
     Kept *kept = jox_alloc((size_t)(rows + 1) * JOX_HINDRANCE_KINDS, sizeof *kept);
-    JoxHindrances *hindrances = jox_hindrances_create(&stage, goals->places[n]);
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, goals->places[n], goals->opening);
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
         const float radius = jox_param(a, JOX_PARAM_radius, i);
@@ -354,8 +363,10 @@ void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_routes_see_bodies(&stage);
     const uint32_t first = add_from_sources(scene, &source_of);
     list_goals(scene->world, &goals);
+    goals.opening = jox_run_opening_gates(scene);
     for (uint32_t n = 0; n < goals.count; n++)
         check_goal(scene, &goals, n, first, source_of, diagnostics);
     jox_free(goals.of);
+    jox_free(goals.opening);
     jox_free(source_of);
 }

@@ -59,6 +59,10 @@ echo 'return { near = function(place) return near(place, 2) end }' >"$work/parts
 echo 'return ~stuck(2)' >"$work/parts/deep/calm.lua"
 expect "a library is no behaviour that lacks its machine" 0 "busy.lua: note: no machine, but a library of 1 value" "$JOSTLE" check "$work/parts"
 expect "  nor is a value that another file requires" 0 "deep/calm.lua: note: no machine, but a library" "$JOSTLE" check "$work/parts"
+mkdir -p "$work/circle"
+echo 'local b = require "b" return machine { name = "a", start = "A", states = { A = { steer = hold } } }' >"$work/circle/a.lua"
+echo 'local a = require "a" return { n = 1 }' >"$work/circle/b.lua"
+expect "files that require each other are refused" 3 "a.lua:1:19: cannot require 'b': it is being loaded, and leads back to itself" "$JOSTLE" check "$work/circle/a.lua"
 echo 'return { near = function(place) return near(place, 2) and lasted end }' >"$work/parts/busy.lua"
 expect "  what is wrong in it is told" 3 "busy.lua:1:55: 'and' decides" "$JOSTLE" check "$work/parts"
 echo 'local m = machine { name = "m", start = "A", states = { A = { steer = hold } } }' >"$work/parts/busy.lua"
@@ -289,6 +293,29 @@ grep -q "Leave a gap of 1.00 m at least, twice a radius" <(tr '\n' ' ' <"$work/o
 expect "  by a run, too" 1 "nobody can reach 'out': the way is narrower than they are at (6" "$JOSTLE" run "$work/broad.yaml" --for 6 --quiet
 sed -i "s/journey/profiles: {broad: {share: 1, set: {radius: 0.5}}, slim: {share: 1, set: {radius: 0.2}}}, journey/; s/set: {radius: 0.5}, p/p/; s/at: .* p/in: hall, count: 6, spacing: 1.1, p/" "$work/broad.yaml"
 expect "  and how many of them" 0 "of the 6 people of group 'g' cannot reach 'out': the way is narrower" "$JOSTLE" check "$work/broad.yaml"
+# A hall with a gate in the east that nothing opens, and one in the west that opens; then one behind the other.
+cat >"$work/west.yaml" <<'END'
+jostle: 1
+places: {hall: {polygon: [[1, 1], [5, 1], [5, 5], [1, 5]]}, out: {point: [10, 3]}}
+walls:
+  - {line: [[6, 2], [6, 0], [0, 0], [0, 2]]}
+  - {line: [[6, 4], [6, 6], [0, 6], [0, 4]]}
+  - {line: [[6, 2], [6, 4]], name: east}
+  - {line: [[0, 2], [0, 4]], name: west}
+groups: {g: {count: 3, in: hall, journey: [{exit: out}]}}
+events: [{at: 20, open: west}]
+END
+sed 's/\[0, 0\], \[0, 2\]/[0, 0], [0, 6]/; s/\[6, 6\], \[0, 6\], \[0, 4\]/[6, 6], [0, 6]/; s/\[\[0, 2\], \[0, 4\]\]/[[5.5, 0], [5.5, 6]]/' "$work/west.yaml" >"$work/row.yaml"
+expect "a gate that nothing opens is no fault where a way round leads through one that opens" 0 "nothing wrong" "$JOSTLE" check "$work/west.yaml"
+expect "  and people wait for that one" 0 "3 people wait to get to 'out', the first since 1 s: gate 'west' is closed" sh -c "'$JOSTLE' run '$work/west.yaml' --for 6 2>&1 | tr '\n' ' '"
+"$JOSTLE" run "$work/west.yaml" --for 6 --quiet; verdict "  with status 0" $?
+expect "  behind one that opens it is told" 0 "nobody of group 'g' can reach 'out': gate 'east' is closed at (6.0, 3.0) m, and nothing opens it" "$JOSTLE" check "$work/row.yaml"
+expect "  by a run, too" 1 "nobody can reach 'out': gate 'east' is closed" "$JOSTLE" run "$work/row.yaml" --for 6 --quiet
+sed 's/{exit: out}/{until: alarm}, {wait: 1, open: east}, {exit: hall}/' "$work/west.yaml" >"$work/waits.yaml"
+expect "a journey that waits for a gate that nothing opens is told, with its step" 0 "waits.yaml:8:60: warning: gate 'east' is closed, and nothing opens it" "$JOSTLE" check "$work/waits.yaml"
+expect "  for a signal, too" 0 "waits.yaml:8:44: warning: no machine of the scene gives the signal 'alarm'" "$JOSTLE" check "$work/waits.yaml"
+sed 's/open: east/open: west/' "$work/waits.yaml" >"$work/opens.yaml"
+"$JOSTLE" check "$work/opens.yaml" | grep -q "is closed, and nothing"; [ $? = 1 ]; verdict "  not one that an event opens" $?
 printf 'jostle: 1\nduration: 3\nwalls: [{solid: [[5, 0], [9, 0], [9, 4], [5, 4]]}]\nplaces: {hall: {polygon: [[1, 1], [4, 1], [4, 3], [1, 3]]}, desk: {polygon: [[6, 1], [8, 1], [8, 3], [6, 3]]}}\ngroups: {g: {count: 2, in: hall, journey: [{to: desk}]}}\n' >"$work/desk.yaml"
 expect "a step whose place lies in a wall is told by a run" 0 "nobody can be inside 'desk': it lies in a wall" "$JOSTLE" run "$work/desk.yaml"
 for who in 'at: [[1, 0.5], [20, 0.5]]|1 of the 2 people of group' 'count: 0|who comes in at'; do

@@ -15,16 +15,19 @@ enum { CLASSES = 64, MOST_STRIDES = 100000 };
 
 /* What a field takes into account, each with all before it. */
 typedef enum Layer {
-    WALLS,  /* that never open */
-    BODIES, /* that nothing moves */
-    ALL,    /* gates and all bodies as they stand */
+    WALLS,   /* that never open */
+    BODIES,  /* that nothing moves */
+    LASTING, /* closed gates that nothing opens */
+    ALL,     /* gates and all bodies as they stand */
     LAYERS
 } Layer;
 
 struct JoxHindrances {
     const JoxRouteStage *stage;
-    uint32_t place, gate;              /* gate: ring of the closed one on the place; UINT32_MAX */
-    JoxField *thin;                    /* layer WALLS for whoever passes the least gap */
+    JoxRouteStage later;  /* the stage, of layer LASTING: gates that something opens are open */
+    JoxWalls later_walls; /* with rings of its own alone */
+    uint32_t place, gate; /* gate: ring of the closed one on the place; UINT32_MAX */
+    JoxField *thin;       /* layer WALLS for whoever passes the least gap */
     JoxField *fields[CLASSES][LAYERS]; /* by class of radius */
 };
 
@@ -46,10 +49,21 @@ uint32_t jox_hindrance_gate_on(const JoxRouteStage *stage, uint32_t index) {
     return UINT32_MAX;
 }
 
-JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place) {
+JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place,
+                                     const bool *opening) {
+    const JoxWalls *walls = stage->all_walls;
     JoxHindrances *h = jox_alloc(1, sizeof *h);
-    *h = (JoxHindrances){
-        .stage = stage, .place = place, .gate = jox_hindrance_gate_on(stage, place)};
+    *h = (JoxHindrances){.stage = stage,
+                         .later = *stage,
+                         .later_walls = *walls,
+                         .place = place,
+                         .gate = jox_hindrance_gate_on(stage, place)};
+    h->later.all_walls = &h->later_walls;
+    h->later_walls.rings = jox_alloc((size_t)walls->ring_count + 1, sizeof *walls->rings);
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        h->later_walls.rings[r] = walls->rings[r];
+        h->later_walls.rings[r].open |= opening && opening[r];
+    }
     return h;
 }
 
@@ -58,18 +72,19 @@ void jox_hindrances_free(JoxHindrances *h) {
     for (int c = 0; c < CLASSES; c++)
         for (int layer = 0; layer < LAYERS; layer++)
             jox_field_free(h->fields[c][layer]);
+    jox_free(h->later_walls.rings);
     jox_free(h);
 }
 
 static JoxField *make_field(const JoxHindrances *h, Layer layer, float clearance) {
     const JoxRouteLook look = {
-        .gates = layer == ALL,
-        .bodies = layer == WALLS    ? 0
-                  : layer == BODIES ? 1u << JOX_OBSTACLE_FIXED
-                                    : JOX_OBSTACLES_ALL,
+        .gates = layer >= LASTING,
+        .bodies = layer == WALLS ? 0
+                  : layer == ALL ? JOX_OBSTACLES_ALL
+                                 : 1u << JOX_OBSTACLE_FIXED,
         .clearance = clearance,
     };
-    return jox_routes_look(h->stage, h->place, &look);
+    return jox_routes_look(layer == LASTING ? &h->later : h->stage, h->place, &look);
 }
 
 static int class_of(float radius) {
@@ -104,13 +119,12 @@ static JoxV2 middle_of(const JoxObstacle *body) {
     return jox_scale(sum, 1.0f / (float)body->count);
 }
 
-/* The closed gate, or the body of some kinds, that a stride passes or comes nearer to than `clear`
-   m. */
+/* The closed gate or the body of a layer that a stride passes or comes nearer to than `clear` m. */
 static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, float clear,
                      JoxHindrance *out) {
-    const JoxWalls *walls = h->stage->all_walls;
+    const JoxWalls *walls = layer == LASTING ? &h->later_walls : h->stage->all_walls;
     const JoxObstacles *bodies = jox_routes_obstacles(h->stage->routes);
-    for (uint32_t r = 0; layer == ALL && r < walls->ring_count; r++) {
+    for (uint32_t r = 0; layer >= LASTING && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t v = ring->first; ring->name && !ring->open && v < ring->first + ring->count;
              v++) {
@@ -122,7 +136,7 @@ static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, floa
             return true;
         }
     }
-    for (uint32_t b = 0; b < bodies->count; b++) {
+    for (uint32_t b = 0; layer != LASTING && b < bodies->count; b++) {
         const JoxObstacle *body = &bodies->items[b];
         if ((body->kind == JOX_OBSTACLE_FIXED) != (layer == BODIES) || body->count < 3 ||
             gap_to_body(body, q) >= clear)
@@ -146,6 +160,17 @@ static JoxHindrance trace_cut(const JoxHindrances *h, const JoxField *open, JoxV
         from = to;
     }
     return cut;
+}
+
+/* Finds what shuts the way: a gate that nothing opens where every way has one, else the first gate
+   or body on a way that leads on later. */
+static JoxHindrance trace_shut(JoxHindrances *h, int class, JoxV2 from, float clear) {
+    const JoxField *lasting = field_of(h, class, LASTING);
+    if (leads_from(lasting, from))
+        return trace_cut(h, lasting, from, ALL, clear);
+    const JoxField *bodies = field_of(h, class, BODIES);
+    const JoxHindrance cut = trace_cut(h, bodies, from, LASTING, clear);
+    return cut.by != UINT32_MAX ? cut : trace_cut(h, bodies, from, ALL, clear);
 }
 
 /* The first point on the way of `thin` from which the broad way leads on: where it was narrow. */
@@ -186,7 +211,7 @@ JoxHindrance jox_hindrances_find(JoxHindrances *h, JoxV2 from, float radius) {
     case JOX_HINDRANCE_GATE:
         if (h->gate != UINT32_MAX)
             return (JoxHindrance){kind, h->gate, h->stage->places[h->place].centre};
-        return trace_cut(h, field_of(h, class, BODIES), from, ALL, clear);
+        return trace_shut(h, class, from, clear);
     default:
         return (JoxHindrance){kind, UINT32_MAX, from};
     }

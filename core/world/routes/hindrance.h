@@ -30,10 +30,12 @@ uint32_t jox_hindrance_gate_on(const JoxRouteStage *stage, uint32_t place);
 typedef struct JoxHindrances JoxHindrances;
 
 /* The stage and what it points to outlive it and do not change. Bodies are taken as routes saw them
-   last. */
-JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place);
+   last. `opening`: by ring of all_walls, whether it is a gate that something opens; NULL: none. */
+JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place,
+                                     const bool *opening);
 void jox_hindrances_free(JoxHindrances *hindrances);
-/* What keeps a person of `radius` m at a point from the place. People squeeze through gaps of 1.4
+/* What keeps a person of `radius` m at a point from the place; of gates, one that nothing opens
+   where every way leads through such. People squeeze through gaps of 1.4
    radii and through none of less than 1.2; radii are rounded down to 0.02 m. */
 JoxHindrance jox_hindrances_find(JoxHindrances *hindrances, JoxV2 from, float radius);
 /* Its kind alone, without tracing the way; GATE stands for BODY, too. */
