@@ -1,5 +1,6 @@
-/* What states ask for besides a preferred velocity: parameters that are expressions, pushing,
-   approaching, kicking, holding on. */
+/* Actions of states besides the preferred velocity: computed parameters, pushing, approaching,
+   kicking, picking up, throwing, holding on. The stage think calls jox_machines_act after the
+   transitions. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -8,6 +9,7 @@
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
 
+/* Evaluates the computed parameters of a batch, and notes those that are odd. */
 static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
                            JoxRegisters registers, JoxOdd *odd) {
     const JoxMachine *machine = run->set->items[batch->machine];
@@ -17,7 +19,7 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
         const JoxValue *value = jox_state_parameter(machine, state, p);
         if (value->kind != JOX_VALUE_EXPRESSION)
             continue;
-        JOX_ASSERT(run->agents->param[p].mask); /* differ_by_programs saw to it */
+        JOX_ASSERT(run->agents->param[p].mask); /* differ_by_programs gave it cells */
         jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
                  registers);
         jox_odd_look(run, agents, batch->count, p, registers[0], odd);
@@ -26,7 +28,7 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
     }
 }
 
-/* Sets a column of bytes of some agents, who come by ascending index: often a whole run of them. */
+/* Sets a column of bytes for agents in ascending index; a contiguous range is filled at once. */
 static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, uint8_t value) {
     if (agents[count - 1] - agents[0] == count - 1) {
         jox_mem_fill(column + agents[0], value, count);
@@ -36,7 +38,7 @@ static void fill_bytes(uint8_t *column, const uint32_t *agents, uint32_t count, 
         column[agents[n]] = value;
 }
 
-/* Zeroes in a column of words. */
+/* Zeroes a column of words for agents in ascending index. */
 static void clear_words(uint32_t *words, const uint32_t *agents, uint32_t count) {
     if (agents[count - 1] - agents[0] == count - 1) {
         jox_mem_fill(words + agents[0], 0, count * sizeof *words);
@@ -46,6 +48,7 @@ static void clear_words(uint32_t *words, const uint32_t *agents, uint32_t count)
         words[agents[n]] = 0;
 }
 
+/* Writes what the state of a batch says of pushing and approaching, and ends holds. */
 static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
                           JoxRegisters registers) {
     const JoxMachine *machine = run->set->items[batch->machine];
@@ -61,7 +64,7 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     clear_words(run->agents->approach, agents, batch->count);
     clear_words(run->agents->approached, agents, batch->count);
     if (state->grasp < 0)
-        clear_words(run->agents->grasped, agents, batch->count); /* it lets go */
+        clear_words(run->agents->grasped, agents, batch->count); /* lets go */
     for (uint32_t n = 0; state->push_toward >= 0 && n < batch->count; n++) {
         const uint32_t i = agents[n];
         JoxSpot spot = jox_target_find(run, i, state->push_toward);
@@ -79,10 +82,11 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     }
 }
 
-/* What expressions write, on many threads, has a cell for each agent. */
+/* Gives a cell per agent to each parameter that an expression computes, since worker threads write
+   them. */
 static void differ_by_programs(JoxMachineRun *run) {
     const JoxMachineScratch *s = run->scratch;
-    const JoxState *last = NULL; /* those in one state come one after the other */
+    const JoxState *last = NULL; /* batches of one state are adjacent */
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxMachine *machine = run->set->items[s->batches[b].machine];
         const JoxState *state = &machine->states[s->batches[b].state];
@@ -103,8 +107,10 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     }
 }
 
-/* The impulse of a kick: through the body's centre, level, towards kick_at or straight ahead. */
-static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+/* Kicks the target of the state if the agent touches it: a horizontal impulse through the body's
+   centre, towards kick_at or straight ahead. */
+static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
     JoxAgents *a = run->agents;
     JoxSpot ball = jox_target_find(run, i, state->kick);
     if (ball.object < 0 || run->tick < a->kick_ready[i] || jox_spot_gap(run, i, &ball) >= 0.05f)
@@ -124,7 +130,7 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     double change = jox_value(run, machine, &state->kick_impulse, i);
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
         return;
-    JOX_ASSERT(object->inverse_mass > 0.0f); /* what moves has a finite mass */
+    JOX_ASSERT(object->inverse_mass > 0.0f); /* a body that moves has a finite mass */
     float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
     run->kicks[run->kick_count++] = (JoxImpulse){
@@ -133,18 +139,19 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
-static const float REACH = 0.6f;     /* m: the gap over which a body is picked up */
-static const float CATCHABLE = 8.0f; /* m/s: what is faster is not caught */
+static const float REACH = 0.6f;     /* m: greatest gap over which a body is picked up */
+static const float CATCHABLE = 8.0f; /* m/s: faster bodies are not caught */
 
+/* Adds a pick-up or throw, unless another agent has one of the same body. */
 static void add_grip(JoxMachineRun *run, JoxGrip grip) {
     for (uint32_t g = 0; g < run->grip_count; g++)
         if (run->grips[g].object == grip.object)
-            return; /* who has the lower id was first */
+            return; /* the agent with the lower id was first */
     JOX_RESERVE(run->grips, run->grip_capacity, run->grip_count + 1);
     run->grips[run->grip_count++] = grip;
 }
 
-/* Whether no wall, nor a body that stands fast, keeps an agent's hands from a body. */
+/* Returns whether an agent's hands reach a body, past walls and fixed bodies. */
 static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *body) {
     const JoxV2 from = {run->agents->x[i], run->agents->y[i]}, to = {body->x, body->y};
     JoxHands *hands = &run->scratch->hands;
@@ -153,7 +160,8 @@ static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *bod
     return jox_hands_reach(hands, from, to);
 }
 
-static void take(JoxMachineRun *run, const JoxState *state, uint32_t i) {
+/* Picks up the target of the state if it is within reach, slow, and not held. */
+static void pick_up_body(JoxMachineRun *run, const JoxState *state, uint32_t i) {
     const JoxAgents *a = run->agents;
     JoxSpot spot = jox_target_find(run, i, state->take);
     if (spot.object < 0 || jox_holding(run, i, state->take) >= 0)
@@ -166,8 +174,10 @@ static void take(JoxMachineRun *run, const JoxState *state, uint32_t i) {
                  (JoxGrip){.object = (uint32_t)spot.object, .agent_id = a->id[i], .takes = true});
 }
 
-/* Thrown at the target with a level speed, so high that it arrives at the height it left. */
-static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+/* Throws the held body at the target with a given horizontal speed, and the vertical speed with
+   which it arrives at the target's height. */
+static void throw_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                       uint32_t i) {
     JoxAgents *a = run->agents;
     int32_t row = jox_holding(run, i, state->toss);
     JoxSpot at = jox_target_find(run, i, state->toss_at);
@@ -179,7 +189,7 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     if (distance < 1e-3f)
         return;
     float flight = distance / level;
-    /* A place lies on the ground, somebody is hit at the height of the hand. */
+    /* A place lies on the ground; an agent is hit at the height of the hand. */
     float drop = at.place >= 0 ? JOX_HAND_HEIGHT : 0.0f;
     float rise = 0.5f * (float)run->gravity * flight - drop / flight;
     way = jox_scale(way, level / distance);
@@ -189,42 +199,42 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     a->kicked[i] = jox_reference(row);
 }
 
-/* Lists all who are in states of which something holds, by id. */
-static void list_those(JoxMachineRun *run, bool (*of)(const JoxState *state)) {
+/* Lists all agents whose state satisfies `matches` in scratch->list, by id. */
+static void list_agents_in(JoxMachineRun *run, bool (*matches)(const JoxState *state)) {
     JoxMachineScratch *s = run->scratch;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const bool all = of(&run->set->items[batch->machine]->states[batch->state]);
+        const bool all = matches(&run->set->items[batch->machine]->states[batch->state]);
         for (uint32_t n = 0; all && n < batch->count; n++)
             s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
     jox_sort_by_id(run, s->list, s->list_count);
 }
 
-static bool does_to_bodies(const JoxState *state) {
+static bool acts_on_bodies(const JoxState *state) {
     return state->kick >= 0 || state->take >= 0 || state->toss >= 0;
 }
 
-static bool grasps(const JoxState *state) {
+static bool holds_on(const JoxState *state) {
     return state->grasp >= 0;
 }
 
-/* All that is done to bodies, by id of who does it. */
-static void kick_all(JoxMachineRun *run) {
+/* Kicks, throws and picks up for all agents, by id. */
+static void act_on_bodies(JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
     JoxMachineScratch *s = run->scratch;
-    list_those(run, does_to_bodies);
+    list_agents_in(run, acts_on_bodies);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (state->kick >= 0)
-            kick(run, machine, state, i);
+            kick_body(run, machine, state, i);
         if (state->toss >= 0)
-            toss(run, machine, state, i);
+            throw_body(run, machine, state, i);
         if (state->take >= 0)
-            take(run, state, i);
+            pick_up_body(run, state, i);
     }
 }
 
@@ -243,9 +253,9 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
     jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
     if (run->objects && run->objects->count)
-        kick_all(run);
+        act_on_bodies(run);
     jox_mem_fill(a->held, 0, a->count);
-    list_those(run, grasps);
+    list_agents_in(run, holds_on);
     jox_machines_grasp(run, run->scratch->list, run->scratch->list_count);
     JOX_CHECK(jox_acts_check(run));
 }

@@ -1,5 +1,5 @@
-/* How often transitions were taken, over all versions of a machine that ran, and how long agents
-   were in its states. */
+/* Statistics of a machine over all its versions: how often transitions were taken, and how long
+   agents were in its states. */
 #include <math.h>
 #include <string.h>
 
@@ -23,10 +23,10 @@ void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine, uint3
     counts->since = tick;
 }
 
-enum { LOOKED_AT = 16 }; /* steps between two looks at what people perceive */
+enum { LOOKED_AT = 16 }; /* steps between two samples of perception */
 
-/* The greatest perception in a batch, m. */
-static float sight_of(const JoxMachineRun *run, const JoxBatchRange *batch) {
+/* Returns the greatest perception in a batch, m. */
+static float find_greatest_perception(const JoxMachineRun *run, const JoxBatchRange *batch) {
     const JoxParameterColumn perception = run->agents->param[JOX_PARAM_perception];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     float sight = 0.0f;
@@ -44,7 +44,7 @@ void jox_counts_spend(JoxMachineRun *run) {
         counts->steps +=
             b == 0 || batch[-1].machine != batch->machine || batch[-1].state != batch->state;
         if (run->tick % LOOKED_AT == 0)
-            counts->sight = fmax(counts->sight, (double)sight_of(run, batch));
+            counts->sight = fmax(counts->sight, (double)find_greatest_perception(run, batch));
     }
 }
 
@@ -71,16 +71,16 @@ void jox_counts_free(JoxMachineCounts *counts) {
     *counts = (JoxMachineCounts){0};
 }
 
-/* What older versions counted between two states. */
-static uint64_t before(const JoxMachineCounts *counts, const char *from, const char *to) {
+/* Returns how often older versions went from one state to another. */
+static uint64_t find_old_count(const JoxMachineCounts *counts, const char *from, const char *to) {
     for (uint32_t b = 0; b < counts->before_count; b++)
         if (!strcmp(counts->before[b].from, from) && !strcmp(counts->before[b].to, to))
             return counts->before[b].taken;
     return 0;
 }
 
-/* Whether a transition of this version leads from one to the other. */
-static bool leads(const JoxMachine *machine, const char *from, const char *to) {
+/* Returns whether this version has a transition between two states. */
+static bool has_transition(const JoxMachine *machine, const char *from, const char *to) {
     int state = jox_machine_state(machine, from);
     for (uint32_t k = 0; state >= 0 && k < machine->states[state].transition_count; k++)
         if (!strcmp(machine->states[machine->states[state].transitions[k].to].name, to))
@@ -96,18 +96,18 @@ void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit 
         const JoxState *from = &machine->states[s];
         for (uint32_t k = 0; k < from->transition_count; k++) {
             const char *to = machine->states[from->transitions[k].to].name;
-            uint64_t sum = before(counts, from->name, to);
+            uint64_t sum = find_old_count(counts, from->name, to);
             bool first = true;
             for (uint32_t o = 0; o < from->transition_count; o++)
                 if (from->transitions[o].to == from->transitions[k].to) {
                     first &= o >= k;
                     sum += counts->taken[from->first_transition + o];
                 }
-            if (first) /* several may lead to the same state */
+            if (first) /* several transitions may lead to the same state */
                 visit(context, from->name, to, sum);
         }
     }
     for (uint32_t b = 0; b < counts->before_count; b++)
-        if (!leads(machine, counts->before[b].from, counts->before[b].to))
+        if (!has_transition(machine, counts->before[b].from, counts->before[b].to))
             visit(context, counts->before[b].from, counts->before[b].to, counts->before[b].taken);
 }

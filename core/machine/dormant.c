@@ -1,5 +1,5 @@
-/* Memory that a version of a machine lacks and an earlier one had: it is kept, out of sight, until
-   a later version names it again. */
+/* Dormant memory: slots of earlier versions of a machine that the present version does not name.
+   They are kept hidden until a later version names them again. Called by replace.c. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,9 +16,9 @@ const char *jox_name_before(const JoxMachine *old, const JoxMachine *next, JoxPa
     return name;
 }
 
-/* What a slot of the new version was in the old one: its identity then. */
-static const char *identity_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot,
-                                   char buffer[256]) {
+/* Returns the identity that a slot of the new version had in the old one; `buffer` may hold it. */
+static const char *find_old_identity(const JoxMachine *old, const JoxMachine *next, uint32_t slot,
+                                     char buffer[256]) {
     const char *is = jox_memory_identity(&next->memory[slot]);
     const bool counter = *is == *JOX_IDENTITY_ANGLE || *is == *JOX_IDENTITY_BEGUN;
     const char *before = jox_name_before(old, next, JOX_PART_MEMORY, is + counter);
@@ -31,8 +31,8 @@ static const char *identity_before(const JoxMachine *old, const JoxMachine *next
 int32_t jox_memory_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
     char buffer[256];
     const JoxMemorySlot *now = &next->memory[slot];
-    const char *before = identity_before(old, next, slot, buffer);
-    uint32_t nth = 0; /* states may have counters of the same name */
+    const char *before = find_old_identity(old, next, slot, buffer);
+    uint32_t nth = 0; /* several states may have counters of the same name */
     for (uint32_t s = 0; s < slot; s++)
         nth += next->memory[s].kind == now->kind &&
                strcmp(jox_memory_identity(&next->memory[s]), jox_memory_identity(now)) == 0;
@@ -43,8 +43,8 @@ int32_t jox_memory_before(const JoxMachine *old, const JoxMachine *next, uint32_
     return -1;
 }
 
-/* Whether an old slot goes on in the new version. */
-static bool goes_on(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
+/* Returns whether an old slot continues in the new version. */
+static bool continues_slot(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
     for (uint32_t s = 0; s < next->memory_count; s++)
         if (jox_memory_before(old, next, s) == (int32_t)slot)
             return true;
@@ -62,7 +62,7 @@ void jox_dormant_add(JoxMachine *machine, const char *identity, JoxMemoryKind ki
                                                                .initial = initial};
 }
 
-/* Takes the oldest dormant slots out beyond what is kept: they were added first. */
+/* Removes the oldest dormant slots beyond JOX_MOST_DORMANT; the oldest come first. */
 static void drop_oldest(JoxMachine *machine) {
     uint32_t dormant = 0, kept = 0;
     for (uint32_t s = 0; s < machine->memory_count; s++)
@@ -79,10 +79,10 @@ static void drop_oldest(JoxMachine *machine) {
     machine->memory_count = kept;
 }
 
-/* Name of the memory that the new version renames to a dormant slot's name, in whose place it
-   comes; NULL: there is none. */
-static const char *replaced_by(const JoxMachine *old, const JoxMachine *next,
-                               const JoxMemorySlot *slot) {
+/* Returns the old name of the memory that the new version renames to a dormant slot's name, and
+   that replaces it; NULL: none. */
+static const char *find_replacing_name(const JoxMachine *old, const JoxMachine *next,
+                                       const JoxMemorySlot *slot) {
     const char *is = jox_memory_identity(slot);
     const char *name = is + (*is == *JOX_IDENTITY_ANGLE || *is == *JOX_IDENTITY_BEGUN);
     const char *before = jox_name_before(old, next, JOX_PART_MEMORY, name);
@@ -90,29 +90,30 @@ static const char *replaced_by(const JoxMachine *old, const JoxMachine *next,
 }
 
 void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
-    for (int dormant = 1; dormant >= 0; dormant--) /* the oldest first */
+    for (int dormant = 1; dormant >= 0; dormant--) /* oldest first */
         for (uint32_t s = 0; s < old->memory_count; s++) {
             const JoxMemorySlot *slot = &old->memory[s];
             if (slot->dormant == (dormant != 0) && *jox_memory_identity(slot) &&
-                !goes_on(old, next, s) && !replaced_by(old, next, slot))
+                !continues_slot(old, next, s) && !find_replacing_name(old, next, slot))
                 jox_dormant_add(next, jox_memory_identity(slot), slot->kind, slot->initial);
         }
     drop_oldest(next);
 }
 
-/* ---- what people are told ---- */
+/* ---- messages ---- */
 
-static bool is_written(const JoxMemorySlot *slot) {
+/* Returns whether the slot is memory of the behaviour's author, not of a counter or a post. */
+static bool is_named_by_author(const JoxMemorySlot *slot) {
     const char *identity = jox_memory_identity(slot);
     return *identity > '\2' && strcmp(identity, "home x") != 0 && strcmp(identity, "home y") != 0;
 }
 
-static const char *kind_of(const JoxMemorySlot *slot) {
+static const char *describe_kind(const JoxMemorySlot *slot) {
     return slot->kind == JOX_MEMORY_BOOLEAN ? "true or false" : "a number";
 }
 
-/* Slot of the new version with the name of an old one that it does not go on from; -1: none. */
-static int32_t of_other_kind(const JoxMachine *next, const JoxMemorySlot *slot) {
+/* Returns the slot of the new version that has the name of `slot` but another kind, or -1. */
+static int32_t find_slot_of_other_kind(const JoxMachine *next, const JoxMemorySlot *slot) {
     for (uint32_t s = 0; s < next->memory_count; s++)
         if (*next->memory[s].name && strcmp(next->memory[s].name, jox_memory_identity(slot)) == 0 &&
             next->memory[s].kind != slot->kind)
@@ -120,23 +121,24 @@ static int32_t of_other_kind(const JoxMachine *next, const JoxMemorySlot *slot) 
     return -1;
 }
 
-/* Tells of a memory that is now of another kind, which people may have had of that kind before. */
-static void tell_of_kind(const JoxMachine *old, const JoxMachine *next, const JoxMemorySlot *now,
-                         uint32_t other, const char *people, JoxText *out) {
+/* Tells that a memory changed its kind, so that its old values become dormant. */
+static void tell_kind_changed(const JoxMachine *old, const JoxMachine *next,
+                              const JoxMemorySlot *now, uint32_t other, const char *people,
+                              JoxText *out) {
     jox_text_printf(out, " memory '%.60s' was %s and is %s now: ", jox_memory_identity(now),
-                    kind_of(now), kind_of(&next->memory[other]));
+                    describe_kind(now), describe_kind(&next->memory[other]));
     if (jox_memory_before(old, next, other) < 0)
         jox_text_printf(out, "%s begin with what it begins with, and ", people);
-    jox_text_printf(out, "what they had is kept until it is %s again\n", kind_of(now));
+    jox_text_printf(out, "what they had is kept until it is %s again\n", describe_kind(now));
 }
 
-/* Tells of dormant memory that the new version no longer keeps. */
-static void tell_of_dropped(const JoxMachine *old, const JoxMachine *next, JoxText *out) {
+/* Tells which dormant memory the new version drops. */
+static void tell_dropped(const JoxMachine *old, const JoxMachine *next, JoxText *out) {
     for (uint32_t s = 0; s < old->memory_count; s++) {
         const JoxMemorySlot *slot = &old->memory[s];
-        if (!slot->dormant || !is_written(slot) || goes_on(old, next, s))
+        if (!slot->dormant || !is_named_by_author(slot) || continues_slot(old, next, s))
             continue;
-        const char *by = replaced_by(old, next, slot);
+        const char *by = find_replacing_name(old, next, slot);
         const char *name = jox_memory_identity(slot);
         if (by)
             jox_text_printf(out,
@@ -156,12 +158,12 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
         const JoxMemorySlot *now = &next->memory[s];
         const int32_t from = jox_memory_before(old, next, s);
         const JoxMemorySlot *was = from < 0 ? NULL : &old->memory[from];
-        if (!was || was->dormant == now->dormant || !is_written(now))
+        if (!was || was->dormant == now->dormant || !is_named_by_author(now))
             continue;
         const char *name = jox_memory_identity(now);
-        const int32_t other = now->dormant ? of_other_kind(next, now) : -1;
+        const int32_t other = now->dormant ? find_slot_of_other_kind(next, now) : -1;
         if (other >= 0)
-            tell_of_kind(old, next, now, (uint32_t)other, people, out);
+            tell_kind_changed(old, next, now, (uint32_t)other, people, out);
         else if (now->dormant)
             jox_text_printf(out, " memory '%.60s' of %s is kept until a version names it again\n",
                             name, people);
@@ -169,5 +171,5 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
             jox_text_printf(out, " memory '%.60s' of %s is what it was when it was last named\n",
                             name, people);
     }
-    tell_of_dropped(old, next, out);
+    tell_dropped(old, next, out);
 }

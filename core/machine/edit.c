@@ -1,22 +1,22 @@
-/* Parameters that people set while a world runs. They are state; the machine that runs is a copy of
-   the one that was built, with them applied. */
+/* Parameters that people set during a run. The edits are state; the machine that runs is a copy of
+   the built one with the edits applied. */
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
-/* The own slot that a machine's default of a parameter draws, or -1. */
-static int32_t slot_of(const JoxMachine *machine, int32_t state, int parameter) {
+/* Returns the own slot from which a machine's default of a parameter is drawn, or -1. */
+static int32_t find_own_slot(const JoxMachine *machine, int32_t state, int parameter) {
     for (uint32_t s = 0; state < 0 && s < machine->own_count; s++)
         if (strcmp(machine->own[s].name, jox_parameters[parameter].name) == 0)
             return (int32_t)s;
     return -1;
 }
 
-static void apply(JoxMachine *machine, const JoxParameterEdit *edit) {
+static void apply_edit(JoxMachine *machine, const JoxParameterEdit *edit) {
     const JoxValue set = {JOX_VALUE_CONST, edit->value, 0, JOX_LINE_LIVE, 0};
-    int32_t slot = slot_of(machine, edit->state, edit->parameter);
+    int32_t slot = find_own_slot(machine, edit->state, edit->parameter);
     JOX_ASSERT(edit->state < (int32_t)machine->state_count);
     if (slot >= 0)
         machine->own[slot].dist = jox_dist_constant(edit->value);
@@ -24,9 +24,9 @@ static void apply(JoxMachine *machine, const JoxParameterEdit *edit) {
                       : &machine->states[edit->state].param[edit->parameter]) = set;
 }
 
-/* The copy: its states and own slots are its own, all that they point to belongs to the built one.
- */
-static JoxMachine *copy_of(JoxMachineSet *set, uint32_t index) {
+/* Returns the copy of a machine, renewed from the built one. It owns its states and own slots;
+   everything that they point to belongs to the built machine. */
+static JoxMachine *renew_copy(JoxMachineSet *set, uint32_t index) {
     const JoxMachine *built = set->built[index];
     JoxMachine *copy = set->edited[index];
     JoxState *states;
@@ -55,8 +55,8 @@ void jox_edits_apply(JoxMachineRun *run, uint32_t index) {
     for (uint32_t e = 0; e < state->edit_count; e++) {
         if (state->edits[e].machine != index)
             continue;
-        copy = copy ? copy : copy_of(set, index);
-        apply(copy, &state->edits[e]);
+        copy = copy ? copy : renew_copy(set, index);
+        apply_edit(copy, &state->edits[e]);
     }
     set->items[index] = copy ? copy : set->built[index];
 }
@@ -78,8 +78,8 @@ void jox_edits_end(JoxMachineRun *run, uint32_t index) {
     set->edited[index] = NULL;
 }
 
-/* Adds an edit, in place of one of the same parameter. */
-static void keep(JoxMachineState *state, JoxParameterEdit edit) {
+/* Adds an edit; it replaces one of the same parameter. */
+static void store_edit(JoxMachineState *state, JoxParameterEdit edit) {
     uint32_t kept = 0;
     for (uint32_t e = 0; e < state->edit_count; e++) {
         const JoxParameterEdit *old = &state->edits[e];
@@ -92,7 +92,7 @@ static void keep(JoxMachineState *state, JoxParameterEdit edit) {
     state->edits[state->edit_count++] = edit;
 }
 
-/* Writes what the agent's state says of a parameter, where it is a number or an own value. */
+/* Writes a parameter of the agent's state to its column, if it is a constant or an own value. */
 static void write_parameter(JoxMachineRun *run, uint32_t i, int p) {
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxValue *value =
@@ -106,10 +106,10 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t numb
                                 double value) {
     JoxAgents *a = run->agents;
     run->edits_made++;
-    keep(run->state, (JoxParameterEdit){index, number, parameter, 0, value});
+    store_edit(run->state, (JoxParameterEdit){index, number, parameter, 0, value});
     jox_edits_apply(run, index);
     const JoxMachine *machine = run->set->items[index];
-    int32_t slot = slot_of(machine, number, parameter);
+    int32_t slot = find_own_slot(machine, number, parameter);
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] != index || (number >= 0 && a->state[i] != number))
             continue;

@@ -1,10 +1,11 @@
-/* An agent enters a state: its clock, its duration, a goal and the parameters that are constant. */
+/* Entering a state: clock, duration, goal, and constant parameters. Called at spawning, by
+   transitions and between steps. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
 
-/* A set's member for this entry, for targets of the state that ask for one. */
+/* Draws a member of a set as the agent's goal, if a target of the state is "one of" a set. */
 static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxAgents *a = run->agents;
@@ -65,7 +66,7 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
     JOX_ASSERT(to < machine->state_count && i < a->count);
-    if (a->state[i] != to) /* what stays zero takes no memory */
+    if (a->state[i] != to) /* columns that stay zero take no memory */
         a->state[i] = to;
     if (a->entered[i] != run->tick)
         a->entered[i] = run->tick;
@@ -74,7 +75,8 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     a->lasts[i] = INFINITY;
     if (jox_queue_target(state) < 0 && a->queue_at[i])
         a->queue_at[i] = 0;
-    if (a->turn[i] && !jox_gather_term(state)) /* from state to state it keeps its turn */
+    if (a->turn[i] && !jox_gather_term(state)) /* it keeps its turn in states that wait in the same
+                                                  way */
         a->turn[i] = 0;
     if (state->has_lasts)
         a->lasts[i] =

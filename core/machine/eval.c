@@ -1,5 +1,6 @@
-/* Programs over batches: one dispatch per instruction for up to 256 agents. What is arithmetic, or
-   lies in the agents' columns, is done by the kernel (eval_wide.c), the rest here. */
+/* Evaluates expressions over batches: one dispatch per instruction for up to JOX_BATCH agents.
+   Arithmetic and the agents' columns are left to the kernel (eval_wide.c); words on the
+   surroundings are evaluated here, agent by agent. */
 #include <math.h>
 #include <string.h>
 
@@ -7,19 +8,20 @@
 #include "base/number/pi.h"
 #include "machine/kernels.h"
 
-/* Where nobody chose an instruction set, the plain one. */
+/* Kernels by instruction set; scalar if none was chosen. */
 #define X(name, isa) [isa] = jox_eval_numbers_##name,
 static JoxEvalKernel *const KERNELS[JOX_ISA_ROOM] = {[JO_ISA_WIDEST] = jox_eval_numbers_scalar,
                                                      JOX_ISAS(X)};
 #undef X
 
-static double people_in(const JoxMachineRun *run, int32_t place) {
+static double find_counted_people(const JoxMachineRun *run, int32_t place) {
     uint32_t people = run->scratch->place_people[place];
     return people == UINT32_MAX ? 0.0 : people;
 }
 
-/* Area over which a place's people are counted: the polygon's, else a disc of 2 m. */
-static double counted_area(const JoxPlace *place) {
+/* Returns the area over which people of a place are counted, m2: the polygon, else a disc of 2
+   m. */
+static double find_counted_area(const JoxPlace *place) {
     return jox_place_is_area(place) ? jox_polygon_area(place->points, place->count) : 4.0 * JOX_PI;
 }
 
@@ -34,9 +36,9 @@ static bool is_inside(const JoxMachineRun *run, uint32_t i, int32_t target, int3
            jox_place_is_reached(run->places, (uint32_t)place, run->walls, jox_v2(spot.x, spot.y));
 }
 
-/* Agents of whom all ask about one place, whether they are there themselves. */
-static void all_inside(const JoxMachineRun *run, const uint32_t *agents, uint32_t count,
-                       uint32_t place, double *to) {
+/* Evaluates INSIDE for agents that all ask about the same place and about themselves. */
+static void eval_inside_one_place(const JoxMachineRun *run, const uint32_t *agents, uint32_t count,
+                                  uint32_t place, double *to) {
     JoxV2 at[JOX_BATCH];
     bool there[JOX_BATCH];
     for (uint32_t n = 0; n < count; n++)
@@ -46,24 +48,25 @@ static void all_inside(const JoxMachineRun *run, const uint32_t *agents, uint32_
         to[n] = there[n];
 }
 
-static void inside(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
-                   const uint32_t *agents, uint32_t count, double *to) {
+static void eval_inside(const JoxMachineRun *run, const JoxMachine *machine,
+                        const JoxInstruction *in, const uint32_t *agents, uint32_t count,
+                        double *to) {
     int32_t places[JOX_BATCH];
     jox_target_places(run, machine, in->place, agents, count, places);
     uint32_t alike = 0;
     while (alike < count && places[alike] == places[0])
         alike++;
     if (alike == count && in->target < 0 && places[0] >= 0) {
-        all_inside(run, agents, count, (uint32_t)places[0], to);
+        eval_inside_one_place(run, agents, count, (uint32_t)places[0], to);
         return;
     }
     for (uint32_t n = 0; n < count; n++)
         to[n] = is_inside(run, agents[n], in->target, places[n]);
 }
 
-/* Whether some agents, of whom place `index` is the one that is asked about, crossed it. */
-static void cross(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int32_t index,
-                  double *to) {
+/* Evaluates CROSSES for agents that all ask about place `index`, -1: none. */
+static void eval_crossing_of_line(const JoxMachineRun *run, const uint32_t *agents, uint32_t count,
+                                  int32_t index, double *to) {
     const JoxAgents *a = run->agents;
     const JoxPlace *line = index < 0 ? NULL : &run->places[index];
     const bool is_line = line && jox_place_is_line(line);
@@ -76,15 +79,17 @@ static void cross(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
     }
 }
 
-static void crosses(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
-                    const uint32_t *agents, uint32_t count, double *to) {
+static void eval_crosses(const JoxMachineRun *run, const JoxMachine *machine,
+                         const JoxInstruction *in, const uint32_t *agents, uint32_t count,
+                         double *to) {
     const bool one = in->place >= 0 && machine->targets[in->place].kind == JOX_TARGET_PLACE;
-    const uint32_t step = one ? count : 1; /* as many as ask about one place */
+    const uint32_t step = one ? count : 1; /* a target that is a place is the same for all agents */
     for (uint32_t n = 0; n < count; n += step)
-        cross(run, agents + n, step, jox_target_place(run, agents[n], in->place), to + n);
+        eval_crossing_of_line(run, agents + n, step, jox_target_place(run, agents[n], in->place),
+                              to + n);
 }
 
-/* Whether the gap to a spot is below so many metres; somebody or a body behind a wall is not
+/* Returns whether the gap to a spot is below `gap`, m; agents and bodies behind a wall are never
    touched. */
 static bool is_touching(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, float gap) {
     const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
@@ -92,8 +97,8 @@ static bool is_touching(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
            (spot->place >= 0 || !jox_is_hidden(run, at, (JoxV2){spot->x, spot->y}, true));
 }
 
-/* Whether a target is nearer than so many metres; of a place, no wall may lie between. */
-static bool is_near(const JoxMachineRun *run, uint32_t i, int32_t target, double metres) {
+/* Returns whether a target is nearer than `metres`; a place only if no wall lies between. */
+static bool is_target_near(const JoxMachineRun *run, uint32_t i, int32_t target, double metres) {
     const int32_t place = jox_target_place(run, i, target);
     if (place < 0)
         return jox_target_distance(run, i, target) < metres;
@@ -101,7 +106,7 @@ static bool is_near(const JoxMachineRun *run, uint32_t i, int32_t target, double
                              (JoxV2){run->agents->x[i], run->agents->y[i]}, metres);
 }
 
-/* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
+/* Returns whether the spot, at its present velocity, comes within `reach` m during the next 2 s. */
 static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, double reach) {
     const JoxAgents *a = run->agents;
     if (!spot->found)
@@ -115,9 +120,9 @@ static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
     return jox_length(jox_add(d, jox_scale(v, when))) < (float)reach;
 }
 
-/* Words about something outside the agent; `a` is the first input. */
-static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
-                    const JoxInstruction *in, double a) {
+/* Evaluates a word about the agent's surroundings; `a` is the first input. */
+static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
+                                const JoxInstruction *in, double a) {
     int32_t place;
     JoxSpot spot;
     switch ((JoxOp)in->op) {
@@ -125,12 +130,13 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return jox_target_distance(run, i, in->target);
     case JOX_OP_PLACE_DENSITY:
         place = jox_target_place(run, i, in->place);
-        return place < 0 ? 0.0 : people_in(run, place) / counted_area(&run->places[place]);
+        return place < 0 ? 0.0
+                         : find_counted_people(run, place) / find_counted_area(&run->places[place]);
     case JOX_OP_PLACE_COUNT:
         place = jox_target_place(run, i, in->place);
-        return place < 0 ? 0.0 : people_in(run, place);
+        return place < 0 ? 0.0 : find_counted_people(run, place);
     case JOX_OP_NEAR:
-        return is_near(run, i, in->target, a);
+        return is_target_near(run, i, in->target, a);
     case JOX_OP_FIRST_IN:
         return run->scratch->rank[i] == 0;
     case JOX_OP_TOUCHES:
@@ -141,7 +147,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return spot.object >= 0 && run->objects->rows[spot.object].grounded;
     case JOX_OP_KICKED:
         return jox_target_means(run, i, in->target, jox_referred(run->agents->kicked[i]));
-    case JOX_OP_HIT_BY: /* who was hit may be far from what bounced off by now */
+    case JOX_OP_HIT_BY: /* the body may have bounced off and be far away by now */
         if (jox_target_means(run, i, in->target, jox_referred(run->agents->struck[i])))
             return true;
         spot = jox_target_find(run, i, in->target);
@@ -169,8 +175,8 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     }
 }
 
-/* Whether gates have the name and none of them stands: the same for all. */
-static bool is_open(const JoxMachineRun *run, const char *gate) {
+/* Returns whether gates of this name exist and all of them are open. */
+static bool are_gates_open(const JoxMachineRun *run, const char *gate) {
     bool any = false;
     for (uint32_t r = 0; run->walls && r < run->walls->ring_count; r++) {
         const struct JoxWallRing *ring = &run->walls->rings[r];
@@ -183,20 +189,21 @@ static bool is_open(const JoxMachineRun *run, const char *gate) {
     return any;
 }
 
-static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
-                    const uint32_t *agents, uint32_t count, JoxRegisters r) {
+static void execute_instruction(const JoxMachineRun *run, const JoxMachine *machine,
+                                const JoxInstruction *in, const uint32_t *agents, uint32_t count,
+                                JoxRegisters r) {
     double *to = r[in->to];
     if (in->op == JOX_OP_INSIDE) {
-        inside(run, machine, in, agents, count, to);
+        eval_inside(run, machine, in, agents, count, to);
     } else if (in->op == JOX_OP_CROSSES) {
-        crosses(run, machine, in, agents, count, to);
+        eval_crosses(run, machine, in, agents, count, to);
     } else if (in->op == JOX_OP_OPEN) {
-        const double open = is_open(run, machine->names[in->name].text);
+        const double open = are_gates_open(run, machine->names[in->name].text);
         for (uint32_t n = 0; n < count; n++)
             to[n] = open;
     } else if (!KERNELS[run->isa](run, in, agents, count, r)) {
         for (uint32_t n = 0; n < count; n++)
-            to[n] = sense(run, machine, agents[n], in, r[in->a][n]);
+            to[n] = eval_surroundings(run, machine, agents[n], in, r[in->a][n]);
     }
 }
 
@@ -212,9 +219,9 @@ void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpr
     JOX_ASSERT(count <= JOX_BATCH);
     const JoxInstruction *code = expression->code;
     for (uint32_t i = 0; i < expression->count; i++) {
-        execute(run, machine, &code[i], agents, count, registers);
+        execute_instruction(run, machine, &code[i], agents, count, registers);
         while (code[i].skip && jox_holds_for_nobody(registers[code[i].to], count))
-            i += code[i].skip; /* an AND: its result stands where its left side's does */
+            i += code[i].skip; /* an AND: its result is its left side's, 0 for all */
     }
 }
 

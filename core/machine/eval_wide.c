@@ -1,5 +1,5 @@
-/* The kernel of programs: what is arithmetic, or is read from the agents' columns. Arithmetic is of
-   vectors of the compiler's, as wide as the instruction set's, each number as plain C has it. */
+/* Kernel of expressions: arithmetic, and words that are read from the agents' columns. Arithmetic
+   uses vectors of doubles as wide as the instruction set, with the results of scalar C. */
 #include <math.h>
 #include <string.h>
 
@@ -10,31 +10,32 @@ enum { BYTES = JOX_WIDTH > 4 ? 4 * JOX_WIDTH : 16, NUMBERS = BYTES / sizeof(doub
 _Static_assert(JOX_BATCH % PACKET == 0 && PACKET % NUMBERS == 0, "registers hold whole vectors");
 
 typedef double Numbers __attribute__((vector_size(BYTES)));
-typedef int64_t Marks __attribute__((vector_size(BYTES))); /* all bits where something holds */
+typedef int64_t Marks __attribute__((vector_size(BYTES))); /* all bits set where a condition
+                                                              holds */
 
-static inline Numbers load(const double *from) {
+static inline Numbers load_numbers(const double *from) {
     Numbers a;
     memcpy(&a, from, sizeof a);
     return a;
 }
 
-static inline Numbers pick(Marks where, Numbers a, Numbers b) {
+static inline Numbers pick_numbers(Marks where, Numbers a, Numbers b) {
     return (Numbers)((where & (Marks)a) | (~where & (Marks)b));
 }
 
-static inline Numbers magnitude(Numbers a) {
+static inline Numbers clear_signs(Numbers a) {
     return (Numbers)((Marks)a & INT64_MAX);
 }
 
-/* 1 where something holds, else 0. */
-static inline Numbers truth(Marks where) {
+/* Returns 1 where a condition holds, else 0. */
+static inline Numbers to_truth(Marks where) {
     const Numbers one = (Numbers){0.0} + 1.0;
     return (Numbers)(where & (Marks)one);
 }
 
-/* What can be measured of an agent, of `count` of them: one loop for each word. */
-static void measure(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, JoxNow what,
-                    double *restrict to) {
+/* Writes one measured quantity of `count` agents, by a separate loop for each. */
+static void measure_agents(const JoxMachineRun *run, const uint32_t *agents, uint32_t count,
+                           JoxNow what, double *restrict to) {
     const JoxAgents *a = run->agents;
     switch (what) {
 #define X(name, word, unit, meaning, value)                                                        \
@@ -52,18 +53,18 @@ static void measure(const JoxMachineRun *run, const uint32_t *agents, uint32_t c
     }
 }
 
-/* Of registers, in whole vectors: those behind `count` are room. What a vector gives is written
-   when all of it is read, as one register may be read and written. */
+/* Writes an expression of registers, by whole vectors; entries beyond `count` are spare. Each
+   vector is read before it is written, as input and output may be the same register. */
 #define EACH(expression)                                                                           \
     for (uint32_t n = 0; n < count; n += NUMBERS) {                                                \
         const Numbers out = (expression);                                                          \
         memcpy(to + n, &out, sizeof out);                                                          \
     }                                                                                              \
     break
-#define A load(a + n)
-#define B load(b + n)
-#define C load(c + n)
-/* Of agent `i`, whose figures no register holds. */
+#define A load_numbers(a + n)
+#define B load_numbers(b + n)
+#define C load_numbers(c + n)
+/* Writes an expression of agent `i` that reads columns. */
 #define EACH_AGENT(expression)                                                                     \
     for (uint32_t n = 0; n < count; n++) {                                                         \
         const uint32_t i = agents[n];                                                              \
@@ -71,13 +72,14 @@ static void measure(const JoxMachineRun *run, const uint32_t *agents, uint32_t c
     }                                                                                              \
     break
 
-static void fill(double *to, uint32_t count, double number) {
+static void fill_register(double *to, uint32_t count, double number) {
     for (uint32_t n = 0; n < count; n++)
         to[n] = number;
 }
 
-/* Roots are no operation of vectors. */
-static void root(double *to, const double *a, uint32_t count) {
+/* Takes square roots one by one, as vectors of doubles have no operator for them; 0 for negative
+   numbers. */
+static void take_roots(double *to, const double *a, uint32_t count) {
     for (uint32_t first = 0; first < count; first += PACKET) {
         double out[PACKET];
         for (uint32_t lane = 0; lane < PACKET; lane++)
@@ -95,15 +97,15 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
     const Numbers zero = {0.0};
     switch ((JoxOp)in->op) {
     case JOX_OP_CONST:
-        fill(to, count, in->number);
+        fill_register(to, count, in->number);
         break;
     case JOX_OP_NOW:
-        measure(run, agents, count, (JoxNow)in->arg, to);
+        measure_agents(run, agents, count, (JoxNow)in->arg, to);
         break;
     case JOX_OP_OWN: {
         const double *cells = g->own[arg].cells;
         if (!g->own[arg].mask) {
-            fill(to, count, cells[0]);
+            fill_register(to, count, cells[0]);
             break;
         }
         EACH_AGENT(cells[i]);
@@ -119,36 +121,36 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
     case JOX_OP_MUL:
         EACH((A) * (B));
     case JOX_OP_DIV:
-        EACH(pick(B == zero, zero, A / B));
+        EACH(pick_numbers(B == zero, zero, A / B));
     case JOX_OP_MIN:
-        EACH(pick(A < B, A, B));
+        EACH(pick_numbers(A < B, A, B));
     case JOX_OP_MAX:
-        EACH(pick(A > B, A, B));
+        EACH(pick_numbers(A > B, A, B));
     case JOX_OP_NEG:
         EACH(-A);
     case JOX_OP_ABS:
-        EACH(magnitude(A));
+        EACH(clear_signs(A));
     case JOX_OP_SQRT:
-        root(to, a, count);
+        take_roots(to, a, count);
         break;
     case JOX_OP_CLAMP:
-        EACH(pick(A < B, B, pick(A > C, C, A)));
+        EACH(pick_numbers(A < B, B, pick_numbers(A > C, C, A)));
     case JOX_OP_GT:
-        EACH(truth(A > B));
+        EACH(to_truth(A > B));
     case JOX_OP_GE:
-        EACH(truth(A >= B));
+        EACH(to_truth(A >= B));
     case JOX_OP_LT:
-        EACH(truth(A < B));
+        EACH(to_truth(A < B));
     case JOX_OP_LE:
-        EACH(truth(A <= B));
+        EACH(to_truth(A <= B));
     case JOX_OP_EQ:
-        EACH(truth(A == B));
+        EACH(to_truth(A == B));
     case JOX_OP_AND:
-        EACH(truth((A != zero) & (B != zero)));
+        EACH(to_truth((A != zero) & (B != zero)));
     case JOX_OP_OR:
-        EACH(truth((A != zero) | (B != zero)));
+        EACH(to_truth((A != zero) | (B != zero)));
     case JOX_OP_NOT:
-        EACH(truth(A == zero));
+        EACH(to_truth(A == zero));
     case JOX_OP_AFTER:
         EACH_AGENT(jox_time_in_state(run, i) >= a[n] - 1e-9);
     case JOX_OP_LASTED:

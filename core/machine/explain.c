@@ -1,5 +1,5 @@
-/* Why a transition was taken: its condition as an expression, with the value of each of its words.
- */
+/* Explains why a transition was taken: prints its condition as an expression, with the present
+   value of each word. */
 #include <math.h>
 
 #include "machine/internal.h"
@@ -15,11 +15,11 @@ static const char *const NOWS[] = {
 #undef X
 };
 
-/* How tightly what is written binds: what binds less than its surroundings stands in parentheses.
- */
+/* Precedence of operators, loosest first: an operand that binds less tightly than its surroundings
+   is put in parentheses. */
 typedef enum { BINDS_OR, BINDS_AND, BINDS_COMPARED, BINDS_SUM, BINDS_PRODUCT, BINDS_ALL } Binding;
 
-/* What a register holds, as it is written. Zero-initialise; free the text. */
+/* Text of the expression in a register. Zero-initialise; free the text. */
 typedef struct Written {
     JoxText text;
     Binding binding;
@@ -44,13 +44,13 @@ static void add_operand(const Written *of, Binding within, JoxText *out) {
     jox_text_printf(out, loose ? "(%s)" : "%s", of->text.data ? of->text.data : "");
 }
 
-/* The operation as an infix sign between its inputs; false if it has none. */
+/* Prints the operation with an infix sign between its inputs; returns false if it has no sign. */
 static bool print_infix(const JoxInstruction *in, const Written *registers, Written *to) {
     for (size_t s = 0; s < sizeof SIGNS / sizeof *SIGNS; s++) {
         if (SIGNS[s].op != (JoxOp)in->op)
             continue;
         to->binding = SIGNS[s].binding;
-        /* What is taken away or divided by binds more tightly: 1 - (2 - 3). */
+        /* The right side of - and / binds more tightly: 1 - (2 - 3). */
         const bool uneven = in->op == JOX_OP_SUB || in->op == JOX_OP_DIV;
         add_operand(&registers[in->a], to->binding, &to->text);
         jox_text_printf(&to->text, " %s ", SIGNS[s].sign);
@@ -60,7 +60,7 @@ static bool print_infix(const JoxInstruction *in, const Written *registers, Writ
     return false;
 }
 
-/* What is asked of those that a target means: ":in_state("Wait")". */
+/* Prints the filter of a target: ":in_state("Wait")". */
 static void print_whose(const JoxMachine *machine, const JoxWhose *whose, JoxText *out) {
     if (!whose->some)
         return;
@@ -76,7 +76,7 @@ static void print_whose(const JoxMachine *machine, const JoxWhose *whose, JoxTex
     jox_text_printf(out, isinf(whose->greatest) ? ")" : ", %.6g)", whose->greatest);
 }
 
-/* A word with what it is about: distance(stone), near(ball, 1.2), heard("go"). */
+/* Prints a word with its arguments: distance(stone), near(ball, 1.2), heard("go"). */
 static void print_word(const JoxMachine *machine, const JoxInstruction *in,
                        const Written *registers, JoxText *out) {
     const uint8_t inputs[] = {in->a, in->b, in->c};
@@ -95,7 +95,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
         before = ", ";
     }
     for (uint32_t k = 0; k < jox_op_inputs((JoxOp)in->op); k++) {
-        if (registers[inputs[k]].boundless) /* a reach that was left out */
+        if (registers[inputs[k]].boundless) /* a reach that was omitted */
             continue;
         jox_text_printf(out, "%s%s", before, registers[inputs[k]].text.data);
         before = ", ";
@@ -109,7 +109,7 @@ static bool is_condition(JoxOp op) {
            op != JOX_OP_QUEUED;
 }
 
-/* Writes what an instruction leaves in its register, which has `value` for the agent. */
+/* Prints the result of an instruction, which is `value` for the agent. */
 static void print_instruction(const JoxMachine *machine, const JoxInstruction *in,
                               const Written *registers, double value, Written *to) {
     const JoxOp op = (JoxOp)in->op;

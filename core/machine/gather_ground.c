@@ -1,4 +1,5 @@
-/* The ground of places in which agents gather, and the spots on it. */
+/* The ground of places in which agents wait, and the spots on it, both kept from step to step.
+   Called by steering/gather.c. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -8,11 +9,13 @@
 #include "base/number/pi.h"
 #include "machine/gather.h"
 
-static const float COMFORTABLE = 0.9f; /* m between people who have room: 1.4 per m2 */
-static const float CLOSER = 0.98f;     /* spacing of a level, as a share of the one before */
-enum { LEVELS = 29 };                  /* down to 0.51 m: 4.4 per m2 */
-static const float CLEAR = 0.25f;      /* m between a spot and walls */
-static const float ABOUT = 3.0f;       /* m: ground about a place that belongs to it */
+static const float COMFORTABLE = 0.9f; /* m: spacing of spots while there is room: 1.4 people per
+                                          m2 */
+static const float CLOSER = 0.98f;     /* ratio of the spacings of a level and the one before */
+enum { LEVELS = 29 };                  /* the closest is 0.51 m: 4.4 people per m2 */
+static const float CLEAR = 0.25f;      /* m: distance of spots from walls */
+static const float ABOUT = 3.0f;       /* m: width of the ground around a place that belongs to
+                                          it */
 
 const JoxSteerTerm *jox_gather_term(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
@@ -21,6 +24,7 @@ const JoxSteerTerm *jox_gather_term(const JoxState *state) {
     return NULL;
 }
 
+/* Hashes the inputs of a place's ground: its polygon, the walls, and fixed bodies near it. */
 static uint64_t hash_ground(const JoxMachineRun *run, int32_t index) {
     const JoxPlace *place = &run->places[index];
     JoxHash hash = jox_hash_begin();
@@ -63,7 +67,7 @@ JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t index) {
     return ground;
 }
 
-static float spacing_of(uint32_t level) {
+static float find_spacing(uint32_t level) {
     float spacing = COMFORTABLE;
     for (uint32_t k = 0; k < level; k++)
         spacing *= CLOSER;
@@ -71,22 +75,22 @@ static float spacing_of(uint32_t level) {
 }
 
 static void lay_spots(JoxMachineRun *run, JoxGatherPlace *g, uint32_t level) {
-    g->spacing = spacing_of(level);
+    g->spacing = find_spacing(level);
     jox_lattice_lay(&g->spots, &run->places[g->place], &jox_gather_ground(run, g->place)->cells,
                     g->part, g->ahead, g->spacing, CLEAR);
 }
 
-/* The widest spacing at which there are `need` spots, or the closest that there is. */
-static void lay_for(JoxMachineRun *run, JoxGatherPlace *g, uint32_t need, float least) {
+/* Lays spots with the widest spacing that yields `need` of them, but not closer than `least`, m. */
+static void lay_enough_spots(JoxMachineRun *run, JoxGatherPlace *g, uint32_t need, float least) {
     uint32_t level = 0;
     lay_spots(run, g, 0);
     const float area = (float)g->spots.count * COMFORTABLE * COMFORTABLE;
-    while (level + 1 < LEVELS && spacing_of(level + 1) >= least &&
-           area < (float)need * spacing_of(level) * spacing_of(level))
+    while (level + 1 < LEVELS && find_spacing(level + 1) >= least &&
+           area < (float)need * find_spacing(level) * find_spacing(level))
         level++;
     if (level > 0)
         lay_spots(run, g, level);
-    while (g->spots.count < need && level + 1 < LEVELS && spacing_of(level + 1) >= least)
+    while (g->spots.count < need && level + 1 < LEVELS && find_spacing(level + 1) >= least)
         lay_spots(run, g, ++level);
 }
 
@@ -114,7 +118,7 @@ JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, 
     g->from = from;
     g->need = need;
     g->least = least;
-    lay_for(run, g, need, least);
+    lay_enough_spots(run, g, need, least);
     return g;
 }
 

@@ -1,44 +1,44 @@
-/* Holding on to people. Who has taken hold of somebody pulls them, and is pulled, as by an arm that
-   is critically damped: with the grip at most, so that who is stronger gets away. The forces are
-   given to both for the step, as those from outside are. */
+/* Holding on to people. The holder pulls the held agent, and is pulled, like an arm that is
+   critically damped and whose force is limited to the grip: stronger agents break free. Both get
+   the force for one step, as an external force. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
 
-static const float REACH = 0.5f;     /* m: the gap over which hold is taken */
-static const float SLIPS = 1.0f;     /* m: the gap at which it is lost */
-static const float STIFFNESS = 2e3f; /* N/m, of an arm */
-/* Greatest shares of the stiffness and the damping at which a step of explicit integration would
-   oscillate: m / dt2 and m / dt. */
+static const float REACH = 0.5f;     /* m: greatest gap over which an agent takes hold */
+static const float SLIPS = 1.0f;     /* m: gap at which the hold is lost */
+static const float STIFFNESS = 2e3f; /* N/m: stiffness of an arm */
+/* Bounds on stiffness and damping, as shares of m / dt2 and m / dt, beyond which an explicit step
+   would oscillate. */
 static const float STIFF_MOST = 0.12f, DAMPED_MOST = 0.7f;
 
-static float gap(const JoxAgents *a, uint32_t i, uint32_t j) {
+static float measure_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
 }
 
-/* Whom the agent holds now: whom it held, or else who is its target and within reach. */
+/* Returns the agent that i holds: the one it held, else its target if within reach. */
 static uint32_t find_held(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxAgents *a = run->agents;
     if (a->grasped[i]) {
         const uint32_t j = jox_agents_find(a, a->grasped[i] - 1);
-        if (j != JOX_NO_INDEX && !a->removed[j] && gap(a, i, j) <= SLIPS)
+        if (j != JOX_NO_INDEX && !a->removed[j] && measure_gap(a, i, j) <= SLIPS)
             return j;
     }
     const JoxSpot spot = jox_target_find(run, i, target);
-    return spot.agent != JOX_NO_INDEX && spot.agent != i && gap(a, i, spot.agent) <= REACH
+    return spot.agent != JOX_NO_INDEX && spot.agent != i && measure_gap(a, i, spot.agent) <= REACH
                ? spot.agent
                : JOX_NO_INDEX;
 }
 
-static void pull(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
+static void pull_together(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
     JoxAgents *a = run->agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     const float dt = (float)run->dt;
     const float both = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
     const JoxV2 way = jox_unit(jox_offset(a, i, j));
-    const float apart = jox_maxf(gap(a, i, j), 0.0f);
+    const float apart = jox_maxf(measure_gap(a, i, j), 0.0f);
     const float parting = way.x * (a->vx[j] - a->vx[i]) + way.y * (a->vy[j] - a->vy[i]);
     const float stiffness = jox_minf(STIFFNESS, STIFF_MOST * both / (dt * dt));
     const float damping = jox_minf(2.0f * sqrtf(stiffness * both), DAMPED_MOST * both / dt);
@@ -50,8 +50,8 @@ static void pull(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
     a->ext_y[j] -= force * way.y;
 }
 
-/* An expression may come to anything. */
-static float grip_of(const JoxMachineRun *run, uint32_t i, const JoxState *state) {
+/* Returns the greatest force of a hold, N, clamped as an expression may yield any number. */
+static float find_grip(const JoxMachineRun *run, uint32_t i, const JoxState *state) {
     if (state->grip.kind == JOX_VALUE_UNSET)
         return JOX_GRIP;
     const double grip = jox_value(run, jox_machine_of(run, i), &state->grip, i);
@@ -68,6 +68,6 @@ void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t cou
         if (j == JOX_NO_INDEX)
             continue;
         a->held[j] = (uint8_t)(a->held[j] + (a->held[j] < UINT8_MAX));
-        pull(run, i, j, grip_of(run, i, state));
+        pull_together(run, i, j, find_grip(run, i, state));
     }
 }

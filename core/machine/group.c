@@ -1,4 +1,5 @@
-/* Scratch of a step: agents grouped by state, ranks in queues, people counted in places. */
+/* Scratch of a step: agents grouped by state into batches, ranks in queues, people counted in
+   places. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -12,7 +13,7 @@ JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
     return run->scratch;
 }
 
-static void reserve(JoxMachineRun *run, JoxPool *pool) {
+static void reserve_scratch(JoxMachineRun *run, JoxPool *pool) {
     JoxMachineScratch *s = jox_machines_scratch(run);
     uint32_t workers = jox_pool_threads(pool);
     if (workers > s->workers) {
@@ -36,7 +37,8 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     JOX_RESERVE(run->taken, run->taken_capacity, n);
     run->push_on = jox_realloc(run->push_on, n, 1);
     run->push_nearest = jox_realloc(run->push_nearest, n, 1);
-    jox_free(run->push_toward_x); /* filled anew in each step; what stays zero takes no memory */
+    jox_free(run->push_toward_x); /* filled anew in each step; columns that stay zero take no
+                                     memory */
     jox_free(run->push_toward_y);
     run->push_toward_x = jox_alloc(n, sizeof(float));
     run->push_toward_y = jox_alloc(n, sizeof(float));
@@ -72,8 +74,8 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     run->scratch = NULL;
 }
 
-/* Number of a machine's first state in the list of all states. */
-static uint32_t first_state(const JoxMachineRun *run, uint32_t machine) {
+/* Returns the number of a machine's first state in the list of all states. */
+static uint32_t find_first_state(const JoxMachineRun *run, uint32_t machine) {
     uint32_t first = 0;
     for (uint32_t m = 0; m < machine; m++)
         first += run->set->items[m]->state_count;
@@ -90,7 +92,6 @@ static void add_batches(JoxMachineScratch *s, uint16_t machine, uint16_t state, 
     }
 }
 
-/* The queue a state stands in, or -1. */
 int16_t jox_queue_target(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
         if (state->steer[t].kind == JOX_STEER_QUEUE)
@@ -98,7 +99,7 @@ int16_t jox_queue_target(const JoxState *state) {
     return -1;
 }
 
-/* Marks the ranks of a long list in a bitmap, and reads it from the front. */
+/* Sorts a long list by id: marks the ranks in a bitmap, then reads it in order. */
 static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
@@ -113,11 +114,11 @@ static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     for (uint32_t w = 0; w < words; w++)
         for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
             list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
-    JOX_ASSERT(n == count); /* nobody was listed twice */
+    JOX_ASSERT(n == count); /* no agent was listed twice */
 }
 
-/* `context`: the agents' ids. */
-static int by_id(const void *a, const void *b, const void *context) {
+/* Orders agents by id; `context`: the agents' ids. */
+static int compare_ids(const void *a, const void *b, const void *context) {
     const uint32_t *id = context;
     const uint32_t x = id[*(const uint32_t *)a], y = id[*(const uint32_t *)b];
     return (x > y) - (x < y);
@@ -128,12 +129,12 @@ void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     if (count > 256 && count > a->count / 256)
         sort_by_marks(run, list, count);
     else
-        jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
+        jox_sort(list, count, sizeof *list, compare_ids, a->id, run->scratch->spare);
     JOX_CHECK(jox_by_id_check(a, list, count));
 }
 
-/* Whether someone stands before another: by queue, then who came first, then by id. */
-static int by_turn(const void *first, const void *second, const void *context) {
+/* Orders agents by queue, arrival, id. */
+static int compare_queue_turns(const void *first, const void *second, const void *context) {
     const JoxMachineRun *run = context;
     const JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
@@ -145,7 +146,7 @@ static int by_turn(const void *first, const void *second, const void *context) {
     return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
 }
 
-/* Ranks those who queue: sorted by queue and order of arrival, then numbered. */
+/* Ranks agents in queues by arrival. */
 static void rank_queues(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
@@ -164,7 +165,8 @@ static void rank_queues(JoxMachineRun *run) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(run, i, target);
             const uint32_t at = jox_reference(s->queue[i]);
-            if (a->queue_at[i] != at) { /* from state to state it keeps its turn */
+            if (a->queue_at[i] != at) { /* it keeps its turn in states that queue at the same
+                                           place */
                 a->queue_at[i] = at;
                 a->queued[i] = run->tick;
             }
@@ -173,43 +175,44 @@ static void rank_queues(JoxMachineRun *run) {
             list[count++] = i;
         }
     }
-    jox_sort(list, count, sizeof *list, by_turn, run, s->spare);
+    jox_sort(list, count, sizeof *list, compare_queue_turns, run, s->spare);
     for (uint32_t k = 0; k < count; k++)
         s->rank[list[k]] =
             k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;
     JOX_CHECK(jox_queues_check(run, list, count));
 }
 
-/* Whether all are in one state of one machine, as in many crowds. */
-static bool are_alike(const JoxAgents *a) {
+/* Returns whether all agents are in one state of one machine, as in many crowds. */
+static bool is_uniform_crowd(const JoxAgents *a) {
     return a->count && a->machine[0] != JOX_NO_MACHINE &&
            jox_is_same_of_all(a->machine, sizeof *a->machine, a->count) &&
            jox_is_same_of_all(a->state, sizeof *a->state, a->count);
 }
 
-/* Agents sorted by state, in their order: those of each of some parts are counted, then listed
-   where those of the parts before it end. */
+/* A stable sort of agents by state, in parallel: counts the states in each part of the agents, then
+   lists each part behind the parts before it. */
 typedef struct StateSort {
     JoxMachineScratch *scratch;
     const JoxAgents *agents;
     uint32_t bases[JOX_MOST_MACHINES]; /* number of each machine's first state among all */
-    uint32_t states;                   /* of all machines; those who run none come behind them */
-    uint32_t grain;                    /* agents of a part */
+    uint32_t states;                   /* number of states of all machines; agents without a machine
+                                          form one more */
+    uint32_t grain;                    /* agents per part */
 } StateSort;
 
-/* Parts that are gone through at once, one agent of each in turn: neighbours are often in one
-   state, and a number that has just been counted up takes some time until it can be again. */
+/* Parts that one task visits in alternation, one agent of each at a time: neighbouring agents are
+   often in one state, and incrementing a counter that was just written stalls. */
 enum { AT_ONCE = 4 };
 
-/* A part, from the agent that is next on. */
+/* A part of the agents, from `next` on. */
 typedef struct Part {
     uint32_t next, end;
-    uint32_t *numbers; /* of each state: how many agents, or where the next of them is listed */
+    uint32_t *numbers; /* per state: number of agents, or index in `grouped` of the next one */
 } Part;
 
 typedef void PartVisit(const StateSort *sort, Part *part);
 
-/* Visits each agent from `begin` to `end` of AT_ONCE parts; `clear`: with numbers of 0. */
+/* Visits each agent from `begin` to `end`, in AT_ONCE parts; `clear`: zeroes the numbers first. */
 static inline __attribute__((always_inline)) void
 visit_parts(const StateSort *sort, uint32_t begin, uint32_t end, bool clear, PartVisit *visit) {
     const size_t width = (size_t)sort->states + 1;
@@ -276,8 +279,8 @@ static void sort_by_state(StateSort *sort, JoxPool *pool) {
     jox_parallel_for(pool, count, AT_ONCE * sort->grain, list_parts, sort);
 }
 
-/* All are in one state. */
-static void list_all(StateSort *sort) {
+/* Lists all agents as one group, as they are all in the same state. */
+static void list_uniform_crowd(StateSort *sort) {
     const JoxAgents *a = sort->agents;
     const uint32_t in = sort->bases[a->machine[0]] + a->state[0];
     for (uint32_t k = 0; k <= sort->states; k++)
@@ -287,20 +290,20 @@ static void list_all(StateSort *sort) {
 }
 
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
-    reserve(run, pool);
+    reserve_scratch(run, pool);
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
     s->batch_count = 0;
     if (run->set->count == 0)
         return;
-    StateSort sort = {.scratch = s, .agents = a, .states = first_state(run, run->set->count)};
+    StateSort sort = {.scratch = s, .agents = a, .states = find_first_state(run, run->set->count)};
     for (uint32_t m = 0; m < run->set->count; m++)
-        sort.bases[m] = first_state(run, m);
+        sort.bases[m] = find_first_state(run, m);
     JOX_RESERVE(s->state_first, s->state_capacity, (size_t)sort.states + 1);
     if (a->count)
         memset(s->rank, 0xff, a->count * sizeof *s->rank);
-    if (are_alike(a))
-        list_all(&sort);
+    if (is_uniform_crowd(a))
+        list_uniform_crowd(&sort);
     else
         sort_by_state(&sort, pool);
     const uint32_t *first = s->state_first;
@@ -311,8 +314,8 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     rank_queues(run);
 }
 
-/* Marks the places whose people some expression asks for. */
-static void mark_asked(JoxMachineRun *run) {
+/* Marks the places whose number of people an expression reads. */
+static void mark_counted_places(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     for (uint32_t p = 0; p < run->place_count; p++)
         s->place_people[p] = UINT32_MAX;
@@ -325,16 +328,16 @@ static void mark_asked(JoxMachineRun *run) {
                     continue;
                 const JoxTarget *target = &machine->targets[in->place];
                 for (uint32_t q = 0; q < run->place_count;
-                     q++) /* a place of an agent's own may be any */
+                     q++) /* an agent's own place may be any */
                     if (target->kind != JOX_TARGET_PLACE || target->arg == (int32_t)q)
                         s->place_people[q] = 0;
             }
     }
 }
 
-/* How many are in a polygon, or within a disc of 2 m about what has no area. */
-static uint32_t people_about(const JoxMachineRun *run, uint32_t p) {
-    const float REACH = 2.0f, HAIR = 0.01f; /* m; HAIR: more than distances are rounded by */
+/* Returns the number of agents in a polygon, or within 2 m of a place without area. */
+static uint32_t count_people_about(const JoxMachineRun *run, uint32_t p) {
+    const float REACH = 2.0f, HAIR = 0.01f; /* m; HAIR exceeds the rounding of distances */
     const JoxAgents *a = run->agents;
     const JoxPlace *place = &run->places[p];
     const bool area = jox_place_is_area(place), boxed = !jox_place_is_set(place);
@@ -352,8 +355,8 @@ static uint32_t people_about(const JoxMachineRun *run, uint32_t p) {
 }
 
 void jox_machines_count_places(JoxMachineRun *run) {
-    mark_asked(run);
+    mark_counted_places(run);
     for (uint32_t p = 0; p < run->place_count; p++)
         if (run->scratch->place_people[p] != UINT32_MAX)
-            run->scratch->place_people[p] = people_about(run, p);
+            run->scratch->place_people[p] = count_people_about(run, p);
 }

@@ -1,35 +1,37 @@
-/* The kernels of programs and of prefer, one function for each instruction set, and what they share
-   with the plain C about them. */
+/* Kernels of expressions and of the stage prefer, one function for each instruction set, and the
+   data that they share with their callers in scalar C. */
 #ifndef JOX_MACHINE_KERNELS_H
 #define JOX_MACHINE_KERNELS_H
 
 #include "machine/internal.h"
 #include "simd/isa.h"
 
-/* Steering of a batch of one state. Lanes read and write the arrays in whole packets. */
+/* Steering of one batch. Kernels read and write the arrays in whole packets. */
 typedef struct JoxSteer {
     JoxAgents *agents;
-    uint32_t index[JOX_BATCH]; /* the agents; behind `count` of them the last again */
+    uint32_t index[JOX_BATCH]; /* the agents; entries beyond `count` repeat the last one */
     uint32_t count;
-    /* Of one term: what it asks for, as a share of the wanted speed, and its weight. */
+    /* The present term: velocity as a share of the wanted speed, and weight. */
     float way_x[JOX_BATCH], way_y[JOX_BATCH], by[JOX_BATCH];
-    float sum_x[JOX_BATCH], sum_y[JOX_BATCH];     /* of the terms so far */
-    float ahead_x[JOX_BATCH], ahead_y[JOX_BATCH]; /* where those that do not evade lead */
-    bool leads;                                   /* `ahead` is known */
-    /* For arrive: those that go to a point and stop there, all bits set, and where it is, m. */
+    float sum_x[JOX_BATCH], sum_y[JOX_BATCH];     /* weighted sum of the terms so far */
+    float ahead_x[JOX_BATCH], ahead_y[JOX_BATCH]; /* sum of the terms except evade */
+    bool leads;                                   /* `ahead` is computed */
+    /* Input of `arrive`: all bits set for agents that go to a point and stop there; the point,
+       m. */
     uint32_t arrives[JOX_BATCH];
     float to_x[JOX_BATCH], to_y[JOX_BATCH];
-    /* For orbit: of agents [begin, end) of the batch, the place, NULL where there is none. */
+    /* Input of `orbit`: agents [begin, end) of the batch and their place; NULL: none. */
     uint32_t begin, end;
     const JoxPlace *place;
-    const double *args; /* JoxOrbitArgument */
+    const double *args; /* see JoxOrbitArg */
 } JoxSteer;
 
-#define JOX_SLOWING 0.5f /* s: who arrives slows to stop within this time */
+#define JOX_SLOWING 0.5f /* s: agents that arrive slow down to stop within this time */
 
-/* orbit: way. arrive: way of those who arrive, the others' stays. add: way, weighed, into sum; what
-   asks for more than any word does, or for what is no number, is left out. finish: pref_x, pref_y
-   from sum. face: face_x, face_y along the velocity of those who move. */
+/* orbit: computes way. arrive: computes way of agents that arrive, leaves the others'. add: adds
+   way times weight to sum, except velocities that are NaN or longer than any term allows. finish:
+   computes pref_x, pref_y from sum. face: computes face_x, face_y along the velocity of agents that
+   move. */
 typedef void JoxSteerKernel(JoxSteer *steer);
 #define X(name, isa)                                                                               \
     JoxSteerKernel jox_steer_orbit_##name, jox_steer_arrive_##name, jox_steer_add_##name,          \
@@ -37,26 +39,26 @@ typedef void JoxSteerKernel(JoxSteer *steer);
 JOX_ISAS(X)
 #undef X
 
-/* steering/steer_place.c: the ways of a term that leads to places, or along them: seek and along,
-   of those of a batch whose weight counts. What leads to points is left to the kernel `arrive`. */
+/* steering/steer_place.c: computes `way` of the terms seek and along, for agents whose weight
+   counts. Points are left to the kernel `arrive`. */
 void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *steer);
 
-/* steering/steer_field.c: the ways of a term of the kind field, of `count` of the agents in index,
-   those of them whose weight counts: way. Sets what they are bound for. */
+/* steering/steer_field.c: computes `way` of a term field for agents whose weight counts, and sets
+   the places that they are bound for. */
 void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *steer);
 
-/* Runs one instruction over `count` agents of a batch, and says whether it is one that has a loop
-   here: arithmetic, or the agents' own figures. */
+/* Executes one instruction for `count` agents of a batch, if it is arithmetic or reads the agents'
+   columns; returns false, without effect, for all other instructions. */
 typedef bool JoxEvalKernel(const JoxMachineRun *run, const JoxInstruction *in,
                            const uint32_t *agents, uint32_t count, JoxRegisters registers);
 #define X(name, isa) JoxEvalKernel jox_eval_numbers_##name;
 JOX_ISAS(X)
 #undef X
 
-/* Whether a term of this weight is asked for. A weight may come from a target that is not there:
-   infinitely far. */
+/* Returns whether a term of this weight is evaluated. A weight is infinite if it is computed from
+   the distance to an absent target. */
 static inline bool jox_weight_counts(float by) {
     return by != 0.0f && fabsf(by) <= (float)JOX_MOST_WEIGHT;
 }

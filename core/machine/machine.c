@@ -15,7 +15,7 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
 }
 
 const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]) {
-    char version[40] = "", reload[20] = ""; /* both and their joint fit into `out` */
+    char version[40] = "", reload[20] = ""; /* both and the text between them fit into `out` */
     if (!isnan(machine->version))
         snprintf(version, sizeof version, "version %.15g", machine->version);
     if (machine->reloads > 0)
@@ -136,8 +136,8 @@ void jox_machine_free(JoxMachine *m) {
 
 /* ---- tags and teams ---- */
 
-/* The bit that a bit of the machine becomes. */
-static uint32_t bit_now(const JoxMachine *m, const uint16_t *numbers, uint32_t bit) {
+/* Returns the new bit of a tag. */
+static uint32_t find_new_bit(const JoxMachine *m, const uint16_t *numbers, uint32_t bit) {
     for (uint32_t n = 0; n < m->belonging_count; n++)
         if (!m->belongings[n].is_team && m->belongings[n].number == bit)
             return numbers[n];
@@ -148,7 +148,7 @@ static void renumber_tags(const JoxMachine *m, const uint16_t *numbers, uint64_t
     uint64_t now = 0;
     for (uint32_t bit = 0; bit < 64; bit++)
         if (*tags >> bit & 1)
-            now |= (uint64_t)1 << bit_now(m, numbers, bit);
+            now |= (uint64_t)1 << find_new_bit(m, numbers, bit);
     *tags = now;
 }
 
@@ -169,7 +169,7 @@ void jox_machine_renumber(JoxMachine *m, const uint16_t *numbers) {
         return;
     for (uint32_t t = 0; t < m->target_count; t++)
         if (m->targets[t].kind == JOX_TARGET_NEAREST)
-            m->targets[t].arg = (int32_t)bit_now(m, numbers, (uint32_t)m->targets[t].arg);
+            m->targets[t].arg = (int32_t)find_new_bit(m, numbers, (uint32_t)m->targets[t].arg);
     for (uint32_t s = 0; s < m->state_count; s++) {
         JoxState *state = &m->states[s];
         renumber_tags(m, numbers, &state->ignore);

@@ -1,7 +1,7 @@
-/* A state machine as data: states, their parameters, their ordered transitions, and the expressions
-   that their conditions and computed numbers are compiled to. lua/ builds it; it is immutable
-   from when it is added to a set (run.h), except that run/ links it to those that it becomes. Think
-   and prefer run it. Knows no Lua. */
+/* A state machine as data: states, their parameters and ordered transitions, and the expressions
+   that conditions and computed numbers are compiled to. lua/ builds a machine; once added to a set
+   (run.h) it is immutable, except that run/ links states that switch to another machine (`become`).
+   The stages think and prefer execute it. Nothing here depends on Lua. */
 #ifndef JOX_MACHINE_MACHINE_H
 #define JOX_MACHINE_MACHINE_H
 
@@ -13,20 +13,20 @@
 #include "base/number/distribution.h"
 
 enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
-/* Greatest weight of a steering term, of either sign. */
+/* Greatest absolute weight of a steering term. */
 enum { JOX_MOST_WEIGHT = 1000000 };
-/* Greatest figure of a drift, of either sign, in wanted speeds. */
+/* Greatest absolute component of a drift, in multiples of the wanted speed. */
 enum { JOX_MOST_DRIFT = 100 };
-/* N: with which somebody is held on to, where a state does not say; and at most. */
+/* Force with which an agent holds on to another, N: default, and greatest. */
 enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
 
 #define JOX_LOAD_MEANING                                                                           \
     "greatest push borne from any one direction: over directions d, the greatest sum of the "      \
     "positive parts of f.d over its contacts f"
 
-/* What is measured of the agent itself. A row is all there is to one: its name (`now.NAME`), its
-   unit, what it means, and its value for agent `i` of a run, whose columns are `a`. Those of
-   JOX_MEASURED_WORDS are also words by themselves, given in the second place. */
+/* Quantities measured of the agent itself. Each row is the complete definition: name (`now.NAME`),
+   word, unit, meaning, and the value for agent `i` of `run` with columns `a`. Rows of
+   JOX_MEASURED_WORDS can also be written as the plain word in their second column. */
 /* clang-format off */
 #define JOX_MEASURED_WORDS(X)                                                                      \
     X(density, density_here, "1/m2",                                                               \
@@ -64,22 +64,21 @@ typedef enum JoxNow {
 } JoxNow;
 
 /* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
-   agent itself. x / 0 is 0.
-   CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the target, infinite when
-   absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc of 2 m about it).
-   INSIDE: target is in place. NEAR: target is nearer than a metres. CROSSES: the last move crossed
-   line `place` from its right to its left. FIRST_IN: the agent heads its queue. AFTER: time in
-   state is at least a. LASTED: it has reached the drawn duration. STUCK: has not moved 0.25 m for a
-   seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the
-   ground. KICKED: the agent kicked target, or what bears its tag, in the last step. HIT_BY: target,
-   faster than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target,
-   as it moves, comes within a metres during the next 2 s. SEES: target exists within perception.
-   HAS: the agent holds target, a body or an agent. HEARD: another agent within perception, and
-   within a metres, gave the signal `name` in the last step. NEIGHBOURS: how many of them are what
-   target asks for. THEIRS: what the agent that target is remembers as `name`, if its machine makes
-   that public; else 0. SHUT: a gate at place stands, and the agent sees it. QUEUED: how many stand
-   in the queue `place`. OPEN: the gates called `name` are open. Whom a wall hides is not seen,
-   heard or touched. */
+   agent itself. x / 0 is 0. CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the
+   target, infinite when absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc
+   of 2 m about it). INSIDE: target is in place. NEAR: target is nearer than a metres. CROSSES: the
+   last move crossed line `place` from its right to its left. FIRST_IN: the agent heads its queue.
+   AFTER: time in state is at least a. LASTED: the drawn duration of the state is over. STUCK: the
+   agent has not moved 0.25 m for a seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED:
+   target, a body, touches the ground. KICKED: the agent kicked target, or a body with its tag, in
+   the last step. HIT_BY: target, faster than 1 m/s, touches the agent, or such a body hit it in the
+   last step. INCOMING: target, at its present velocity, comes within a metres during the next 2 s.
+   SEES: target exists within perception. HAS: the agent holds target, a body or an agent. HEARD:
+   another agent within perception, and within a metres, gave the signal `name` in the last step.
+   NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
+   the target, if its machine makes that public; else 0. SHUT: a gate at place is closed, and the
+   agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are
+   open. Agents behind a wall are not seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -103,37 +102,37 @@ typedef struct JoxInstruction {
     uint8_t op, to, a, b, c;
     int16_t target, place; /* indices into the machine's targets; -1 none (or: the agent itself) */
     int16_t name;          /* index into the machine's names; -1 none */
-    uint16_t skip; /* this many of those that follow change nothing where `to` is 0 for all */
+    uint16_t skip; /* if `to` is 0 for all agents, the next `skip` instructions change nothing */
     int32_t arg;
     double number;
 } JoxInstruction;
 
 /* A compiled condition or number: straight-line code that leaves its result in register 0. Parts of
-   it may be skipped: the right side of an AND where its left side holds for nobody. */
+   it may be skipped: the right side of an AND if its left side is false for all agents. */
 typedef struct JoxExpression {
     JoxInstruction *code;
     uint32_t count;
 } JoxExpression;
 
 typedef enum JoxTargetKind {
-    JOX_TARGET_PLACE,      /* arg: place index of the world, -1 while unresolved */
+    JOX_TARGET_PLACE,      /* arg: index of the place in the world, -1 while unresolved */
     JOX_TARGET_OWN_PLACE,  /* arg: own slot that holds a place index */
     JOX_TARGET_GOAL,       /* the place in the agent's `goal` column */
     JOX_TARGET_ONE_OF,     /* arg: place index of a set; on entering the state, goal := a member */
-    JOX_TARGET_ONE_OF_OWN, /* the same; arg: own slot that holds the set */
-    JOX_TARGET_NEAREST,    /* arg: tag bit; nearest seen body or agent that bears it */
+    JOX_TARGET_ONE_OF_OWN, /* like ONE_OF; arg: own slot that holds the set */
+    JOX_TARGET_NEAREST,    /* arg: tag bit; nearest seen body or agent with that tag */
     JOX_TARGET_OPPONENT,   /* nearest seen agent of another team */
     JOX_TARGET_TEAMMATE,   /* nearest seen agent of the same team */
     JOX_TARGET_ANYONE,     /* nearest seen agent */
-    JOX_TARGET_HOME        /* the agent's own post: where it came in */
+    JOX_TARGET_HOME        /* the agent's own post: the position at which it entered the world */
 } JoxTargetKind;
 
-/* Whom of the agents that a target asks for it means. Zero: all of them. */
+/* Filter on the agents that a target accepts. All zero accepts every agent. */
 typedef struct JoxWhose {
-    bool some;                      /* whether anything of the following is asked */
+    bool some;                      /* whether any condition below applies */
     int16_t state, machine, memory; /* indices into the machine's names; -1: any */
     int32_t group;                  /* number of the scene's group; -1: any */
-    double least, greatest;         /* of what memory holds */
+    double least, greatest;         /* accepted range of the memory value */
 } JoxWhose;
 
 typedef struct JoxTarget {
@@ -153,34 +152,36 @@ typedef struct JoxValue {
     JoxValueKind kind;
     double number;   /* CONST */
     int32_t index;   /* own slot, or expression */
-    int32_t line;    /* where it was set; 0 default; JOX_LINE_LIVE: by a person, in a run */
-    uint16_t source; /* number of the machine's file that the line is of */
+    int32_t line;    /* line that sets it; 0: default; JOX_LINE_LIVE: set by a person during a
+                        run */
+    uint16_t source; /* index of the line's file in the machine's `files` */
 } JoxValue;
 enum { JOX_LINE_LIVE = -1 };
 
 typedef enum JoxSteerKind {
     JOX_STEER_HOLD, /* stand still */
-    JOX_STEER_SEEK, /* to the nearest point of target (a line, gate: to a point drawn per agent) */
+    JOX_STEER_SEEK, /* to the nearest point of target (line, gate: to a point drawn per agent) */
     JOX_STEER_AWAY_FROM, /* straight away from target */
     JOX_STEER_ORBIT,     /* round a place counter-clockwise; args: see JoxOrbitArg */
     JOX_STEER_QUEUE,     /* to the agent's place in the queue */
     JOX_STEER_FOLLOW,    /* behind target, args[0] metres */
     JOX_STEER_DRIFT,     /* along the vector `drift` */
     JOX_STEER_SPREAD,    /* away from the neighbours' centroid */
-    JOX_STEER_EVADE,     /* sideways, out of the way of those who come towards */
+    JOX_STEER_EVADE,     /* sideways, out of the way of oncoming agents */
     JOX_STEER_ALONG,     /* along a line's direction or a queue's polyline towards its head */
     JOX_STEER_FIELD,     /* the shortest way to a place round walls */
-    JOX_STEER_TOGETHER,  /* towards the mates that are seen, once they are farther than args[0] m */
-    JOX_STEER_WANDER,    /* about, turning gradually; within target, if that is given */
-    JOX_STEER_FORMATION, /* to the agent's place in a row: along a line, or behind somebody across
-                            the way they look; args[0] metres apart */
-    JOX_STEER_GATHER,    /* to the agent's spot among those who wait in a polygon, which they fill
-                            from its front: towards args[0] degrees */
-    JOX_STEER_PLAYER,    /* as the input log says; holds while it says nothing */
+    JOX_STEER_TOGETHER,  /* towards teammates in sight that are farther away than args[0] m */
+    JOX_STEER_WANDER,    /* in a gradually turning direction; within target, if given */
+    JOX_STEER_FORMATION, /* to the agent's place in a row: along a line, or abreast behind another
+                            agent; spacing args[0] m */
+    JOX_STEER_GATHER,    /* to the agent's spot in a polygon of waiting agents, filled from its
+                            front; the front lies in direction args[0], degrees */
+    JOX_STEER_PLAYER,    /* the velocity that the input log gives; stand still if it gives none */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;
 
-/* Guidance round a solid (see prefer.h): inward weight and the density profile it follows. */
+/* Indices into the args of ORBIT, guidance round a solid (see prefer.h): inward weight and the
+   density profile that it follows. */
 typedef enum {
     JOX_ORBIT_INWARD,
     JOX_ORBIT_DENSITY_NEAR,
@@ -198,36 +199,38 @@ typedef struct JoxSteerTerm {
     double args[6];
 } JoxSteerTerm;
 
-/* What entering a state or taking a transition does besides. */
+/* Side effects of entering a state or taking a transition. */
 typedef struct JoxActions {
     struct JoxAssign {
-        int32_t slot; /* of memory */
+        int32_t slot; /* memory slot */
         JoxValue value;
     } * set;
     uint32_t set_count;
-    int16_t signal; /* name that is called out; -1 none */
+    int16_t signal; /* name of the signal to give; -1 none */
     bool sets_team, sets_tags;
-    uint16_t team; /* that it is in from then on */
-    uint64_t tags; /* that it bears from then on, a bit each */
+    uint16_t team; /* the agent's new team */
+    uint64_t tags; /* the agent's new tags, one bit each */
 } JoxActions;
 
 typedef struct JoxTransition {
     char *id;
     uint16_t to;
     JoxActions does;
-    int32_t when;      /* expression; -1: always (unless when_hook) */
-    int32_t when_hook; /* a plain function; -1 none */
+    int32_t when;      /* index of an expression; -1: always (unless when_hook) */
+    int32_t when_hook; /* index of a Lua function; -1 none */
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
     int32_t line;
-    uint16_t source; /* number of the machine's file that the line is of */
+    uint16_t source; /* index of the line's file in the machine's `files` */
 } JoxTransition;
 
 typedef struct JoxState {
     char *name;
-    JoxColour colour;          /* of who is in it, in pictures */
-    uint32_t name_number;      /* of the names that machines share; set when it is added to a set */
-    uint32_t first_transition; /* number of its first among all transitions; likewise */
+    JoxColour colour;          /* colour of its agents in pictures */
+    uint32_t name_number;      /* number of the name in the set of machines; assigned when the
+                                  machine is added */
+    uint32_t first_transition; /* number of its first transition, counted over all states; assigned
+                                  likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
     JoxSteerTerm steer[JOX_MOST_TERMS];
     uint32_t steer_count;
@@ -235,9 +238,9 @@ typedef struct JoxState {
     uint32_t transition_count;
     bool has_lasts;
     JoxDist lasts;            /* s, drawn on entry */
-    int32_t lasts_expression; /* or an expression evaluated on entry; -1 none */
-    bool removes;             /* the agent leaves the world on entering */
-    bool lies;                /* it is shown as lying; no step reads it */
+    int32_t lasts_expression; /* expression for it, evaluated on entry; -1 none */
+    bool removes;             /* agents that enter leave the world */
+    bool lies;                /* agents are drawn lying down; no step reads it */
     int32_t push_when;        /* expression; -1 always */
     int16_t push_toward;      /* target; -1: along the preferred velocity */
     bool push_nearest;        /* push_weight "nearest" instead of "equal" */
@@ -245,60 +248,63 @@ typedef struct JoxState {
     uint64_t ignore, push_only;
     int16_t kick, kick_at; /* targets; -1 none */
     JoxValue kick_impulse; /* N s per kg of the body: the velocity change, m/s */
-    int16_t take;          /* body that is picked up where it is in reach; -1 none */
-    int16_t toss, toss_at; /* body that is thrown, and whereto; -1 none */
-    JoxValue toss_speed;   /* level speed of the throw, m/s */
-    int16_t grasp;         /* agent that is held on to where it is in reach; -1 none */
-    JoxValue grip;         /* the greatest force of that, N; UNSET: JOX_GRIP */
+    int16_t take;          /* target: body to pick up when within reach; -1 none */
+    int16_t toss, toss_at; /* targets: body to throw, and where to; -1 none */
+    JoxValue toss_speed;   /* horizontal speed of the throw, m/s */
+    int16_t grasp;         /* target: agent to hold on to when within reach; -1 none */
+    JoxValue grip;         /* greatest force of the hold, N; UNSET: JOX_GRIP */
     JoxActions enters;
-    double signal_every;    /* s between two calls of enters.signal while in the state; 0: one */
-    char *become;           /* behaviour whose machine the agent goes on with; NULL none */
-    int32_t become_machine; /* its index, once known; -1 */
-    char *become_file;      /* where it is written: of the machine, or of a mod */
+    double signal_every;    /* s between repetitions of enters.signal during the state; 0: given
+                               once */
+    char *become;           /* name of the behaviour that the agent switches to; NULL none */
+    int32_t become_machine; /* its machine's index; -1 until resolved */
+    char *become_file;      /* file that says so: the machine's, or a mod's */
     int32_t become_line, become_column;
     int32_t on_enter, on_exit; /* hooks; -1 none */
     int32_t line;
-    uint16_t source; /* number of the machine's file that the line is of */
+    uint16_t source; /* index of the line's file in the machine's `files` */
 } JoxState;
 
 typedef struct JoxOwnSlot {
     char *name;   /* "speed", "court"; "" for a distribution written in a state */
     JoxDist dist; /* drawn once per agent; groups may override it by name */
     bool is_place;
-    bool kept;                        /* of an earlier version: this one does not look at it */
+    bool kept;                        /* carried over from an earlier version; this version does not
+                                         read it */
     bool declared;                    /* in the machine's `own`: no group need set it */
-    int32_t line, column, end_column; /* where own.NAME was first written; 0 unknown */
-    uint32_t source;                  /* number of its file among the machine's files */
+    int32_t line, column, end_column; /* first use of own.NAME in the source; 0 unknown */
+    uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxOwnSlot;
 
 typedef enum { JOX_MEMORY_NUMBER, JOX_MEMORY_BOOLEAN } JoxMemoryKind;
-/* Before the name of the memory that a counter counts in: identities of its hidden slots. */
+/* Prefixes that turn the name of a counter's memory into the identities of its two hidden slots. */
 #define JOX_IDENTITY_ANGLE "\1"
 #define JOX_IDENTITY_BEGUN "\2"
-/* Slots that nothing names any more and that are kept, of a machine; the oldest are dropped beyond
- * it. */
+/* Greatest number of dormant slots of a machine, memory that no name refers to any more; beyond it
+   the oldest are dropped. */
 enum { JOX_MOST_DORMANT = 64 };
 
 typedef struct JoxMemorySlot {
-    char *name; /* "" for hidden slots */
-    char *
-        identity; /* of hidden slots: what a version that comes later takes them up by; else NULL */
-    bool dormant; /* hidden, as this version lacks the name that an earlier one had */
+    char *name;     /* "" for hidden slots */
+    char *identity; /* hidden slots: key by which a later version finds the slot again; else NULL */
+    bool dormant;   /* hidden because this version lacks a name that an earlier one had */
     JoxMemoryKind kind;
     double initial;
     bool is_public;       /* other machines may read it */
-    uint32_t name_number; /* of the names that machines share, where it is public */
+    uint32_t name_number; /* number of the name in the set of machines, if is_public */
 } JoxMemorySlot;
 
-/* circuits: net counter-clockwise turns about `target` since its start line was first crossed (or
-   since spawn, without one). Uses memory slots value, turned angle (rad) and begun (0/1). */
+/* circuits: net counter-clockwise turns about `target` since the agent first crossed its start line
+   (without one: since it was spawned). Uses memory slots value, turned angle (rad) and begun
+   (0/1). */
 typedef struct JoxCounter {
     int16_t target;
     int32_t value, angle, begun;
-    int32_t state; /* counts in this state only; -1 in all */
+    int32_t state; /* state in which it counts; -1: all states */
 } JoxCounter;
 
-/* Names that machines share: signals, and what others are asked for: states, machines, memory. */
+/* Uses of names that all machines of a set share: signals, and names of states, machines and memory
+   by which behaviours refer to other agents. */
 typedef enum {
     JOX_NAME_STATE = 1,
     JOX_NAME_SIGNALLED = 2,
@@ -309,32 +315,34 @@ typedef enum {
 } JoxNameUse;
 typedef struct JoxName {
     char *text;
-    uint32_t uses;   /* of JoxNameUse */
-    uint32_t number; /* equal for equal texts in all machines of a set; set when it is added */
-    int32_t line, column, end_column; /* where a state or memory was first written; 0 unknown */
-    uint32_t source;                  /* number of its file among the machine's files */
+    uint32_t uses;   /* bits of JoxNameUse */
+    uint32_t number; /* the same for equal texts in all machines of a set; assigned when the machine
+                        is added */
+    int32_t line, column, end_column; /* first use of the name in the source; 0 unknown */
+    uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxName;
 
-/* A tag or team that a machine names. Those that the scene has keep their number; another gets one
-   when the machine is put into a run, until when `number` is what it was compiled with. */
+/* A tag or team that a machine names. Tags and teams of the scene keep their number; others get one
+   when the machine is put into a run, and until then `number` is provisional. */
 typedef struct JoxBelonging {
     char *name;
     bool is_team;
-    bool is_set, is_asked; /* a state gives it to its agents; a target or a parameter asks for it */
-    uint16_t number;       /* bit of the tag; number of the team */
-    int32_t line, column, end_column; /* where it was first written; 0 unknown */
-    uint32_t source;                  /* number of its file among the machine's files */
+    bool is_set, is_asked; /* is_set: a state assigns it to agents; is_asked: a target or parameter
+                              tests for it */
+    uint16_t number;       /* tag: bit; team: number */
+    int32_t line, column, end_column; /* first use of the name in the source; 0 unknown */
+    uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxBelonging;
 
-/* Numbers of teams that no group has, and states set. */
+/* Numbers for teams that no group of the scene has and that states assign. */
 enum { JOX_MOST_SET_TEAMS = 64, JOX_FIRST_SET_TEAM = 65536 - JOX_MOST_SET_TEAMS };
 
 typedef struct JoxMachine {
     char *name, *path;
-    char **files; /* paths of all files that it was made of, `path` first; may be none */
+    char **files; /* paths of all files it was made from, `path` first; may be empty */
     uint32_t file_count;
-    double version;   /* the author's; NaN: the file has none */
-    uint32_t reloads; /* machines that it replaced, one after the other */
+    double version;   /* version that the author gave; NaN: none */
+    uint32_t reloads; /* number of reloads that led to it */
     uint16_t start;
     JoxValue defaults[JOX_PARAM_COUNT];
     JoxState *states;
@@ -347,8 +355,9 @@ typedef struct JoxMachine {
     uint32_t own_count;
     JoxMemorySlot *memory;
     uint32_t memory_count;
-    uint32_t home; /* memory of the agent's own post, x and y behind it, plus 1; 0: not asked for */
-    uint32_t name_number; /* of its own name; set when it is added to a set */
+    uint32_t home; /* 1 + slot of the x of the agent's own post, with y in the next slot; 0: not
+                      used */
+    uint32_t name_number; /* number of its own name in the set; assigned when it is added */
     JoxCounter *counters;
     uint32_t counter_count;
     JoxName *names;
@@ -357,45 +366,48 @@ typedef struct JoxMachine {
     uint32_t belonging_count;
     struct JoxRenamed {
         char *from, *to;
-    } * renamed; /* states, own values and memory of older versions */
+    } * renamed; /* new names of states, own values and memory of older versions */
     uint32_t renamed_count;
     uint32_t hook_count;
-    bool views;    /* hooks look at other agents: as they were before the step */
-    bool headings; /* it asks where others headed in the step before; set when it is put in a set */
-    int32_t vm;    /* which Lua state owns the hooks; -1 none */
+    bool views;    /* hooks read other agents, as they were before the step */
+    bool headings; /* it reads the last step's preferred velocities of others; assigned when it is
+                      added to a set */
+    int32_t vm;    /* index of the Lua state that holds the hooks; -1 none */
 } JoxMachine;
 
-/* Gives tags and teams other numbers: numbers[n] is that of belongings[n]. Of a machine that does
-   not run yet. */
+/* Renumbers tags and teams: belongings[n] gets numbers[n]. Only for a machine that is not in a run
+   yet. */
 void jox_machine_renumber(JoxMachine *machine, const uint16_t *numbers);
 
-/* The file that a line of the machine is of. */
+/* Returns the path of file `source` of a machine (JoxState.source and the like). */
 static inline const char *jox_machine_file(const JoxMachine *machine, uint32_t source) {
     return source < machine->file_count ? machine->files[source] : machine->path;
 }
 
-/* A state, and a transition, that do nothing yet: every index is -1. The names are taken over. */
+/* Return a state and a transition without effect: every index is -1. They own `name` and `id`. */
 JoxState jox_state_blank(char *name);
 JoxTransition jox_transition_blank(char *id);
-/* Index of a state by name, or -1. */
+/* Returns the index of a state by name, or -1. */
 int jox_machine_state(const JoxMachine *machine, const char *name);
-/* What a slot goes on as in a later version: its name, or the identity of a hidden one. */
+/* Returns the key by which a later version finds the slot: its name, or a hidden slot's
+   identity. */
 static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
     return *slot->name ? slot->name : slot->identity ? slot->identity : "";
 }
-/* Slot of its memory by name, or -1; slots without a name have none. */
+/* Returns the memory slot of a name, or -1; slots without a name are never found. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
-/* What of a machine others name. */
+/* Kinds of parts of a machine that have names. */
 typedef enum { JOX_PART_STATE, JOX_PART_OWN, JOX_PART_MEMORY } JoxPart;
-/* Whether it has a part of this name. */
+/* Returns whether the machine has a part of this name. */
 bool jox_machine_has(const JoxMachine *machine, JoxPart part, const char *name);
-/* What it calls the part now that was called `name`, which it has no longer; else NULL. */
+/* Returns the present name of the part that an older version called `name`, by the machine's list
+   `renamed`; NULL if `name` still exists or was not renamed. */
 const char *jox_machine_renamed(const JoxMachine *machine, JoxPart part, const char *name);
 enum { JOX_VERSION_TEXT = 64 };
-/* Writes what messages call the text that a machine was made of: "version 10 (reload 3)", without
-   what it lacks; a first text without a version is "the first version". Returns `out`. */
+/* Writes the version as messages show it: "version 10 (reload 3)", without the parts that are
+   unknown; the first text without a version is "the first version". Returns `out`. */
 const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]);
-/* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */
+/* Frees the machine with everything it owns (made by jox_alloc / jox_strdup). */
 void jox_machine_free(JoxMachine *machine);
 
 #endif

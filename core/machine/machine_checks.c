@@ -1,10 +1,11 @@
-/* Checks of machines and of what their stages hand on; builds with assertions call them. */
+/* Checks of machines and of the results of their stages. Builds with assertions call them through
+   JOX_CHECK; checks that return text also serve restored state. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
 
-/* Whether an index is -1 or below `count`. */
+/* Returns whether an index is -1 or below `count`. */
 static bool is_index(int64_t index, uint32_t count) {
     return index >= -1 && index < (int64_t)count;
 }
@@ -34,7 +35,8 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS) || in->target >= 0);
 }
 
-/* Straight-line code reads what it wrote before, and its last instruction writes register 0. */
+/* Asserts that an expression reads only registers it has written, and that its last instruction
+   writes register 0. */
 static void check_expression(const JoxMachine *m, const JoxExpression *expression) {
     uint64_t written = 0;
     JOX_ASSERT(expression->count > 0 && expression->code[expression->count - 1].to == 0);
@@ -69,13 +71,14 @@ static void check_transitions(const JoxMachine *m, const JoxState *state) {
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         JOX_ASSERT(t->to < m->state_count && is_index(t->when, m->expression_count));
-        JOX_ASSERT(t->when < 0 || t->when_hook < 0); /* one condition, compiled or a function */
+        JOX_ASSERT(t->when < 0 || t->when_hook < 0); /* a condition is an expression or a
+                                                        function */
         check_value(m, &t->chance);
         check_actions(m, &t->does);
     }
 }
 
-static void check_state(const JoxMachine *m, const JoxState *state) {
+static void check_machine_state(const JoxMachine *m, const JoxState *state) {
     const int16_t targets[] = {state->push_toward, state->face,    state->approach,
                                state->kick,        state->kick_at, state->take,
                                state->toss,        state->toss_at, state->grasp};
@@ -103,7 +106,7 @@ void jox_machine_check(const JoxMachine *m) {
     for (uint32_t e = 0; e < m->expression_count; e++)
         check_expression(m, &m->expressions[e]);
     for (uint32_t s = 0; s < m->state_count; s++)
-        check_state(m, &m->states[s]);
+        check_machine_state(m, &m->states[s]);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         check_value(m, &m->defaults[p]);
     for (uint32_t t = 0; t < m->target_count; t++) {
@@ -145,7 +148,7 @@ void jox_groups_check(const JoxMachineRun *run) {
             JOX_ASSERT(a->machine[*i] == batch->machine && a->state[*i] == batch->state);
         }
     }
-    JOX_ASSERT(grouped == running); /* everybody who runs a machine is in one batch */
+    JOX_ASSERT(grouped == running); /* each agent with a machine is in exactly one batch */
 }
 
 void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t count) {
@@ -160,7 +163,7 @@ void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t c
             continue;
         JOX_ASSERT(s->queue[list[k - 1]] == s->queue[i]);
         JOX_ASSERT(s->rank[list[k - 1]] + 1 == s->rank[i]);
-        JOX_ASSERT(a->queued[list[k - 1]] <= a->queued[i]); /* who came first stands first */
+        JOX_ASSERT(a->queued[list[k - 1]] <= a->queued[i]); /* earlier arrivals have lower ranks */
     }
 }
 
@@ -194,7 +197,8 @@ const char *jox_signals_fault(const JoxMachineRun *run) {
     return NULL;
 }
 
-/* Rows end with the slots of the machine: what lies beyond is hashed, and must not differ. */
+/* Returns the first broken condition of an agent's own values and memory. Cells beyond the
+   machine's slots are 0, since they are hashed. */
 static const char *rows_fault(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
     JOX_MUST(machine->own_count <= a->own_count && machine->memory_count <= a->memory_stride);
     JOX_MUST(machine->own_count >= 64 || a->given[i] >> machine->own_count == 0);
@@ -227,11 +231,11 @@ void jox_states_check(const JoxMachineRun *run) {
     JOX_NO_FAULT(jox_states_fault(run));
 }
 
-static void check_bodies(const JoxMachineRun *run) {
+static void check_kicks_and_grips(const JoxMachineRun *run) {
     const uint32_t objects = run->objects ? run->objects->count : 0;
     for (uint32_t k = 0; k < run->kick_count; k++) {
         JOX_ASSERT(run->kicks[k].object < objects && run->objects->rows[run->kicks[k].object].live);
-        JOX_ASSERT(run->kicks[k].impulse.z == 0.0f); /* kicks are level */
+        JOX_ASSERT(run->kicks[k].impulse.z == 0.0f); /* kicks are horizontal */
     }
     for (uint32_t k = 0; k < run->grip_count; k++) {
         const JoxGrip *grip = &run->grips[k];
@@ -247,7 +251,7 @@ static void check_bodies(const JoxMachineRun *run) {
 
 void jox_acts_check(const JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
-    check_bodies(run);
+    check_kicks_and_grips(run);
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 way = {run->push_toward_x[i], run->push_toward_y[i]};
         JOX_ASSERT((way.x == 0.0f && way.y == 0.0f) || jox_is_unit(way));
@@ -259,7 +263,8 @@ void jox_acts_check(const JoxMachineRun *run) {
 void jox_taken_check(const JoxMachineRun *run) {
     for (uint32_t n = 0; n < run->taken_count; n++) {
         const JoxTaken *taken = &run->taken[n];
-        JOX_ASSERT(n == 0 || taken[-1].agent_id < taken->agent_id); /* one an agent, by id */
+        JOX_ASSERT(n == 0 || taken[-1].agent_id < taken->agent_id); /* sorted by id, one per
+                                                                       agent */
         const JoxState *from = &run->set->items[taken->machine]->states[taken->from];
         JOX_ASSERT(taken->transition < from->transition_count);
         JOX_ASSERT(from->transitions[taken->transition].to == taken->to);
@@ -285,7 +290,7 @@ const char *jox_edits_fault(const JoxMachineRun *run) {
         JOX_MUST(edit->parameter >= 0 && edit->parameter < JOX_PARAM_COUNT);
         JOX_MUST(edit->value >= jox_parameters[edit->parameter].least &&
                  edit->value <= jox_parameters[edit->parameter].greatest);
-        for (uint32_t o = 0; o < e; o++) /* one for each parameter */
+        for (uint32_t o = 0; o < e; o++) /* one per parameter */
             JOX_MUST(edit->machine != state->edits[o].machine ||
                      edit->state != state->edits[o].state ||
                      edit->parameter != state->edits[o].parameter);
@@ -305,5 +310,6 @@ void jox_counts_carried_check(const JoxMachineCounts *was, const JoxMachineCount
         now += is->taken[k];
     for (uint32_t b = 0; b < is->before_count; b++)
         given += is->before[b].taken;
-    JOX_ASSERT(now <= before && before - now <= given); /* what does not go on is kept by names */
+    JOX_ASSERT(now <= before && before - now <= given); /* counts of transitions without a successor
+                                                           are kept by name */
 }

@@ -1,6 +1,6 @@
-/* Parameters that a machine computes, or draws, to what is no value for them: NaN, infinite, a
-   radius or mass of 0 or less. The nearest that is one is taken, and the first agent of each is
-   named. */
+/* Odd parameters: values that a machine computes or draws and that are invalid for the parameter
+   (NaN, infinite, a radius or mass of 0 or less). The nearest valid value is taken, and the first
+   agent is reported, once per line of source. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -12,14 +12,14 @@ bool jox_is_odd(int parameter, double value) {
            (value <= 0.0 && (parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass));
 }
 
-static bool comes_before(const JoxOdd *a, const JoxOdd *b) {
+static bool is_odd_before(const JoxOdd *a, const JoxOdd *b) {
     return a->machine != b->machine       ? a->machine < b->machine
            : a->state != b->state         ? a->state < b->state
            : a->parameter != b->parameter ? a->parameter < b->parameter
                                           : a->agent_id < b->agent_id;
 }
 
-static bool was_told(const JoxMachineRun *run, const JoxOdd *odd) {
+static bool was_reported(const JoxMachineRun *run, const JoxOdd *odd) {
     const uint32_t reloads = run->set->items[odd->machine]->reloads;
     for (uint32_t n = 0; n < run->told_count; n++) {
         const JoxTold *told = &run->told[n];
@@ -30,19 +30,20 @@ static bool was_told(const JoxMachineRun *run, const JoxOdd *odd) {
     return false;
 }
 
-/* The line that says what a parameter is, and the number of its file. */
-static int32_t line_of(const JoxMachine *machine, const JoxValue *value, uint32_t *source) {
+/* Returns the line that sets a parameter, and its file's index in `source`. */
+static int32_t find_line(const JoxMachine *machine, const JoxValue *value, uint32_t *source) {
     const bool own = value->line <= 0 && value->kind == JOX_VALUE_OWN;
     *source = own ? machine->own[value->index].source : value->source;
     return own ? machine->own[value->index].line : value->line;
 }
 
-static JoxOdd odd_of(const JoxMachineRun *run, uint32_t i, int parameter, double value) {
+static JoxOdd describe_odd(const JoxMachineRun *run, uint32_t i, int parameter, double value) {
     const JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[a->state[i]];
     uint32_t source;
-    const int32_t line = line_of(machine, jox_state_parameter(machine, state, parameter), &source);
+    const int32_t line =
+        find_line(machine, jox_state_parameter(machine, state, parameter), &source);
     return (JoxOdd){.found = true,
                     .agent_id = a->id[i],
                     .machine = a->machine[i],
@@ -61,10 +62,10 @@ void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
     for (uint32_t n = 0; any && n < count; n++) {
         if (!jox_is_odd(parameter, values[n]))
             continue;
-        const JoxOdd odd = odd_of(run, agents[n], parameter, values[n]);
-        if (was_told(run, &odd))
-            return; /* so are the others of this state */
-        if (!first->found || comes_before(&odd, first))
+        const JoxOdd odd = describe_odd(run, agents[n], parameter, values[n]);
+        if (was_reported(run, &odd))
+            return; /* the others of this state were reported with it */
+        if (!first->found || is_odd_before(&odd, first))
             *first = odd;
     }
 }
@@ -72,13 +73,13 @@ void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
 const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count) {
     const JoxOdd *first = odd;
     for (uint32_t n = 1; n < count; n++)
-        if (odd[n].found && (!first->found || comes_before(&odd[n], first)))
+        if (odd[n].found && (!first->found || is_odd_before(&odd[n], first)))
             first = &odd[n];
     return first;
 }
 
 void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
-    if (!odd->found || was_told(run, odd))
+    if (!odd->found || was_reported(run, odd))
         return;
     const JoxMachine *machine = run->set->items[odd->machine];
     const JoxParameterInfo *info = &jox_parameters[odd->parameter];
@@ -99,6 +100,6 @@ void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
 }
 
 void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, double value) {
-    const JoxOdd odd = odd_of(run, i, parameter, value);
+    const JoxOdd odd = describe_odd(run, i, parameter, value);
     jox_odd_tell(run, &odd);
 }

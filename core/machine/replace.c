@@ -1,5 +1,6 @@
-/* A machine takes the place of another while agents are in it. All comparing of names is done
-   beforehand; at the swap each agent is touched only where something differs. */
+/* Replaces a machine by a new version while agents are in it (a reload). A plan with all
+   comparisons by name is prepared beforehand on any thread; the swap then touches an agent only
+   where something differs. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,13 +10,13 @@
 #include "base/mem.h"
 #include "machine/internal.h"
 
-enum { AHEAD = 12 }; /* agents */
+enum { AHEAD = 12 }; /* agents ahead whose draws are prefetched */
 
-/* A parameter that agents of a state get with the new version. */
+/* A parameter that the new version sets differently in a state. */
 typedef struct Assignment {
     int parameter;
-    int32_t own; /* slot that holds it; -1: the same for all */
-    float value; /* as it is stored */
+    int32_t own; /* own slot that holds the value; -1: `value`, the same for all agents */
+    float value; /* as the column stores it */
 } Assignment;
 
 struct JoxReplacement {
@@ -23,32 +24,33 @@ struct JoxReplacement {
     JoxMachine *next;
     int32_t *state;  /* old state -> next, or -1 */
     int32_t *own;    /* next slot -> old, or -1 */
-    uint32_t *moved; /* next slots that go on from another one */
+    uint32_t *moved; /* next slots that continue from another index */
     uint32_t moved_count;
     int32_t *memory; /* next slot -> old of the same type, or -1 */
     bool own_moves, memory_moves, states_move;
     int8_t (*truth)[JOX_MOST_TRANSITIONS]; /* old state: next transition -> old, or -1 */
     bool *truth_moves;                     /* per old state */
-    Assignment (*assign)[JOX_PARAM_COUNT]; /* old state: what the next one sets otherwise */
+    Assignment (*assign)[JOX_PARAM_COUNT]; /* per old state: parameters that the next state sets
+                                              differently */
     uint32_t *assign_count;
-    bool *tags_change; /* old state: ignore or push_only differ */
-    uint32_t *redrawn; /* next slots that are drawn afresh */
+    bool *tags_change; /* per old state: ignore or push_only differ */
+    uint32_t *redrawn; /* next slots that are drawn again */
     uint32_t redrawn_count;
     bool *is_redrawn; /* per next slot */
-    double *drawn;    /* id by id, a value for each of those slots */
+    double *drawn;    /* by id, a value for each redrawn slot */
     uint32_t drawn_count;
-    double *before; /* one agent's row as it was */
+    double *before; /* an agent's own values or memory before the swap */
 };
 
-/* The state of `next` that continues `name`, or -1. */
-static int continued(const JoxMachine *next, const char *name) {
+/* Returns the state of `next` that continues `name`, or -1. */
+static int find_next_state(const JoxMachine *next, const char *name) {
     const char *now = jox_machine_renamed(next, JOX_PART_STATE, name);
     return jox_machine_state(next, now ? now : name);
 }
 
-/* Which of the old slots goes on as next->own[slot]: the n-th of the same name for the n-th of that
-   name, since slots without a name are several. -1 if there is none. */
-static int32_t own_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
+/* Returns the old slot that continues as next->own[slot], or -1. Slots without a name are matched
+   by their order among the slots of that name. */
+static int32_t find_old_own_slot(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
     const char *before = jox_name_before(old, next, JOX_PART_OWN, next->own[slot].name);
     uint32_t nth = 0;
     for (uint32_t s = 0; s < slot; s++)
@@ -59,8 +61,8 @@ static int32_t own_before(const JoxMachine *old, const JoxMachine *next, uint32_
     return -1;
 }
 
-/* What a scene gave stays with the agents, though this version does not look at it: a line that is
-   taken out and put back changes nothing. */
+/* Keeps own values that the scene gave although the new version does not read them: a line that is
+   removed and put back changes nothing. */
 static void keep_given(const JoxMachine *old, JoxMachine *next) {
     for (uint32_t o = 0; o < old->own_count; o++) {
         const JoxOwnSlot *slot = &old->own[o];
@@ -79,7 +81,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
     const JoxMachine *old = r->old, *next = r->next;
     r->own_moves = false;
     for (uint32_t s = 0; s < next->own_count; s++) {
-        r->own[s] = own_before(old, next, s);
+        r->own[s] = find_old_own_slot(old, next, s);
         JOX_ASSERT(r->own[s] < (int32_t)old->own_count);
         r->own_moves |= r->own[s] != (int32_t)s;
         if (r->own[s] >= 0 && r->own[s] != (int32_t)s)
@@ -102,8 +104,9 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
     }
 }
 
-/* Whether a value that is written on entering a state stays the same for all agents. */
-static bool same_value(const JoxReplacement *r, const JoxValue *a, const JoxValue *b) {
+/* Returns whether a parameter that is written on entering a state has the same value in both
+   versions for all agents. */
+static bool is_same_value(const JoxReplacement *r, const JoxValue *a, const JoxValue *b) {
     if (a->kind != b->kind)
         return false;
     if (b->kind == JOX_VALUE_CONST)
@@ -115,7 +118,7 @@ static bool same_value(const JoxReplacement *r, const JoxValue *a, const JoxValu
 
 static void map_state(JoxReplacement *r, uint32_t from) {
     const JoxState *was = &r->old->states[from];
-    int to = continued(r->next, was->name);
+    int to = find_next_state(r->next, was->name);
     r->state[from] = to;
     r->states_move |= to != (int)from;
     if (to < 0)
@@ -123,7 +126,7 @@ static void map_state(JoxReplacement *r, uint32_t from) {
     const JoxState *is = &r->next->states[to];
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(r->next, is, p);
-        if (same_value(r, jox_state_parameter(r->old, was, p), value) ||
+        if (is_same_value(r, jox_state_parameter(r->old, was, p), value) ||
             value->kind == JOX_VALUE_EXPRESSION)
             continue;
         Assignment *assign = &r->assign[from][r->assign_count[from]++];
@@ -217,8 +220,8 @@ const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const
     return NULL;
 }
 
-/* Which of the new slots are given where `given` of the old ones are. */
-static uint64_t given_now(const JoxReplacement *r, uint64_t given) {
+/* Maps the bits of given slots from the old version to the new one. */
+static uint64_t map_given(const JoxReplacement *r, uint64_t given) {
     uint64_t now = 0;
     for (uint32_t s = 0; s < r->next->own_count && s < 64; s++)
         if (r->own[s] >= 0 && r->own[s] < 64)
@@ -226,7 +229,7 @@ static uint64_t given_now(const JoxReplacement *r, uint64_t given) {
     return now;
 }
 
-/* The own values of an agent in their new slots. */
+/* Moves the agent's own values to their new slots. */
 static void carry_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
     for (uint32_t k = 0; k < r->moved_count; k++)
@@ -235,8 +238,8 @@ static void carry_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
         jox_own_set(a, i, r->moved[k], r->before[k]);
 }
 
-/* Values drawn afresh, but for those that the agent was given. */
-static void draw_again(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
+/* Draws changed own values again, except those that the agent was given. */
+static void redraw_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
     uint32_t id = a->id[i];
     uint64_t given = a->given[i];
@@ -259,7 +262,7 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
     for (uint32_t s = 0; s < r->next->memory_count; s++)
         memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
     if (r->next->home && r->memory[r->next->home - 1] < 0)
-        jox_post_set(run, i); /* this version asks for it first */
+        jox_post_set(run, i); /* first version with a post */
 }
 
 static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
@@ -291,13 +294,14 @@ static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i)
     }
 }
 
-/* What was drawn lies by id: far from the cache. */
+/* Prefetches the draws of an agent, which are stored by id and so far from those of its neighbours
+   in memory. */
 static void fetch_ahead(const JoxAgents *a, const JoxReplacement *r, uint32_t i) {
     if (a->id[i] < r->drawn_count)
         __builtin_prefetch(r->drawn + (size_t)a->id[i] * r->redrawn_count);
 }
 
-/* Counts of transitions that go on; what has no counterpart is kept by the names of its states. */
+/* Moves the counts of transitions that continue; others are kept by the names of their states. */
 static void carry_counts(const JoxReplacement *r, const JoxMachine *old, JoxMachineCounts *was,
                          JoxMachineCounts *is) {
     const JoxMachine *next = r->next;
@@ -333,7 +337,8 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
     JoxMachine *built = run->set->built[index], *next = r->next;
     JoxAgents *a = run->agents;
     JoxMachineCounts *counts = &run->state->counts[index], was = *counts;
-    JOX_ASSERT(r->old == old || r->old == built); /* prepared for what runs */
+    JOX_ASSERT(r->old == old || r->old == built); /* the plan was prepared for the machine that
+                                                     runs */
     *counts = (JoxMachineCounts){0};
     next->reloads = old->reloads + 1;
     jox_machines_put(run, index, next);
@@ -345,7 +350,7 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
         any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];
     bool shorter = next->own_count < old->own_count || next->memory_count < old->memory_count;
     bool all = any || shorter || r->own_moves || r->redrawn_count;
-    uint64_t given = 0, now = 0; /* of the agent before: mostly the same */
+    uint64_t given = 0, now = 0; /* bits of the last agent, which are mostly the same */
     for (uint32_t i = 0; all && i < a->count; i++) {
         if (r->redrawn_count && i + AHEAD < a->count)
             fetch_ahead(a, r, i + AHEAD);
@@ -353,12 +358,12 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
             continue;
         if (r->own_moves) {
             if (a->given[i] != given)
-                now = given_now(r, given = a->given[i]);
+                now = map_given(r, given = a->given[i]);
             a->given[i] = now;
             carry_own(run, r, i);
         }
         if (r->redrawn_count)
-            draw_again(run, r, i);
+            redraw_own(run, r, i);
         if (any)
             carry_agent(run, r, i);
         if (shorter)

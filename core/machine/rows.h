@@ -1,17 +1,19 @@
-/* Who stands in a row, and where: what group.c reserves and rows.c fills. */
+/* Agents that stand in rows (steering term JOX_STEER_FORMATION): group.c reserves the entries,
+   steering/rows.c fills them. */
 #ifndef JOX_MACHINE_ROWS_H
 #define JOX_MACHINE_ROWS_H
 
 #include "machine/internal.h"
 
-/* One who stands in a row. */
+/* One agent in a row. */
 typedef struct JoxRowEntry {
-    uint64_t row;   /* the line's place, or the one before it: equal in a row */
-    float along;    /* how far along the row it is, m */
+    uint64_t row;   /* key of the row: index of the line's place, or 2^32 + id of the agent in
+                       front */
+    float along;    /* m: position along the row */
     uint32_t agent; /* index */
     uint32_t id;
     float spacing;        /* m */
-    JoxV2 middle, across; /* of the row: its middle, and its direction */
+    JoxV2 middle, across; /* middle of the row, m, and its unit direction */
 } JoxRowEntry;
 
 #endif

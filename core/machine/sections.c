@@ -1,34 +1,35 @@
-/* The machines' state as sections, and the scratch, which a step may forget. */
+/* Sections of the machines' state, for hashing, saving and restoring; and overwriting the
+   scratch. */
 #include <math.h>
 #include <string.h>
 
 #include "machine/internal.h"
 
-static void add_text(JoxHash *hash, const char *text) {
+static void hash_text(JoxHash *hash, const char *text) {
     jox_hash_add(hash, text, strlen(text) + 1);
 }
 
-/* What the columns and rows of a machine's agents mean: its states, transitions, own values and
-   memory, by their names. Parameters and conditions may differ. */
-static uint64_t shape_of(const JoxMachine *machine) {
+/* Hashes the layout of a machine's columns: names of states, transitions, own values and memory.
+   Parameters and conditions may differ between runs that share state. */
+static uint64_t hash_shape(const JoxMachine *machine) {
     JoxHash hash = jox_hash_begin();
-    add_text(&hash, machine->name);
+    hash_text(&hash, machine->name);
     for (uint32_t s = 0; s < machine->state_count; s++) {
-        add_text(&hash, machine->states[s].name);
+        hash_text(&hash, machine->states[s].name);
         for (uint32_t k = 0; k < machine->states[s].transition_count; k++)
-            add_text(&hash, machine->states[s].transitions[k].id);
+            hash_text(&hash, machine->states[s].transitions[k].id);
     }
     jox_hash_add(&hash, &machine->own_count, sizeof machine->own_count);
     for (uint32_t o = 0; o < machine->own_count; o++)
-        add_text(&hash, machine->own[o].name);
+        hash_text(&hash, machine->own[o].name);
     jox_hash_add(&hash, &machine->memory_count, sizeof machine->memory_count);
     for (uint32_t m = 0; m < machine->memory_count; m++)
-        add_text(&hash, machine->memory[m].dormant ? machine->memory[m].identity
-                                                   : machine->memory[m].name);
+        hash_text(&hash, machine->memory[m].dormant ? machine->memory[m].identity
+                                                    : machine->memory[m].name);
     return jox_hash_end(&hash);
 }
 
-static void list_counts(JoxMachineCounts *counts, JoxSections *s) {
+static void list_count_sections(JoxMachineCounts *counts, JoxSections *s) {
     jox_section(s, "taken", counts->taken, sizeof *counts->taken, counts->taken_count);
     jox_section(s, "spent", counts->states, sizeof *counts->states, counts->state_count);
     JOX_SECTION(s, "since", counts->since);
@@ -49,8 +50,8 @@ static void list_counts(JoxMachineCounts *counts, JoxSections *s) {
     }
 }
 
-/* Whether all that was read names machines, states and names that there are. */
-static void check(const JoxMachineRun *run, JoxSections *s) {
+/* Reports restored state that refers to machines, states or names that do not exist. */
+static void check_restored(const JoxMachineRun *run, JoxSections *s) {
     const char *fault = jox_states_fault(run);
     if (fault)
         jox_sections_fail(s, "state", fault);
@@ -68,7 +69,7 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     jox_sections_module(s, "machines");
     jox_section_model(s, "count", set->count);
     for (uint32_t m = 0; m < set->count; m++)
-        jox_section_model(s, set->built[m]->name, shape_of(set->built[m]));
+        jox_section_model(s, set->built[m]->name, hash_shape(set->built[m]));
     JOX_SECTION(s, "tick", run->tick);
     JOX_SECTION_ARRAY(s, "called", state->called, state->called_count, state->called_capacity);
     JOX_SECTION_ARRAY(s, "announced", state->announced, state->announced_count,
@@ -80,14 +81,14 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     jox_sections_module(s, "machines");
     jox_sections_unhashed(s, true);
     for (uint32_t m = 0; m < set->count; m++)
-        list_counts(&state->counts[m], s);
+        list_count_sections(&state->counts[m], s);
     JOX_SECTION(s, "hook_failures", state->hook_failures);
     JOX_SECTION(s, "changes_lost", state->changes_lost);
     jox_sections_unhashed(s, false);
     if (s->mode != JOX_SECTIONS_RESTORE)
         return;
     if (!s->failed)
-        check(run, s);
+        check_restored(run, s);
     for (uint32_t m = 0; m < set->count && !s->failed; m++)
         jox_edits_apply(run, m);
 }

@@ -1,4 +1,4 @@
-/* What agents hear, see and hold, besides the targets of target.c. */
+/* Words on signals, gates and held bodies or agents. Targets are resolved in target.c. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "geom/walls.h"
 #include "machine/internal.h"
 
-static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
+static bool is_signal_before(const JoxSignal *a, const JoxSignal *b) {
     if (a->name != b->name)
         return a->name < b->name;
     return a->x != b->x ? a->x < b->x : a->agent_id < b->agent_id;
@@ -30,7 +30,7 @@ void jox_machines_listen(JoxMachineRun *run) {
         for (uint32_t k = gap; k < count; k++) {
             JoxSignal moving = s->heard[k];
             uint32_t at = k;
-            for (; at >= gap && comes_before(&moving, &s->heard[at - gap]); at -= gap)
+            for (; at >= gap && is_signal_before(&moving, &s->heard[at - gap]); at -= gap)
                 s->heard[at] = s->heard[at - gap];
             s->heard[at] = moving;
         }
@@ -49,7 +49,7 @@ bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach
     uint32_t low = 0, high = heard->heard_count;
     while (low < high) {
         uint32_t middle = (low + high) / 2;
-        if (comes_before(&heard->heard[middle], &from))
+        if (is_signal_before(&heard->heard[middle], &from))
             low = middle + 1;
         else
             high = middle;
@@ -66,9 +66,9 @@ bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach
     return false;
 }
 
-static const float AT_PLACE = 0.5f; /* m: a gate nearer to a place than that belongs to it */
+static const float AT_PLACE = 0.5f; /* m: a gate belongs to a place within this distance */
 
-/* Whether an agent sees one of the edges of a gate that belong to a place. */
+/* Returns whether an agent sees an edge of the gate that belongs to the place. */
 static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint32_t gate) {
     const JoxWalls *walls = run->walls;
     const struct JoxWallRing *ring = &walls->rings[gate];
@@ -79,7 +79,7 @@ static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint
                     b = walls->vertices[walls->vertices[v].next].point;
         const JoxV2 middle = jox_scale(jox_add(a, b), 0.5f);
         const JoxV2 away = jox_sub(agent, middle), near = jox_wrap(run->agents, away);
-        /* On the nearer side, where edges are joined. */
+        /* The agent's image next to the edge, if edges of the world are joined. */
         const JoxV2 at = jox_add(agent, jox_sub(near, away));
         if (jox_length(jox_sub(jox_segment_nearest(a, b, at), at)) <= perception &&
             jox_place_distance(run->places, place, middle) <= AT_PLACE &&

@@ -1,19 +1,21 @@
-/* Who sees, hears and touches whom: walls and bodies lie between, and others are of a kind. */
+/* Visibility and filters: which points walls and bodies hide from each other, and which agents
+   match a target. */
 #include <math.h>
 
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 #include "machine/internal.h"
 
-/* Whether a box about the way from one point to another holds none of an edge. */
-static bool is_beside(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {
+/* Returns whether the bounding box of a segment and that of an edge are disjoint. */
+static bool misses_box(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {
     return jox_maxf(a.x, b.x) < jox_minf(from.x, to.x) ||
            jox_minf(a.x, b.x) > jox_maxf(from.x, to.x) ||
            jox_maxf(a.y, b.y) < jox_minf(from.y, to.y) ||
            jox_minf(a.y, b.y) > jox_maxf(from.y, to.y);
 }
 
-/* The first edge on the way that stops it, of another ring than `but`: its vertex, or -1. */
+/* Returns the first edge that a segment crosses, of a closed wall of another ring than `but` and at
+   least `least_height` m high: its vertex, or -1. */
 static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to,
                              float least_height) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -23,7 +25,7 @@ static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, Jo
         for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
             const JoxV2 a = walls->vertices[v].point,
                         b = walls->vertices[walls->vertices[v].next].point;
-            if (!is_beside(from, to, a, b) && jox_segments_cross(from, to, a, b))
+            if (!misses_box(from, to, a, b) && jox_segments_cross(from, to, a, b))
                 return v;
         }
     }
@@ -55,7 +57,7 @@ bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *norma
 
 /* ---- bodies ---- */
 
-static bool is_across(const JoxObject *body, JoxV2 from, JoxV2 to) {
+static bool blocks_line(const JoxObject *body, JoxV2 from, JoxV2 to) {
     if (jox_footprint_nearest(body, from).gap <= 0.0f ||
         jox_footprint_nearest(body, to).gap <= 0.0f)
         return false;
@@ -78,12 +80,12 @@ bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t 
     uint32_t row;
     while (jox_objects_next(&walk, &row))
         if ((int32_t)row != but && jox_object_hides_people(&run->objects->rows[row]) &&
-            is_across(&run->objects->rows[row], from, to))
+            blocks_line(&run->objects->rows[row], from, to))
             return true;
     return false;
 }
 
-/* ---- others ---- */
+/* ---- other agents ---- */
 
 double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
     const JoxAgents *a = run->agents;
@@ -96,8 +98,8 @@ double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
     return NAN;
 }
 
-/* Whether agent j has all that is asked of those a target means; names are of agent i's machine. */
-static bool is_such(const JoxMachineRun *run, const JoxWhose *whose, uint32_t i, uint32_t j) {
+/* Returns whether agent j passes the filter of a target; names are those of agent i's machine. */
+static bool passes_filter(const JoxMachineRun *run, const JoxWhose *whose, uint32_t i, uint32_t j) {
     const JoxAgents *a = run->agents;
     const JoxName *names = jox_machine_of(run, i)->names;
     if (whose->group >= 0 && a->group[j] != whose->group)
@@ -117,9 +119,9 @@ static bool is_such(const JoxMachineRun *run, const JoxWhose *whose, uint32_t i,
     return value >= whose->least && value <= whose->greatest;
 }
 
-/* Whether agent j is of the kind that a target asks for. */
-static bool is_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
-    switch (target->kind) { /* team 0 is none: neither mate nor opponent */
+/* Returns whether agent j is of the kind that a target asks for. */
+static bool is_of_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
+    switch (target->kind) { /* team 0 means no team: neither teammate nor opponent */
     case JOX_TARGET_NEAREST:
         return (a->tags[j] >> target->arg & 1) != 0;
     case JOX_TARGET_OPPONENT:
@@ -135,14 +137,15 @@ static bool is_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uin
 
 bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
     const JoxAgents *a = run->agents;
-    if (!is_kind(a, target, i, j) || (target->whose.some && !is_such(run, &target->whose, i, j)))
+    if (!is_of_kind(a, target, i, j) ||
+        (target->whose.some && !passes_filter(run, &target->whose, i, j)))
         return false;
     const JoxV2 from = {a->x[i], a->y[i]}, to = jox_add(from, jox_offset(a, i, j));
     return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);
 }
 
-/* Adds those whom the neighbours of agent i lack, in a small crowd: all within perception, by
-   distance, then id. */
+/* In a small crowd, adds the agents within perception that are not among the neighbours of agent i,
+   by distance, then id. Returns the new count. */
 static uint32_t add_others(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                            uint32_t *found, uint32_t count) {
     const JoxAgents *a = run->agents;
@@ -170,8 +173,8 @@ static uint32_t add_others(const JoxMachineRun *run, const JoxTarget *target, ui
     return count;
 }
 
-/* Agents that agent i sees and a target asks for, nearest first; returns how many. */
-static uint32_t find_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+/* Lists the agents that agent i sees and that match a target, nearest first; returns how many. */
+static uint32_t list_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                             uint32_t found[JOX_SMALL_CROWD]) {
     const JoxNeighbours *n = run->neighbours;
     uint32_t count = 0;
@@ -186,10 +189,10 @@ static uint32_t find_wanted(const JoxMachineRun *run, const JoxTarget *target, u
 uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]) {
     const JoxTarget anyone = {.kind = JOX_TARGET_ANYONE};
-    return find_wanted(run, &anyone, agent, seen);
+    return list_wanted(run, &anyone, agent, seen);
 }
 
 uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t target) {
     uint32_t found[JOX_SMALL_CROWD];
-    return find_wanted(run, &jox_machine_of(run, i)->targets[target], i, found);
+    return list_wanted(run, &jox_machine_of(run, i)->targets[target], i, found);
 }

@@ -1,4 +1,5 @@
-/* What agents call out; names that machines share; what entering and taking do besides. */
+/* Signals that agents give, the table of names that machines share, and the actions of entries and
+   transitions. */
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +8,8 @@
 #include "base/mem.h"
 #include "machine/internal.h"
 
-/* Where a name is in the table, or the gap where it would be. */
-static size_t place_of(const JoxMachineSet *set, const char *name) {
+/* Returns the cell of a name in the hash table, or the empty cell where it belongs. */
+static size_t find_name_cell(const JoxMachineSet *set, const char *name) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, name, strlen(name));
     size_t at = jox_hash_end(&hash) & (set->name_room - 1);
@@ -17,7 +18,7 @@ static size_t place_of(const JoxMachineSet *set, const char *name) {
     return at;
 }
 
-/* Twice as many gaps as names at least. */
+/* Grows the hash table so that at most a third is full. */
 static void widen_table(JoxMachineSet *set) {
     if (3 * (size_t)set->name_count < set->name_room)
         return;
@@ -26,13 +27,13 @@ static void widen_table(JoxMachineSet *set) {
     set->name_room = set->name_room ? 2 * set->name_room : 64;
     set->name_table = jox_alloc(set->name_room, sizeof *set->name_table);
     for (uint32_t n = 0; n < set->name_count; n++)
-        set->name_table[place_of(set, set->names[n])] = n + 1;
+        set->name_table[find_name_cell(set, set->names[n])] = n + 1;
 }
 
 uint32_t jox_machines_name(JoxMachineRun *run, const char *name) {
     JoxMachineSet *set = run->set;
     widen_table(set);
-    const size_t at = place_of(set, name);
+    const size_t at = find_name_cell(set, name);
     if (set->name_table[at])
         return set->name_table[at] - 1;
     JOX_RESERVE(set->names, set->name_capacity, set->name_count + 1);
@@ -74,7 +75,7 @@ void jox_machines_repeat_signals(JoxMachineRun *run) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
-        if (jox_time_in_state(run, i) > 0.0) /* entering has called already */
+        if (jox_time_in_state(run, i) > 0.0) /* entering gave the first one */
             jox_machines_call(run, i, machine->names[state->enters.signal].number);
     }
 }

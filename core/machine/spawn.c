@@ -1,4 +1,5 @@
-/* Machines come into a world, and agents begin to run them. */
+/* Adds machines to a world, and lets agents begin to run them: at spawning, and when they switch to
+   another machine. */
 #include "machine/run.h"
 
 #include <math.h>
@@ -9,8 +10,8 @@
 #include "base/mem.h"
 #include "machine/internal.h"
 
-/* Numbers what is numbered across all machines of the set and all states of the machine. */
-static void number(JoxMachineRun *run, JoxMachine *machine) {
+/* Assigns the numbers of names, unique in the set, and of transitions, unique in the machine. */
+static void assign_numbers(JoxMachineRun *run, JoxMachine *machine) {
     uint32_t transitions = 0;
     machine->name_number = jox_machines_name(run, machine->name);
     for (uint32_t n = 0; n < machine->name_count; n++)
@@ -25,8 +26,9 @@ static void number(JoxMachineRun *run, JoxMachine *machine) {
     }
 }
 
-/* Whether a state evades, or something asks for headway, as functions may. */
-static bool asks_for_headings(const JoxMachine *machine) {
+/* Returns whether a machine reads preferred velocities of the last step: evade, headway, or
+   functions, which may. */
+static bool reads_headings(const JoxMachine *machine) {
     bool asks = machine->hook_count > 0;
     for (uint32_t s = 0; s < machine->state_count; s++)
         for (uint32_t t = 0; t < machine->states[s].steer_count; t++)
@@ -42,8 +44,8 @@ static bool asks_for_headings(const JoxMachine *machine) {
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
     JOX_CHECK(jox_machine_check(machine));
-    number(run, machine);
-    machine->headings = asks_for_headings(machine);
+    assign_numbers(run, machine);
+    machine->headings = reads_headings(machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
     jox_counts_begin(&run->state->counts[index], machine, run->tick);
@@ -60,7 +62,7 @@ static void draw_own(const JoxMachineRun *run, uint32_t i, uint32_t slot, const 
     jox_own_set(a, i, slot, jox_dist_draw(dist, run->seed, a->id[i], 0, JOX_DRAW_OWN, slot));
 }
 
-static bool is_given(const JoxDist *const *given, uint32_t slot) {
+static bool overrides_slot(const JoxDist *const *given, uint32_t slot) {
     return given && slot < JOX_MOST_GIVEN && given[slot];
 }
 
@@ -68,16 +70,16 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
     for (uint32_t s = 0; s < kind->own_count; s++)
-        draw_own(run, agent, s, is_given(own, s) ? own[s] : &kind->own[s].dist);
+        draw_own(run, agent, s, overrides_slot(own, s) ? own[s] : &kind->own[s].dist);
     for (uint32_t s = kind->own_count; s < a->own_count; s++)
         jox_own_set(a, agent, s, 0.0);
     for (uint32_t s = 0; s < kind->memory_count; s++) {
         double value = kind->memory[s].initial;
-        if (is_given(memory, s))
+        if (overrides_slot(memory, s))
             value = jox_dist_draw(memory[s], run->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
-    if (kind->home && !is_given(memory, kind->home - 1))
+    if (kind->home && !overrides_slot(memory, kind->home - 1))
         jox_post_set(run, agent);
 }
 
@@ -87,7 +89,7 @@ void jox_post_set(JoxMachineRun *run, uint32_t agent) {
     post[1] = run->agents->y[agent];
 }
 
-/* Leaves what the next think has to do: it has no neighbours yet. */
+/* Enters a state outside a step, and queues what needs neighbours for the next think. */
 static void enter_between_steps(JoxMachineRun *run, uint32_t agent, uint16_t to) {
     JoxMachineState *pending = run->state;
     const JoxState *state = &jox_machine_of(run, agent)->states[to];
@@ -105,12 +107,13 @@ float jox_machines_birth_radius(const JoxMachineRun *run, uint32_t id, uint32_t 
                                 const JoxDist *const *own) {
     const JoxMachine *kind = run->set->items[machine];
     const JoxValue *value = jox_state_parameter(kind, &kind->states[kind->start], JOX_PARAM_radius);
-    double radius = jox_parameters[JOX_PARAM_radius].value; /* of what is known in the step only */
+    double radius = jox_parameters[JOX_PARAM_radius].value; /* for a radius that is computed in the
+                                                               step */
     if (value->kind == JOX_VALUE_CONST)
         radius = value->number;
     if (value->kind == JOX_VALUE_OWN) {
         const uint32_t slot = (uint32_t)value->index;
-        const JoxDist *dist = is_given(own, slot) ? own[slot] : &kind->own[slot].dist;
+        const JoxDist *dist = overrides_slot(own, slot) ? own[slot] : &kind->own[slot].dist;
         radius = jox_dist_draw(dist, run->seed, id, 0, JOX_DRAW_OWN, slot);
     }
     return jox_parameter_store(JOX_PARAM_radius, radius);
@@ -126,15 +129,17 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
         a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
-    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++) /* for what is known in the step only */
+    for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++) /* for parameters that are computed in the
+                                                          step */
         if (jox_state_parameter(kind, &kind->states[kind->start], p)->kind == JOX_VALUE_EXPRESSION)
             jox_param_set(a, p, agent, jox_parameter_store(p, jox_parameters[p].value));
     enter_between_steps(run, agent, kind->start);
 }
 
-/* Whether an own value goes along when an agent becomes another machine: its body and what is no
-   parameter (a goal, a court), and whatever the scene gave it. */
-static bool goes_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot, uint32_t number) {
+/* Returns whether an own value is kept when an agent switches to another machine: radius, mass,
+   values that are no parameter (a goal, a court), and all that the scene gave it. */
+static bool is_carried_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot,
+                             uint32_t number) {
     int parameter = jox_parameter_find(slot->name);
     bool given = number < 64 && (a->given[i] >> number & 1);
     return *slot->name &&
@@ -166,7 +171,7 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
     for (uint32_t n = 0; n < next->own_count && n < JOX_MOST_GIVEN; n++)
         for (uint32_t o = 0; o < old->own_count; o++)
             if (strcmp(old->own[o].name, next->own[n].name) == 0 &&
-                goes_along(a, i, &old->own[o], o)) {
+                is_carried_along(a, i, &old->own[o], o)) {
                 kept[n] = jox_dist_constant(jox_own(a, i, o));
                 own[n] = &kept[n];
                 given |= n < 64 ? (uint64_t)1 << n : 0;
@@ -189,7 +194,7 @@ void jox_machines_set_state(JoxMachineRun *run, uint32_t agent, uint16_t to) {
     JoxMachineState *pending = run->state;
     const JoxMachine *machine = jox_machine_of(run, agent);
     const int32_t next = machine->states[to].become_machine;
-    uint32_t kept = 0; /* what it had to do in the state that it leaves is void */
+    uint32_t kept = 0; /* entries that are still queued for the old state are dropped */
     JOX_ASSERT(to < machine->state_count);
     for (uint32_t n = 0; n < pending->pending_count; n++)
         if (pending->pending[n] != run->agents->id[agent])

@@ -1,16 +1,18 @@
-/* What a target is for one agent, now. */
+/* Resolves targets: the place, body, agent or point that a target means for one agent at
+   present. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "machine/internal.h"
 
-/* A number of a place, or -1 where there is none of that number. */
-static inline int32_t among_places(const JoxMachineRun *run, int32_t place) {
+/* Returns the index of a place if it is valid, else -1. */
+static inline int32_t keep_valid_place(const JoxMachineRun *run, int32_t place) {
     return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
 }
 
-/* The place that a target is for one agent, or -1. */
-static inline int32_t place_of(const JoxMachineRun *run, const JoxTarget *target, uint32_t agent) {
+/* Returns the place that a target is for one agent, or -1. */
+static inline int32_t resolve_place(const JoxMachineRun *run, const JoxTarget *target,
+                                    uint32_t agent) {
     int32_t place = -1;
     if (target->kind == JOX_TARGET_PLACE)
         place = target->arg;
@@ -19,7 +21,7 @@ static inline int32_t place_of(const JoxMachineRun *run, const JoxTarget *target
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];
-    return among_places(run, place);
+    return keep_valid_place(run, place);
 }
 
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
@@ -35,20 +37,20 @@ void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int3
     const JoxOwnColumn *own =
         target && target->kind == JOX_TARGET_OWN_PLACE ? &run->agents->own[target->arg] : NULL;
     const bool same = own ? !own->mask : !target || target->kind == JOX_TARGET_PLACE;
-    const int32_t first = target ? place_of(run, target, agents[0]) : -1;
+    const int32_t first = target ? resolve_place(run, target, agents[0]) : -1;
     if (same)
         for (uint32_t n = 0; n < count; n++)
             places[n] = first;
     else if (own)
         for (uint32_t n = 0; n < count; n++)
-            places[n] = among_places(run, (int32_t)own->cells[agents[n]]);
+            places[n] = keep_valid_place(run, (int32_t)own->cells[agents[n]]);
     else
         for (uint32_t n = 0; n < count; n++)
-            places[n] = place_of(run, target, agents[n]);
+            places[n] = resolve_place(run, target, agents[n]);
 }
 
-/* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */
-static JoxSpot agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) {
+/* Returns agent `other` as agent i sees it: across a periodic edge if that is nearer. */
+static JoxSpot make_agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) {
     const JoxAgents *a = run->agents;
     JoxV2 offset = jox_offset(a, i, other);
     return (JoxSpot){.found = true,
@@ -62,7 +64,7 @@ static JoxSpot agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) 
                      .agent = other};
 }
 
-static JoxSpot object_spot(const JoxObject *o, int32_t row) {
+static JoxSpot make_object_spot(const JoxObject *o, int32_t row) {
     return (JoxSpot){.found = true,
                      .x = o->position.x,
                      .y = o->position.y,
@@ -75,9 +77,9 @@ static JoxSpot object_spot(const JoxObject *o, int32_t row) {
                      .agent = JOX_NO_INDEX};
 }
 
-/* The first of those that jox_machines_seen would find, for one target: neighbours, nearest first,
-   then all within perception where the crowd is small. */
-static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+/* Returns the first agent that jox_machines_seen would list for a target: from the neighbours,
+   nearest first, then, in a small crowd, from all within perception. JOX_NO_INDEX: none. */
+static uint32_t find_nearest_agent(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
     for (uint32_t k = 0; k < n->count[i]; k++) {
@@ -99,7 +101,8 @@ static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target,
     return best;
 }
 
-/* Whether a wall or another body hides a body: what flies is seen above those that are lower. */
+/* Returns whether a wall or another body hides a body; a body in the air is seen above lower
+   ones. */
 static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObject *object) {
     const JoxV2 from = {run->agents->x[i], run->agents->y[i]};
     const JoxV2 to = {object->position.x, object->position.y};
@@ -108,8 +111,8 @@ static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObjec
             jox_is_behind_body(run, from, to, (int32_t)(object - run->objects->rows)));
 }
 
-static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
-                              float *distance2) {
+static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                                   float *distance2) {
     const JoxAgents *a = run->agents;
     float reach = jox_param(a, JOX_PARAM_perception, i);
     int32_t best = -1;
@@ -132,7 +135,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     JoxSpot none = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
     const JoxAgents *a = run->agents;
     if (index < 0)
-        return agent_spot(run, i, i);
+        return make_agent_spot(run, i, i);
     JOX_ASSERT((uint32_t)index < jox_machine_of(run, i)->target_count);
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
     if (target->kind < JOX_TARGET_NEAREST) {
@@ -148,14 +151,14 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     }
     float object_d2 = INFINITY;
     int32_t object = target->kind == JOX_TARGET_NEAREST && !target->whose.some
-                         ? nearest_object(run, target, i, &object_d2)
+                         ? find_nearest_object(run, target, i, &object_d2)
                          : -1;
-    uint32_t other = nearest_agent(run, target, i);
+    uint32_t other = find_nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX) {
         if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)
-            return agent_spot(run, i, other);
+            return make_agent_spot(run, i, other);
     }
-    return object >= 0 ? object_spot(&run->objects->rows[object], object) : none;
+    return object >= 0 ? make_object_spot(&run->objects->rows[object], object) : none;
 }
 
 bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32_t row) {
@@ -195,8 +198,8 @@ float jox_driven(const JoxMachineRun *run, uint32_t i) {
     return jox_length(jox_player_wants(run, i));
 }
 
-/* Who wants to go the other way is met, not followed: avoidance sees to that. If people waited for
-   each other instead, both ways would come to rest face to face. */
+/* Ignores agents that head the other way, which are avoided, not followed: if people waited for
+   each other, opposite streams would stop face to face. */
 float jox_headway(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;

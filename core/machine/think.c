@@ -1,4 +1,4 @@
-/* The stage think: counters, transitions, hooks, then what the new states ask for. */
+/* The stage think: counters, then transitions with their hooks, then the actions of the states. */
 #include <math.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 #include "base/number/pi.h"
 #include "machine/internal.h"
 
-/* Angle from a to b; a step turns little, where the series is exact to 1e-10. */
-static double turned(JoxV2 a, JoxV2 b) {
+/* Returns the angle from a to b, rad. Steps turn little, where the series is exact to 1e-10. */
+static double find_angle(JoxV2 a, JoxV2 b) {
     double sine = (double)a.x * b.y - (double)a.y * b.x,
            cosine = (double)a.x * b.x + (double)a.y * b.y;
     if (!(cosine > 0.0) || fabs(sine) > 0.1 * cosine)
@@ -29,19 +29,20 @@ static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, 
         if (line && jox_segment_crossing(line->points[0], line->points[1], from, to) != 1)
             return;
         memory[counter->begun] = 1.0;
-        memory[counter->angle] = memory[counter->value] * JOX_TURN; /* laps given at birth count */
+        memory[counter->angle] =
+            memory[counter->value] * JOX_TURN; /* laps that the scene gave count */
         if (line)
-            return; /* turns count from here on */
+            return; /* turns count from the start line on */
     }
-    double angle =
-        memory[counter->angle] + turned(jox_sub(from, place->centre), jox_sub(to, place->centre));
+    double angle = memory[counter->angle] +
+                   find_angle(jox_sub(from, place->centre), jox_sub(to, place->centre));
     memory[counter->angle] = angle;
     memory[counter->value] = floor(angle / JOX_TURN + 1e-9);
 }
 
-/* Whether a transition whose condition has just turned true is taken. */
-static bool roll(const JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
-                 uint32_t k, uint32_t i) {
+/* Returns whether a transition whose condition has just become true is taken, by its chance. */
+static bool roll_chance(const JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+                        uint32_t k, uint32_t i) {
     if (t->chance.kind == JOX_VALUE_UNSET)
         return true;
     double chance = jox_value(run, machine, &t->chance, i);
@@ -52,8 +53,9 @@ typedef struct Think {
     JoxMachineRun *run;
 } Think;
 
-static void count_circuits_of(const JoxMachineRun *run, const JoxMachine *machine,
-                              const JoxCounter *counter, const uint32_t *agents, uint32_t count) {
+static void count_circuits_of_batch(const JoxMachineRun *run, const JoxMachine *machine,
+                                    const JoxCounter *counter, const uint32_t *agents,
+                                    uint32_t count) {
     const bool one =
         counter->target >= 0 && machine->targets[counter->target].kind == JOX_TARGET_PLACE;
     int32_t index = -1;
@@ -65,7 +67,7 @@ static void count_circuits_of(const JoxMachineRun *run, const JoxMachine *machin
     }
 }
 
-/* Counters and compiled conditions of one batch; fills `fired`. */
+/* Updates the counters of one batch and evaluates its compiled conditions; fills `fired`. */
 static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
                         JoxRegisters registers) {
     JoxAgents *a = run->agents;
@@ -74,14 +76,15 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (uint32_t c = 0; c < machine->counter_count; c++)
         if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
-            count_circuits_of(run, machine, &machine->counters[c], agents, batch->count);
+            count_circuits_of_batch(run, machine, &machine->counters[c], agents, batch->count);
     int32_t known = -1;   /* expression whose result is in register 0 */
-    uint32_t nobodys = 0; /* bits of the conditions that hold for nobody */
+    uint32_t nobodys = 0; /* bits of the conditions that are false for all agents */
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         if (t->when_hook >= 0)
             continue;
-        if (t->when >= 0 && t->when != known) /* the same once more keeps its result */
+        if (t->when >= 0 && t->when != known) /* the condition of the transition before keeps its
+                                                 result */
             jox_eval(run, machine, &machine->expressions[t->when], agents, batch->count, registers);
         known = t->when >= 0 ? t->when : known;
         uint32_t bit = 1u << k;
@@ -93,9 +96,10 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
             uint32_t i = agents[n];
             bool holds = t->when < 0 || registers[0][n] != 0.0;
             bool rises = holds && !(a->was_true[i] & bit);
-            /* A certain transition is taken whenever it holds; a chance is rolled once a rise. */
+            /* A transition without a chance is taken whenever its condition holds; with a chance,
+               it is rolled once each time the condition becomes true. */
             if (run->scratch->fired[i] < 0 && holds &&
-                (t->chance.kind == JOX_VALUE_UNSET || rises) && roll(run, machine, t, k, i))
+                (t->chance.kind == JOX_VALUE_UNSET || rises) && roll_chance(run, machine, t, k, i))
                 run->scratch->fired[i] = (int16_t)k;
             if (holds == !(a->was_true[i] & bit))
                 a->was_true[i] ^= bit;
@@ -120,8 +124,9 @@ static bool has_function_whens(const JoxState *state) {
     return false;
 }
 
-/* Plain Lua conditions, for agents that no compiled transition takes, by id. */
-static void ask_functions(JoxMachineRun *run) {
+/* Evaluates conditions that are Lua functions, for agents that no compiled transition takes, by
+   id. */
+static void evaluate_function_conditions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
     s->list_count = 0;
@@ -148,7 +153,7 @@ static void ask_functions(JoxMachineRun *run) {
                 result[0] != 0.0;
             bool rises = holds && !(a->was_true[i] >> k & 1);
             if (holds && (t->chance.kind == JOX_VALUE_UNSET || rises) &&
-                roll(run, machine, t, k, i))
+                roll_chance(run, machine, t, k, i))
                 s->fired[i] = (int16_t)k;
             if (holds == !(a->was_true[i] >> k & 1))
                 a->was_true[i] ^= 1u << k;
@@ -162,8 +167,8 @@ static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32
         run->call(run->call_context, jox_machine_of(run, agent), hook, kind, agent, unused);
 }
 
-/* Enters a state with what it does and calls, and goes on with another machine where it says so. */
-static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+/* Enters a state: actions and hook, then the switch to another machine if the state says so. */
+static void enter_state(JoxMachineRun *run, uint32_t i, uint16_t to) {
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
     jox_machines_enter(run, i, to);
@@ -173,12 +178,13 @@ static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
         return;
     JOX_ASSERT((uint32_t)state->become_machine < run->set->count);
     jox_machines_become(run, i, (uint32_t)state->become_machine);
-    machine = jox_machine_of(run, i); /* a start state cannot become anything at once */
+    machine = jox_machine_of(run, i); /* a start state cannot switch machines again */
     jox_actions_do(run, machine, &machine->states[machine->start].enters, i);
     call_hook(run, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
 }
 
-/* Lists those who take a transition: few do in any one step. */
+/* Lists the agents that take a transition. Blocks without any are skipped, as few agents do in a
+   step. */
 static void list_fired(JoxMachineRun *run) {
     enum { BLOCK = 32 };
     JoxMachineScratch *s = run->scratch;
@@ -195,7 +201,7 @@ static void list_fired(JoxMachineRun *run) {
     }
 }
 
-/* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
+/* Takes the fired transitions, by id; hooks run in the order exit, take, enter. */
 static void take_transitions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
@@ -218,13 +224,13 @@ static void take_transitions(JoxMachineRun *run) {
         call_hook(run, from->on_exit, JOX_HOOK_EXIT, i);
         jox_actions_do(run, machine, &t->does, i);
         call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
-        enter(run, i, t->to);
+        enter_state(run, i, t->to);
     }
 }
 
-/* What agents that were spawned since the last step could not do yet: draw a duration that is an
-   expression of what they sense, and run on_enter. */
-static void begin_spawned(JoxMachineRun *run) {
+/* Completes entries outside a step, which had no neighbours: evaluates durations, carries out
+   actions, calls on_enter. */
+static void complete_entries(JoxMachineRun *run) {
     JoxMachineState *pending = run->state;
     JoxAgents *a = run->agents;
     for (uint32_t n = 0; n < pending->pending_count; n++) {
@@ -248,7 +254,8 @@ static bool any_views(const JoxMachineRun *run) {
     return false;
 }
 
-/* Kept apart, since the stage prefer writes new ones while agents look at each other's. */
+/* Keeps the preferred velocities of the last step, since the stage prefer overwrites them while
+   other agents still read them. */
 static void keep_headings(JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
     JoxMachineScratch *s = run->scratch;
@@ -279,12 +286,12 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         if (views)
             run->bracket(run->call_context, true);
         jox_machines_count_places(run);
-        begin_spawned(run);
+        complete_entries(run);
         Think think = {run};
-        if (run->agents->count) /* nobody takes any */
+        if (run->agents->count) /* -1: no transition */
             memset(run->scratch->fired, 0xff, run->agents->count * sizeof *run->scratch->fired);
         jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
-        ask_functions(run);
+        evaluate_function_conditions(run);
         take_transitions(run);
         JOX_CHECK(jox_taken_check(run));
         if (views)

@@ -1,5 +1,5 @@
-/* What is kept of agents that somebody looks at: their last transition, and who wrote their values.
-   No step reads it. */
+/* Records for watched agents: the last transition, and what wrote their values. No step reads
+   them. */
 #include <stdio.h>
 #include <string.h>
 
@@ -41,8 +41,8 @@ void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote) {
     }
 }
 
-/* Whose actions they are: of a transition, or of a state. */
-static JoxWrote writer_of(const JoxMachine *machine, const JoxActions *actions) {
+/* Finds the transition or state that actions belong to. */
+static JoxWrote find_writer(const JoxMachine *machine, const JoxActions *actions) {
     JoxWrote wrote = {.is_memory = true, .by = JOX_WROTE_STATE};
     for (uint32_t s = 0; s < machine->state_count; s++) {
         const JoxState *state = &machine->states[s];
@@ -65,7 +65,7 @@ void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxA
         watched |= run->watched[n].agent_id == run->agents->id[i];
     if (!watched || actions->set_count == 0)
         return;
-    JoxWrote wrote = writer_of(machine, actions);
+    JoxWrote wrote = find_writer(machine, actions);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         wrote.index = (uint16_t)actions->set[n].slot;
         jox_machines_wrote(run, i, &wrote);

@@ -1,8 +1,8 @@
-/* The steering word `gather`: agents that wait in an area fill it from its front, spread as far as
-   there is room, and close up as more come in. Each has a turn from its arrival: earlier before
-   later, nearer to the front before farther. Spots are given row by row in order of turn, and
-   within a row in the order in which the agents stand across, so that few ways cross. Agents that
-   are hindered on their way exchange turns with neighbours (gather_move.c). */
+/* The steering term `gather`: agents that wait in an area fill it from its front, spread as far as
+   there is room, and close up as more come in. Each agent has a turn from its arrival: earlier
+   before later, nearer to the front before farther. Spots are assigned row by row in order of turn,
+   and within a row in the order in which the agents stand across, so that few ways cross. Agents
+   that are hindered on their way exchange turns with neighbours (gather_move.c). */
 #include <math.h>
 
 #include "base/assert.h"
@@ -12,16 +12,16 @@
 #include "base/sort.h"
 #include "machine/gather.h"
 
-static const double TURN_TIME =
-    5.0;                            /* s: of arrivals within it, the nearer to the front is first */
-static const float BREADTHS = 1.2f; /* least spacing, in mean breadths of agents */
+static const double TURN_TIME = 5.0; /* s: arrivals within it are ordered by distance from the
+                                        front */
+static const float BREADTHS = 1.2f;  /* least spacing, in mean diameters of the agents */
 
-static JoxV2 direction_of(float degrees) {
+static JoxV2 find_direction(float degrees) {
     return jox_v2((float)jox_cos(degrees * JOX_DEGREE), (float)jox_sin(degrees * JOX_DEGREE));
 }
 
-/* The turn of an agent that comes to gather: by a span of time, and within it by the way to the
-   front. Not 0. */
+/* Returns the turn of an agent that begins to gather: the number of its time span, and within it
+   the distance from the front, cm. Never 0. */
 static uint32_t find_turn(const JoxMachineRun *run, const JoxPlace *place, JoxV2 at, JoxV2 ahead) {
     const double span = run->tick * run->dt / TURN_TIME;
     float front = -INFINITY;
@@ -32,14 +32,14 @@ static uint32_t find_turn(const JoxMachineRun *run, const JoxPlace *place, JoxV2
            (uint32_t)jox_clampf(centimetres, 1.0f, 65535.0f);
 }
 
-/* False where there is no area: the agent then stands where it is. */
+/* Fills the entry of an agent; false if the target is no area, and the agent stands where it is. */
 static bool find_area(JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term, JoxGathering *out) {
     const JoxAgents *a = run->agents;
     const int32_t index = jox_target_place(run, i, term->target);
     const JoxV2 at = {a->x[i], a->y[i]};
     if (index < 0 || !jox_place_is_area(&run->places[index]))
         return false;
-    const JoxV2 ahead = direction_of((float)term->args[0]);
+    const JoxV2 ahead = find_direction((float)term->args[0]);
     if (!a->turn[i])
         run->agents->turn[i] = find_turn(run, &run->places[index], at, ahead);
     const JoxStandable *cells = &jox_gather_ground(run, index)->cells;
@@ -54,7 +54,7 @@ static bool find_area(JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term, 
     return true;
 }
 
-static int by_turn(const void *left, const void *right, const void *context) {
+static int compare_gather_turns(const void *left, const void *right, const void *context) {
     const JoxGathering *a = left, *b = right;
     (void)context;
     if (a->place != b->place)
@@ -68,7 +68,7 @@ static int by_turn(const void *left, const void *right, const void *context) {
     return (a->id > b->id) - (a->id < b->id);
 }
 
-static int by_across(const void *left, const void *right, const void *context) {
+static int compare_across(const void *left, const void *right, const void *context) {
     const JoxGathering *a = left, *b = right;
     (void)context;
     if (a->across != b->across)
@@ -76,17 +76,17 @@ static int by_across(const void *left, const void *right, const void *context) {
     return (a->id > b->id) - (a->id < b->id);
 }
 
-/* ---- who stands where ---- */
+/* ---- assignment of spots ---- */
 
-/* Agents of a row, in the order in which they stand across, and the spots that they get: in their
-   order, and as near as can be (isotonic regression). */
+/* A run of agents in a row that get adjacent spots: isotonic regression keeps their order and
+   minimises the ways. */
 typedef struct Block {
-    float sum; /* of the spots that its agents would have, less their numbers */
+    float sum; /* sum over its agents of nearest spot minus index in the row */
     uint32_t count;
 } Block;
 
-/* Number of the spot in a row that is nearest to a place across. */
-static float nearest_spot(const JoxV2 *spots, uint32_t count, JoxV2 left, float across) {
+/* Returns the index of the spot in a row that is nearest to position `across`, m. */
+static float find_nearest_spot(const JoxV2 *spots, uint32_t count, JoxV2 left, float across) {
     uint32_t low = 0, high = count - 1;
     while (low < high) {
         const uint32_t middle = (low + high) / 2;
@@ -98,8 +98,8 @@ static float nearest_spot(const JoxV2 *spots, uint32_t count, JoxV2 left, float 
     return (float)low;
 }
 
-static void give_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
-                     JoxGathering *entries, uint32_t count) {
+static void assign_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
+                       JoxGathering *entries, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
     const JoxV2 *spots = g->spots.at + g->spots.row_first[row], left = jox_left(g->ahead);
     const uint32_t room = g->spots.row_first[row + 1] - g->spots.row_first[row];
@@ -108,7 +108,8 @@ static void give_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
     uint32_t n = 0;
     JOX_ASSERT(count <= room);
     for (uint32_t k = 0; k < count; k++) {
-        blocks[n++] = (Block){nearest_spot(spots, room, left, entries[k].across) - (float)k, 1};
+        blocks[n++] =
+            (Block){find_nearest_spot(spots, room, left, entries[k].across) - (float)k, 1};
         for (; n > 1 && blocks[n - 2].sum * (float)blocks[n - 1].count >
                             blocks[n - 1].sum * (float)blocks[n - 2].count;
              n--) {
@@ -127,7 +128,7 @@ static void give_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
     }
 }
 
-/* Returns the least spacing of some agents, m, from the mean square of their breadths. */
+/* Returns the least spacing of some agents, m, from the mean square of their diameters. */
 static float find_least_spacing(const JoxMachineRun *run, const JoxGathering *entries,
                                 uint32_t count) {
     double sum2 = 0.0;
@@ -138,8 +139,8 @@ static float find_least_spacing(const JoxMachineRun *run, const JoxGathering *en
     return BREADTHS * 2.0f * (float)sqrt(sum2 / count);
 }
 
-/* Gives spots to agents of one part of a place, who are sorted by turn. */
-static void give_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count) {
+/* Assigns spots to the agents of one part of a place, which are sorted by turn. */
+static void assign_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
     JoxStandable *cells = &jox_gather_ground(run, entries->place)->cells;
     const JoxGatherPlace *g =
@@ -148,9 +149,9 @@ static void give_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t count
     for (uint32_t row = 0; row < g->spots.row_count && given < count; row++) {
         const uint32_t room = g->spots.row_first[row + 1] - g->spots.row_first[row];
         const uint32_t here = count - given < room ? count - given : room;
-        jox_sort(entries + given, here, sizeof *entries, by_across, NULL,
+        jox_sort(entries + given, here, sizeof *entries, compare_across, NULL,
                  s->gathered + s->gather_capacity);
-        give_row(run, g, row, entries + given, here);
+        assign_row(run, g, row, entries + given, here);
         given += here;
     }
     run->without_spot += g->spots.count ? count - given : 0;
@@ -199,7 +200,7 @@ void jox_gatherings_form(JoxMachineRun *run) {
     run->without_spot = 0;
     if (!count)
         return;
-    jox_sort(s->gathered, count, sizeof *s->gathered, by_turn, NULL,
+    jox_sort(s->gathered, count, sizeof *s->gathered, compare_gather_turns, NULL,
              s->gathered + s->gather_capacity);
     for (uint32_t first = 0, last; first < count; first = last) {
         const JoxGathering *g = &s->gathered[first];
@@ -208,7 +209,7 @@ void jox_gatherings_form(JoxMachineRun *run) {
                 s->gathered[last].part != g->part)
                 break;
         if (g->part)
-            give_spots(run, s->gathered + first, last - first);
+            assign_spots(run, s->gathered + first, last - first);
         else
             for (uint32_t k = first; k < last; k++)
                 s->row[s->gathered[k].agent] = jox_gather_approach(run, &s->gathered[k]);

@@ -24,9 +24,9 @@ void jox_gather_find_way(const JoxMachineRun *run, JoxStandable *ground, JoxGath
 
 /* ---- exchange of turns ---- */
 
-/* Way of an agent to the spot of `owner`, m; 0 if the owner has none. */
-static float left_to(const JoxMachineRun *run, JoxStandable *ground, const JoxGathering *entry,
-                     const JoxGathering *owner, float near) {
+/* Returns the way of an agent to the spot of `owner`, m, less `near`; 0 if the owner has none. */
+static float find_remaining_way(const JoxMachineRun *run, JoxStandable *ground,
+                                const JoxGathering *entry, const JoxGathering *owner, float near) {
     const JoxAgents *a = run->agents;
     JoxV2 next;
     if (!owner->has_spot)
@@ -51,10 +51,10 @@ static bool is_hindered(const JoxMachineRun *run, const JoxGathering *entry, flo
    are preferred to one long move past the others. */
 static float find_gain(const JoxMachineRun *run, JoxStandable *ground, const JoxGathering *one,
                        const JoxGathering *other, float near) {
-    const float own = left_to(run, ground, one, one, near);
-    const float theirs = left_to(run, ground, other, other, near);
-    const float to_theirs = left_to(run, ground, one, other, near);
-    const float to_own = left_to(run, ground, other, one, near);
+    const float own = find_remaining_way(run, ground, one, one, near);
+    const float theirs = find_remaining_way(run, ground, other, other, near);
+    const float to_theirs = find_remaining_way(run, ground, one, other, near);
+    const float to_own = find_remaining_way(run, ground, other, one, near);
     return own * own + theirs * theirs - to_theirs * to_theirs - to_own * to_own;
 }
 
@@ -95,10 +95,10 @@ void jox_gather_exchange(JoxMachineRun *run, JoxStandable *ground, JoxGathering 
     }
 }
 
-/* ---- where to ---- */
+/* ---- points to head for ---- */
 
-/* A direction that turns slowly, of length 1 at most. */
-static JoxV2 sway(const JoxMachineRun *run, uint32_t id) {
+/* Returns a direction that turns slowly, of length 1 at most. */
+static JoxV2 find_sway(const JoxMachineRun *run, uint32_t id) {
     const double own = jox_random_unit(run->seed, id, 0, JOX_DRAW_SWAY, 2);
     const double time = run->tick * run->dt / SWAY_TIME + own, knot = floor(time);
     const double t = time - knot, smooth = t * t * (3.0 - 2.0 * t);
@@ -118,7 +118,7 @@ static JoxV2 find_elbow_room(const JoxMachineRun *run, uint32_t i, float apart) 
     for (uint32_t k = 0; k < n->count[i]; k++) {
         const JoxV2 to = jox_offset(run->agents, i, n->index[jox_neighbour_at(n, i, k)]);
         const float distance = jox_length(to), missing = apart - distance;
-        if (missing <= 0.0f) /* they come by distance */
+        if (missing <= 0.0f) /* neighbours are sorted by distance */
             break;
         if (distance > 0.0f)
             sum = jox_sub(sum, jox_scale(to, 0.5f * missing / distance));
@@ -136,7 +136,7 @@ JoxV2 jox_gather_point(const JoxMachineRun *run, const JoxGathering *entry, floa
     if (!entry->has_spot)
         return jox_length(room) > LITTLE ? jox_add(at, room) : at;
     const float near = entry->outside ? 0.0f : NEAR * spacing;
-    JoxV2 to = jox_scale(sway(run, entry->id), SHIFT);
+    JoxV2 to = jox_scale(find_sway(run, entry->id), SHIFT);
     if (entry->way > near)
         to = jox_scale(jox_unit(jox_sub(entry->next, at)), entry->way - near);
     return jox_add(at, jox_add(to, room));

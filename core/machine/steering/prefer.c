@@ -1,5 +1,5 @@
-/* The stage prefer: the velocity that the state's steering asks for, and where the agent looks. A
-   batch of one state is done term by term, in lanes where the word has a kernel. */
+/* The stage prefer: the velocity that a state's steering asks for, and the direction that agents
+   face. A batch of one state is computed term by term; terms with a kernel run in lanes. */
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +19,8 @@ typedef struct Prefer {
     const struct Kernels *kernels;
 } Prefer;
 
-/* Where agents of a state look that is about something. */
-static void look(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
+/* Turns an agent to the target that its state faces. */
+static void face_target(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
     JoxAgents *a = run->agents;
     JoxSpot spot = jox_target_find(run, i, state->face);
     JoxV2 way = {spot.x - a->x[i], spot.y - a->y[i]};
@@ -31,13 +31,13 @@ static void look(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
     a->face_y[i] = way.y;
 }
 
-static bool is_function(const JoxState *state) {
+static bool steers_by_function(const JoxState *state) {
     return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
 }
 
-/* Weights of a term, for all of a batch. */
-static void weigh(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *weight,
-                  JoxRegisters registers, JoxSteer *s) {
+/* Evaluates the weight of a term for a batch. */
+static void evaluate_weights(const JoxMachineRun *run, const JoxMachine *machine,
+                             const JoxValue *weight, JoxRegisters registers, JoxSteer *s) {
     const bool computed = weight->kind == JOX_VALUE_EXPRESSION;
     if (computed)
         jox_eval(run, machine, &machine->expressions[weight->index], s->index, s->count, registers);
@@ -50,8 +50,8 @@ static void weigh(const JoxMachineRun *run, const JoxMachine *machine, const Jox
                                 : (float)jox_value(run, machine, weight, s->index[n]);
 }
 
-/* Round a place: all of a batch at once where it is the same for all of them. */
-static void orbit(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
+/* Computes the term orbit for a batch: at once if the place is the same for all agents. */
+static void steer_orbit_batch(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
     const JoxMachineRun *run = p->run;
     const JoxMachine *machine = jox_machine_of(run, s->index[0]);
     const bool same = term->target < 0 || machine->targets[term->target].kind == JOX_TARGET_PLACE;
@@ -65,9 +65,9 @@ static void orbit(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
     }
 }
 
-/* Along a vector whose figures may be computed, for all of a batch. */
-static void drift(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
-                  JoxRegisters registers, JoxSteer *s) {
+/* Computes the term drift, whose components may be expressions. */
+static void steer_drift_batch(const JoxMachineRun *run, const JoxMachine *machine,
+                              const JoxSteerTerm *term, JoxRegisters registers, JoxSteer *s) {
     float *const ways[] = {s->way_x, s->way_y};
     for (int k = 0; k < 2; k++) {
         const JoxValue *value = &term->drift[k];
@@ -83,17 +83,16 @@ static void drift(const JoxMachineRun *run, const JoxMachine *machine, const Jox
     }
 }
 
-/* What a term asks of a batch, into its ways. Weights that are 0, or no numbers that count, as of a
-   target that is infinitely far, are not asked for. */
-static void ask(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *term,
-                JoxRegisters registers, JoxSteer *s) {
+/* Computes the velocities of a term for a batch, as far as weights count (jox_weight_counts). */
+static void evaluate_term(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *term,
+                          JoxRegisters registers, JoxSteer *s) {
     s->args = term->args;
     if (term->kind == JOX_STEER_DRIFT) {
-        drift(p->run, machine, term, registers, s);
+        steer_drift_batch(p->run, machine, term, registers, s);
         return;
     }
     if (term->kind == JOX_STEER_ORBIT) {
-        orbit(p, term, s);
+        steer_orbit_batch(p, term, s);
         return;
     }
     if (term->kind == JOX_STEER_SEEK || term->kind == JOX_STEER_ALONG) {
@@ -118,8 +117,8 @@ static void ask(const Prefer *p, const JoxMachine *machine, const JoxSteerTerm *
     }
 }
 
-/* The weighted sum of a state's terms; those that evade come last, as they go by where the others
-   lead. */
+/* Sums the weighted terms of a state. Terms evade come last, since they are sideways to the sum of
+   the others. */
 static void sum_terms(const Prefer *p, const JoxMachine *machine, const JoxState *state,
                       JoxRegisters registers, JoxSteer *s) {
     memset(s->sum_x, 0, sizeof s->sum_x);
@@ -134,14 +133,14 @@ static void sum_terms(const Prefer *p, const JoxMachine *machine, const JoxState
                 memcpy(s->ahead_y, s->sum_y, sizeof s->ahead_y);
                 s->leads = true;
             }
-            weigh(p->run, machine, &term->weight, registers, s);
-            ask(p, machine, term, registers, s);
+            evaluate_weights(p->run, machine, &term->weight, registers, s);
+            evaluate_term(p, machine, term, registers, s);
             p->kernels->add(s);
         }
 }
 
-/* The agents of a batch, the last of them again up to a whole packet. */
-static void begin_batch(const JoxMachineRun *run, const JoxBatchRange *batch, JoxSteer *s) {
+/* Lists the agents of a batch, and fills the rest of the array with the last one. */
+static void list_batch_agents(const JoxMachineRun *run, const JoxBatchRange *batch, JoxSteer *s) {
     s->agents = run->agents;
     s->count = batch->count;
     s->leads = false;
@@ -156,16 +155,16 @@ static void prefer_batch(const Prefer *p, const JoxBatchRange *batch, JoxRegiste
     const JoxState *state = &machine->states[batch->state];
     JoxAgents *a = run->agents;
     JoxSteer s;
-    begin_batch(run, batch, &s);
+    list_batch_agents(run, batch, &s);
     if (state->face < 0)
         p->kernels->face(&s);
     for (uint32_t n = 0; n < s.count; n++) {
         if (state->face >= 0)
-            look(run, state, s.index[n]);
+            face_target(run, state, s.index[n]);
         if (a->bound[s.index[n]])
             a->bound[s.index[n]] = 0;
     }
-    if (is_function(state))
+    if (steers_by_function(state))
         return;
     sum_terms(p, machine, state, registers, &s);
     p->kernels->finish(&s);
@@ -179,13 +178,13 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
         prefer_batch(p, &scratch->batches[b], scratch->registers[worker]);
 }
 
-/* Steering by plain Lua functions, by id. */
-static void ask_functions(JoxMachineRun *run) {
+/* Calls steering functions in Lua, by id. */
+static void call_steering_functions(JoxMachineRun *run) {
     JoxAgents *a = run->agents;
     bool any = false;
     for (uint32_t b = 0; b < run->scratch->batch_count; b++) {
         const JoxBatchRange *batch = &run->scratch->batches[b];
-        any |= is_function(&run->set->items[batch->machine]->states[batch->state]);
+        any |= steers_by_function(&run->set->items[batch->machine]->states[batch->state]);
     }
     for (uint32_t rank = 0; any && rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank];
@@ -193,7 +192,7 @@ static void ask_functions(JoxMachineRun *run) {
             continue;
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
-        if (!is_function(state))
+        if (!steers_by_function(state))
             continue;
         double v[2] = {0.0, 0.0};
         bool good = run->call && run->call(run->call_context, machine, state->steer[0].hook,
@@ -212,7 +211,7 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     jox_gatherings_form(run);
     Prefer prefer = {run, &KERNELS[jox_isa_resolve(run->isa)]};
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
-    ask_functions(run);
+    call_steering_functions(run);
     JOX_CHECK(jox_preferred_check(run));
     if (run->bracket)
         run->bracket(run->call_context, false);

@@ -1,18 +1,18 @@
-/* Rows of people: along a line, or behind somebody across the way they look. Each takes the place
-   in the row that fits the order in which they stand, so that no ways cross. */
+/* Rows of agents (term `formation`): along a line, or abreast behind another agent. Agents are
+   placed in the order in which they stand along the row, so that no ways cross. */
 #include "machine/rows.h"
 
 #include "base/assert.h"
 #include "base/sort.h"
 
-static const JoxSteerTerm *term_of(const JoxState *state) {
+static const JoxSteerTerm *find_formation_term(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
         if (state->steer[t].kind == JOX_STEER_FORMATION)
             return &state->steer[t];
     return NULL;
 }
 
-/* The row that a target stands for, of agent i; false where there is none. */
+/* Fills the entry of agent i with the row that the target stands for; false if there is none. */
 static bool find_row(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term,
                      JoxRowEntry *entry) {
     const JoxAgents *a = run->agents;
@@ -38,7 +38,7 @@ static bool find_row(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
     return true;
 }
 
-static int by_place(const void *left, const void *right, const void *context) {
+static int compare_row_positions(const void *left, const void *right, const void *context) {
     const JoxRowEntry *a = left, *b = right;
     (void)context;
     if (a->row != b->row)
@@ -48,8 +48,8 @@ static int by_place(const void *left, const void *right, const void *context) {
     return (a->id > b->id) - (a->id < b->id);
 }
 
-/* Those of one row, in its order: evenly about its middle. */
-static void stand(JoxMachineRun *run, const JoxRowEntry *entries, uint32_t count) {
+/* Writes the spots of one row, sorted along it: evenly spaced about its middle. */
+static void place_row(JoxMachineRun *run, const JoxRowEntry *entries, uint32_t count) {
     for (uint32_t k = 0; k < count; k++) {
         const JoxRowEntry *e = &entries[k];
         const float way = ((float)k - 0.5f * (float)(count - 1)) * e->spacing;
@@ -63,19 +63,21 @@ void jox_rows_form(JoxMachineRun *run) {
     uint32_t count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const JoxSteerTerm *term = term_of(&run->set->items[batch->machine]->states[batch->state]);
+        const JoxSteerTerm *term =
+            find_formation_term(&run->set->items[batch->machine]->states[batch->state]);
         for (uint32_t n = 0; term && n < batch->count; n++) {
             const uint32_t i = s->grouped[batch->begin + n];
             JOX_ASSERT(count < s->capacity);
-            s->row[i] = (JoxV2){a->x[i], a->y[i]}; /* without a row one stays */
+            s->row[i] = (JoxV2){a->x[i], a->y[i]}; /* an agent without a row stays where it is */
             count += find_row(run, i, term, &s->entries[count]);
         }
     }
-    jox_sort(s->entries, count, sizeof *s->entries, by_place, NULL, s->entries + s->capacity);
+    jox_sort(s->entries, count, sizeof *s->entries, compare_row_positions, NULL,
+             s->entries + s->capacity);
     for (uint32_t first = 0, last; first < count; first = last) {
         last = first + 1;
         while (last < count && s->entries[last].row == s->entries[first].row)
             last++;
-        stand(run, s->entries + first, last - first);
+        place_row(run, s->entries + first, last - first);
     }
 }

@@ -1,4 +1,4 @@
-/* The words of steering, of one agent each: what a term of a state asks for. */
+/* Steering terms that are computed agent by agent. prefer.c calls them through jox_steer_word. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -15,8 +15,9 @@ JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed) {
     return jox_scale(way, share / distance);
 }
 
-/* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
-static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
+/* Returns the point of a place that an agent aims at: on a line a random point of its own, else the
+   nearest one. */
+static JoxV2 find_aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     const JoxPlace *place = &run->places[spot->place];
     if (!jox_place_is_line(place))
         return (JoxV2){spot->x, spot->y};
@@ -35,13 +36,13 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
-    if (spot.place < 0 && spot.agent == JOX_NO_INDEX && spot.object < 0) /* one's own post */
+    if (spot.place < 0 && spot.agent == JOX_NO_INDEX && spot.object < 0) /* the agent's own post */
         return jox_steer_arrive(from, (JoxV2){spot.x, spot.y}, jox_param(a, JOX_PARAM_speed, i));
-    if (spot.place < 0) /* something that moves is run at, not arrived at */
+    if (spot.place < 0) /* moving targets are run at without slowing down */
         return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
     const JoxPlace *place = &run->places[spot.place];
-    JoxV2 to = aim(run, i, &spot);
-    if (jox_place_is_line(place)) /* lines are passed, not stopped at */
+    JoxV2 to = find_aim(run, i, &spot);
+    if (jox_place_is_line(place)) /* lines are crossed, not stopped at */
         return jox_unit(jox_sub(to, from));
     if (jox_place_is_reached(run->places, (uint32_t)spot.place, run->walls, from))
         return (JoxV2){0.0f, 0.0f};
@@ -49,7 +50,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
                                     : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
 }
 
-static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+static JoxV2 steer_queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     int32_t index = jox_target_place(run, i, term->target);
     uint32_t rank = run->scratch->rank[i];
@@ -60,7 +61,7 @@ static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, jox_param(a, JOX_PARAM_speed, i));
 }
 
-static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
+static JoxV2 steer_spread(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     JoxV2 sum = {0.0f, 0.0f};
     uint32_t count = run->neighbours->count[i];
@@ -71,9 +72,9 @@ static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
     return jox_unit(sum);
 }
 
-/* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
-   who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
-   before, so that no order of agents matters. */
+/* People who meet pass on the right by custom (measured by Moussaid et al. 2009), and give way to
+   agents on their right. Nearer agents count more. The headings are those of the last step, so that
+   the order of agents does not matter. */
 JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
@@ -94,7 +95,7 @@ JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
 }
 
-static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+static JoxV2 steer_together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
     JoxV2 sum = {0.0f, 0.0f};
@@ -113,7 +114,7 @@ static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *
     return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
 
-static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+static JoxV2 steer_follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     JoxSpot spot = jox_target_find(run, i, term->target);
     JoxV2 from = {a->x[i], a->y[i]}, to = {spot.x, spot.y};
@@ -123,12 +124,14 @@ static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *te
     return jox_steer_arrive(from, jox_add(to, behind), jox_param(a, JOX_PARAM_speed, i));
 }
 
-static const double TURNING = 8.0; /* s in which who wanders may turn round twice */
-static const float FEELS = 1.0f;   /* m: a wall or an edge that near turns who wanders back */
+static const double TURNING = 8.0; /* s: time in which the direction of wandering may turn by two
+                                      full turns */
+static const float FEELS = 1.0f;   /* m: gap to a wall or the place's edge at which a wandering
+                                      agent turns back */
 
-/* The angle is noise: between values drawn every TURNING seconds, at times of the agent's own, it
-   goes over smoothly. */
-static JoxV2 roam(const JoxMachineRun *run, uint32_t i) {
+/* Returns the direction of wandering, by value noise: the angle is interpolated smoothly between
+   random values every TURNING seconds, with a phase of the agent's own. */
+static JoxV2 find_wander_direction(const JoxMachineRun *run, uint32_t i) {
     const uint32_t id = run->agents->id[i];
     const double own = jox_random_unit(run->seed, id, 0, JOX_DRAW_WANDER, 1);
     const double time = run->tick * run->dt / TURNING + own, knot = floor(time);
@@ -145,7 +148,7 @@ JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxAgents *a = run->agents;
     const JoxV2 at = {a->x[i], a->y[i]};
     const int32_t place = jox_target_place(run, i, target);
-    JoxV2 way = roam(run, i), normal;
+    JoxV2 way = find_wander_direction(run, i), normal;
     const float reach = FEELS + jox_param(a, JOX_PARAM_radius, i);
     const JoxV2 next = jox_add(at, jox_scale(way, reach));
     if (place >= 0 && !jox_place_contains(run->places, (uint32_t)place, next)) {
@@ -156,12 +159,12 @@ JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t i, int32_t target) {
     }
     if (jox_meets_wall(run, at, jox_add(at, jox_scale(way, reach)), &normal)) {
         const float into = jox_dot(way, normal);
-        way = jox_sub(way, jox_scale(normal, 2.0f * into)); /* as a ball comes back */
+        way = jox_sub(way, jox_scale(normal, 2.0f * into)); /* reflected as a ball is */
     }
     return way;
 }
 
-static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
+static JoxV2 steer_player(const JoxMachineRun *run, uint32_t i) {
     float speed = jox_maxf(jox_param(run->agents, JOX_PARAM_speed, i), 1e-3f);
     return jox_scale(jox_player_wants(run, i), 1.0f / speed);
 }
@@ -175,9 +178,9 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
                           : (JoxV2){0.0f, 0.0f};
     }
     case JOX_STEER_QUEUE:
-        return queue(run, i, term);
+        return steer_queue(run, i, term);
     case JOX_STEER_FOLLOW:
-        return follow(run, i, term);
+        return steer_follow(run, i, term);
     case JOX_STEER_WANDER:
         return jox_steer_wander(run, i, term->target);
     case JOX_STEER_FORMATION:
@@ -185,18 +188,18 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, run->scratch->row[i],
                                 jox_param(a, JOX_PARAM_speed, i));
     case JOX_STEER_SPREAD:
-        return spread(run, i);
+        return steer_spread(run, i);
     case JOX_STEER_TOGETHER:
-        return together(run, i, term);
+        return steer_together(run, i, term);
     case JOX_STEER_PLAYER:
-        return player(run, i);
+        return steer_player(run, i);
     case JOX_STEER_HOLD:
-    case JOX_STEER_ORBIT: /* a kernel's */
-    case JOX_STEER_SEEK:  /* of a batch: steer_place.c */
+    case JOX_STEER_ORBIT: /* by a kernel */
+    case JOX_STEER_SEEK:  /* by batch: steer_place.c */
     case JOX_STEER_ALONG:
-    case JOX_STEER_DRIFT: /* of a batch, as its figures may be computed */
-    case JOX_STEER_FIELD: /* of a batch: steer_field.c */
-    case JOX_STEER_EVADE: /* by the sum of the others */
+    case JOX_STEER_DRIFT: /* by batch: prefer.c */
+    case JOX_STEER_FIELD: /* by batch: steer_field.c */
+    case JOX_STEER_EVADE: /* from the sum of the others: prefer.c */
     case JOX_STEER_FUNCTION:
         break;
     }

@@ -1,4 +1,5 @@
-/* The word of steering `field`: ways round walls and large bodies, of a batch at once. */
+/* The steering term `field`, by batch: shortest ways round walls and large bodies, from distance
+   fields. Also finds the goals that fields must be made for. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -8,20 +9,21 @@
 static JoxFieldKernel *const LOOK[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* Those of a batch who ask their way to one place. */
+/* The agents of a batch that head for one place. */
 typedef struct Asking {
     const JoxMachineRun *run;
     const JoxSteerTerm *term;
     JoxSteer *s;
     uint32_t place;
-    uint8_t number[JOX_BATCH]; /* in the batch */
-    JoxFieldPoints now, other; /* by routes of the kind NOW; by others */
+    uint8_t number[JOX_BATCH]; /* index of each agent in the batch */
+    JoxFieldPoints now, other; /* lookups in the field NOW, and in another kind */
 } Asking;
 _Static_assert(JOX_BATCH - 1 <= UINT8_MAX && JOX_BATCH <= (int)JOX_FIELD_POINTS,
                "room for a batch");
 
-/* What is asked for is kept, and renewed. Whichever thread comes first: the result is the same. */
-static const JoxField *field_of(const Asking *q, JoxRouteKind kind) {
+/* Returns a field, NULL if there is none yet, and requests it, so that it is made and renewed. The
+   order of threads does not affect the result. */
+static const JoxField *request_field(const Asking *q, JoxRouteKind kind) {
     const JoxMachineRun *run = q->run;
     const uint8_t bit = (uint8_t)(1 << kind);
     if (!(__atomic_load_n(&run->wanted[q->place], __ATOMIC_RELAXED) & bit))
@@ -29,8 +31,9 @@ static const JoxField *field_of(const Asking *q, JoxRouteKind kind) {
     return run->fields[q->place * JOX_ROUTE_KINDS + kind];
 }
 
-/* Who walks by the law goes before those who have more way left to the same place. */
-static void bind(const Asking *q, uint32_t k, const JoxField *field, float way) {
+/* Stores the place that a walker is bound for and the way left, m; the walking law ranks agents by
+   it. */
+static void store_bound_place(const Asking *q, uint32_t k, const JoxField *field, float way) {
     JoxAgents *a = q->run->agents;
     const uint32_t i = q->s->index[q->number[k]];
     if (!jox_walks(a, i) || !field)
@@ -39,8 +42,8 @@ static void bind(const Asking *q, uint32_t k, const JoxField *field, float way) 
     a->way[i] = way;
 }
 
-/* Straight on where no way is known yet, or none leads there. */
-static void set(const Asking *q, uint32_t k, JoxV2 direction) {
+/* Writes the direction of an agent; straight towards the target where no way is known. */
+static void write_way(const Asking *q, uint32_t k, JoxV2 direction) {
     JoxSteer *s = q->s;
     const uint32_t n = q->number[k];
     if (!(jox_length2(direction) > 0.0f))
@@ -49,14 +52,15 @@ static void set(const Asking *q, uint32_t k, JoxV2 direction) {
     s->way_y[n] = direction.y;
 }
 
-static void look(const Asking *q, const JoxField *field, JoxFieldPoints *points) {
+static void look_up_ways(const Asking *q, const JoxField *field, JoxFieldPoints *points) {
     if (points->count)
         LOOK[jox_isa_resolve(q->run->isa)](field, points);
 }
 
-/* Of those who ask, the ones of whom `asks` is true look at a field of some kind: `at`, of each its
-   place in q->other, or UINT32_MAX. */
-static const JoxField *look_too(Asking *q, JoxRouteKind kind, const bool *asks, uint32_t *at) {
+/* Looks up another kind of field for agents with `asks` set. `at`: index in q->other of each agent,
+   or UINT32_MAX. */
+static const JoxField *look_up_other_field(Asking *q, JoxRouteKind kind, const bool *asks,
+                                           uint32_t *at) {
     JoxFieldPoints *other = &q->other;
     other->count = 0;
     for (uint32_t k = 0; k < q->now.count; k++) {
@@ -67,27 +71,28 @@ static const JoxField *look_too(Asking *q, JoxRouteKind kind, const bool *asks, 
         other->x[other->count] = q->now.x[k];
         other->y[other->count++] = q->now.y[k];
     }
-    const JoxField *field = other->count ? field_of(q, kind) : NULL;
+    const JoxField *field = other->count ? request_field(q, kind) : NULL;
     if (field)
-        look(q, field, other);
+        look_up_ways(q, field, other);
     return field;
 }
 
-/* Nobody is told by the field as all stands now that no way leads there. */
-static void lead(Asking *q) {
+/* Directs agents by the field NOW, or by CROWD under the walking law. Agents that NOW does not
+   reach use OPEN. */
+static void lead_by_fields(Asking *q) {
     const JoxAgents *a = q->run->agents;
-    const JoxField *now = field_of(q, JOX_ROUTE_NOW);
+    const JoxField *now = request_field(q, JOX_ROUTE_NOW);
     JoxFieldPoints *p = &q->now;
     bool asks[JOX_BATCH], shut[JOX_BATCH];
     uint32_t at[JOX_BATCH];
     if (now)
-        look(q, now, p);
+        look_up_ways(q, now, p);
     for (uint32_t k = 0; k < p->count; k++) {
         const JoxV2 way = {p->way_x[k], p->way_y[k]};
         shut[k] = now && jox_length2(way) == 0.0f && !(p->length[k] < INFINITY);
         asks[k] = !shut[k] && jox_walks(a, q->s->index[q->number[k]]);
     }
-    const JoxField *crowd = look_too(q, JOX_ROUTE_CROWD, asks, at);
+    const JoxField *crowd = look_up_other_field(q, JOX_ROUTE_CROWD, asks, at);
     for (uint32_t k = 0; k < p->count; k++) {
         JoxV2 way = now ? (JoxV2){p->way_x[k], p->way_y[k]} : (JoxV2){0.0f, 0.0f};
         if (shut[k])
@@ -96,28 +101,29 @@ static void lead(Asking *q) {
             const JoxV2 round = {q->other.way_x[at[k]], q->other.way_y[at[k]]};
             way = jox_length2(round) > 0.0f ? round : way;
         }
-        bind(q, k, now, now ? p->length[k] : 0.0f);
-        set(q, k, way);
+        store_bound_place(q, k, now, now ? p->length[k] : 0.0f);
+        write_way(q, k, way);
     }
-    const JoxField *open = look_too(q, JOX_ROUTE_OPEN, shut, at);
+    const JoxField *open = look_up_other_field(q, JOX_ROUTE_OPEN, shut, at);
     for (uint32_t k = 0; k < p->count; k++) {
         if (!shut[k])
             continue;
         JoxV2 way = {0.0f, 0.0f};
         if (open)
             way = (JoxV2){q->other.way_x[at[k]], q->other.way_y[at[k]]};
-        bind(q, k, open, open ? q->other.length[at[k]] : 0.0f);
-        set(q, k, way);
+        store_bound_place(q, k, open, open ? q->other.length[at[k]] : 0.0f);
+        write_way(q, k, way);
     }
 }
 
-/* Those from `first` on who are bound for the same place as that one, and are not there. */
-static void lead_to(Asking *q, int32_t *places, uint32_t first) {
+/* Directs all agents from `first` on that head for the same place as that one; those that reached
+   it stand still. */
+static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
     const JoxMachineRun *run = q->run;
     const JoxAgents *a = run->agents;
     const int32_t place = places[first];
     JoxV2 at[JOX_BATCH];
-    uint8_t number[JOX_BATCH]; /* in the batch */
+    uint8_t number[JOX_BATCH]; /* index in the batch */
     bool there[JOX_BATCH];
     uint32_t count = 0;
     for (uint32_t n = first; n < q->s->count; n++) {
@@ -134,7 +140,7 @@ static void lead_to(Asking *q, int32_t *places, uint32_t first) {
         const uint32_t k = q->now.count;
         q->number[k] = number[n];
         if (!run->fields || there[n]) {
-            set(q, k, (JoxV2){0.0f, 0.0f});
+            write_way(q, k, (JoxV2){0.0f, 0.0f});
             continue;
         }
         q->now.x[k] = at[n].x;
@@ -142,13 +148,13 @@ static void lead_to(Asking *q, int32_t *places, uint32_t first) {
         q->now.count++;
     }
     if (q->now.count)
-        lead(q);
+        lead_by_fields(q);
 }
 
 void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *s) {
     int32_t places[JOX_BATCH];
-    Asking q; /* its arrays are filled as far as they are read */
+    Asking q; /* arrays are filled as far as they are read */
     q.run = run;
     q.term = term;
     q.s = s;
@@ -161,7 +167,7 @@ void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const 
     }
     for (uint32_t n = 0; n < s->count; n++)
         if (places[n] >= 0)
-            lead_to(&q, places, n);
+            lead_to_place(&q, places, n);
 }
 
 void jox_machines_ask_routes(JoxMachineRun *run) {
@@ -195,13 +201,13 @@ uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *place
     return count;
 }
 
-/* Whether a field is there by which no way leads from a point. */
+/* Returns whether a field exists and leads nowhere from a point. */
 static bool leads_nowhere(const JoxField *field, JoxV2 from) {
     return field && !(jox_field_distance(field, from) < INFINITY);
 }
 
-/* The n-th place that an agent goes to by a field and has not reached; -1: there is none of that
-   number. */
+/* Returns the n-th place that an agent heads for by a field and has not reached; -1: there are
+   fewer. */
 static int32_t find_field_goal(const JoxMachineRun *run, uint32_t i, uint32_t n) {
     const JoxAgents *a = run->agents;
     if (!run->fields || a->machine[i] == JOX_NO_MACHINE)

@@ -1,16 +1,16 @@
-/* The words that lead to places or along them, of a batch of agents. Most are bound for the same
-   place as who stands before them in the batch, or for a point, which is left to the kernel. */
+/* Steering terms that lead to places or along them, by batch. Most agents head for the same place
+   as the one before them in the batch, or for a point, which is left to the kernel. */
 #include <math.h>
 
 #include "machine/kernels.h"
 
-/* The way along a line or a queue where it is nearest to p. */
+/* Returns the direction of a line or queue at its point nearest to p. */
 static JoxV2 way_along(const JoxPlace *place, JoxV2 p) {
     JoxV2 best = {0.0f, 0.0f};
     float least = INFINITY;
     for (uint32_t k = 0; k + 1 < place->count; k++) {
         const JoxV2 a = place->points[k], b = place->points[k + 1];
-        const bool one = place->count == 2; /* then it is the nearest */
+        const bool one = place->count == 2; /* a single side is the nearest */
         const float d2 = one ? 0.0f : jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
         if (d2 < least) {
             least = d2;
@@ -20,9 +20,9 @@ static JoxV2 way_along(const JoxPlace *place, JoxV2 p) {
     return best;
 }
 
-/* The way that each agent of a batch has along its place. That along one side is the same wherever
-   somebody stands: the last few are remembered, as there are mostly a few in a crowd. */
-static void along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) {
+/* Computes the term along for a batch. The direction along a single side is the same everywhere, so
+   the last few places are cached, as a crowd mostly heads for a few. */
+static void steer_along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) {
     enum { KNOWN = 4 };
     const JoxAgents *a = run->agents;
     int32_t known[KNOWN] = {-1, -1, -1, -1};
@@ -43,7 +43,8 @@ static void along(const JoxMachineRun *run, const int32_t *places, JoxSteer *s) 
     }
 }
 
-static void seek(const JoxMachineRun *run, const int32_t *places, int32_t target, JoxSteer *s) {
+static void steer_seek_batch(const JoxMachineRun *run, const int32_t *places, int32_t target,
+                             JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
         const bool arrives = place && jox_place_is_spot(place);
@@ -65,7 +66,7 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
     int32_t places[JOX_BATCH];
     jox_target_places(run, machine, term->target, s->index, s->count, places);
     if (term->kind == JOX_STEER_ALONG)
-        along(run, places, s);
+        steer_along(run, places, s);
     else
-        seek(run, places, term->target, s);
+        steer_seek_batch(run, places, term->target, s);
 }
