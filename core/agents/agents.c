@@ -6,11 +6,17 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-/* Every column with the size of its entries, so that growth and sorting are one loop. */
+/* Called for each column with the size of its entries, so that growing and sorting are one loop. */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
-enum { COLUMN_STATE, COLUMN_INDEX, COLUMN_HINT, COLUMN_SCRATCH }; /* the marks of columns */
+enum {
+    COLUMN_STATE,
+    COLUMN_INDEX,
+    COLUMN_HINT,
+    COLUMN_SCRATCH
+}; /* the marks of columns,
+      JOX_AGENT_COLUMNS */
 
-/* Those that all agents have, with marks up to `last`. */
+/* Visits the columns of the list, with marks up to `last`. */
 static inline void visit_common(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
 #define X(keep, type, name)                                                                        \
     if (COLUMN_##keep <= last)                                                                     \
@@ -19,7 +25,7 @@ static inline void visit_common(JoxAgents *a, int last, ColumnVisitor *visit, vo
 #undef X
 }
 
-/* Parameters and own values that differ, and memory. */
+/* Visits parameters and own values that have a cell per agent, and memory. */
 static inline void visit_special(JoxAgents *a, ColumnVisitor *visit, void *context) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         if (a->param[p].mask)
@@ -31,15 +37,15 @@ static inline void visit_special(JoxAgents *a, ColumnVisitor *visit, void *conte
         visit(context, (void **)&a->memory, a->memory_stride * sizeof(double));
 }
 
-/* Columns with marks up to `last`. */
+/* Visits all columns with marks up to `last`. */
 static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
     visit_common(a, last, visit, context);
     visit_special(a, visit, context);
 }
 
-/* The columns of a few agents, whole packets of them, stand side by side in one piece of memory,
-   each on lines of the cache of its own: of a small world a step reads most of them, and the
-   processor fetches lines ahead that follow one another. */
+/* The columns of a few agents, in whole packets, lie side by side in one block of memory, each on
+   its own cache lines. A step of a small world reads most of them, and the processor prefetches
+   consecutive lines. */
 enum { FEW = 64, LINE = 64, PACKET = JOX_AGENTS_PADDING };
 
 static size_t bytes_of_few(size_t capacity, size_t size) {
@@ -48,12 +54,13 @@ static size_t bytes_of_few(size_t capacity, size_t size) {
 
 typedef struct Growth {
     size_t old, new;
-    char *place; /* of the next column among those of a few; NULL: each has memory of its own */
-    bool shared; /* those before were of a few */
+    char *place; /* place of the next column in the block of a few; NULL: each column has its own
+                    block */
+    bool shared; /* the old columns lie in a block of a few */
 } Growth;
 
-/* New memory is zero, and takes no room until it is written: cells that are zero are never written
-   as they are made, since many columns stay so. */
+/* Grows a column. New memory is zero and takes no room until it is written, so zero cells are not
+   copied: many columns stay zero. */
 static void grow_column(void *context, void **column, size_t size) {
     Growth *growth = context;
     void *wider =
@@ -77,7 +84,8 @@ static void add_bytes(void *context, void **column, size_t size) {
     room->bytes += bytes_of_few(room->capacity, size);
 }
 
-/* Also `scratch` and `spare`, with which columns of 8 and of 4 bytes change places. */
+/* Grows the columns of the list, and the buffers `scratch` and `spare`, which swap places with
+   columns of 8 and of 4 bytes when these are permuted. */
 static void grow_common(JoxAgents *a, uint32_t capacity) {
     void *few = NULL;
     Room room = {.capacity = capacity};
@@ -97,7 +105,7 @@ static void grow_common(JoxAgents *a, uint32_t capacity) {
     a->few = few;
 }
 
-/* One of the rows of memory, which are permuted in place. */
+/* Grows the buffer for one row of memory, as rows are permuted in place. */
 static void grow_row(JoxAgents *a) {
     jox_free(a->row);
     a->row = jox_alloc((size_t)a->memory_stride + 1, sizeof(double));
@@ -120,7 +128,7 @@ void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     a->rank_id = jox_realloc(a->rank_id, capacity, sizeof *a->rank_id);
 }
 
-/* Rows of `old` doubles become rows of `wider`. */
+/* Copies rows of `old` doubles into new rows of `wider` doubles; frees the old ones. */
 static double *widen_rows(double *rows, const JoxAgents *a, uint32_t old, uint32_t wider) {
     double *result =
         jox_alloc_aligned(((size_t)a->capacity + JOX_AGENTS_PADDING) * wider, sizeof *result);
@@ -178,7 +186,7 @@ uint32_t jox_agents_add_alike(JoxAgents *a) {
         jox_agents_reserve(a, a->capacity ? 2 * a->capacity : PACKET);
     uint32_t i = a->count++;
     visit_columns(a, COLUMN_SCRATCH, clear_row, &i);
-    a->id[i] = a->rank_id[i] = a->next_id++; /* greater than any: the last by rank */
+    a->id[i] = a->rank_id[i] = a->next_id++; /* the greatest id: the last by rank */
     a->rank[i] = i;
     a->by_rank[i] = i;
     a->slot[i] = take_slot(a, i);
@@ -201,15 +209,15 @@ uint32_t jox_agents_add(JoxAgents *a) {
     return i;
 }
 
-/* A new order: at i comes what was at order[i]. */
+/* A permutation: the new agent i is the old agent order[i]. */
 typedef struct Gather {
     JoxAgents *agents;
     const uint32_t *order;
     uint32_t count;
 } Gather;
 
-/* What was gathered becomes the column: its memory, or, of a few, whose columns stay where they
-   are, what stands in it. */
+/* Makes a gathered buffer the column: swaps their pointers, or copies the buffer if columns lie in
+   the block of a few. */
 static void take_over(const Gather *gather, void **column, void **gathered, size_t size) {
     if (gather->agents->few) {
         memcpy(*column, *gathered, gather->count * size);
@@ -220,7 +228,7 @@ static void take_over(const Gather *gather, void **column, void **gathered, size
     *gathered = before;
 }
 
-/* A column of 4 bytes an agent, and one of 8: into other memory, which becomes the column. */
+/* Permute columns of 4 and of 8 bytes per agent into the buffer, which becomes the column. */
 static void gather_words(const Gather *gather, void **column) {
     uint32_t *to = gather->agents->spare;
     const uint32_t *from = *column;
@@ -237,7 +245,7 @@ static void gather_long_words(const Gather *gather, void **column) {
     take_over(gather, column, &gather->agents->scratch, sizeof *to);
 }
 
-/* A narrow column, by way of the scratch. */
+/* Permutes a narrow column by way of the scratch buffer. */
 static void gather_bytes(const Gather *gather, char *column, size_t size) {
     char *to = gather->agents->scratch;
     for (uint32_t i = 0; i < gather->count; i++)
@@ -245,7 +253,7 @@ static void gather_bytes(const Gather *gather, char *column, size_t size) {
     memcpy(column, to, gather->count * size);
 }
 
-/* Rows in place, cycle by cycle of the permutation. `done`: a byte an agent. */
+/* Permutes rows in place, cycle by cycle; `done`: one byte per agent. */
 static void permute_rows(const Gather *gather, char *rows, size_t size, uint8_t *done) {
     const uint32_t *order = gather->order;
     void *first = gather->agents->row;
@@ -279,7 +287,8 @@ static void gather_column(void *context, void **column, size_t size) {
         permute_rows(gather, rows, size, gather->agents->spare);
 }
 
-static void reindex(JoxAgents *a) {
+/* Rebuilds the tables from slots and ranks to indices. */
+static void rebuild_indices(JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++) {
         JOX_ASSERT(a->rank[i] < a->count && a->rank_id[a->rank[i]] == a->id[i]);
         a->slot_index[a->slot[i]] = i;
@@ -287,7 +296,7 @@ static void reindex(JoxAgents *a) {
     }
 }
 
-/* Of a column that may be shared: all of the one packet are alike. */
+/* Checks a column that may be stored once: all cells of its one packet are equal. */
 static void check_shared(const void *cells, uint32_t mask, size_t size) {
     JOX_ASSERT(cells && (mask == 0 || mask == UINT32_MAX));
     JOX_ASSERT(mask || jox_is_same_of_all(cells, size, JOX_AGENTS_PADDING));
@@ -295,7 +304,7 @@ static void check_shared(const void *cells, uint32_t mask, size_t size) {
 
 void jox_agents_check(const JoxAgents *a) {
     JOX_ASSERT(a->count <= a->capacity && a->slot_count <= a->slot_capacity);
-    JOX_ASSERT(a->count + a->free_count == a->slot_count); /* every slot is held or free */
+    JOX_ASSERT(a->count + a->free_count == a->slot_count); /* every slot is in use or free */
     for (uint32_t i = 0; i < a->count; i++) {
         JOX_ASSERT(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
         JOX_ASSERT(a->by_rank[a->rank[i]] == i && a->id[i] < a->next_id);
@@ -316,7 +325,7 @@ void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
         same++;
     if (same < a->count)
         visit_columns(a, COLUMN_HINT, gather_column, &gather);
-    reindex(a);
+    rebuild_indices(a);
     JOX_CHECK(jox_agents_check(a)); /* fails if the order is no permutation */
 }
 
@@ -327,8 +336,8 @@ static void release_slot(JoxAgents *a, uint32_t slot) {
     a->free_slots[a->free_count++] = slot;
 }
 
-/* Ranks of those who stay, once the others are gone. Slots are released in ascending id, so that
-   who gets which slot next does not depend on the order in memory. */
+/* Ranks the remaining agents after removals. Slots are released by ascending id, so that the order
+   in memory does not affect which agent gets which slot later. */
 static void close_ranks(JoxAgents *a) {
     uint32_t rank = 0;
     for (uint32_t r = 0; r < a->count; r++) {
@@ -343,13 +352,13 @@ static void close_ranks(JoxAgents *a) {
     }
 }
 
-/* Who leaves, in ascending order. */
+/* Indices of agents to be removed, ascending. */
 typedef struct Leaving {
     const uint32_t *index;
-    uint32_t count, before; /* of them; of all agents until now */
+    uint32_t count, before; /* number of them; number of all agents before */
 } Leaving;
 
-/* Those between one who leaves and the next move up as one. */
+/* Closes the gaps in a column: the agents between two removed ones move up in one block. */
 static void close_column(void *context, void **column, size_t size) {
     const Leaving *leaving = context;
     char *rows = *column;
@@ -363,6 +372,7 @@ static void close_column(void *context, void **column, size_t size) {
     }
 }
 
+/* Counts in moved_up by how many places agents moved up. */
 static void note_moves(JoxAgents *a, const Leaving *leaving) {
     for (uint32_t k = 0; k < leaving->count; k++) {
         const uint32_t begin = leaving->index[k] - k;
@@ -384,7 +394,7 @@ uint32_t jox_agents_compact(JoxAgents *a) {
     visit_columns(a, COLUMN_SCRATCH, close_column, &leaving);
     a->count -= gone;
     note_moves(a, &leaving);
-    reindex(a);
+    rebuild_indices(a);
     JOX_CHECK(jox_agents_check(a));
     return gone;
 }
@@ -397,7 +407,7 @@ void jox_agents_by_id(const JoxAgents *a, uint32_t *out) {
 uint32_t jox_agents_find(const JoxAgents *a, uint32_t id) {
     if (id >= a->next_id || a->count == 0)
         return JOX_NO_INDEX;
-    /* Of all ids given, next_id - count are gone: so many at most below this one. */
+    /* next_id - count ids are gone in all, so at most as many below `id` */
     uint32_t gone = a->next_id - a->count;
     uint32_t low = id > gone ? id - gone : 0, high = id < a->count ? id : a->count - 1;
     while (low < high) {
@@ -457,7 +467,7 @@ bool jox_agents_wrap(JoxAgents *a, uint32_t i) {
     JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
     JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
     JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
-    if (!isfinite(shift.x + shift.y)) /* the guard will put it back to where it was */
+    if (!isfinite(shift.x + shift.y)) /* the guard of the world restores its last valid position */
         return true;
     a->prev_x[i] += shift.x;
     a->prev_y[i] += shift.y;

@@ -2,7 +2,6 @@
 
 #include "base/mem.h"
 
-/* Room for so many agents with so many entries each; what stood there is gone when it grows. */
 void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) {
     if (agents <= n->agents && stride <= n->stride)
         return;

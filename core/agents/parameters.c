@@ -77,5 +77,5 @@ double jox_parameter_value(JoxParameter parameter, float stored) {
         return stored;
     double cosine = stored, sine2 = 1.0 - cosine * cosine;
     double degrees = jox_atan2(sine2 > 0.0 ? sqrt(sine2) : 0.0, cosine) * (180.0 / JOX_PI);
-    return floor(degrees * 100.0 + 0.5) / 100.0; /* all that a cosine in a float tells */
+    return floor(degrees * 100.0 + 0.5) / 100.0; /* a cosine in a float has no more precision */
 }

@@ -1,12 +1,13 @@
-/* The parameters of an agent: the one list that drives the columns, the language and its pages. */
+/* The parameters of an agent: one list that defines the columns, the names in behaviours, and the
+   reference pages. */
 #ifndef JOX_AGENTS_PARAMETERS_H
 #define JOX_AGENTS_PARAMETERS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* X(name, unit, least, greatest, default, meaning). Angles are given in degrees and stored as
-   their cosine. Defaults are those of people in a dense crowd. */
+/* X(name, unit, least, greatest, default, meaning). Angles are in degrees, and stored as their
+   cosine. Defaults are those of people in a dense crowd. */
 #define JOX_PARAMETERS(X)                                                                          \
     X(speed, "m/s", 0, 20, 1.3, "wanted speed")                                                    \
     X(max_speed, "m/s", 0, 30, 1.8, "hard cap on speed; only a contact impulse exceeds it")        \
@@ -45,21 +46,22 @@ typedef struct JoxParameterInfo {
 
 extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
 
-/* Index of a parameter by name, or -1. */
+/* Returns the index of a parameter by name, or -1. */
 int jox_parameter_find(const char *name);
-/* The value that a word stands for: haste is calm (0), normal (0.5) or keen (1). False: none. */
+/* Finds the value of a word: haste is calm (0), normal (0.5) or keen (1). Returns false if the
+   parameter has no such word. */
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);
-/* The n-th such word of a parameter, from 0; NULL behind the last. */
+/* Returns the n-th word of a parameter, from 0; NULL beyond the last. */
 const char *jox_parameter_word(JoxParameter parameter, uint32_t n);
-/* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
-   value is first kept within [least, greatest]; NaN becomes the default. */
+/* Converts a value in the parameter's unit to the form that columns store: itself, or an angle's
+   cosine. The value is first clamped to [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);
-/* The same of `count` values, into the places of some agents in a column. */
+/* Converts `count` values and stores them in the cells of `agents` in a column. */
 void jox_parameter_store_all(JoxParameter parameter, const double *values, const uint32_t *agents,
                              uint32_t count, float *column);
-/* Whether that is a number that a column can hold. */
+/* Returns whether a number is valid as a stored value of the parameter. */
 bool jox_parameter_is_stored(JoxParameter parameter, float stored);
-/* The value in the parameter's unit of what a column holds. */
+/* Converts a stored value back to the parameter's unit. */
 double jox_parameter_value(JoxParameter parameter, float stored);
 
 #endif

@@ -1,17 +1,19 @@
-/* The agents' state as sections, and their scratch, which a step may forget. */
+/* Sections of the agents' state, for hashing, saving and restoring; and overwriting their
+   scratch. */
 #include <math.h>
 #include <string.h>
 
 #include "agents/agents.h"
 
-/* What to do with a column by its mark. */
+/* Treatment of a column by its mark: only state is listed. */
 #define KEEP_STATE(s, a, name)                                                                     \
     jox_section_ordered(s, #name, (a)->name, sizeof *(a)->name, (a)->count, order);
 #define KEEP_SCRATCH(s, a, name)
 #define KEEP_HINT(s, a, name)
 #define KEEP_INDEX(s, a, name)
 
-/* Own values are hashed as rows, agent by agent: what else of a world is the same with them. */
+/* Hashes own values agent by agent, so that the hash does not depend on whether a column is stored
+   once. */
 static void hash_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     double *row = jox_alloc((size_t)a->own_count + 1, sizeof *row);
     for (uint32_t k = 0; k < a->count; k++) {
@@ -24,14 +26,14 @@ static void hash_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     jox_free(row);
 }
 
-/* Otherwise each is a section: of one cell, or of one for each agent. */
+/* Lists own values for saving: one section per slot, of one cell or of a cell per agent. */
 static void list_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     if (s->mode == JOX_SECTIONS_HASH) {
         hash_own(a, s, order);
         return;
     }
     if (s->mode != JOX_SECTIONS_RESTORE)
-        jox_shared_settle(a); /* what is the same is saved alike, however it came about */
+        jox_shared_settle(a); /* columns with equal cells are saved alike, whatever their history */
     for (uint32_t slot = 0; slot < a->own_count; slot++) {
         JoxOwnColumn *column = &a->own[slot];
         uint8_t each = column->mask != 0;
@@ -49,11 +51,11 @@ static void list_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     }
 }
 
-/* A parameter is a number of each agent, however it is held. */
+/* Lists a parameter with a cell per agent, even if it is stored once. */
 static void list_parameter(JoxAgents *a, JoxSections *s, JoxParameter p, const uint32_t *order) {
     float *cells = a->spare;
     if (s->mode == JOX_SECTIONS_RESTORE || s->mode == JOX_SECTIONS_VISIT)
-        jox_param_differ(a, p); /* cells are written, or handed out */
+        jox_param_differ(a, p); /* restoring and visiting write to the cells */
     if (a->param[p].mask)
         cells = a->param[p].cells;
     else
@@ -62,7 +64,7 @@ static void list_parameter(JoxAgents *a, JoxSections *s, JoxParameter p, const u
     jox_section_ordered(s, jox_parameters[p].name, cells, sizeof *cells, a->count, order);
 }
 
-static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
+static void list_agent_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
 #define X(keep, type, name) KEEP_##keep(s, a, name)
     JOX_AGENT_COLUMNS(X)
 #undef X
@@ -72,15 +74,15 @@ static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     jox_section_rows(s, "memory", a->memory, a->memory_stride, a->count, order);
 }
 
-/* Handles. Slots without an agent keep their generation, so that old handles stay invalid. */
+/* Lists handles. Free slots keep their generation, so that old handles stay invalid. */
 static void list_slots(JoxAgents *a, JoxSections *s) {
     jox_section(s, "slot_generation", a->slot_generation, sizeof *a->slot_generation,
                 a->slot_count);
     jox_section(s, "free_slots", a->free_slots, sizeof *a->free_slots, a->free_count);
 }
 
-/* Reads the numbers that say how large everything is, and makes room for it. False if they are no
-   state: nothing is changed then. */
+/* Restores the sizes, and makes room. Returns false, and changes nothing, if they are
+   inconsistent. */
 static bool restore_sizes(JoxAgents *a, JoxSections *s) {
     size_t id_size = sizeof *a->id, row = sizeof *a->memory;
     size_t count = jox_section_count(s, "count", 0, id_size);
@@ -94,7 +96,7 @@ static bool restore_sizes(JoxAgents *a, JoxSections *s) {
         jox_sections_fail(s, "count", "agents and free slots do not add up");
     if (s->failed)
         return false;
-    a->count = 0; /* rows are about to be read: nothing is worth moving */
+    a->count = 0; /* no rows need to be moved, as all are about to be read */
     jox_agents_reserve(a, (uint32_t)count);
     for (uint32_t slot = 0; slot < a->own_count; slot++)
         jox_free(a->own[slot].cells);
@@ -112,7 +114,7 @@ static bool restore_sizes(JoxAgents *a, JoxSections *s) {
     return true;
 }
 
-/* Ranks, and the tables of ranks and slots, from the ids and slots that were read. */
+/* Rebuilds ranks and the tables of ranks and slots from restored ids and slots. */
 static void restore_indices(JoxAgents *a, JoxSections *s) {
     for (uint32_t k = 0; k < a->slot_count; k++)
         a->slot_index[k] = JOX_NO_INDEX;
@@ -134,27 +136,27 @@ static void restore_indices(JoxAgents *a, JoxSections *s) {
 
 void jox_agents_sections(JoxAgents *a, JoxSections *s) {
     jox_sections_module(s, "agents");
-    jox_shared_create(a); /* there may never have been anybody */
+    jox_shared_create(a); /* there may never have been an agent */
     if (s->mode == JOX_SECTIONS_RESTORE) {
         uint32_t own = a->own_count, memory = a->memory_stride;
         if (!restore_sizes(a, s))
             return;
-        list_columns(a, s, NULL);
+        list_agent_columns(a, s, NULL);
         list_slots(a, s);
         restore_indices(a, s);
         jox_shared_settle(a);
-        jox_agents_widen(a, own, memory); /* machines may have come that need wider rows */
+        jox_agents_widen(a, own, memory); /* machines added since may need wider rows */
         return;
     }
     jox_section_count(s, "count", a->count, sizeof *a->id);
-    jox_sections_unhashed(s, true); /* rows may be wider than need be, from an older machine */
+    jox_sections_unhashed(s, true); /* an older machine may have left wider rows */
     jox_section_count(s, "own_count", a->own_count, sizeof(uint8_t));
     jox_section_count(s, "memory_stride", a->memory_stride, sizeof *a->memory);
     jox_sections_unhashed(s, false);
     jox_section_count(s, "slot_count", a->slot_count, sizeof *a->slot_generation);
     jox_section_count(s, "free_count", a->free_count, sizeof *a->free_slots);
     JOX_SECTION(s, "next_id", a->next_id);
-    list_columns(a, s, a->by_rank);
+    list_agent_columns(a, s, a->by_rank);
     list_slots(a, s);
 }
 
@@ -166,7 +168,7 @@ void jox_agents_sections(JoxAgents *a, JoxSections *s) {
 void jox_agents_forget(JoxAgents *a) {
     if (a->count == 0)
         return;
-        /* All bits set are NaN in a float and the greatest whole number. */
+        /* All bits set: NaN as a float, and the greatest integer. */
 #define X(keep, type, name) FORGET_##keep(a, name)
     JOX_AGENT_COLUMNS(X)
 #undef X

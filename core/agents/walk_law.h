@@ -1,5 +1,5 @@
-/* The constants of the walking law: one set for every crowd (core/walking.md). The law itself is in
-   nav/walk.c. */
+/* Constants of the walking law, one set for all crowds; core/walking.md explains them. The law
+   itself is in nav/walk.c. */
 #ifndef JOX_AGENTS_WALK_LAW_H
 #define JOX_AGENTS_WALK_LAW_H
 
@@ -40,7 +40,7 @@ typedef struct JoxWalkLaw {
 #undef X
 } JoxWalkLaw;
 
-/* The defaults. */
+/* Returns the default constants. */
 static inline JoxWalkLaw jox_walk_law(void) {
     return (JoxWalkLaw){
 #define X(name, unit, least, greatest, value, meaning) .name = value,
