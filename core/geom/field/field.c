@@ -9,7 +9,7 @@
 static const float MOST_CELLS = 4000000.0f;
 static const float LEAST_CELL = 0.1f, MOST_CELL = 2.0f; /* m */
 static const float LEAST_CLEARANCE = 0.05f;             /* m */
-static const float FARTHEST = 1e6f;                     /* m: no plan is larger */
+static const float FARTHEST = 1e6f;                     /* m: no world is larger */
 
 static void include_place(const JoxPlace *places, uint32_t index, JoxV2 *low, JoxV2 *high) {
     const JoxPlace *place = &places[index];
@@ -22,8 +22,8 @@ static void include_place(const JoxPlace *places, uint32_t index, JoxV2 *low, Jo
     }
 }
 
-/* The box and its cells: ordered, finite, of a size that can be computed, and about the place too.
- */
+/* Sets the box and its cells: bounds are finite and ordered and include the place; cells are of a
+   size that can be computed. */
 static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 low, JoxV2 high,
                      float cell) {
     if (!(high.x >= low.x && high.y >= low.y)) {
@@ -69,18 +69,19 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
 
 /* ---- sampling ---- */
 
-/* Where a point lies in the grid, in cells; the box's nearest point for one outside. */
+/* A point in the grid, in cells; points outside the box are moved to the nearest point of the
+   box. */
 typedef struct GridPoint {
     float x, y;
     int column, row;
     const JoxFieldCell *cell;
-    JoxV2 point, beyond; /* the point within the box, and what leads there from outside */
+    JoxV2 point, beyond; /* m: the point in the box, and the vector to it from a point outside */
 } GridPoint;
 
-static GridPoint find(const JoxField *f, JoxV2 p) {
+static GridPoint locate_point(const JoxField *f, JoxV2 p) {
     float x = (p.x - f->low.x) / f->size, y = (p.y - f->low.y) / f->size;
     GridPoint s = {.point = p};
-    s.x = x > 0.0f ? jox_minf(x, (float)f->columns) : 0.0f; /* not a number: 0 */
+    s.x = x > 0.0f ? jox_minf(x, (float)f->columns) : 0.0f; /* NaN becomes 0 */
     s.y = y > 0.0f ? jox_minf(y, (float)f->rows) : 0.0f;
     if (s.x != x || s.y != y) {
         s.point = (JoxV2){f->low.x + s.x * f->size, f->low.y + s.y * f->size};
@@ -93,9 +94,9 @@ static GridPoint find(const JoxField *f, JoxV2 p) {
     return s;
 }
 
-/* The four centres about a spot and their weights. */
-static void corners(const JoxField *f, const GridPoint *s, const JoxFieldCell **cells,
-                    float *weights) {
+/* Finds the four cell centres around a point, and their weights. */
+static void find_corners(const JoxField *f, const GridPoint *s, const JoxFieldCell **cells,
+                         float *weights) {
     float x = jox_clampf(s->x - 0.5f, 0.0f, (float)(f->columns - 1));
     float y = jox_clampf(s->y - 0.5f, 0.0f, (float)(f->rows - 1));
     int c = (int)x, r = (int)y;
@@ -112,7 +113,7 @@ static void corners(const JoxField *f, const GridPoint *s, const JoxFieldCell **
     JOX_ASSERT(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f);
 }
 
-static int nearest_sample(const JoxField *f, const GridPoint *s, JoxV2 *sample) {
+static int find_nearest_sample(const JoxField *f, const GridPoint *s, JoxV2 *sample) {
     int x = (int)((s->x - (float)s->column) * (float)JOX_FIELD_SIDE);
     int y = (int)((s->y - (float)s->row) * (float)JOX_FIELD_SIDE);
     int k = (y < JOX_FIELD_SIDE ? y : JOX_FIELD_SIDE - 1) * JOX_FIELD_SIDE +
@@ -121,7 +122,7 @@ static int nearest_sample(const JoxField *f, const GridPoint *s, JoxV2 *sample) 
     return k;
 }
 
-/* A sample: where it lies, the direction of the way from it and its length, m. */
+/* A sample: its position, the direction of the way from it, and the way's length, m. */
 typedef struct Sampled {
     JoxV2 at, way;
     float length;
@@ -137,9 +138,10 @@ static bool is_separated(const JoxField *f, const JoxFieldPatch *patch, JoxV2 p,
     return false;
 }
 
-/* The nearest sample of one patch that no edge parts from a point; false if there is none. */
-static bool nearest_visible_sample(const JoxField *f, const JoxFieldPatch *about, int cell, JoxV2 p,
-                                   Sampled *sampled) {
+/* Finds the nearest sample of one patch that no edge separates from a point; false if there is
+   none. */
+static bool find_nearest_visible_sample(const JoxField *f, const JoxFieldPatch *about, int cell,
+                                        JoxV2 p, Sampled *sampled) {
     JOX_ASSERT((uint32_t)f->cells[cell].patch < f->patch_count);
     const JoxFieldPatch *patch = &f->patches[f->cells[cell].patch];
     float least = INFINITY;
@@ -154,37 +156,38 @@ static bool nearest_visible_sample(const JoxField *f, const JoxFieldPatch *about
     return least < INFINITY;
 }
 
-/* The sample that holds at a point near a wall: that of its ninth of the cell; where an edge passes
-   through that ninth, the nearest sample on the point's side. False if there is none. */
-static bool sample_at_wall(const JoxField *f, const GridPoint *s, Sampled *sampled) {
+/* Finds the sample that applies to a point near a wall: that of its ninth of the cell, or, if an
+   edge passes through that ninth, the nearest sample on the point's side. False if there is
+   none. */
+static bool find_sample_at_wall(const JoxField *f, const GridPoint *s, Sampled *sampled) {
     int cell = s->row * f->columns + s->column;
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
-    int k = nearest_sample(f, s, &sampled->at);
+    int k = find_nearest_sample(f, s, &sampled->at);
     sampled->way = (JoxV2){patch->x[k], patch->y[k]};
     sampled->length = patch->length[k];
     if (!(patch->cut >> k & 1))
         return true;
     if (!(patch->on_edge >> k & 1) && !is_separated(f, patch, s->point, sampled->at))
         return true;
-    if (nearest_visible_sample(f, patch, cell, s->point, sampled))
+    if (find_nearest_visible_sample(f, patch, cell, s->point, sampled))
         return true;
     for (int n = 0; n < 8; n++) {
         int other = jox_field_next(f, cell, n);
         if (other >= 0 && f->cells[other].patch >= 0 &&
-            nearest_visible_sample(f, patch, other, s->point, sampled))
+            find_nearest_visible_sample(f, patch, other, s->point, sampled))
             return true;
     }
     return false;
 }
 
 float jox_field_distance(const JoxField *f, JoxV2 p) {
-    GridPoint s = find(f, p);
+    GridPoint s = locate_point(f, p);
     float beyond = jox_length(s.beyond);
     if (s.cell->patch == JOX_FIELD_PLAIN)
         return s.cell->length + beyond;
     if (s.cell->patch >= 0) {
         Sampled sampled;
-        if (!sample_at_wall(f, &s, &sampled) || !(sampled.length < INFINITY))
+        if (!find_sample_at_wall(f, &s, &sampled) || !(sampled.length < INFINITY))
             return INFINITY;
         float on = sampled.length - jox_dot(sampled.way, jox_sub(s.point, sampled.at));
         return jox_maxf(0.0f, on) + beyond;
@@ -193,13 +196,13 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     float weights[4], sum = 0.0f, close = JOX_FIELD_CLOSE * f->size;
     JoxV2 ways = {0.0f, 0.0f};
     bool at_goal = true;
-    corners(f, &s, cells, weights);
+    find_corners(f, &s, cells, weights);
     for (int k = 0; k < 4; k++) {
         const JoxFieldCell *cell = cells[k];
         if (!(cell->length < INFINITY))
             return INFINITY;
-        /* Lengths extrapolated by the slope come out a little short and those of the centres as
-           much too long, so half the slope is taken. */
+        /* Full slopes would extrapolate to lengths a little too short, and centres alone give
+           lengths too long by the same amount, so half the slope is taken. */
         JoxV2 off = jox_sub(s.point, jox_field_sample(f, (int)(cell - f->cells), JOX_FIELD_MIDDLE));
         sum += weights[k] * (cell->length - 0.5f * jox_field_slope(cell, off));
         ways = jox_add(ways, (JoxV2){weights[k] * cell->x, weights[k] * cell->y});
@@ -210,15 +213,17 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     return jox_maxf(0.0f, sum) + beyond;
 }
 
-static JoxV2 at_wall(const JoxField *f, const GridPoint *s) {
+/* Returns the direction of the way from a point in a cell with a patch. */
+static JoxV2 find_direction_at_wall(const JoxField *f, const GridPoint *s) {
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
     Sampled sampled;
-    bool found = sample_at_wall(f, s, &sampled);
+    bool found = find_sample_at_wall(f, s, &sampled);
     JoxV2 ignored, at = s->point;
     if (found &&
-        (!(sampled.length < INFINITY) || !(patch->cut >> nearest_sample(f, s, &ignored) & 1)))
+        (!(sampled.length < INFINITY) || !(patch->cut >> find_nearest_sample(f, s, &ignored) & 1)))
         return sampled.way;
-    /* So close to a wall that samples do not tell how close: also off it, or out of it. */
+    /* So close to a wall that the samples do not tell how close: adds a direction off the wall, or
+       out of the solid. */
     uint32_t e = 0;
     float near = jox_field_nearest(f, patch->first, patch->first + patch->count, s->point, &at, &e);
     if (near >= f->clearance || near <= 0.0f)
@@ -232,14 +237,14 @@ static JoxV2 at_wall(const JoxField *f, const GridPoint *s) {
 }
 
 JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
-    GridPoint s = find(f, p);
+    GridPoint s = locate_point(f, p);
     JoxV2 way = {s.cell->x, s.cell->y};
     if (s.cell->patch >= 0) {
-        way = at_wall(f, &s);
+        way = find_direction_at_wall(f, &s);
     } else if (s.cell->patch == JOX_FIELD_CLEAR) {
         const JoxFieldCell *cells[4];
         float weights[4];
-        corners(f, &s, cells, weights);
+        find_corners(f, &s, cells, weights);
         JoxV2 sum = {0.0f, 0.0f};
         for (int k = 0; k < 4; k++)
             sum = jox_add(sum, (JoxV2){weights[k] * cells[k]->x, weights[k] * cells[k]->y});
@@ -247,13 +252,14 @@ JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
         if (length2 > JOX_FIELD_ARRIVED * JOX_FIELD_ARRIVED)
             way = jox_scale(sum, 1.0f / sqrtf(length2));
         else if (s.cell->length < f->size)
-            way = (JoxV2){0.0f, 0.0f}; /* else two ways are as good here: one of them is taken */
+            way = (JoxV2){0.0f, 0.0f}; /* else two ways are equally good: one of them is taken */
     }
     if (s.beyond.x == 0.0f && s.beyond.y == 0.0f)
         return way;
     if (way.x == 0.0f && way.y == 0.0f && !(jox_field_distance(f, s.point) < INFINITY))
         return way;
-    /* Outside the box: to it, turning into the way there within one cell of it. */
+    /* Outside the box, the way leads to the box; within one cell of it, it turns into the way
+       there. */
     float far = jox_length(s.beyond);
     if (!(far < INFINITY))
         return way;
@@ -264,7 +270,7 @@ JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
 void jox_field_box(const JoxField *f, JoxV2 *low, JoxV2 *high, float *cell) {
     *cell = f->size;
     *low = f->low;
-    /* within the last cells, so that rounding adds none */
+    /* inside the last cells, so that rounding adds none */
     *high = (JoxV2){f->low.x + ((float)f->columns - 0.5f) * f->size,
                     f->low.y + ((float)f->rows - 0.5f) * f->size};
 }

@@ -1,5 +1,5 @@
-/* People who are held up make the floor about them slow, so that ways lead round a crowd where
-   that is sooner. */
+/* Slows down the floor around people who are held up, so that ways lead round a crowd where that is
+   quicker. */
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
 
@@ -7,8 +7,8 @@
 static JoxFieldSpreadKernel *const SPREAD[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* 1 where a cell can be walked, else 0. */
-static float *open_floor(const JoxFieldWork *w) {
+/* Returns 1 for cells that can be walked, else 0; the caller frees the array. */
+static float *list_open_cells(const JoxFieldWork *w) {
     float *open = jox_alloc((size_t)w->count, sizeof *open);
     for (int i = 0; i < w->count; i++)
         open[i] = w->walled.node[i] == JOX_FIELD_BLOCKED ? 0.0f : 1.0f;
@@ -18,7 +18,7 @@ static float *open_floor(const JoxFieldWork *w) {
 void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     if (!crowd || crowd->count == 0)
         return;
-    float *open = open_floor(w);
+    float *open = list_open_cells(w);
     SPREAD[jox_isa_resolve(crowd->isa)](w, crowd, open);
     jox_free(open);
 }

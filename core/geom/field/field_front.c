@@ -1,4 +1,4 @@
-/* The front of a march: see field_front.h. */
+/* The front of the marching; see field_front.h. */
 #include "geom/field/field_front.h"
 
 #include <math.h>
@@ -7,9 +7,9 @@
 #include "base/mem.h"
 #include "base/sort.h"
 
-enum { MANY = 8 }; /* moves of a key that is inserted, on average */
+enum { MANY = 8 }; /* greatest mean number of moves per inserted key */
 
-static int cell_of(uint64_t key) {
+static int get_cell_of_key(uint64_t key) {
     return (int)(uint32_t)key;
 }
 
@@ -24,7 +24,7 @@ void jox_front_push(JoxFront *f, int cell) {
     f->heap[at] = key;
 }
 
-static uint64_t pop(JoxFront *f) {
+static uint64_t pop_key(JoxFront *f) {
     const uint64_t top = f->heap[0], last = f->heap[--f->heap_count];
     size_t at = 0;
     for (;;) {
@@ -41,9 +41,9 @@ static uint64_t pop(JoxFront *f) {
     return top;
 }
 
-/* ---- stretches ---- */
+/* ---- the sorted stretch of time ---- */
 
-/* Keys of all that wait and are not finished; returns the least time. */
+/* Lists the keys of waiting cells that are not finished; returns their least time. */
 static float list_keys(JoxFront *f, size_t *count) {
     float least = INFINITY;
     size_t listed = 0;
@@ -60,8 +60,8 @@ static float list_keys(JoxFront *f, size_t *count) {
     return least;
 }
 
-/* Leaves the keys of the stretch; the others' cells go on waiting. */
-static size_t part(JoxFront *f, size_t count) {
+/* Splits the keys: those of the next stretch remain listed, the other cells go on waiting. */
+static size_t split_keys(JoxFront *f, size_t count) {
     const uint32_t end = jox_float_bits(f->end);
     uint64_t *keys = f->keys;
     int *waiting = f->waiting;
@@ -69,7 +69,7 @@ static size_t part(JoxFront *f, size_t count) {
     for (size_t k = 0; k < count; k++) {
         const uint64_t key = keys[k];
         const bool now = key >> 32 < end;
-        waiting[left] = cell_of(key);
+        waiting[left] = get_cell_of_key(key);
         keys[chosen] = key;
         left += !now;
         chosen += now;
@@ -78,14 +78,14 @@ static size_t part(JoxFront *f, size_t count) {
     return chosen;
 }
 
-static int by_key(const void *a, const void *b, const void *context) {
+static int compare_front_keys(const void *a, const void *b, const void *context) {
     (void)context;
     const uint64_t *one = a, *two = b;
     return (*one > *two) - (*one < *two);
 }
 
-/* Keys that are nearly in order. */
-static void insert_each(uint64_t *keys, size_t count) {
+/* Sorts keys that are nearly in order, by insertion. */
+static void insert_keys(uint64_t *keys, size_t count) {
     size_t moves = 0;
     for (size_t k = 1; k < count; k++) {
         const uint64_t key = keys[k];
@@ -95,14 +95,15 @@ static void insert_each(uint64_t *keys, size_t count) {
         keys[at] = key;
         moves += k - at;
         if (moves > MANY * count) { /* they are not */
-            jox_sort(keys, count, sizeof *keys, by_key, NULL, NULL);
+            jox_sort(keys, count, sizeof *keys, compare_front_keys, NULL, NULL);
             return;
         }
     }
 }
 
-/* Sorts `count` keys into `next`: by bins of time, of which most hold a few, then one by one. */
-static void sort(JoxFront *f, size_t count, float least) {
+/* Sorts `count` keys into `next`: into bins of time, most of which hold few keys, then by
+   insertion. */
+static void sort_stretch(JoxFront *f, size_t count, float least) {
     const uint64_t low = (uint64_t)jox_float_bits(least) << 32;
     const uint64_t high = (uint64_t)jox_float_bits(f->end) << 32;
     unsigned shift = 32;
@@ -122,18 +123,18 @@ static void sort(JoxFront *f, size_t count, float least) {
     }
     for (size_t k = 0; k < count; k++)
         f->next[bins[(f->keys[k] - low) >> shift]++] = f->keys[k];
-    insert_each(f->next, count);
+    insert_keys(f->next, count);
 }
 
-static bool advance(JoxFront *f) {
+static bool advance_stretch(JoxFront *f) {
     size_t count;
     const float least = list_keys(f, &count);
     if (count == 0)
         return false;
     f->end = jox_maxf(least + f->stretch, nextafterf(least, INFINITY));
-    const size_t chosen = part(f, count);
+    const size_t chosen = split_keys(f, count);
     JOX_ASSERT(chosen > 0);
-    sort(f, chosen, least);
+    sort_stretch(f, chosen, least);
     f->at = 0;
     f->next_count = chosen;
     return true;
@@ -141,14 +142,14 @@ static bool advance(JoxFront *f) {
 
 int jox_front_seek(JoxFront *f) {
     for (;;) {
-        if (f->at == f->next_count && f->heap_count == 0 && !advance(f))
+        if (f->at == f->next_count && f->heap_count == 0 && !advance_stretch(f))
             return -1;
         const bool by_heap =
             f->heap_count > 0 && (f->at == f->next_count || f->heap[0] < f->next[f->at]);
-        const uint64_t key = by_heap ? pop(f) : f->next[f->at++];
-        const int cell = cell_of(key);
+        const uint64_t key = by_heap ? pop_key(f) : f->next[f->at++];
+        const int cell = get_cell_of_key(key);
         if (jox_front_key(f, cell) != key)
-            continue; /* it was reached sooner since, and stands in the heap too */
+            continue; /* outdated: the cell was reached earlier since, with a new key in the heap */
         JOX_ASSERT(!f->nodes[cell].is_done);
         f->nodes[cell].is_done = true;
         return cell;

@@ -1,39 +1,39 @@
-/* The front of a march: the cells that were reached and are not finished, each finished in the
-   order of its time; of equal times the lesser cell first, so that there is one order. For
-   field_front.c and field_march.c alone.
-   Reached cells wait in no order until the front comes near them: all that the next stretch of time
-   holds are sorted at once. The few that are reached within the stretch, or sooner than was known
-   when it was sorted, stand in a heap beside it. */
+/* The front of the marching: cells that were reached and are not finished. They are finished in
+   order of time, ties by cell, so that the order is unique. Only field_front.c and field_march.c
+   include this. Reached cells wait unsorted until the front comes near; then all cells of the next
+   stretch of time are sorted at once. The few that are reached within that stretch, or earlier than
+   known when it was sorted, go to a heap beside it. */
 #ifndef JOX_GEOM_FIELD_FRONT_H
 #define JOX_GEOM_FIELD_FRONT_H
 
 #include "base/number/bits.h"
 #include "geom/field/field_parts.h"
 
-enum { JOX_FRONT_GOAL = 8 }; /* instead of a neighbour on the ring */
+enum { JOX_FRONT_GOAL = 8 }; /* in place of a number of a neighbour on the ring */
 
-/* What a march knows of a cell's node, side by side in memory. */
+/* Everything that the marching reads of a cell's node, adjacent in memory. */
 typedef struct JoxFrontNode {
     float at[2];            /* m */
     float slowness;         /* s/m */
-    float time;             /* of the soonest way so far, s */
-    float length;           /* of the soonest way, once it is finished, m */
-    float share;            /* of the way from ends[0] to ends[1] */
-    uint8_t links, corners; /* as of JoxFieldWalled */
-    uint8_t finished;       /* bits: neighbours on the ring that are linked to it and finished */
-    /* The soonest way so far leads to a point between these neighbours on the ring, or straight to
-       one that is both; or to the goal. */
+    float time;             /* of the quickest way so far, s */
+    float length;           /* of the quickest way, m, once the node is finished */
+    float share;            /* position between ends[0] and ends[1], 0 to 1 */
+    uint8_t links, corners; /* see JoxFieldWalled */
+    uint8_t finished;       /* bits: linked neighbours on the ring that are finished */
+    /* The quickest way so far leads to a point between these two neighbours on the ring, or
+       straight to one if they are equal; or to the goal (JOX_FRONT_GOAL). */
     uint16_t ends;
-    bool even; /* its node and all of its neighbours' are in the middles of their cells */
-    bool reached, is_done; /* put to the front; finished */
+    bool even; /* the nodes of this cell and its neighbours are at their cells' centres */
+    bool reached, is_done; /* added to the front; finished */
 } JoxFrontNode;
 
 typedef struct JoxFront {
-    JoxFrontNode *nodes; /* of each cell */
+    JoxFrontNode *nodes; /* by cell */
     float stretch;       /* s */
-    int *waiting;        /* cells, and such as were finished meanwhile; room for all */
+    int *waiting;        /* cells that wait, some finished meanwhile; room for all cells */
     size_t waiting_count;
-    /* Keys of the stretch, which ends at `end`, in order; from `at` on they are still to come. */
+    /* Sorted keys of the present stretch, which ends at time `end`; those from `at` on are still to
+       come. */
     uint64_t *next;
     size_t at, next_count, next_room;
     float end; /* s */
@@ -44,16 +44,16 @@ typedef struct JoxFront {
     size_t keys_room, bins_room;
 } JoxFront;
 
-/* Time, which is not negative, and cell, in order. */
+/* Returns a key that sorts by time, which is never negative, then by cell. */
 static inline uint64_t jox_front_key(const JoxFront *front, int cell) {
     return (uint64_t)jox_float_bits(front->nodes[cell].time) << 32 | (uint32_t)cell;
 }
 
-/* For as many cells as there are nodes, which are the front's from then on. */
+/* Starts a front for `count` nodes, which it owns from then on. */
 void jox_front_begin(JoxFront *front, JoxFrontNode *nodes, int count, float stretch);
 void jox_front_end(JoxFront *front);
 void jox_front_push(JoxFront *front, int cell);
-/* Puts a cell to the front whose node was given a time, or a lesser one. */
+/* Adds a cell whose node got a first or an earlier time. */
 static inline void jox_front_reach(JoxFront *front, int cell) {
     JoxFrontNode *node = &front->nodes[cell];
     if (!node->reached)
@@ -62,7 +62,7 @@ static inline void jox_front_reach(JoxFront *front, int cell) {
     if (node->time < front->end)
         jox_front_push(front, cell);
 }
-/* The next cell to be finished; -1 once there is none. */
+/* Returns the next cell to finish, -1 if there is none. jox_front_take is the inline fast path. */
 int jox_front_seek(JoxFront *front);
 static inline int jox_front_take(JoxFront *front) {
     if (front->heap_count == 0 && front->at < front->next_count) {

@@ -1,38 +1,40 @@
-/* The marching: times from the goal outwards, each node from the triangles of its finished
-   neighbours (Sethian 1999, as for unstructured meshes). */
+/* Fast marching: computes times from the goal outwards, each node from the triangles with its
+   finished neighbours (Sethian 1999, as for unstructured meshes). */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field/field_front.h"
 
-static const float SEED_CELLS = 4.5f; /* so near the goal, ways are straight and lengths exact */
-static const float STRAIGHT = 0.97f;  /* cosine of how far two slopes may differ */
-static const float SEED_MOST = 5.0f;  /* m: a goal in a wall is reached from so far */
-/* Of a cell, with some to spare for rounding (exact were the roots of 0.5 and of 2): so much
-   farther than a neighbour beside it, and than one across a corner, is a cell at least. */
+static const float SEED_CELLS = 4.5f; /* cells: so near the goal, ways are straight and lengths
+                                         exact */
+static const float STRAIGHT = 0.97f;  /* least cosine between two estimates of the direction */
+static const float SEED_MOST = 5.0f;  /* m: greatest distance from which a goal inside a wall is
+                                         reached */
+/* In cells: a node is later by at least this much than a neighbour beside it, or across a corner.
+   Exact would be the roots of 0.5 and of 2; these leave a margin for rounding. */
 static const float LEAST_BESIDE = 0.69f, LEAST_ACROSS = 1.40f;
-/* s, of a cell: from so great a time on, rounding is more than what is spared. */
+/* s per metre of cell size: beyond this time, rounding exceeds that margin. */
 static const float MOST_TIME = 1e4f;
-/* s, of a cell: the front sorts so much time at once. Few that are within such a stretch are
-   reached by each other. */
+/* s per metre of cell size: time that the front sorts at once. Few cells in such a stretch are
+   reached from each other. */
 static const float STRETCH = 1.0f;
 
-/* Of functions that are given a neighbour's number on the ring: each call is compiled for its
+/* For functions with the number of a ring neighbour as argument: each call is compiled for its
    number. */
 #define INLINE inline __attribute__((always_inline))
 
 typedef struct March {
     JoxFieldWork *w;
-    int steps[8];   /* from a cell to its neighbours on the ring */
-    float least[2]; /* m: see march */
+    int steps[8];   /* offset of the index from a cell to each ring neighbour */
+    float least[2]; /* m: least advance by a neighbour beside it, across a corner */
     JoxFront front;
 } March;
 
 /* ---- seeds ---- */
 
-/* A way to a cell's node straight from the goal, along `way`. */
-static void offer(March *m, int cell, float distance, JoxV2 way) {
+/* Offers a node the straight way from the goal, along `way`. */
+static void offer_goal(March *m, int cell, float distance, JoxV2 way) {
     const JoxField *f = m->w->f;
     JoxFrontNode *n = &m->front.nodes[cell];
     const float time = distance * n->slowness;
@@ -48,8 +50,8 @@ static void offer(March *m, int cell, float distance, JoxV2 way) {
     jox_front_reach(&m->front, cell);
 }
 
-/* Whether a goal's nearest point is seen from p. A polygon may lie along a wall: then the point is
-   on it, and what counts is whether the polygon's inside is seen. */
+/* Returns whether a goal's nearest point is visible from p. If a polygon lies along a wall, its
+   nearest point is on the wall, and its inside must be visible. */
 static bool sees_goal(const JoxFieldWork *w, const JoxPlace *place, JoxV2 goal, JoxV2 p) {
     const float inside = 0.03f; /* m */
     if (!jox_field_sees(w, goal, p, 0.85f * w->f->clearance))
@@ -58,8 +60,8 @@ static bool sees_goal(const JoxFieldWork *w, const JoxPlace *place, JoxV2 goal, 
     return !jox_place_is_area(place) || jox_field_sees(w, p, beyond, 0.0f);
 }
 
-/* Seeds the nodes within `reach` of a place that is no set; returns how many see it. Those that do
-   not are seeded too once `blindly`. */
+/* Seeds the nodes within `reach` of a place that is no set, and returns their number. `blindly`:
+   also nodes that do not see it. */
 static int seed_within(March *m, const JoxPlace *place, float reach, bool blindly) {
     const JoxFieldWork *w = m->w;
     JoxField *f = w->f;
@@ -78,15 +80,15 @@ static int seed_within(March *m, const JoxPlace *place, float reach, bool blindl
             if (distance > reach || (!blindly && !sees_goal(w, place, goal, p)))
                 continue;
             seeds++;
-            offer(m, cell, distance, jox_sub(goal, p));
+            offer_goal(m, cell, distance, jox_sub(goal, p));
         }
     return seeds;
 }
 
-static void seed(March *m, const JoxPlace *places, uint32_t index) {
+static void seed_place(March *m, const JoxPlace *places, uint32_t index) {
     const JoxPlace *place = &places[index];
     for (uint32_t k = 0; k < place->member_count; k++)
-        seed(m, places, (uint32_t)place->members[k]);
+        seed_place(m, places, (uint32_t)place->members[k]);
     if (place->count == 0)
         return;
     float least = SEED_CELLS * m->w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
@@ -98,54 +100,54 @@ static void seed(March *m, const JoxPlace *places, uint32_t index) {
 
 /* ---- marching ---- */
 
-/* The soonest way from a node so far, the numbers as bits. */
+/* The quickest way to a node so far, with its numbers as bits. */
 typedef struct Best {
     uint32_t time, share, ends;
 } Best;
 
-/* Without a branch, as it cannot be foretold which. */
-static inline uint32_t either(bool second, uint32_t a, uint32_t b) {
+/* Selects without a branch, as the outcome cannot be predicted. */
+static inline uint32_t select_bits(bool second, uint32_t a, uint32_t b) {
     return a ^ ((a ^ b) & -(uint32_t)second);
 }
 
-static inline uint32_t ends_of(int a, int b) {
+static inline uint32_t join_ends(int a, int b) {
     return (uint32_t)(a | b << 8);
 }
 
-static inline Best best_of(const JoxFrontNode *n) {
+static inline Best start_best(const JoxFrontNode *n) {
     return (Best){jox_float_bits(n->time), jox_float_bits(n->share), n->ends};
 }
 
 static inline void keep_sooner(Best *best, bool counts, float time, float share, uint32_t ends) {
     const bool sooner = counts & (jox_float_bits(time) < best->time);
-    best->time = either(sooner, best->time, jox_float_bits(time));
-    best->share = either(sooner, best->share, jox_float_bits(share));
-    best->ends = either(sooner, best->ends, ends);
+    best->time = select_bits(sooner, best->time, jox_float_bits(time));
+    best->share = select_bits(sooner, best->share, jox_float_bits(share));
+    best->ends = select_bits(sooner, best->ends, ends);
 }
 
-/* The soonest way from node n by a point between two finished ones, its neighbours a and b. */
-static inline void by_side(const March *m, const JoxFrontNode *n, int a, int b, Best *best) {
+/* Tries the ways from node n through points between two finished neighbours, a and b. */
+static inline void try_side(const March *m, const JoxFrontNode *n, int a, int b, Best *best) {
     const JoxFrontNode *from = n + m->steps[a], *to = n + m->steps[b];
     const JoxV2 side = {to->at[0] - from->at[0], to->at[1] - from->at[1]},
                 out = {n->at[0] - from->at[0], n->at[1] - from->at[1]};
     const float long2 = jox_length2(side), slowness = n->slowness;
     const float rise = to->time - from->time;
-    /* The time rises linearly along the side; away from it, the way costs `slowness` a metre. The
-       point of least time splits the side where the two balance. */
+    /* The time rises linearly along the side between them; away from it, the way costs `slowness`
+       per metre. The quickest point is where the two balance. */
     const float rest2 = slowness * slowness * long2 - rise * rise;
     const float along = jox_dot(out, side) - fabsf(jox_det(out, side)) * rise / sqrtf(rest2);
     const float t = along / long2;
     const bool between = (rest2 > 0.0f) & (along > 0.0f) & (along < long2) & (t > 0.0f) &
-                         (t < 1.0f); /* the ends are tried on their own */
+                         (t < 1.0f); /* the ends are tried by themselves */
     const JoxV2 way = {from->at[0] + side.x * t - n->at[0], from->at[1] + side.y * t - n->at[1]};
     keep_sooner(best, between, from->time + t * rise + slowness * jox_length(way), t,
-                ends_of(a, b));
+                join_ends(a, b));
 }
 
-/* The same of even nodes, to the bit: `from` is beside n along an axis, and `to` beside that across
-   it. */
-static INLINE void by_even_side(const JoxFrontNode *n, const JoxFrontNode *from,
-                                const JoxFrontNode *to, int axis, uint32_t ends, Best *best) {
+/* Does the same for even nodes, with the same bits: `from` is beside n along an axis, and `to` is
+   beside `from` across that axis. */
+static INLINE void try_even_side(const JoxFrontNode *n, const JoxFrontNode *from,
+                                 const JoxFrontNode *to, int axis, uint32_t ends, Best *best) {
     const float off = from->at[axis] - n->at[axis], base = n->at[!axis];
     const float side = to->at[!axis] - base, long2 = side * side, slowness = n->slowness;
     const float rise = to->time - from->time;
@@ -158,7 +160,7 @@ static INLINE void by_even_side(const JoxFrontNode *n, const JoxFrontNode *from,
     keep_sooner(best, between, from->time + t * rise + slowness * far, t, ends);
 }
 
-static INLINE void keep(March *m, JoxFrontNode *n, const Best *best) {
+static INLINE void store_best(March *m, JoxFrontNode *n, const Best *best) {
     if (best->time == jox_float_bits(n->time))
         return;
     n->time = jox_float_of(best->time);
@@ -167,46 +169,46 @@ static INLINE void keep(March *m, JoxFrontNode *n, const Best *best) {
     jox_front_reach(&m->front, (int)(n - m->front.nodes));
 }
 
-/* Offers node n the ways by its neighbour `back` on the ring, which has just been finished;
-   `finished`: those that were before. */
-static void reach(March *m, JoxFrontNode *n, int back, uint32_t finished) {
+/* Offers node n the ways through its neighbour `back` on the ring, which was just finished;
+   `finished`: neighbours finished before. */
+static void reach_node(March *m, JoxFrontNode *n, int back, uint32_t finished) {
     const JoxFrontNode *from = n + m->steps[back];
     const int after = (back + 1) & 7, before = (back + 7) & 7;
     const float far = jox_length((JoxV2){from->at[0] - n->at[0], from->at[1] - n->at[1]});
-    Best best = best_of(n);
-    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
+    Best best = start_best(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, join_ends(back, back));
     if (n->corners >> back & finished >> after & 1)
-        by_side(m, n, back, after, &best);
+        try_side(m, n, back, after, &best);
     if (n->corners >> before & finished >> before & 1)
-        by_side(m, n, back, before, &best);
-    keep(m, n, &best);
+        try_side(m, n, back, before, &best);
+    store_best(m, n, &best);
 }
 
-/* The same of an even node, by one beside it. */
-static INLINE void reach_beside(March *m, JoxFrontNode *n, int back, uint32_t finished) {
+/* Does the same for an even node and a neighbour beside it. */
+static INLINE void reach_even_beside(March *m, JoxFrontNode *n, int back, uint32_t finished) {
     const JoxFrontNode *from = n + m->steps[back];
     const int after = (back + 1) & 7, before = (back + 7) & 7, axis = back >> 1 & 1;
     const float far = fabsf(from->at[axis] - n->at[axis]);
-    Best best = best_of(n);
-    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
+    Best best = start_best(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, join_ends(back, back));
     if (n->corners >> back & finished >> after & 1)
-        by_even_side(n, from, n + m->steps[after], axis, ends_of(back, after), &best);
+        try_even_side(n, from, n + m->steps[after], axis, join_ends(back, after), &best);
     if (n->corners >> before & finished >> before & 1)
-        by_even_side(n, from, n + m->steps[before], axis, ends_of(back, before), &best);
-    keep(m, n, &best);
+        try_even_side(n, from, n + m->steps[before], axis, join_ends(back, before), &best);
+    store_best(m, n, &best);
 }
 
-/* The same of an even node, by one across a corner. */
-static INLINE void reach_across(March *m, JoxFrontNode *n, int back) {
+/* Does the same for an even node and a neighbour across a corner. */
+static INLINE void reach_even_across(March *m, JoxFrontNode *n, int back) {
     const JoxFrontNode *from = n + m->steps[back];
     const float far = jox_length((JoxV2){from->at[0] - n->at[0], from->at[1] - n->at[1]});
-    Best best = best_of(n);
-    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, ends_of(back, back));
-    keep(m, n, &best);
+    Best best = start_best(n);
+    keep_sooner(&best, true, from->time + n->slowness * far, 0.0f, join_ends(back, back));
+    store_best(m, n, &best);
 }
 
-/* The soonest way from a node is known: its length and direction. */
-static inline void finish(March *m, int cell) {
+/* Finishes a node, whose quickest way is known: computes its length and direction. */
+static inline void finish_node(March *m, int cell) {
     JoxFrontNode *n = &m->front.nodes[cell];
     JoxFieldCell *out = &m->w->f->cells[cell];
     m->w->time[cell] = n->time;
@@ -224,12 +226,13 @@ static inline void finish(March *m, int cell) {
     out->length = n->length;
 }
 
-/* Neighbour k of a node that has just been finished, if it is one of the `open` ones. Ways that
-   cannot be the soonest are left out: an even node has none by a neighbour of less than
-   LEAST_BESIDE or LEAST_ACROSS; and of a side between one across a corner and one beside the node
-   that was finished before, the soonest point is the latter. Both hold where nodes are finished in
-   the order of their times: those that are, and not too late, are `plain`. */
-static INLINE void look(March *m, const JoxFrontNode *from, int k, uint32_t open, bool plain) {
+/* Offers ways to neighbour k of a node that was just finished, if it is one of the `open` ones.
+   Ways that cannot be the quickest are skipped: an even node has none that gain less than
+   LEAST_BESIDE or LEAST_ACROSS on a neighbour; and on the side between a neighbour across a corner
+   and one beside the node that was finished before, the quickest point is the latter. Both need
+   nodes that are finished in order of time and are not too late, which `plain` says. */
+static INLINE void visit_neighbour(March *m, const JoxFrontNode *from, int k, uint32_t open,
+                                   bool plain) {
     const int back = (k + 4) & 7;
     if (!(open >> k & 1))
         return;
@@ -238,39 +241,39 @@ static INLINE void look(March *m, const JoxFrontNode *from, int k, uint32_t open
     JOX_ASSERT(!n->is_done && n->links >> back & 1);
     n->finished = (uint8_t)(finished | 1u << back);
     if (!(plain && n->even))
-        reach(m, n, back, finished);
+        reach_node(m, n, back, finished);
     else if (n->time <= from->time + n->slowness * m->least[k & 1])
         return;
     else if (k & 1)
-        reach_across(m, n, back);
+        reach_even_across(m, n, back);
     else
-        reach_beside(m, n, back, finished);
+        reach_even_beside(m, n, back, finished);
 }
 
-static void march(March *m) {
+static void march_all(March *m) {
     const float most = MOST_TIME * m->w->f->size;
     float latest = 0.0f;
     for (int i = jox_front_take(&m->front); i >= 0; i = jox_front_take(&m->front)) {
         const JoxFrontNode *n = &m->front.nodes[i];
         const bool plain = n->time >= latest && n->time < most;
         latest = jox_maxf(latest, n->time);
-        finish(m, i);
+        finish_node(m, i);
         const uint32_t open = n->links & ~(uint32_t)n->finished;
-        look(m, n, 0, open, plain);
-        look(m, n, 1, open, plain);
-        look(m, n, 2, open, plain);
-        look(m, n, 3, open, plain);
-        look(m, n, 4, open, plain);
-        look(m, n, 5, open, plain);
-        look(m, n, 6, open, plain);
-        look(m, n, 7, open, plain);
+        visit_neighbour(m, n, 0, open, plain);
+        visit_neighbour(m, n, 1, open, plain);
+        visit_neighbour(m, n, 2, open, plain);
+        visit_neighbour(m, n, 3, open, plain);
+        visit_neighbour(m, n, 4, open, plain);
+        visit_neighbour(m, n, 5, open, plain);
+        visit_neighbour(m, n, 6, open, plain);
+        visit_neighbour(m, n, 7, open, plain);
     }
 }
 
-/* Away from walls, directions become central differences of the times, which are more exact than
-   the one-sided ones of the marching; not where ways from two sides meet, as a central difference
-   there points at neither. */
-static void straighten(JoxFieldWork *w) {
+/* Replaces directions away from walls by central differences of the times, which are more accurate
+   than the one-sided differences of the marching. Not where ways from two sides meet, since a
+   central difference points along neither. */
+static void refine_directions(JoxFieldWork *w) {
     JoxField *f = w->f;
     const float *t = w->time;
     int up = f->columns;
@@ -292,7 +295,7 @@ static void straighten(JoxFieldWork *w) {
     }
 }
 
-static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
+static JoxFrontNode *make_front_nodes(const JoxFieldWork *w) {
     const JoxFieldWalled *of = &w->walled;
     JoxFrontNode *nodes = jox_alloc_aligned((size_t)w->count, sizeof *nodes);
     for (int i = 0; i < w->count; i++)
@@ -308,7 +311,7 @@ static JoxFrontNode *lay_nodes(const JoxFieldWork *w) {
 void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
     const JoxField *f = w->f;
     March m = {.w = w};
-    jox_front_begin(&m.front, lay_nodes(w), w->count, STRETCH * f->size);
+    jox_front_begin(&m.front, make_front_nodes(w), w->count, STRETCH * f->size);
     m.least[0] = LEAST_BESIDE * f->size;
     m.least[1] = LEAST_ACROSS * f->size;
     for (int k = 0; k < 8; k++)
@@ -317,8 +320,8 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
         w->time[i] = INFINITY;
         f->cells[i].length = INFINITY;
     }
-    seed(&m, places, place);
-    march(&m);
-    straighten(w);
+    seed_place(&m, places, place);
+    march_all(&m);
+    refine_directions(w);
     jox_front_end(&m.front);
 }

@@ -1,4 +1,5 @@
-/* What walls do to a field: edges by cell, samples inside solids, nodes and what they see. */
+/* The effect of walls on a field: edges by cell, samples inside solids, nodes, and their links by
+   sight. */
 #include <math.h>
 #include <string.h>
 
@@ -9,15 +10,16 @@
 const int JOX_FIELD_RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                   {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-static const float NEAR = 0.5f;    /* m: walls slow people down within this */
-static const float SLOWING = 0.5f; /* more s/m right at a wall */
-/* A way round a corner cuts a little into the clearance between two nodes. */
+static const float NEAR = 0.5f;    /* m: walls slow people down within this distance */
+static const float SLOWING = 0.5f; /* additional s/m next to a wall */
+/* Share of the clearance that ways between two nodes keep: a way round a corner cuts into it a
+   little. */
 static const float CORNER = 0.85f;
-static const float EXACT_CELLS = 2e4f; /* from the origin: see is_exact */
+static const float EXACT_CELLS = 2e4f; /* distance from the origin, in cells; see is_exact */
 
 /* ---- edges by cell ---- */
 
-static void collect(JoxField *f, const JoxWalls *walls) {
+static void collect_edges_of_walls(JoxField *f, const JoxWalls *walls) {
     f->edges = jox_alloc(walls->count + 1, sizeof *f->edges);
     for (uint32_t r = 0; r < walls->ring_count; r++)
         for (uint32_t k = 0; k < walls->rings[r].count; k++) {
@@ -31,9 +33,9 @@ static void collect(JoxField *f, const JoxWalls *walls) {
         }
 }
 
-/* Puts an edge to all cells whose centre it comes within `reach` of; counts them while refs is
-   NULL. Row by row, so that a long slanted edge does not visit the whole of its bounds. */
-static void enter(JoxFieldWork *w, uint32_t edge, float reach) {
+/* Lists an edge in all cells whose centre is within `reach` of it; only counts them while refs is
+   NULL. Works row by row, so that a long slanted edge does not visit its whole bounding box. */
+static void list_edge(JoxFieldWork *w, uint32_t edge, float reach) {
     JoxField *f = w->f;
     JoxV2 a = f->edges[edge].a, b = f->edges[edge].b;
     int r0, r1, c0, c1;
@@ -42,7 +44,7 @@ static void enter(JoxFieldWork *w, uint32_t edge, float reach) {
     for (int r = r0; r <= r1; r++) {
         float y = f->low.y + ((float)r + 0.5f) * f->size, rise = b.y - a.y;
         float s = 0.0f, t = 1.0f;
-        if (fabsf(rise) > 1e-6f) { /* the part of the edge that is near this row */
+        if (fabsf(rise) > 1e-6f) { /* the part of the edge near this row */
             float u = (y - reach - a.y) / rise, v = (y + reach - a.y) / rise;
             s = jox_clampf(jox_minf(u, v), 0.0f, 1.0f);
             t = jox_clampf(jox_maxf(u, v), 0.0f, 1.0f);
@@ -63,22 +65,22 @@ static void enter(JoxFieldWork *w, uint32_t edge, float reach) {
     }
 }
 
-static void sort_edges(JoxFieldWork *w, float reach) {
+static void list_edges_by_cell(JoxFieldWork *w, float reach) {
     JoxField *f = w->f;
     for (uint32_t e = 0; e < f->edge_count; e++)
-        enter(w, e, reach);
+        list_edge(w, e, reach);
     for (int i = 0; i < w->count; i++)
         w->walled.first[i + 1] += w->walled.first[i];
     f->ref_count = w->walled.first[w->count];
     f->refs = jox_alloc((size_t)f->ref_count + 1, sizeof *f->refs);
-    for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as each list fills from its end */
-        enter(w, e, reach);
+    for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as lists are filled from their end */
+        list_edge(w, e, reach);
     JOX_ASSERT(w->walled.first[0] == 0);
 }
 
 /* ---- solids ---- */
 
-/* Fills the samples between pairs of crossings of one row of samples. */
+/* Marks the samples between pairs of crossings in one row of samples. */
 static void fill_row(JoxFieldWork *w, int row, const float *x, int crossings) {
     JoxField *f = w->f;
     float step = f->size / (float)JOX_FIELD_SIDE;
@@ -134,11 +136,13 @@ static void fill_solids(JoxFieldWork *w, const JoxWalls *walls) {
 
 /* ---- nodes and links ---- */
 
-/* The centre where it will do, else the sample that is freest. */
+/* Places a cell's node at the centre if that keeps the clearance, else at the sample farthest from
+   walls. */
 static void place_node(JoxFieldWork *w, int cell) {
     JoxField *f = w->f;
     uint32_t first = w->walled.first[cell], last = w->walled.first[cell + 1];
-    float best = -1.0f, most = f->clearance + 1.5f * f->size; /* edges of other cells are farther */
+    float best = -1.0f, most = f->clearance + 1.5f * f->size; /* edges of other cells are farther
+                                                                 away */
     if (first == last && !w->walled.solid[cell]) {
         w->walled.node[cell] = JOX_FIELD_MIDDLE;
         w->slowness[cell] = 1.0f;
@@ -163,7 +167,7 @@ static void place_node(JoxFieldWork *w, int cell) {
     w->near[cell] = jox_minf(best, most);
 }
 
-static void lay_axis(JoxFieldAxis *axis, float low, float size, int most) {
+static void compute_axis(JoxFieldAxis *axis, float low, float size, int most) {
     for (int c = 0; c < most; c++)
         for (int s = 0; s < JOX_FIELD_SIDE; s++, axis++) {
             axis->at = low + ((float)c + ((float)s + 0.5f) / (float)JOX_FIELD_SIDE) * size;
@@ -174,14 +178,14 @@ static void lay_axis(JoxFieldAxis *axis, float low, float size, int most) {
         }
 }
 
-/* Where samples are, and the nodes: jox_field_sample of each. */
-static void lay_nodes(JoxFieldWork *w) {
+/* Computes the positions of samples and nodes: jox_field_sample of each. */
+static void compute_positions(JoxFieldWork *w) {
     const JoxField *f = w->f;
     JoxFieldWalled *of = &w->walled;
     of->columns = jox_alloc((size_t)f->columns, JOX_FIELD_SIDE * sizeof *of->columns);
     of->rows = jox_alloc((size_t)f->rows, JOX_FIELD_SIDE * sizeof *of->rows);
-    lay_axis(of->columns, f->low.x, f->size, f->columns);
-    lay_axis(of->rows, f->low.y, f->size, f->rows);
+    compute_axis(of->columns, f->low.x, f->size, f->columns);
+    compute_axis(of->rows, f->low.y, f->size, f->rows);
     for (int r = 0; r < f->rows; r++)
         for (int c = 0; c < f->columns; c++) {
             const int cell = r * f->columns + c;
@@ -192,7 +196,7 @@ static void lay_nodes(JoxFieldWork *w) {
         }
 }
 
-/* Links of a cell with its neighbours east and north of it. */
+/* Links a cell with its neighbours to the east and north. */
 static void link_cell(JoxFieldWork *w, int column, int row) {
     const int cell = row * w->f->columns + column;
     const float least = CORNER * w->f->clearance;
@@ -212,17 +216,18 @@ static void link_cell(JoxFieldWork *w, int column, int row) {
     }
 }
 
-static bool in_triangle(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 p) {
+static bool is_inside_triangle(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 p) {
     return jox_det(jox_sub(b, a), jox_sub(p, a)) >= 0.0f &&
            jox_det(jox_sub(c, b), jox_sub(p, b)) >= 0.0f &&
            jox_det(jox_sub(a, c), jox_sub(p, c)) >= 0.0f;
 }
 
-/* Bit t: the cell, its neighbour t and t + 1 are linked to each other. */
-static uint32_t linked_corners(const JoxFieldWork *w, int cell) {
+/* Returns bit t if the cell and its ring neighbours t and t + 1 are all linked to each other. */
+static uint32_t find_linked_corners(const JoxFieldWork *w, int cell) {
     const uint32_t links = w->walled.links[cell];
     uint32_t across = 0;
-    for (int k = 0; k < 8; k += 2) { /* from those beside it, on and back along the ring */
+    for (int k = 0; k < 8; k += 2) { /* from neighbours beside the cell, forward and back along the
+                                        ring */
         if (!(links >> k & 1))
             continue;
         const int beside = cell + JOX_FIELD_RING[k][1] * w->f->columns + JOX_FIELD_RING[k][0];
@@ -232,25 +237,25 @@ static uint32_t linked_corners(const JoxFieldWork *w, int cell) {
     return links & (links >> 1 | links << 7) & across;
 }
 
-static void span_corners(JoxFieldWork *w, int cell) {
-    uint32_t corners = linked_corners(w, cell);
+static void find_free_corners(JoxFieldWork *w, int cell) {
+    uint32_t corners = find_linked_corners(w, cell);
     for (int t = 0; t < 8 && jox_field_has_edges(w, cell); t++) {
         if (!(corners >> t & 1))
             continue;
         const int one = jox_field_next(w->f, cell, t),
                   two = jox_field_next(w->f, cell, (t + 1) & 7);
         JoxV2 a = jox_field_node(w, cell), b = jox_field_node(w, one), c = jox_field_node(w, two);
-        bool empty = true; /* nothing crosses the sides: look for walls wholly within */
+        bool empty = true; /* no edge crosses the sides: look for walls wholly inside */
         for (uint32_t k = w->walled.first[cell]; empty && k < w->walled.first[cell + 1]; k++)
-            empty = !in_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
+            empty = !is_inside_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
         if (!empty)
             corners &= ~(1u << t);
     }
     w->walled.corners[cell] = (uint8_t)corners;
 }
 
-/* Which nodes stand in rows and columns with all of their neighbours. */
-static void find_even(JoxFieldWork *w) {
+/* Finds the cells whose node, and all neighbours' nodes, are at their cells' centres. */
+static void find_even_cells(JoxFieldWork *w) {
     const JoxField *f = w->f;
     memset(w->walled.even, true, (size_t)w->count * sizeof *w->walled.even);
     for (int i = 0; i < w->count; i++) {
@@ -265,14 +270,15 @@ static void find_even(JoxFieldWork *w) {
     }
 }
 
-/* Whether cells are as wide as each other within half a percent: so far out are numbers still. */
+/* Returns whether cell sizes are equal within half a percent in spite of rounding, which grows with
+   the distance from the origin. */
 static bool is_exact(const JoxField *f) {
     const float most = EXACT_CELLS * f->size;
     return fabsf(f->low.x) < most && f->low.x + (float)f->columns * f->size < most &&
            fabsf(f->low.y) < most && f->low.y + (float)f->rows * f->size < most;
 }
 
-static void make_room(JoxFieldWork *w) {
+static void allocate_walled(JoxFieldWork *w) {
     const size_t count = (size_t)w->count;
     w->walled = (JoxFieldWalled){.first = jox_alloc(count + 1, sizeof(uint32_t)),
                                  .solid = jox_alloc(count, sizeof(uint16_t)),
@@ -288,22 +294,22 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
     JoxField *f = w->f;
     float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
     w->exact = is_exact(f);
-    collect(f, walls);
+    collect_edges_of_walls(f, walls);
     if (jox_field_recall(w, *marks))
         return;
-    make_room(w);
+    allocate_walled(w);
     w->near = jox_alloc((size_t)w->count, sizeof *w->near);
-    sort_edges(w, reach);
+    list_edges_by_cell(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
         place_node(w, i);
-    lay_nodes(w);
+    compute_positions(w);
     for (int r = 0; r < f->rows; r++)
         for (int c = 0; c < f->columns; c++)
             link_cell(w, c, r);
     for (int i = 0; i < w->count; i++)
-        span_corners(w, i);
-    find_even(w);
+        find_free_corners(w, i);
+    find_even_cells(w);
     jox_field_look_about(w);
     jox_free(w->near);
     jox_field_remember(w, marks);

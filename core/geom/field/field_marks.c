@@ -1,5 +1,5 @@
-/* What walls do to a field, kept for the next field over the same walls: only the crowd changes
-   from one to the other. */
+/* A cache of the effect of walls, for the next field over the same walls, when only the crowd has
+   changed. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -10,14 +10,14 @@ struct JoxFieldMarks {
     JoxV2 low;
     float size, clearance;
     int columns, rows;
-    JoxFieldEdge *edges; /* of which all else follows */
+    JoxFieldEdge *edges; /* key: everything else depends on them */
     uint32_t edge_count, ref_count;
     uint32_t *refs;
-    float *slowness;        /* near walls */
-    JoxFieldPatch *patches; /* without ways, but for those off walls and out of solids */
+    float *slowness;        /* by cell, from walls alone */
+    JoxFieldPatch *patches; /* without ways, except off walls and out of solids */
     uint32_t patch_count;
-    int32_t *patch;        /* of each cell */
-    JoxFieldWalled walled; /* not copied: work uses it */
+    int32_t *patch;        /* by cell */
+    JoxFieldWalled walled; /* shared with JoxFieldWork, not copied */
 };
 
 void jox_field_marks_free(JoxFieldMarks *m) {
@@ -32,14 +32,14 @@ void jox_field_marks_free(JoxFieldMarks *m) {
     jox_free(m);
 }
 
-static void *copy(const void *from, size_t count, size_t size) {
+static void *duplicate_array(const void *from, size_t count, size_t size) {
     void *to = jox_alloc(count + 1, size);
     if (count)
         memcpy(to, from, count * size);
     return to;
 }
 
-static bool is_of(const JoxFieldMarks *m, const JoxField *f) {
+static bool matches_field(const JoxFieldMarks *m, const JoxField *f) {
     return m->low.x == f->low.x && m->low.y == f->low.y && m->size == f->size &&
            m->clearance == f->clearance && m->columns == f->columns && m->rows == f->rows &&
            m->edge_count == f->edge_count &&
@@ -49,15 +49,15 @@ static bool is_of(const JoxFieldMarks *m, const JoxField *f) {
 bool jox_field_recall(JoxFieldWork *w, const JoxFieldMarks *m) {
     JoxField *f = w->f;
     const size_t count = (size_t)w->count;
-    if (!m || !is_of(m, f))
+    if (!m || !matches_field(m, f))
         return false;
     f->ref_count = m->ref_count;
-    f->refs = copy(m->refs, m->ref_count, sizeof *f->refs);
+    f->refs = duplicate_array(m->refs, m->ref_count, sizeof *f->refs);
     memcpy(w->slowness, m->slowness, count * sizeof *w->slowness);
     for (size_t i = 0; i < count; i++)
         f->cells[i].patch = m->patch[i];
     f->patch_count = f->patch_capacity = m->patch_count;
-    f->patches = copy(m->patches, m->patch_count, sizeof *f->patches);
+    f->patches = duplicate_array(m->patches, m->patch_count, sizeof *f->patches);
     w->walled = m->walled;
     return true;
 }
@@ -78,12 +78,12 @@ void jox_field_remember(const JoxFieldWork *w, JoxFieldMarks **marks) {
                          .ref_count = f->ref_count,
                          .patch_count = f->patch_count,
                          .walled = w->walled};
-    m->edges = copy(f->edges, f->edge_count, sizeof *f->edges);
-    m->refs = copy(f->refs, f->ref_count, sizeof *f->refs);
-    m->slowness = copy(w->slowness, count, sizeof *w->slowness);
+    m->edges = duplicate_array(f->edges, f->edge_count, sizeof *f->edges);
+    m->refs = duplicate_array(f->refs, f->ref_count, sizeof *f->refs);
+    m->slowness = duplicate_array(w->slowness, count, sizeof *w->slowness);
     m->patch = jox_alloc(count, sizeof *m->patch);
     for (size_t i = 0; i < count; i++)
         m->patch[i] = f->cells[i].patch;
-    m->patches = copy(f->patches, f->patch_count, sizeof *m->patches);
+    m->patches = duplicate_array(f->patches, f->patch_count, sizeof *m->patches);
     *marks = m;
 }

@@ -1,48 +1,50 @@
-/* The parts of a field and of the work of making one; for the files field*.c alone.
-   A cell away from walls has one direction, at its centre; points between four centres interpolate
-   them. A cell near a wall has a patch of 3 x 3 samples instead. What each sample can see is found
-   when the field is made, so that looking up a direction needs no test of sight. While a field is
-   made, every cell that can be walked has a node: the sample (its centre, if that keeps the
-   clearance) at which fast marching computes the time to the goal. */
+/* Parts of a field, and of the work of making one; only the files field*.c include this. A cell
+   away from walls has one direction, at its centre, and points between four centres interpolate. A
+   cell near a wall has a patch of 3 x 3 samples instead. What each sample sees is found when the
+   field is made, so that lookups need no test of sight. While a field is made, every walkable cell
+   has a node: the sample (the centre, if that keeps the clearance) at which fast marching computes
+   the time to the goal. */
 #ifndef JOX_GEOM_FIELD_PARTS_H
 #define JOX_GEOM_FIELD_PARTS_H
 
 #include "geom/field/field.h"
 
 enum { JOX_FIELD_SIDE = 3, JOX_FIELD_SAMPLES = 9, JOX_FIELD_MIDDLE = 4 };
-enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* instead of a patch: blend; do not */
-enum { JOX_FIELD_BLOCKED = 9 };                      /* instead of a node */
+enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* in place of a patch: interpolate; do not */
+enum { JOX_FIELD_BLOCKED = 9 };                      /* in place of a node */
 
 typedef struct JoxFieldCell {
-    float length; /* of the way from the node, m; INFINITY: none */
-    float x, y;   /* the way's direction there; shorter than 1 within JOX_FIELD_CLOSE of the goal */
+    float length; /* of the way from the node, m; INFINITY: no way */
+    float x, y;   /* direction of the way; shorter than 1 within JOX_FIELD_CLOSE of the goal */
     int32_t patch;
 } JoxFieldCell;
 
 typedef struct JoxFieldPatch {
     float x[JOX_FIELD_SAMPLES], y[JOX_FIELD_SAMPLES], length[JOX_FIELD_SAMPLES];
-    uint32_t first, count; /* edges about the cell, in refs */
-    uint16_t cut;          /* bits: samples whose ninth of the cell an edge passes */
-    uint16_t on_edge;      /* bits: samples on an edge, on neither side of it, which are not used */
+    uint32_t first, count; /* range in refs: edges near the cell */
+    uint16_t cut;          /* bits: samples whose ninth of the cell an edge crosses */
+    uint16_t on_edge;      /* bits: samples on an edge, on neither of its sides; not used */
 } JoxFieldPatch;
 
-/* What walls let the samples of patches see: bits of JoxFieldSight, sample by sample. */
+/* Visibility from a sample of a patch past walls: the bits below, one value per sample. */
 typedef uint32_t JoxFieldSight;
 enum {
-    JOX_SIGHT_NODES = 0x000f,   /* of the four nodes about the sample */
-    JOX_SIGHT_OPEN = 0x0010,    /* no edge is near enough to stand in the way ahead */
-    JOX_SIGHT_BY_WALL = 0x0020, /* an edge is within the clearance; its patch has the way off it */
-    JOX_SIGHT_SOLID = 0x0040,   /* within matter that an edge bounds; its patch has the way out */
-    JOX_SIGHT_DEEP = 0x0080,    /* within matter that no near edge bounds */
-    /* The cell's node, and those of its ring, one after the other: whether it is known, and whether
-       the sample sees it. Found once a field needs it. */
+    JOX_SIGHT_NODES = 0x000f,   /* bits: which of the four surrounding nodes it sees */
+    JOX_SIGHT_OPEN = 0x0010,    /* no edge is near enough to block the way ahead */
+    JOX_SIGHT_BY_WALL = 0x0020, /* an edge is within the clearance; the patch holds the direction
+                                   off it */
+    JOX_SIGHT_SOLID = 0x0040,   /* inside a solid near its edge; the patch holds the direction
+                                   out */
+    JOX_SIGHT_DEEP = 0x0080,    /* inside a solid, with no edge near */
+    /* One bit each for the cell's own node and those of its ring: whether visibility is known, and
+       whether the sample sees the node. Found on demand. */
     JOX_SIGHT_KNOWN = 1 << 8,
     JOX_SIGHT_SEEN = 1 << 17
 };
 
 typedef struct JoxFieldEdge {
     JoxV2 a, b;
-    uint32_t solid; /* 1: matter on the left */
+    uint32_t solid; /* 1: solid matter on the left */
 } JoxFieldEdge;
 
 struct JoxField {
@@ -54,50 +56,51 @@ struct JoxField {
     uint32_t patch_count, patch_capacity;
     JoxFieldEdge *edges;
     uint32_t edge_count;
-    uint32_t *refs; /* edges about each cell, cell by cell */
+    uint32_t *refs; /* edges near each cell, cell by cell */
     uint32_t ref_count;
 };
 
-/* Along one axis: where the samples of a column (of a row) lie, and the first of the two whose
-   middles they are between, with the share of each. */
+/* Along one axis, a sample's coordinate, and the two cell centres around it: index of the first,
+   and the weight of each. */
 typedef struct JoxFieldAxis {
     float at; /* m */
     int first;
     float share[2];
 } JoxFieldAxis;
 
-/* What walls do to each cell, which is kept from field to field. */
+/* The effect of walls on each cell, which is cached from field to field. */
 typedef struct JoxFieldWalled {
-    uint32_t *first;  /* refs of cell i: first[i] to first[i + 1] */
+    uint32_t *first;  /* range of cell i in refs: first[i] to first[i + 1] */
     uint16_t *solid;  /* bits: samples inside solids */
     uint8_t *node;    /* sample, or JOX_FIELD_BLOCKED */
-    float *x, *y;     /* of the node, m; of the cell's middle where it is blocked */
-    uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
-    uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
-    bool *even;       /* its node and those of its neighbours are in the middles of their cells */
-    /* The cells that have patches, in the order of f->patches, and what their samples see. */
+    float *x, *y;     /* position of the node, m; of the centre if blocked */
+    uint8_t *links;   /* bits: ring neighbours whose node is visible from this one */
+    uint8_t *corners; /* bit t: no wall in the triangle with ring neighbours t and t + 1 */
+    bool *even;       /* the nodes of this cell and its neighbours are at their cells' centres */
+    /* Cells with patches, in the order of f->patches, and the visibility from their samples. */
     int32_t *patched;
     JoxFieldSight *sight;
-    JoxFieldAxis *columns, *rows; /* JOX_FIELD_SIDE for each */
+    JoxFieldAxis *columns, *rows; /* JOX_FIELD_SIDE entries per column or row */
 } JoxFieldWalled;
 
 typedef struct JoxFieldWork {
     JoxField *f;
-    int count;       /* cells */
-    bool exact;      /* cells are as wide as each other, but for rounding that is far less */
-    float *near;     /* while marking: each node is so far from walls at least, m */
-    float *time;     /* of the way from the node at 1 m/s in the open, s */
+    int count;       /* number of cells */
+    bool exact;      /* cell sizes are equal but for negligible rounding */
+    float *near;     /* while marking: lower bound of each node's distance from walls, m */
+    float *time;     /* time of the way from the node, s, at 1 m/s on free floor */
     float *slowness; /* s/m at the node */
     JoxFieldWalled walled;
 } JoxFieldWork;
 
-/* So close to the goal, in cells, the ways of nodes are as long as their share of it: four of them
-   blend to exactly the way there, and to nothing at the goal. More than a cell's diagonal. */
+/* In cells: nearer to the goal than this, direction vectors of nodes have a length proportional to
+   the distance, so that interpolation yields the exact way, and zero at the goal. More than a
+   cell's diagonal. */
 #define JOX_FIELD_CLOSE 1.5f
-/* Blends this short are of points within a tenth of a cell of the goal. */
+/* Interpolated vectors this short lie within a tenth of a cell of the goal. */
 #define JOX_FIELD_ARRIVED (0.1f / JOX_FIELD_CLOSE)
 
-/* The ring of eight neighbours, counter-clockwise from the east. */
+/* Offsets of the ring of eight neighbours, counter-clockwise from the east. */
 extern const int JOX_FIELD_RING[8][2];
 
 static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
@@ -108,7 +111,7 @@ static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
 static inline JoxV2 jox_field_node(const JoxFieldWork *w, int cell) {
     return (JoxV2){w->walled.x[cell], w->walled.y[cell]};
 }
-/* The neighbour on the ring, or -1 beyond the border. */
+/* Returns the neighbour on the ring, -1 beyond the border. */
 static inline int jox_field_next_to(const JoxField *f, int column, int row, int ring) {
     int c = column + JOX_FIELD_RING[ring][0], r = row + JOX_FIELD_RING[ring][1];
     return c < 0 || r < 0 || c >= f->columns || r >= f->rows ? -1 : r * f->columns + c;
@@ -120,33 +123,34 @@ static inline bool jox_field_has_edges(const JoxFieldWork *w, int cell) {
     return w->walled.first[cell] != w->walled.first[cell + 1];
 }
 
-/* How much shorter the way is `off` from a node than from it, by the slope there. */
+/* Returns by how much the way is shorter `off` from a node than at it, by the slope there, m. */
 static inline float jox_field_slope(const JoxFieldCell *cell, JoxV2 off) {
     return jox_dot(jox_unit((JoxV2){cell->x, cell->y}), off);
 }
 
-/* First and last column or row that an interval touches, within the grid; none: first > last. */
+/* Finds the first and last column or row that an interval touches, clamped to the grid; first >
+   last if none. */
 void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last);
-/* Distance of a point to the nearest of some edges, INFINITY for none; `at` is the point there. */
+/* Returns the distance of a point to the nearest of the edges refs[first .. last - 1], m, INFINITY
+   for none; `at` and `edge`, unless NULL, receive the nearest point and edge. */
 float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 p, JoxV2 *at,
                         uint32_t *edge);
-/* True if the way straight from p to q keeps `least` m from every edge, and from those that p
-   itself is close to nine tenths of that. With least = 0 it must cross none. */
+/* Returns whether the segment p-q keeps `least` m from every edge; from edges closer than that to
+   p, nine tenths of p's distance. With least = 0 it only must not cross an edge. */
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
-/* The same of a sample or a node of a cell and a point no farther than nodes next to the cell are:
-   no edges but the cell's own are near enough to be in the way. `least` is at most the clearance.
- */
+/* Does the same for a sample or node p of a cell and a point no farther away than adjacent nodes:
+   only the cell's own edges can block it. `least` must not exceed the clearance. */
 bool jox_field_sees_near(const JoxFieldWork *w, int cell, JoxV2 p, JoxV2 q, float least);
-/* Whether it does in any case, both being so far from the nearest walls. */
+/* Returns whether p and q see each other for sure, being this far from the nearest walls. */
 static inline bool jox_field_surely_sees(const JoxFieldWork *w, float p_near, float q_near, JoxV2 p,
                                          JoxV2 q, float least) {
-    const float spare = 0.02f * w->f->size; /* for rounding */
+    const float spare = 0.02f * w->f->size; /* margin for rounding */
     return w->exact && p_near + q_near > jox_length(jox_sub(q, p)) + 2.0f * least + spare;
 }
 
-/* Edges by cell, solids, nodes, links, the slowness near walls, and what patches see. */
+/* Computes edges by cell, solids, nodes, links, slowness near walls, and visibility of patches. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls, JoxFieldMarks **marks);
-/* One of the nine samples of a cell. */
+/* One of the nine samples of a cell, with its position on both axes. */
 typedef struct JoxFieldSpot {
     int cell, column, row, sample;
     const JoxFieldAxis *x, *y;
@@ -161,12 +165,11 @@ static inline JoxFieldSpot jox_field_spot(const JoxFieldWork *w, int cell, int s
                               &w->walled.columns[column * JOX_FIELD_SIDE + sample % JOX_FIELD_SIDE],
                           .y = &w->walled.rows[row * JOX_FIELD_SIDE + sample / JOX_FIELD_SIDE]};
 }
-/* jox_field_sample of it. */
+/* Returns jox_field_sample of a spot. */
 static inline JoxV2 jox_field_spot_at(const JoxFieldSpot *spot) {
     return (JoxV2){spot->x->at, spot->y->at};
 }
-/* A node of the four about a sample, -1 where there is none or it counts for nothing, and its
-   share. */
+/* One of the four nodes around a sample, -1 if missing or without weight, and its weight. */
 typedef struct JoxFieldAbout {
     int cell;
     float weight;
@@ -181,28 +184,28 @@ static inline JoxFieldAbout jox_field_about(const JoxFieldWork *w, const JoxFiel
     const bool counts = within && w->walled.node[cell] != JOX_FIELD_BLOCKED && weight > 1e-4f;
     return (JoxFieldAbout){counts ? cell : -1, weight};
 }
-/* field_sight.c: which cells are blended or have a patch, and of patches all that does not depend
-   on where the goal is: what their samples see, and the ways out of solids. */
+/* field_sight.c: decides which cells are interpolated or have a patch, and computes all of patches
+   that does not depend on the goal: visibility from samples, and directions out of solids. */
 void jox_field_look_about(JoxFieldWork *work);
-/* field_marks.c: uses what was marked of the same edges over the same grid; false if it was not.
-   Keeps it for the next time: from then on `marks` own what is walled. */
+/* field_marks.c: recall uses the cache if it is of the same edges and grid, else returns false.
+   Remember fills it; the cache then owns w->walled. */
 bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
 void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
-/* Slowness where people are held up; NULL: nobody. */
+/* Adds slowness where people are held up; NULL: nobody is. */
 void jox_field_crowd(JoxFieldWork *work, const JoxFieldCrowd *crowd);
-/* Its kernel. `open`: 1 where a cell can be walked, else 0. */
+/* Kernel of jox_field_crowd. `open`: 1 for walkable cells, else 0. */
 typedef void JoxFieldSpreadKernel(JoxFieldWork *work, const JoxFieldCrowd *crowd,
                                   const float *open);
 #define X(name, isa) JoxFieldSpreadKernel jox_field_spread_##name;
 JOX_ISAS(X)
 #undef X
-/* Times, lengths and directions of all nodes. */
+/* Computes times, lengths and directions of all nodes. */
 void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
-/* So much of the clearance ways keep from samples to nodes, as between nodes. */
+/* Share of the clearance that ways from samples to nodes keep, as between nodes. */
 #define JOX_FIELD_KEEP 0.85f
-/* Of a cell: a sample looks no farther ahead along its way. */
+/* In cells: how far ahead a sample checks its way. */
 #define JOX_FIELD_AHEAD 0.75f
-/* The ways of the samples of patches. */
+/* Computes the ways from samples of patches. */
 void jox_field_patch(JoxFieldWork *work);
 
 #endif

@@ -1,5 +1,5 @@
-/* Patches: nine samples in each cell at a wall, judged by what each of them sees. Samples that see
-   nothing (in crevices) follow a neighbour that does; those in solids lead out. */
+/* Patches: nine samples in each cell at a wall, each directed by the nodes that it sees. Samples
+   that see none (in crevices) follow a neighbour that does; samples in solids lead out. */
 #include <math.h>
 #include <string.h>
 
@@ -7,33 +7,34 @@
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
 
-/* UNREACHABLE: no way leads from there; ON_EDGE: lies on an edge, on neither side of it. */
+/* UNREACHABLE: no way leads from there; ON_EDGE: on an edge, on neither of its sides. */
 typedef enum { UNKNOWN, FOUND, UNREACHABLE, SOLID, ON_EDGE } State;
 
 typedef struct Patching {
     JoxFieldWork *w;
-    uint8_t *states;  /* of each sample */
-    int32_t *towards; /* the farthest sample that each follows straight */
+    uint8_t *states;  /* State of each sample */
+    int32_t *towards; /* per sample: the farthest sample that it follows in a straight line */
 } Patching;
 
 /* ---- one sample ---- */
 
-/* What the samples of a patch know of a node: of their own cell, in the middle, or of its ring. */
+/* The node of the patch's own cell, or of a cell on its ring, as samples read it. */
 typedef struct Near {
     int cell; /* -1: beyond the border, or blocked */
     bool reached;
-    JoxV2 at, way, unit; /* m; the way's direction with length 1 */
+    JoxV2 at, way, unit; /* m; direction, and direction with length 1 */
     float length;        /* m */
 } Near;
-enum { NEAR = 3, NEAR_MIDDLE = 4 }; /* in a row; the own one */
+enum { NEAR = 3, NEAR_MIDDLE = 4 }; /* nodes per row; index of the own node */
 
 typedef struct Blend {
     JoxV2 way;
     float length, weight;
-    bool unreachable; /* it sees a node from which no way leads */
+    bool unreachable; /* a visible node has no way to the goal */
 } Blend;
 
-static void look_near(const JoxFieldWork *w, int column, int row, Near near[NEAR * NEAR]) {
+/* Lists the nodes of a cell and its ring. */
+static void list_near_nodes(const JoxFieldWork *w, int column, int row, Near near[NEAR * NEAR]) {
     const JoxField *f = w->f;
     for (int k = -1; k < 8; k++) {
         const int right = k < 0 ? 0 : JOX_FIELD_RING[k][0], up = k < 0 ? 0 : JOX_FIELD_RING[k][1];
@@ -50,8 +51,8 @@ static void look_near(const JoxFieldWork *w, int column, int row, Near near[NEAR
     }
 }
 
-/* The way from a point, blended from the nodes of the four cells about it that it sees. */
-static Blend blend(const Near *near, const JoxFieldSpot *spot, JoxFieldSight sight) {
+/* Interpolates the way from a point between those of the four nodes around it that it sees. */
+static Blend interpolate_sample(const Near *near, const JoxFieldSpot *spot, JoxFieldSight sight) {
     const JoxV2 p = jox_field_spot_at(spot);
     Blend m = {.unreachable = false};
     for (int k = 0; k < 4; k++) {
@@ -65,7 +66,7 @@ static Blend blend(const Near *near, const JoxFieldSpot *spot, JoxFieldSight sig
             m.unreachable = true;
             continue;
         }
-        /* jox_field_about, jox_field_slope */
+        /* inlined: jox_field_about, jox_field_slope */
         const float weight = spot->x->share[k & 1] * spot->y->share[k >> 1];
         const float slope = jox_dot(n->unit, jox_sub(p, n->at));
         m.way = jox_add(m.way, jox_scale(n->way, weight));
@@ -79,7 +80,8 @@ static Blend blend(const Near *near, const JoxFieldSpot *spot, JoxFieldSight sig
     return m;
 }
 
-/* Whether a sample sees the node of its own cell, or the one `place - 1` on its ring. */
+/* Returns whether a sample sees a node: that of its own cell (`place` 0), or of ring neighbour
+   `place - 1`. */
 static bool sees_node(const JoxFieldWork *w, const JoxFieldSpot *spot, int node, int place,
                       JoxFieldSight *sight) {
     const JoxV2 p = jox_field_spot_at(spot);
@@ -92,9 +94,10 @@ static bool sees_node(const JoxFieldWork *w, const JoxFieldSpot *spot, int node,
     return *sight & (JoxFieldSight)JOX_SIGHT_SEEN << place;
 }
 
-/* The soonest way by one of the nodes about a cell that a sample sees; false if it sees none. */
-static bool by_a_node(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSight *sight,
-                      Blend *m) {
+/* Finds the quickest way through one of the visible nodes on the ring or in the own cell; false if
+   none is visible. */
+static bool find_way_by_node(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldSight *sight,
+                             Blend *m) {
     const JoxField *f = w->f;
     const JoxV2 p = jox_field_spot_at(spot);
     float best = INFINITY;
@@ -119,15 +122,15 @@ static bool by_a_node(const JoxFieldWork *w, const JoxFieldSpot *spot, JoxFieldS
     return best < INFINITY;
 }
 
-static void set(JoxFieldPatch *patch, int s, JoxV2 way, float length) {
+static void set_sample(JoxFieldPatch *patch, int s, JoxV2 way, float length) {
     patch->x[s] = way.x;
     patch->y[s] = way.y;
     patch->length[s] = length;
 }
 
-/* Whether a blend leads on, and not into a wall or a corner. */
-static bool leads_on(const JoxFieldWork *w, const JoxFieldSpot *spot, const Blend *m,
-                     JoxFieldSight sight) {
+/* Returns whether an interpolated way leads on, not into a wall or corner. */
+static bool is_way_open(const JoxFieldWork *w, const JoxFieldSpot *spot, const Blend *m,
+                        JoxFieldSight sight) {
     const JoxField *f = w->f;
     const JoxV2 p = jox_field_spot_at(spot);
     const float along = jox_length(m->way), goal = f->clearance + f->size;
@@ -141,8 +144,9 @@ static bool leads_on(const JoxFieldWork *w, const JoxFieldSpot *spot, const Blen
                                m->length < goal ? 0.0f : JOX_FIELD_KEEP * f->clearance);
 }
 
-static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const Near *near,
-                   const JoxFieldSpot *spot, JoxFieldSight *seen) {
+/* Finds the way of one sample, and returns its state. */
+static State direct_sample(const JoxFieldWork *w, JoxFieldPatch *patch, const Near *near,
+                           const JoxFieldSpot *spot, JoxFieldSight *seen) {
     const JoxField *f = w->f;
     const JoxFieldSight sight = *seen;
     const int s = spot->sample;
@@ -152,43 +156,43 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, const Near *near
     if (sight & JOX_SIGHT_SOLID)
         return SOLID;
     const JoxV2 off = {patch->x[s], patch->y[s]};
-    set(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
+    set_sample(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
     if (patch->on_edge >> s & 1)
         return ON_EDGE;
-    Blend m = blend(near, spot, sight);
+    Blend m = interpolate_sample(near, spot, sight);
     if (m.weight > 0.0f && jox_length(m.way) < JOX_FIELD_ARRIVED && m.length < f->size) {
-        set(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
+        set_sample(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
         return FOUND;
     }
-    if (!leads_on(w, spot, &m, sight) && !by_a_node(w, spot, seen, &m))
+    if (!is_way_open(w, spot, &m, sight) && !find_way_by_node(w, spot, seen, &m))
         return m.unreachable ? UNREACHABLE : UNKNOWN;
     m.way = jox_unit(m.way);
     if (sight & JOX_SIGHT_BY_WALL && m.length > f->clearance + f->size)
         m.way = jox_unit(jox_add(m.way, off));
-    set(patch, s, m.way, m.length);
+    set_sample(patch, s, m.way, m.length);
     return FOUND;
 }
 
-static void judge_patch(Patching *g, uint32_t patch) {
+static void direct_patch(Patching *g, uint32_t patch) {
     const JoxFieldWork *w = g->w;
     const size_t first = (size_t)patch * JOX_FIELD_SAMPLES;
     const JoxFieldSpot corner = jox_field_spot(w, w->walled.patched[patch], 0);
     Near near[NEAR * NEAR];
-    look_near(w, corner.column, corner.row, near);
+    list_near_nodes(w, corner.column, corner.row, near);
     for (int s = 0; s < JOX_FIELD_SAMPLES; s++) {
         JoxFieldSpot spot = corner;
         spot.sample = s;
         spot.x += s % JOX_FIELD_SIDE;
         spot.y += s / JOX_FIELD_SIDE;
-        g->states[first + (size_t)s] = (uint8_t)judge(w, &w->f->patches[patch], near, &spot,
-                                                      &w->walled.sight[first + (size_t)s]);
+        g->states[first + (size_t)s] = (uint8_t)direct_sample(w, &w->f->patches[patch], near, &spot,
+                                                              &w->walled.sight[first + (size_t)s]);
     }
 }
 
-/* ---- samples that see nothing ---- */
+/* ---- samples that see no node ---- */
 
-/* The neighbour of a sample to one of four sides, -1 if its cell has no patch. */
-static int32_t beside(const Patching *g, int32_t sample, int side) {
+/* Returns the neighbour of a sample on one of four sides, -1 if its cell has no patch. */
+static int32_t find_adjacent_sample(const Patching *g, int32_t sample, int side) {
     const JoxField *f = g->w->f;
     int32_t patch = sample / JOX_FIELD_SAMPLES;
     int s = sample % JOX_FIELD_SAMPLES, cell = g->w->walled.patched[patch];
@@ -205,89 +209,93 @@ static int32_t beside(const Patching *g, int32_t sample, int side) {
     return patch * JOX_FIELD_SAMPLES + y * JOX_FIELD_SIDE + x;
 }
 
-static JoxV2 place_of(const Patching *g, int32_t sample) {
+static JoxV2 locate_sample(const Patching *g, int32_t sample) {
     return jox_field_sample(g->w->f, g->w->walled.patched[sample / JOX_FIELD_SAMPLES],
                             sample % JOX_FIELD_SAMPLES);
 }
 
-static bool is_matter(const Patching *g, int32_t sample) {
+static bool is_in_solid(const Patching *g, int32_t sample) {
     return g->w->walled.solid[g->w->walled.patched[sample / JOX_FIELD_SAMPLES]] >>
                sample % JOX_FIELD_SAMPLES &
            1;
 }
 
-static bool sees_beside(const Patching *g, int32_t j, int32_t i) {
+static bool sees_adjacent(const Patching *g, int32_t j, int32_t i) {
     const int cell = g->w->walled.patched[j / JOX_FIELD_SAMPLES];
-    return jox_field_sees_near(g->w, cell, place_of(g, j), place_of(g, i), 0.0f);
+    return jox_field_sees_near(g->w, cell, locate_sample(g, j), locate_sample(g, i), 0.0f);
 }
 
-/* Sample j follows i, or straight what i follows if nothing is between; and keeps off walls. */
-static void follow(Patching *g, int32_t j, int32_t i) {
+/* Makes sample j follow i, or directly the sample that i follows if nothing is between them; adds a
+   direction off walls. */
+static void follow_sample(Patching *g, int32_t j, int32_t i) {
     JoxField *f = g->w->f;
-    JoxV2 p = place_of(g, j), near_at = p;
+    JoxV2 p = locate_sample(g, j), near_at = p;
     int32_t to = g->towards[i];
-    if (!is_matter(g, j) && !jox_field_sees(g->w, p, place_of(g, to), 0.0f))
+    if (!is_in_solid(g, j) && !jox_field_sees(g->w, p, locate_sample(g, to), 0.0f))
         to = i;
     g->towards[j] = to;
     g->states[j] = g->states[i];
     if (g->states[i] == UNREACHABLE)
         return;
-    JoxV2 way = jox_sub(place_of(g, to), p);
+    JoxV2 way = jox_sub(locate_sample(g, to), p);
     float far = jox_length(way);
     JOX_ASSERT(far > 0.0f);
     const JoxFieldPatch *led = &f->patches[to / JOX_FIELD_SAMPLES];
     JoxFieldPatch *patch = &f->patches[j / JOX_FIELD_SAMPLES];
     way = jox_scale(way, 1.0f / far);
     float near = jox_field_nearest(f, patch->first, patch->first + patch->count, p, &near_at, NULL);
-    if (!is_matter(g, j) && near < f->clearance)
+    if (!is_in_solid(g, j) && near < f->clearance)
         way = jox_unit(
             jox_add(way, jox_scale(jox_sub(p, near_at), (1.0f - near / f->clearance) / near)));
-    set(patch, j % JOX_FIELD_SAMPLES, way, led->length[to % JOX_FIELD_SAMPLES] + far);
+    set_sample(patch, j % JOX_FIELD_SAMPLES, way, led->length[to % JOX_FIELD_SAMPLES] + far);
 }
 
-static bool leads(State state) {
+static bool can_lead(State state) {
     return state == FOUND || state == UNREACHABLE || state == SOLID;
 }
 
-/* Lists samples of which one beside them may follow, in their order; returns how many. */
+/* Lists the samples that an adjacent unknown sample may follow, in their order; returns how
+   many. */
 static int32_t list_leaders(Patching *g, int32_t *queue) {
     const int32_t count = (int32_t)g->w->f->patch_count * JOX_FIELD_SAMPLES;
     int32_t listed = 0;
     for (int32_t i = 0; i < count; i++)
         for (int side = 0; g->states[i] == UNKNOWN && side < 4; side++) {
-            const int32_t j = beside(g, i, side);
+            const int32_t j = find_adjacent_sample(g, i, side);
             if (j >= 0)
                 g->towards[j] = j;
         }
     for (int32_t i = 0; i < count; i++)
-        if (g->towards[i] == i && leads(g->states[i]))
+        if (g->towards[i] == i && can_lead(g->states[i]))
             queue[listed++] = i;
     return listed;
 }
 
-static void follow_all(Patching *g) {
+static void follow_leaders(Patching *g) {
     int32_t count = (int32_t)g->w->f->patch_count * JOX_FIELD_SAMPLES;
     int32_t *queue = jox_alloc((size_t)count + 1, sizeof *queue);
     memset(g->towards, -1, (size_t)count * sizeof *g->towards);
     int32_t filled = list_leaders(g, queue);
     for (int32_t k = 0; k < filled; k++)
         for (int side = 0; side < 4; side++) {
-            int32_t i = queue[k], j = beside(g, i, side);
+            int32_t i = queue[k], j = find_adjacent_sample(g, i, side);
             if (j < 0 || g->states[j] != UNKNOWN)
                 continue;
-            /* Samples outside solids follow such samples that they see; samples inside follow those
-             * inside. */
-            if (is_matter(g, j) != is_matter(g, i) || (!is_matter(g, j) && !sees_beside(g, j, i)))
+            /* Samples outside solids follow visible samples outside; samples inside follow those
+               inside. */
+            if (is_in_solid(g, j) != is_in_solid(g, i) ||
+                (!is_in_solid(g, j) && !sees_adjacent(g, j, i)))
                 continue;
             JOX_ASSERT(filled < count);
-            follow(g, j, i);
+            follow_sample(g, j, i);
             queue[filled++] = j;
         }
     jox_free(queue);
 }
 
-/* Cells deep in solids have no patches: they lead towards cells that do, row by row outwards. */
-static void lead_out(JoxFieldWork *w) {
+/* Directs cells deep in solids, which have no patches, towards cells that have, row by row
+   outwards. */
+static void direct_solid_cells(JoxFieldWork *w) {
     JoxField *f = w->f;
     int *queue = jox_alloc((size_t)w->count, sizeof *queue), filled = 0;
     for (int i = 0; i < w->count; i++)
@@ -308,8 +316,9 @@ static void lead_out(JoxFieldWork *w) {
     jox_free(queue);
 }
 
-/* Whether some cells lie in solids, off all edges: then they have no patch, and are not blended. */
-static bool any_is_deep(const JoxFieldWork *w) {
+/* Returns whether some cells lie in solids away from all edges; these have no patch and are not
+   interpolated. */
+static bool has_deep_cells(const JoxFieldWork *w) {
     for (int i = 0; i < w->count; i++)
         if (w->f->cells[i].patch == JOX_FIELD_PLAIN && !jox_field_has_edges(w, i))
             return true;
@@ -323,10 +332,10 @@ void jox_field_patch(JoxFieldWork *w) {
     g.towards = jox_alloc(samples + 1, sizeof *g.towards);
     g.states = jox_alloc(samples + 1, 1);
     for (uint32_t p = 0; p < f->patch_count; p++)
-        judge_patch(&g, p);
-    follow_all(&g);
-    if (any_is_deep(w))
-        lead_out(w);
+        direct_patch(&g, p);
+    follow_leaders(&g);
+    if (has_deep_cells(w))
+        direct_solid_cells(w);
     jox_free(g.states);
     jox_free(g.towards);
 }

@@ -1,18 +1,18 @@
-/* A field as part of a world's state. */
+/* Sections of a field, for saving and restoring a world's state. */
 #include <math.h>
 
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
 
-/* Whether its numbers are those of a box of cells, m. */
-static bool is_grid(const JoxField *f) {
+/* Returns whether size, clearance and position are those of a valid grid, m. */
+static bool is_valid_grid(const JoxField *f) {
     const float least = 0.01f, most = 1e7f;
     return f->size >= least && f->size <= most && f->clearance >= least && f->clearance <= most &&
            fabsf(f->low.x) <= most && fabsf(f->low.y) <= most;
 }
 
-/* Whether what was read can be sampled: all indices are within their arrays. */
-static void check(const JoxField *f, JoxSections *s) {
+/* Checks restored indices, so that the field can be sampled safely. */
+static void check_field(const JoxField *f, JoxSections *s) {
     size_t count = (size_t)f->columns * (size_t)f->rows;
     for (size_t c = 0; c < count && !s->failed; c++)
         if (f->cells[c].patch >= (int32_t)f->patch_count || f->cells[c].patch < JOX_FIELD_PLAIN)
@@ -49,10 +49,10 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
     f->columns = (int)columns;
     f->rows = (int)rows;
     f->patch_capacity = f->patch_count;
-    if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !is_grid(f))
+    if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !is_valid_grid(f))
         jox_sections_fail(s, "field_columns", "the grid is none");
     if (!s->failed)
-        check(f, s);
+        check_field(f, s);
     if (s->failed) {
         jox_field_free(f);
         *field = NULL;

@@ -1,12 +1,13 @@
-/* What is near, and what can be seen between walls: which cells have patches, and of the nine
-   samples of each all that does not change from one field over the same walls to the next. */
+/* Visibility between walls: which cells have patches, and of their nine samples everything that
+   does not depend on the goal or the crowd. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
 
-static const float TOUCH = 1e-3f; /* m: samples so near an edge lie upon it, on neither side */
+static const float TOUCH = 1e-3f; /* m: samples this near to an edge count as on it, on neither
+                                     side */
 
 /* ---- sight ---- */
 
@@ -34,24 +35,24 @@ float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 
     return least < INFINITY ? sqrtf(least) : INFINITY;
 }
 
-static float point_segment2(JoxV2 a, JoxV2 b, JoxV2 p) {
+static float find_distance2(JoxV2 a, JoxV2 b, JoxV2 p) {
     return jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
 }
 
-static bool edge_hides(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
+static bool does_edge_hide(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
     if (jox_maxf(p.x, q.x) + least < jox_minf(e->a.x, e->b.x) ||
         jox_minf(p.x, q.x) - least > jox_maxf(e->a.x, e->b.x) ||
         jox_maxf(p.y, q.y) + least < jox_minf(e->a.y, e->b.y) ||
         jox_minf(p.y, q.y) - least > jox_maxf(e->a.y, e->b.y))
         return false;
-    float own2 = point_segment2(e->a, e->b, p);
+    float own2 = find_distance2(e->a, e->b, p);
     if (own2 < 1e-6f)
-        return false; /* p lies upon it: seen from both its sides */
+        return false; /* p is on the edge: visible from both sides */
     if (jox_segment_crossing(e->a, e->b, p, q) != 0)
         return true;
     float allowed2 = jox_minf(least * least, 0.81f * own2);
-    return point_segment2(e->a, e->b, q) < allowed2 || point_segment2(p, q, e->a) < allowed2 ||
-           point_segment2(p, q, e->b) < allowed2;
+    return find_distance2(e->a, e->b, q) < allowed2 || find_distance2(p, q, e->a) < allowed2 ||
+           find_distance2(p, q, e->b) < allowed2;
 }
 
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
@@ -64,7 +65,7 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
         int cell = r * f->columns + c;
         for (uint32_t i = w->walled.first[cell]; cell != before && i < w->walled.first[cell + 1];
              i++)
-            if (edge_hides(&f->edges[f->refs[i]], p, q, least))
+            if (does_edge_hide(&f->edges[f->refs[i]], p, q, least))
                 return false;
         before = cell;
     }
@@ -76,30 +77,34 @@ bool jox_field_sees_near(const JoxFieldWork *w, int cell, JoxV2 p, JoxV2 q, floa
     if (!w->exact)
         return jox_field_sees(w, p, q, least);
     for (uint32_t i = w->walled.first[cell]; i < w->walled.first[cell + 1]; i++)
-        if (edge_hides(&w->f->edges[w->f->refs[i]], p, q, least))
+        if (does_edge_hide(&w->f->edges[w->f->refs[i]], p, q, least))
             return false;
     return true;
 }
 
 /* ---- patches ---- */
 
-/* Whether a cell is blended with all of its neighbours; `within`: bits of those that there are. */
-static bool is_clear(const JoxFieldWork *w, int cell, uint32_t within) {
+/* Returns whether a cell is interpolated with all of its neighbours; `within`: bits of the
+   neighbours inside the grid. */
+static bool is_interpolated(const JoxFieldWork *w, int cell, uint32_t within) {
     const uint32_t both = within & (within >> 1 | within << 7);
     return w->walled.even[cell] && (w->walled.links[cell] & within) == within &&
            (w->walled.corners[cell] & both) == (both & 0xff);
 }
 
-/* Straight out of matter: towards the nearest edge, or off the edge it lies upon. */
-static JoxV2 out_of_solid(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
+/* Returns the direction straight out of a solid: towards the nearest edge, or off the edge that p
+   is on. */
+static JoxV2 find_way_out(const JoxField *f, JoxV2 p, JoxV2 at, uint32_t edge) {
     JoxV2 out = jox_sub(at, p);
     if (jox_length(out) > TOUCH)
         return jox_unit(out);
     return jox_unit(jox_scale(jox_left(jox_sub(f->edges[edge].b, f->edges[edge].a)), -1.0f));
 }
 
-/* Of the four nodes about a point, `near` m from the nearest edge, those that it sees (bits). */
-static JoxFieldSight nodes_seen(const JoxFieldWork *w, const JoxFieldSpot *spot, float near) {
+/* Returns which of the four nodes around a sample are visible (bits); `near`: its distance from the
+   nearest edge, m. */
+static JoxFieldSight find_visible_nodes(const JoxFieldWork *w, const JoxFieldSpot *spot,
+                                        float near) {
     const JoxV2 p = jox_field_spot_at(spot);
     const float least = JOX_FIELD_KEEP * w->f->clearance;
     JoxFieldSight seen = 0;
@@ -115,7 +120,7 @@ static JoxFieldSight nodes_seen(const JoxFieldWork *w, const JoxFieldSpot *spot,
     return seen;
 }
 
-static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
+static JoxFieldSight examine_sample(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
     const JoxField *f = w->f;
     const JoxFieldSpot spot = jox_field_spot(w, cell, s);
     const JoxV2 p = jox_field_spot_at(&spot);
@@ -123,12 +128,12 @@ static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell,
     uint32_t edge = 0;
     float near = jox_field_nearest(f, patch->first, patch->first + patch->count, p, &at, &edge);
     float half = 0.5f * f->size / (float)JOX_FIELD_SIDE;
-    if (near < 1.5f * half) /* more than half its diagonal */
+    if (near < 1.5f * half) /* more than half the diagonal of a ninth */
         patch->cut |= (uint16_t)(1 << s);
     if (w->walled.solid[cell] >> s & 1) {
         if (patch->count == 0)
             return JOX_SIGHT_DEEP; /* no edge near: it follows a neighbour later */
-        JoxV2 out = out_of_solid(f, p, at, edge);
+        JoxV2 out = find_way_out(f, p, at, edge);
         patch->x[s] = out.x;
         patch->y[s] = out.y;
         return JOX_SIGHT_SOLID;
@@ -137,7 +142,7 @@ static JoxFieldSight look(const JoxFieldWork *w, JoxFieldPatch *patch, int cell,
         patch->on_edge |= (uint16_t)(1 << s);
         return 0;
     }
-    JoxFieldSight sight = nodes_seen(w, &spot, near);
+    JoxFieldSight sight = find_visible_nodes(w, &spot, near);
     if (near < f->clearance) {
         const JoxV2 off = jox_scale(jox_sub(p, at), (1.0f - near / f->clearance) / near);
         patch->x[s] = off.x;
@@ -155,7 +160,7 @@ void jox_field_look_about(JoxFieldWork *w) {
         const int c = i % f->columns, r = i / f->columns;
         const uint32_t within = (r > 0 ? 0xff : 0x1f) & (r + 1 < f->rows ? 0xff : 0xf1) &
                                 (c > 0 ? 0xff : 0xc7) & (c + 1 < f->columns ? 0xff : 0x7c);
-        bool clear = is_clear(w, i, within), edges = jox_field_has_edges(w, i);
+        bool clear = is_interpolated(w, i, within), edges = jox_field_has_edges(w, i);
         f->cells[i].patch = clear ? JOX_FIELD_CLEAR : JOX_FIELD_PLAIN;
         if (clear || !edges)
             continue;
@@ -174,6 +179,6 @@ void jox_field_look_about(JoxFieldWork *w) {
             continue;
         w->walled.patched[p] = i;
         for (int s = 0; s < JOX_FIELD_SAMPLES; s++)
-            w->walled.sight[p * JOX_FIELD_SAMPLES + s] = look(w, &f->patches[p], i, s);
+            w->walled.sight[p * JOX_FIELD_SAMPLES + s] = examine_sample(w, &f->patches[p], i, s);
     }
 }

@@ -1,5 +1,5 @@
-/* The kernel of crowds: spreads each person over the cells about it. Loops over the cells of a row,
-   of which compilers make lanes of each instruction set, of the same bits. */
+/* Kernel of jox_field_crowd: spreads each person over the cells around it. The loops over a row of
+   cells are vectorised by compilers, with the same bits on each instruction set. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -7,14 +7,14 @@
 #include "geom/field/field_parts.h"
 #include "simd/lanes.h"
 
-static const float REACH = 2.0f; /* m: a person is spread as a cone of this radius */
+static const float REACH = 2.0f; /* m: radius of the cone over which a person is spread */
 
-/* The cells that a person is spread over. */
+/* The cells over which a person is spread, inclusive. */
 typedef struct Span {
     int c0, c1, r0, r1;
 } Span;
 
-/* What `count` cells in a row have of a person: 1 where it stands, 0 from REACH on. */
+/* Computes the shares of `count` cells in a row: 1 at the person, 0 from REACH on. */
 static void share_row(const float *restrict x, const float *restrict y, const float *restrict open,
                       JoxV2 at, int count, float *restrict shares) {
     for (int k = 0; k < count; k++) {
@@ -24,8 +24,8 @@ static void share_row(const float *restrict x, const float *restrict y, const fl
     }
 }
 
-/* In eight sums beside each other, which compilers make lanes of. */
-static float sum_of(const float *restrict numbers, int count) {
+/* Adds numbers in eight sums side by side, which compilers turn into lanes. */
+static float sum_lanes(const float *restrict numbers, int count) {
     enum { SUMS = 8 };
     float sums[SUMS] = {0.0f};
     int k = 0;
@@ -38,10 +38,10 @@ static float sum_of(const float *restrict numbers, int count) {
            ((sums[1] + sums[5]) + (sums[3] + sums[7]));
 }
 
-/* A person is spread as a cone over the floor that can be walked, and nothing into walls: else the
-   floor along walls would seem free. `shares`: room for the span's cells. */
-static void spread(JoxFieldWork *w, const float *open, const Span *s, JoxV2 at, float slowing,
-                   float *shares) {
+/* Spreads a person as a cone over walkable cells, not into walls: else the floor along walls would
+   seem free. `shares`: room for the span's cells. */
+static void spread_person(JoxFieldWork *w, const float *open, const Span *s, JoxV2 at,
+                          float slowing, float *shares) {
     const JoxField *f = w->f;
     const int columns = s->c1 - s->c0 + 1, cells = columns * (s->r1 - s->r0 + 1);
     float area = f->size * f->size, *share = shares;
@@ -49,7 +49,7 @@ static void spread(JoxFieldWork *w, const float *open, const Span *s, JoxV2 at, 
         const int first = r * f->columns + s->c0;
         share_row(w->walled.x + first, w->walled.y + first, open + first, at, columns, share);
     }
-    const float sum = sum_of(shares, cells);
+    const float sum = sum_lanes(shares, cells);
     if (!(sum > 0.0f))
         return;
     const float by = slowing / (sum * area);
@@ -74,7 +74,7 @@ void JOX_WIDE(jox_field_spread)(JoxFieldWork *w, const JoxFieldCrowd *crowd, con
         if (s.c0 > s.c1 || s.r0 > s.r1)
             continue;
         JOX_RESERVE(shares, capacity, (size_t)(s.c1 - s.c0 + 1) * (size_t)(s.r1 - s.r0 + 1));
-        spread(w, open, &s, at, crowd->slowing * crowd->held[n], shares);
+        spread_person(w, open, &s, at, crowd->slowing * crowd->held[n], shares);
     }
     jox_free(shares);
 }

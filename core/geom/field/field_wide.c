@@ -1,5 +1,5 @@
-/* The kernel of fields: looks up the ways from many points. A lane is a point. Points outside the
-   box, and those in a ninth of a cell that an edge of a wall passes, are left to field.c. */
+/* Kernel of field lookups; each lane is a point. Points outside the box, and points in a ninth of a
+   cell that an edge crosses, are left to the scalar code of field.c. */
 #include <math.h>
 
 #include "geom/field/field_parts.h"
@@ -13,35 +13,35 @@ enum {
 _Static_assert(sizeof(JoxFieldCell) == 4 * sizeof(float) &&
                    offsetof(JoxFieldCell, patch) == 3 * sizeof(float),
                "a cell is a record of lanes");
-_Static_assert(sizeof(JoxFieldPatch) == 30 * sizeof(float), "as first_of counts");
+_Static_assert(sizeof(JoxFieldPatch) == 30 * sizeof(float), "as find_patch_offsets counts");
 _Static_assert(offsetof(JoxFieldPatch, cut) % sizeof(float) == 0 &&
                    offsetof(JoxFieldPatch, on_edge) == offsetof(JoxFieldPatch, cut) + 2,
                "`cut` is the lower half of a word");
 
-/* Where points lie in the grid, in cells. */
+/* Points in the grid: m, and in cells. */
 typedef struct Spot {
     JoxVector at, in_cells;
     JoxInts column, row, cell;
 } Spot;
 
-/* A way: its direction, and its length, m. */
+/* A way: direction, and length in m. */
 typedef struct Way {
     JoxVector direction;
     JoxFloats length;
 } Way;
 
-static inline JoxFloats cell_at(const JoxField *f, JoxInts row, JoxFloats column) {
-    /* There are less cells than whole numbers that a float holds. */
+static inline JoxFloats find_cells(const JoxField *f, JoxInts row, JoxFloats column) {
+    /* exact: there are fewer cells than integers that a float can represent */
     return ji_to_floats(row) * (float)f->columns + column;
 }
 
-static inline JoxInts whole_most(JoxFloats x, int most) {
+static inline JoxInts clamp_to_index(JoxFloats x, int most) {
     JoxInts whole = jf_to_ints(x);
     return ji_select(ji_less(whole, ji_set(most)), whole, ji_set(most));
 }
 
-/* `find` of field.c; the lanes outside the box are in no cell. */
-static inline JoxMask find(const JoxField *f, JoxVector p, Spot *s) {
+/* Does the same as locate_point of field.c; lanes outside the box are in no cell. */
+static inline JoxMask locate_lanes(const JoxField *f, JoxVector p, Spot *s) {
     const JoxFloats zero = jf_set(0.0f), size = jf_set(f->size);
     s->at = p;
     s->in_cells = (JoxVector){(p.x - f->low.x) / size, (p.y - f->low.y) / size};
@@ -49,13 +49,13 @@ static inline JoxMask find(const JoxField *f, JoxVector p, Spot *s) {
     within = jm_and(within, jm_and(jf_le(s->in_cells.x, jf_set((float)f->columns)),
                                    jf_le(s->in_cells.y, jf_set((float)f->rows))));
     s->in_cells = jv_select(within, s->in_cells, (JoxVector){zero, zero});
-    s->column = whole_most(s->in_cells.x, f->columns - 1);
-    s->row = whole_most(s->in_cells.y, f->rows - 1);
-    s->cell = jf_to_ints(cell_at(f, s->row, ji_to_floats(s->column)));
+    s->column = clamp_to_index(s->in_cells.x, f->columns - 1);
+    s->row = clamp_to_index(s->in_cells.y, f->rows - 1);
+    s->cell = jf_to_ints(find_cells(f, s->row, ji_to_floats(s->column)));
     return within;
 }
 
-static inline JoxVector unit(JoxVector a) {
+static inline JoxVector unit_lanes(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f), length = jf_sqrt(jv_dot(a, a));
     return jv_select(jf_lt(zero, length), jv_scale(a, 1.0f / length), (JoxVector){zero, zero});
 }
@@ -63,11 +63,11 @@ static inline JoxVector unit(JoxVector a) {
 /* ---- between four centres ---- */
 
 typedef struct Corners {
-    JoxInts cell[4], column[2], row[2]; /* of the western and eastern, southern and northern */
+    JoxInts cell[4], column[2], row[2]; /* columns: west and east; rows: south and north */
     JoxFloats weight[4];
 } Corners;
 
-static inline Corners corners_of(const JoxField *f, const Spot *s) {
+static inline Corners find_corner_lanes(const JoxField *f, const Spot *s) {
     const JoxFloats zero = jf_set(0.0f), half = jf_set(0.5f), one = jf_set(1.0f);
     const JoxFloats x = jf_min(jf_max(s->in_cells.x - half, zero), jf_set((float)(f->columns - 1)));
     const JoxFloats y = jf_min(jf_max(s->in_cells.y - half, zero), jf_set((float)(f->rows - 1)));
@@ -77,7 +77,7 @@ static inline Corners corners_of(const JoxField *f, const Spot *s) {
         ji_select(ji_less(c.column[0], last_column), ji_add(c.column[0], ji_set(1)), c.column[0]);
     c.row[1] = ji_select(ji_less(c.row[0], last_row), ji_add(c.row[0], ji_set(1)), c.row[0]);
     for (int k = 0; k < 4; k++)
-        c.cell[k] = jf_to_ints(cell_at(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
+        c.cell[k] = jf_to_ints(find_cells(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
     const JoxFloats u = x - ji_to_floats(c.column[0]);
     const JoxFloats v = y - ji_to_floats(c.row[0]);
     const JoxFloats rest_u = one - u, rest_v = one - v;
@@ -88,17 +88,18 @@ static inline Corners corners_of(const JoxField *f, const Spot *s) {
     return c;
 }
 
-/* The middle of cells along one axis, m. */
-static inline JoxFloats middle(JoxInts number, float low, float size) {
+/* Returns the centres of cells along one axis, m. */
+static inline JoxFloats find_centres(JoxInts number, float low, float size) {
     const JoxFloats cells = ji_to_floats(number) + 0.5f;
     return low + cells * size;
 }
 
-/* As jox_field_direction and jox_field_distance blend. `here`: the cell of each point. */
-static inline Way blend(const JoxField *f, const Spot *s, const Way *here) {
+/* Interpolates like jox_field_direction and jox_field_distance. `here`: way of each point's
+   cell. */
+static inline Way interpolate_lanes(const JoxField *f, const Spot *s, const Way *here) {
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), size = jf_set(f->size);
     const JoxFloats infinite = jf_set(INFINITY), close = jf_set(JOX_FIELD_CLOSE * f->size);
-    const Corners c = corners_of(f, s);
+    const Corners c = find_corner_lanes(f, s);
     JoxVector sum = {zero, zero};
     JoxFloats length = zero;
     JoxMask at_goal = jm_of_bits(~0u), reached = at_goal;
@@ -106,9 +107,9 @@ static inline Way blend(const JoxField *f, const Spot *s, const Way *here) {
         JoxFloats cell[4];
         jf_records(&f->cells[0].length, c.cell[k], cell);
         const JoxVector way = {cell[1], cell[2]};
-        const JoxVector off = {s->at.x - middle(c.column[k & 1], f->low.x, f->size),
-                               s->at.y - middle(c.row[k >> 1], f->low.y, f->size)};
-        const JoxFloats slope = 0.5f * jv_dot(unit(way), off);
+        const JoxVector off = {s->at.x - find_centres(c.column[k & 1], f->low.x, f->size),
+                               s->at.y - find_centres(c.row[k >> 1], f->low.y, f->size)};
+        const JoxFloats slope = 0.5f * jv_dot(unit_lanes(way), off);
         length += c.weight[k] * (cell[0] - slope);
         sum = jv_add(sum, (JoxVector){c.weight[k] * way.x, c.weight[k] * way.y});
         reached = jm_and(reached, jf_lt(cell[0], infinite));
@@ -126,21 +127,21 @@ static inline Way blend(const JoxField *f, const Spot *s, const Way *here) {
 
 /* ---- at walls ---- */
 
-/* Where a patch begins, in floats: 30 each. */
-static inline JoxInts first_of(JoxInts patch) {
+/* Returns the offset of a patch in floats, 30 each. */
+static inline JoxInts find_patch_offsets(JoxInts patch) {
     return ji_sub(ji_shift_left(patch, 5), ji_shift_left(patch, 1));
 }
 
-/* The samples of the ninths in which the points lie; in `passed` the lanes whose ninth an edge
-   passes, or that are no cell's at a wall. `near`: the lanes at walls; `patch`: of each. */
-static inline Way at_walls(const JoxField *f, const Spot *s, JoxMask near, JoxInts patch,
-                           JoxMask *passed) {
+/* Looks up the samples of the ninths that contain the points. `near`: lanes in cells with a patch;
+   `patch`: its index by lane. `passed` receives the lanes whose ninth an edge crosses. */
+static inline Way look_up_patches(const JoxField *f, const Spot *s, JoxMask near, JoxInts patch,
+                                  JoxMask *passed) {
     const JoxFloats side = jf_set((float)JOX_FIELD_SIDE), half = jf_set(0.5f);
     const JoxFloats column = ji_to_floats(s->column), row = ji_to_floats(s->row);
-    const JoxInts x = whole_most((s->in_cells.x - column) * side, JOX_FIELD_SIDE - 1);
-    const JoxInts y = whole_most((s->in_cells.y - row) * side, JOX_FIELD_SIDE - 1);
+    const JoxInts x = clamp_to_index((s->in_cells.x - column) * side, JOX_FIELD_SIDE - 1);
+    const JoxInts y = clamp_to_index((s->in_cells.y - row) * side, JOX_FIELD_SIDE - 1);
     const JoxInts sample = ji_add(x, ji_add(y, ji_add(y, y)));
-    const JoxInts first = first_of(ji_select(near, patch, ji_set(0)));
+    const JoxInts first = find_patch_offsets(ji_select(near, patch, ji_set(0)));
     const JoxInts at = ji_add(first, sample);
     const float *table = f->patches[0].x;
     uint32_t words[JOX_WIDTH], samples[JOX_WIDTH], cut = 0;
@@ -159,26 +160,26 @@ static inline Way at_walls(const JoxField *f, const Spot *s, JoxMask near, JoxIn
     return (Way){way, jf_select(jf_lt(length, infinite), jf_max(jf_set(0.0f), on), infinite)};
 }
 
-/* ---- all ---- */
+/* ---- lookup ---- */
 
-static inline JoxMask look(const JoxField *f, JoxVector p, Way *way) {
+static inline JoxMask look_up_lanes(const JoxField *f, JoxVector p, Way *way) {
     Spot s;
     JoxFloats cell[4];
-    JoxMask done = find(f, p, &s);
+    JoxMask done = locate_lanes(f, p, &s);
     jf_records(&f->cells[0].length, s.cell, cell);
     const Way here = {{cell[1], cell[2]}, cell[0]};
     const JoxInts patch = jf_bits(cell[3]);
     *way = here;
     const JoxMask clear = ji_equal(patch, ji_set(JOX_FIELD_CLEAR));
     if (jm_bits(clear)) {
-        const Way between = blend(f, &s, &here);
+        const Way between = interpolate_lanes(f, &s, &here);
         way->direction = jv_select(clear, between.direction, way->direction);
         way->length = jf_select(clear, between.length, way->length);
     }
     const JoxMask near = ji_less(ji_set(-1), patch);
     if (jm_bits(near)) {
         JoxMask passed;
-        const Way sampled = at_walls(f, &s, near, patch, &passed);
+        const Way sampled = look_up_patches(f, &s, near, patch, &passed);
         way->direction = jv_select(near, sampled.direction, way->direction);
         way->length = jf_select(near, sampled.length, way->length);
         done = jm_without(done, passed);
@@ -190,7 +191,7 @@ void JOX_WIDE(jox_field_look)(const JoxField *f, JoxFieldPoints *points) {
     for (uint32_t n = 0; n < points->count; n += JOX_WIDTH) {
         Way way;
         const uint32_t asked = jox_first_lanes(points->count - n);
-        const uint32_t done = jm_bits(look(f, jv_load(points->x, points->y, n), &way));
+        const uint32_t done = jm_bits(look_up_lanes(f, jv_load(points->x, points->y, n), &way));
         jv_store(points->way_x, points->way_y, n, way.direction);
         jf_store(points->length + n, way.length);
         for (uint32_t lanes = asked & ~done; lanes; lanes &= lanes - 1) {

@@ -1,4 +1,4 @@
-/* Spots to stand on in a polygon. */
+/* Makes staggered lattices of spots to stand on; see lattice.h. */
 #include "geom/ground/lattice.h"
 
 #include <math.h>
@@ -6,13 +6,17 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-enum { MOST_CELLS = 1 << 18 }; /* of a lattice; in a larger area spots are farther apart */
-static const float ROW_PITCH = 0.8660254f; /* spacings between rows of a staggered lattice */
+enum {
+    MOST_CELLS = 1 << 18
+}; /* greatest number of lattice points; larger areas get a wider
+      spacing */
+static const float ROW_PITCH = 0.8660254f; /* distance of rows in a staggered lattice, in
+                                              spacings */
 
-/* A lattice as one looks to its front: row 0 in front, columns from right to left. */
+/* A lattice seen towards its front: row 0 in front, columns from right to left. */
 typedef struct Frame {
     JoxV2 ahead, left;  /* unit vectors */
-    float front, right; /* m, coordinates along them of row 0 and of column 0 */
+    float front, right; /* m: coordinates of row 0 along `ahead` and of column 0 along `left` */
     float spacing;      /* m */
     uint32_t rows, columns;
 } Frame;
@@ -29,22 +33,22 @@ static Frame make_frame(const JoxPlace *place, JoxV2 ahead, float spacing) {
     l.spacing = jox_maxf(spacing, sqrtf(depth * width / (ROW_PITCH * MOST_CELLS)) * 1.01f);
     l.rows = (uint32_t)(depth / (ROW_PITCH * l.spacing)) + 1;
     l.columns = (uint32_t)(width / l.spacing) + 1;
-    /* What is left of whole rows and columns is shared between both sides. */
+    /* The remainder of whole rows and columns is divided between both sides. */
     l.front = high.x - 0.5f * (depth - (float)(l.rows - 1) * ROW_PITCH * l.spacing);
-    if (l.rows > 1) /* the front is filled first: it is as near as the sides are */
+    if (l.rows > 1) /* the front is filled first, so it is as close as the sides */
         l.front = jox_maxf(l.front, high.x - 0.5f * l.spacing);
     l.right = low.y + 0.5f * (width - (float)(l.columns - 1) * l.spacing);
     return l;
 }
 
-static JoxV2 cell_point(const Frame *l, uint32_t row, uint32_t column) {
+static JoxV2 find_lattice_point(const Frame *l, uint32_t row, uint32_t column) {
     const float shift = row & 1 ? 0.5f : 0.0f;
     const float x = l->front - (float)row * ROW_PITCH * l->spacing;
     const float y = l->right + ((float)column + shift) * l->spacing;
     return jox_add(jox_scale(l->ahead, x), jox_scale(l->left, y));
 }
 
-static bool is_clear(const JoxStandable *ground, JoxV2 p, float clear) {
+static bool is_clear_of_edges(const JoxStandable *ground, JoxV2 p, float clear) {
     for (uint32_t e = 0; e < ground->edge_count; e++) {
         const JoxV2 on = jox_segment_nearest(ground->edges[2 * e], ground->edges[2 * e + 1], p);
         if (jox_length2(jox_sub(on, p)) < clear * clear)
@@ -63,10 +67,10 @@ void jox_lattice_lay(JoxLattice *s, const JoxPlace *place, const JoxStandable *g
     for (uint32_t row = 0; row < l.rows; row++) {
         const uint32_t first = s->count;
         for (uint32_t column = 0; column < l.columns; column++) {
-            const JoxV2 p = cell_point(&l, row, column);
+            const JoxV2 p = find_lattice_point(&l, row, column);
             if (jox_polygon_contains(place->points, place->count, p) &&
                 jox_standable_part(ground, jox_standable_cell(ground, p)) == part &&
-                is_clear(ground, p, clear))
+                is_clear_of_edges(ground, p, clear))
                 s->at[s->count++] = p;
         }
         if (s->count > first)

@@ -1,5 +1,5 @@
-/* Cells in which people can stand: found by their distance from walls. Neighbours on the grid are
-   less than two clearances apart, so that no wall lies between two that are free. */
+/* Finds cells in which people can stand, by their distance from walls, and ways over them. Adjacent
+   cells are less than two clearances apart, so no wall lies between two free ones. */
 #include "geom/ground/standable.h"
 
 #include <math.h>
@@ -12,13 +12,14 @@
 #include "geom/polygon.h"
 
 static const float CELL = 0.28f;   /* m */
-static const float CLEAR = 0.72f;  /* cells from walls: more than half of a diagonal */
-static const float SAMPLES = 2.0f; /* per cell of a straight way */
+static const float CLEAR = 0.72f;  /* cells: least distance of free cells from walls, more than half
+                                      a diagonal */
+static const float SAMPLES = 2.0f; /* tests per cell along a straight way */
 enum { MOST_CELLS = 1 << 18, WAYS = 4096, CORNERS = 12 };
 
 /* ---- cells ---- */
 
-static void append_edge(JoxStandable *s, JoxV2 a, JoxV2 b, JoxV2 low, JoxV2 high) {
+static void append_ground_edge(JoxStandable *s, JoxV2 a, JoxV2 b, JoxV2 low, JoxV2 high) {
     if (!jox_boxes_meet(a, b, low, high))
         return;
     JOX_RESERVE(s->edges, s->edge_capacity, 2 * (size_t)s->edge_count + 2);
@@ -44,15 +45,15 @@ static void append_body_edges(JoxStandable *s, const JoxObject *o, JoxV2 low, Jo
     }
     count = count ? count : CORNERS;
     for (uint32_t k = 0; k < count; k++)
-        append_edge(s, ring[k], ring[(k + 1) % count], low, high);
+        append_ground_edge(s, ring[k], ring[(k + 1) % count], low, high);
 }
 
 static void append_wall_edges(JoxStandable *s, JoxV2 low, JoxV2 high, const JoxWalls *walls) {
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++)
-            append_edge(s, walls->vertices[v].point, walls->vertices[walls->vertices[v].next].point,
-                        low, high);
+            append_ground_edge(s, walls->vertices[v].point,
+                               walls->vertices[walls->vertices[v].next].point, low, high);
     }
 }
 
@@ -71,12 +72,12 @@ static JoxV2 cell_middle(const JoxStandable *s, uint32_t cell) {
                   s->low.y + ((float)(cell / s->columns) + 0.5f) * s->cell);
 }
 
-/* Column or row of a coordinate, within those that there are. */
+/* Returns the column or row of a coordinate, clamped to the grid. */
 static uint32_t clamp_index(float at, float low, float cell, uint32_t count) {
     return (uint32_t)jox_clampf((at - low) / cell, 0.0f, (float)(count - 1));
 }
 
-/* Cells near an edge are not free. */
+/* Blocks the cells near an edge. */
 static void block_cells(JoxStandable *s, JoxV2 a, JoxV2 b) {
     const float clear = CLEAR * s->cell;
     const uint32_t left = clamp_index(jox_minf(a.x, b.x) - clear, s->low.x, s->cell, s->columns);
@@ -95,7 +96,7 @@ static void block_cells(JoxStandable *s, JoxV2 a, JoxV2 b) {
 static const int8_t RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                   {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-/* Neighbour `k` on the grid, or JOX_NO_CELL beyond its border. */
+/* Returns neighbour `k` on the grid, JOX_NO_CELL beyond its border. */
 static uint32_t grid_neighbour(const JoxStandable *s, uint32_t cell, int k) {
     const uint32_t column = cell % s->columns + (uint32_t)RING[k][0];
     const uint32_t row = cell / s->columns + (uint32_t)RING[k][1];
@@ -104,8 +105,8 @@ static uint32_t grid_neighbour(const JoxStandable *s, uint32_t cell, int k) {
 
 enum { FREE = UINT32_MAX, WITHIN = UINT32_MAX - 1 }; /* not numbered yet */
 
-/* Gives the cells of one kind that can be reached from those listed, first come first, the number
-   of the cell before them. */
+/* Floods cells of one kind from the listed ones, breadth first: each gets the number of the cell
+   that it was reached from. */
 static void spread_numbers(JoxStandable *s, uint32_t kind, uint32_t listed) {
     for (uint32_t at = 0; at < listed; at++)
         for (int k = 0; k < 8; k++) {
@@ -117,8 +118,8 @@ static void spread_numbers(JoxStandable *s, uint32_t kind, uint32_t listed) {
         }
 }
 
-/* Free cells within the place are of one part if they are joined within it, those about it of the
-   part that is nearest by the grid. */
+/* Numbers the parts: free cells inside the place that are connected inside it, then free cells
+   around it, which join the part nearest by grid steps. */
 static void number_parts(JoxStandable *s, const JoxPlace *place) {
     const uint32_t cells = s->columns * s->rows;
     uint32_t within = 0;
@@ -185,7 +186,7 @@ static bool is_cut_off(const JoxStandable *s, JoxV2 p, JoxV2 q) {
     return false;
 }
 
-/* The nearest free cell within two of a cell that is not free. */
+/* Returns the nearest free cell within two cells of a blocked one. */
 static uint32_t find_cell_near(const JoxStandable *s, uint32_t middle, JoxV2 p) {
     uint32_t found = JOX_NO_CELL;
     float least2 = INFINITY;
@@ -217,7 +218,7 @@ uint32_t jox_standable_part(const JoxStandable *s, uint32_t cell) {
 
 /* ---- ways ---- */
 
-/* Whether the straight way between the middles of two cells leads over free cells alone. */
+/* Returns whether the straight line between two cell centres passes over free cells alone. */
 static bool is_straight(const JoxStandable *s, uint32_t from, uint32_t to) {
     const float x = (float)(from % s->columns) + 0.5f, y = (float)(from / s->columns) + 0.5f;
     const float dx = (float)(to % s->columns) + 0.5f - x, dy = (float)(to / s->columns) + 0.5f - y;
@@ -231,7 +232,7 @@ static bool is_straight(const JoxStandable *s, uint32_t from, uint32_t to) {
     return true;
 }
 
-/* Cells: no way over the grid between two of its cells is shorter. */
+/* Returns a lower bound of the length of a way between two cells, in cells. */
 static float least_between(const JoxStandable *s, uint32_t from, uint32_t to) {
     const float dx = fabsf((float)(from % s->columns) - (float)(to % s->columns));
     const float dy = fabsf((float)(from / s->columns) - (float)(to / s->columns));
@@ -265,7 +266,7 @@ static uint32_t pop_open(JoxStandable *s, uint32_t *count) {
     return cell;
 }
 
-/* Puts a cell to a search that came to it by a shorter way than before. */
+/* Adds a cell to the search, if it was reached by a shorter way than before. */
 static void open_cell(JoxStandable *s, uint32_t cell, uint32_t before, float length, uint32_t to,
                       uint32_t *count) {
     JoxStandableNode *node = &s->nodes[cell];
@@ -275,7 +276,7 @@ static void open_cell(JoxStandable *s, uint32_t cell, uint32_t before, float len
     push_open(s, count, (JoxStandableOpen){length + least_between(s, cell, to), cell});
 }
 
-/* A* over the grid, between cells of one part. */
+/* Finds the shortest way over the grid between two cells of one part, by A*. */
 static void search_way(JoxStandable *s, uint32_t from, uint32_t to) {
     uint32_t count = 0, cell;
     s->searches++;
@@ -287,11 +288,11 @@ static void search_way(JoxStandable *s, uint32_t from, uint32_t to) {
             if (next != JOX_NO_CELL && s->part[next])
                 open_cell(s, next, cell, length + (k & 1 ? 1.41421356f : 1.0f), to, &count);
         }
-        JOX_ASSERT(count > 0); /* they are of one part */
+        JOX_ASSERT(count > 0); /* both are in one part */
     }
 }
 
-/* The way between two cells of one part that is not straight. */
+/* Returns the way between two cells of one part that is not straight; recent ones are cached. */
 static const JoxStandableWay *find_way(JoxStandable *s, uint32_t from, uint32_t to) {
     JoxStandableWay *way = &s->ways[(from * 2654435761u ^ to * 2246822519u) >> 20];
     _Static_assert(WAYS == 1 << 12, "as many as a hash of 12 bits names");

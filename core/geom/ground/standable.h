@@ -1,7 +1,6 @@
-/* Cells of an area and its surroundings in which people can stand, the parts into which walls and
-   fixed bodies divide them, and ways over them. Behaviours gather people there
-   (machine/steering/gather.c).
- */
+/* Cells in and around an area on which people can stand, the parts into which walls and fixed
+   bodies divide them, and ways over them. machine/gather_ground.c keeps them for agents that
+   gather. */
 #ifndef JOX_GEOM_STANDABLE_H
 #define JOX_GEOM_STANDABLE_H
 
@@ -13,17 +12,17 @@
 
 /* Scratch of a search: a cell that it reached. */
 typedef struct JoxStandableNode {
-    uint32_t search, before; /* number of the search; cell before it on the way */
+    uint32_t search, before; /* number of the search; previous cell on the way */
     float length;            /* cells, from the start */
 } JoxStandableNode;
 
-/* A cell that a search has to look at, ordered by the least length of a way through it. */
+/* A cell that a search has to visit, ordered by the least length of a way through it. */
 typedef struct JoxStandableOpen {
     float least; /* cells */
     uint32_t cell;
 } JoxStandableOpen;
 
-/* A way that was found: it depends on the cells alone. */
+/* A cached way; it depends on the cells alone. */
 typedef struct JoxStandableWay {
     uint32_t from, to, next;
     float length; /* m */
@@ -33,14 +32,14 @@ typedef struct JoxStandable {
     JoxV2 low;  /* m: corner of the first cell */
     float cell; /* m */
     uint32_t columns, rows;
-    /* By cell, from 1: cells joined within the place are a part, and so are those about it whose
-       way leads to them first. 0: nobody stands here, or gets to the place from here. */
+    /* By cell, from 1: cells connected inside the place form a part, with the cells around it that
+       reach this part first. 0: blocked, or without a way to the place. */
     uint32_t *part;
     uint32_t part_count;
-    JoxV2 *edges; /* walls and fixed bodies in reach: two points each */
+    JoxV2 *edges; /* walls and fixed bodies within reach: two points each */
     uint32_t edge_count;
     size_t part_capacity, edge_capacity;
-    /* Scratch. */
+    /* Scratch of searches. */
     JoxStandableNode *nodes;
     JoxStandableOpen *open;
     JoxStandableWay *ways;
@@ -48,20 +47,22 @@ typedef struct JoxStandable {
     size_t node_capacity, open_capacity;
 } JoxStandable;
 
-/* Divides a polygon and what lies up to `about` m about it into cells of 0.28 m, or wider where
-   there would be over 262,144. Walls that are open and bodies that can be moved do not count.
-   `images`: of walls, beyond joined edges; it, walls and objects may be NULL. */
+/* Divides a polygon and its surroundings up to `about` m into cells of 0.28 m, or wider cells if
+   there would be more than 262,144. Open gates and movable bodies are ignored. `images`: of walls
+   beyond joined edges. `walls`, `images` and `objects` may be NULL. */
 void jox_standable_lay(JoxStandable *standable, const JoxPlace *place, float about,
                        const JoxWalls *walls, const JoxWalls *images, const JoxObjects *objects);
 void jox_standable_free(JoxStandable *standable);
-/* Whether a body is fixed and stands where people walk. */
+/* Returns whether a body is fixed and within reach of people. */
 bool jox_standable_is_fixed(const JoxObject *object);
-/* The free cell about a point, on the same side of all walls, or JOX_NO_CELL. */
+/* Returns the free cell at a point, or the nearest one on the same side of all walls; JOX_NO_CELL
+   if none is near. */
 uint32_t jox_standable_cell(const JoxStandable *standable, JoxV2 point);
-/* The part of a cell; 0 of JOX_NO_CELL. */
+/* Returns the part of a cell; 0 for JOX_NO_CELL. */
 uint32_t jox_standable_part(const JoxStandable *standable, uint32_t cell);
-/* Length in m of the way from a point to another, about 8 % too long at most where it is not
-   straight; INFINITY: none. `next`: the farthest point of it that can be gone to straight. */
+/* Returns the length of the way between two points, m, at most about 8 % too long if it is not
+   straight; INFINITY: no way. `next` receives the farthest point of it that can be reached
+   straight. */
 float jox_standable_way(JoxStandable *standable, JoxV2 from, JoxV2 to, JoxV2 *next);
 
 #endif
