@@ -1,4 +1,4 @@
-/* Whether points lie in an area, and how large it is. */
+/* Tests whether points lie in an area, and measures its size. */
 #include "geom/area.h"
 
 #include <math.h>
@@ -9,20 +9,21 @@
 enum {
     MOST_STRIPS = 1024,
     MOST_TIMES = 8
-}; /* strips; times that an edge stands in them, on average */
+}; /* greatest number of strips; greatest mean number of strips per edge */
 
-/* Samples of a floor at least, over its extent. */
+/* Least number of samples of a floor, over its bounding box. */
 enum { FLOOR_SAMPLES = 250000 };
-static const float APART = 1e-3f; /* m: so much beyond `clear`, rounding does not matter */
+static const float APART = 1e-3f; /* m: edges farther than `clear` plus this cannot matter, whatever
+                                     the rounding */
 
-/* Edges by strips of equal height along y. An edge stands in each strip that its range of y
-   touches: as a point's strip is found by the same arithmetic as those of the range's ends, none
-   that matters to the point is missed. */
+/* Edges by horizontal strips of equal height. An edge is listed in each strip that its range of y
+   touches. The strip of a point is computed by the same arithmetic as those of the range's ends, so
+   no edge at its height is missed. */
 typedef struct Strips {
     float low, height; /* m */
-    uint32_t count;    /* 0: there are no edges */
+    uint32_t count;    /* 0: no edges */
     uint32_t *first;   /* count + 1 */
-    uint32_t *edges;   /* strip by strip, ascending in each */
+    uint32_t *edges;   /* by strip, ascending in each */
 } Strips;
 
 typedef struct Range {
@@ -32,25 +33,25 @@ typedef struct Range {
 struct JoxAreaIndex {
     const JoxArea *area;
     Strips walls;
-    Strips *places; /* of `in`, then of `out`; empty for all but polygons */
+    Strips *places; /* for `in`, then `out`; empty for places that are no polygons */
 };
 
 /* ---- strips ---- */
 
-static uint32_t strip_of(const Strips *s, float y) {
+static uint32_t find_strip(const Strips *s, float y) {
     const float strip = floorf((y - s->low) / s->height);
     return strip <= 0.0f ? 0 : strip >= (float)s->count ? s->count - 1 : (uint32_t)strip;
 }
 
-/* How often edges stand in strips, in all. */
-static size_t entries(const Strips *s, const Range *ranges, uint32_t count) {
+/* Returns the total number of entries of edges in strips. */
+static size_t count_strip_entries(const Strips *s, const Range *ranges, uint32_t count) {
     size_t sum = 0;
     for (uint32_t e = 0; e < count; e++)
-        sum += strip_of(s, ranges[e].most) - strip_of(s, ranges[e].least) + 1;
+        sum += find_strip(s, ranges[e].most) - find_strip(s, ranges[e].least) + 1;
     return sum;
 }
 
-/* As many strips as edges, fewer where long edges would stand in too many. */
+/* Makes as many strips as edges; fewer if long edges would have too many entries. */
 static Strips make_strips(const Range *ranges, uint32_t count) {
     Strips s = {.low = INFINITY};
     float high = -INFINITY;
@@ -64,21 +65,21 @@ static Strips make_strips(const Range *ranges, uint32_t count) {
     size_t all;
     for (;; s.count = (s.count + 1) / 2) {
         s.height = jox_maxf((high - s.low) / (float)s.count, 1e-3f);
-        all = entries(&s, ranges, count);
+        all = count_strip_entries(&s, ranges, count);
         if (s.count == 1 || all <= (size_t)count * MOST_TIMES)
             break;
     }
     s.first = jox_alloc(s.count + 1, sizeof *s.first);
     s.edges = jox_alloc(all, sizeof *s.edges);
     for (uint32_t e = 0; e < count; e++)
-        for (uint32_t k = strip_of(&s, ranges[e].least); k <= strip_of(&s, ranges[e].most); k++)
+        for (uint32_t k = find_strip(&s, ranges[e].least); k <= find_strip(&s, ranges[e].most); k++)
             s.first[k]++;
     uint32_t sum = 0;
     for (uint32_t k = 0; k <= s.count; k++)
         s.first[k] = sum += s.first[k];
     JOX_ASSERT(sum == all);
     for (uint32_t e = count; e-- > 0;)
-        for (uint32_t k = strip_of(&s, ranges[e].least); k <= strip_of(&s, ranges[e].most); k++)
+        for (uint32_t k = find_strip(&s, ranges[e].least); k <= find_strip(&s, ranges[e].most); k++)
             s.edges[--s.first[k]] = e;
     return s;
 }
@@ -90,7 +91,7 @@ static void free_strips(Strips *s) {
 
 /* ---- an area's edges ---- */
 
-/* The edge that leads to point e of a polygon. */
+/* Returns the edge that leads to point e of a polygon. */
 static void polygon_edge(const JoxPlace *place, uint32_t e, JoxV2 *from, JoxV2 *to) {
     *from = place->points[e > 0 ? e - 1 : place->count - 1];
     *to = place->points[e];
@@ -110,7 +111,8 @@ static Strips polygon_strips(const JoxPlace *place) {
     return s;
 }
 
-/* An edge matters to points nearer than `clear`, and to those whose ray to the right it crosses. */
+/* Makes strips of walls: an edge matters to points nearer than `clear`, and to points whose ray to
+   the right crosses it. */
 static Strips wall_strips(const JoxWalls *walls, float clear) {
     const float far = clear + APART;
     Range *ranges = jox_alloc(walls->count + 1, sizeof *ranges);
@@ -146,12 +148,12 @@ void jox_area_index_free(JoxAreaIndex *index) {
 
 /* ---- points ---- */
 
-/* As jox_polygon_contains has it, of the edges at the point's height. */
-static bool in_place(const JoxAreaIndex *index, uint32_t number, uint32_t place, JoxV2 p) {
+/* Returns what jox_polygon_contains would, from the edges at the point's height alone. */
+static bool is_in_place(const JoxAreaIndex *index, uint32_t number, uint32_t place, JoxV2 p) {
     const Strips *s = &index->places[number];
     if (s->count == 0)
         return jox_place_contains(index->area->places, place, p);
-    const uint32_t strip = strip_of(s, p.y);
+    const uint32_t strip = find_strip(s, p.y);
     bool in = false;
     for (uint32_t k = s->first[strip]; k < s->first[strip + 1]; k++) {
         JoxV2 a, b;
@@ -162,14 +164,15 @@ static bool in_place(const JoxAreaIndex *index, uint32_t number, uint32_t place,
     return in;
 }
 
-/* Neither within `clear` of an edge nor in a solid. Edges of a ring follow each other. */
-static bool is_clear(const JoxAreaIndex *index, JoxV2 p) {
+/* Returns whether a point is at least `clear` from all edges and outside all solids. Edges of a
+   ring are consecutive. */
+static bool is_clear_of_walls(const JoxAreaIndex *index, JoxV2 p) {
     const JoxWalls *walls = index->area->walls;
     const float clear = index->area->clear;
     const Strips *s = &index->walls;
     if (s->count == 0)
         return true;
-    const uint32_t strip = strip_of(s, p.y);
+    const uint32_t strip = find_strip(s, p.y);
     uint32_t ring = 0;
     bool odd = false;
     for (uint32_t k = s->first[strip]; k < s->first[strip + 1]; k++) {
@@ -194,15 +197,15 @@ bool jox_area_contains(const JoxAreaIndex *index, JoxV2 p) {
     const JoxArea *area = index->area;
     bool in = false;
     for (uint32_t i = 0; i < area->in_count && !in; i++)
-        in = in_place(index, i, area->in[i], p);
+        in = is_in_place(index, i, area->in[i], p);
     for (uint32_t i = 0; i < area->out_count && in; i++)
-        in = !in_place(index, area->in_count + i, area->out[i], p);
-    return in && is_clear(index, p);
+        in = !is_in_place(index, area->in_count + i, area->out[i], p);
+    return in && is_clear_of_walls(index, p);
 }
 
 /* ---- size ---- */
 
-static void widen(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
+static void extend_bounds(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
     float r = jox_place_outline(place) == JOX_OUTLINE_CIRCLE ? place->radius : 0.5f;
     for (uint32_t i = 0; i < place->count; i++) {
         low->x = jox_minf(low->x, place->points[i].x - r);
@@ -217,9 +220,9 @@ bool jox_area_extent(const JoxArea *area, JoxV2 *low, JoxV2 *high) {
     *high = (JoxV2){-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < area->in_count; i++) {
         const JoxPlace *place = &area->places[area->in[i]];
-        widen(place, low, high);
+        extend_bounds(place, low, high);
         for (uint32_t m = 0; m < place->member_count; m++)
-            widen(&area->places[place->members[m]], low, high);
+            extend_bounds(&area->places[place->members[m]], low, high);
     }
     return low->x < high->x && low->y < high->y;
 }

@@ -7,14 +7,16 @@
 #include "base/mem.h"
 #include "base/number/pi.h"
 
-static const float CLEAR = 0.1f;  /* m from walls: nearer to them nobody begins */
+static const float CLEAR = 0.1f;  /* m: least distance from walls at which people can enter */
 static const float FINEST = 0.2f; /* m: the smallest cells */
 static const float MOST_CELLS = 40000.0f;
-static const double ALIKE = 0.9; /* of the greatest piece: those as large are alike */
+static const double ALIKE = 0.9; /* pieces with at least this share of the largest one count as
+                                    equally large */
 
 /* ---- the floor ---- */
 
-/* A floor is no smaller than a circle of the reach: somebody has room there. */
+/* Makes the floor from the place's shape, with room for at least one person: a circle of
+   JOX_ENTRANCE_REACH. */
 static void lay_floor(JoxEntrance *e, const JoxPlace *place) {
     const double circle = JOX_PI * (double)JOX_ENTRANCE_REACH * (double)JOX_ENTRANCE_REACH;
     JOX_ASSERT(!jox_place_is_set(place));
@@ -29,12 +31,12 @@ static void lay_floor(JoxEntrance *e, const JoxPlace *place) {
     jox_place_finish(&e->floor);
 }
 
-static bool is_of_floor(const JoxEntrance *e, JoxV2 p) {
+static bool is_on_floor(const JoxEntrance *e, JoxV2 p) {
     return jox_place_contains(&e->floor, 0, p);
 }
 
-/* Whether a point of the floor belongs to the place as it was given. */
-static bool is_given(const JoxPlace *place, float cell, JoxV2 p) {
+/* Returns whether a point of the floor belongs to the original place. */
+static bool belongs_to_place(const JoxPlace *place, float cell, JoxV2 p) {
     if (jox_place_is_area(place))
         return jox_polygon_contains(place->points, place->count, p);
     if (jox_place_is_spot(place))
@@ -45,19 +47,19 @@ static bool is_given(const JoxPlace *place, float cell, JoxV2 p) {
 
 /* ---- cells ---- */
 
-static JoxV2 middle_of(const JoxEntrance *e, uint32_t cell) {
+static JoxV2 find_cell_middle(const JoxEntrance *e, uint32_t cell) {
     const float x = (float)(cell % e->columns) + 0.5f, y = (float)(cell / e->columns) + 0.5f;
     return (JoxV2){e->low.x + x * e->cell, e->low.y + y * e->cell};
 }
 
-/* The cell about a point of the box. */
-static uint32_t cell_at(const JoxEntrance *e, JoxV2 p) {
+/* Returns the cell at a point, clamped to the box. */
+static uint32_t find_floor_cell(const JoxEntrance *e, JoxV2 p) {
     const float x = jox_clampf(floorf((p.x - e->low.x) / e->cell), 0.0f, (float)(e->columns - 1)),
                 y = jox_clampf(floorf((p.y - e->low.y) / e->cell), 0.0f, (float)(e->rows - 1));
     return (uint32_t)y * e->columns + (uint32_t)x;
 }
 
-/* Corners of the box about the floor. */
+/* Finds the corners of the floor's bounding box. */
 static void find_box(const JoxEntrance *e, JoxV2 *low, JoxV2 *high) {
     const JoxPlace *floor = &e->floor;
     const float beside = jox_place_is_spot(floor)   ? floor->radius
@@ -68,7 +70,7 @@ static void find_box(const JoxEntrance *e, JoxV2 *low, JoxV2 *high) {
     *high = jox_add(*high, (JoxV2){beside, beside});
 }
 
-/* Whether an edge of a wall comes near a box. */
+/* Returns whether an edge of a wall comes near a box. */
 static bool has_edges(const JoxWalls *walls, JoxV2 low, JoxV2 high) {
     low = jox_sub(low, (JoxV2){CLEAR, CLEAR});
     high = jox_add(high, (JoxV2){CLEAR, CLEAR});
@@ -86,7 +88,7 @@ static bool has_outlines(const JoxWalls *walls) {
     return false;
 }
 
-/* How many closed thin walls a point lies within: a room within a hall lies within two. */
+/* Returns the number of closed thin walls around a point: a room within a hall has two. */
 static uint32_t count_rooms(const JoxWalls *walls, JoxV2 p) {
     uint32_t rooms = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -104,7 +106,7 @@ static uint32_t count_rooms(const JoxWalls *walls, JoxV2 p) {
 
 static JoxFloorCell judge_cell(const JoxEntrance *e, bool outlined, JoxV2 p) {
     const JoxWalls *walls = e->grid->walls;
-    if (!is_of_floor(e, p))
+    if (!is_on_floor(e, p))
         return JOX_FLOOR_NONE;
     if (!jox_area_contains(e->index, p))
         return jox_wall_grid_is_near(e->grid, p, CLEAR) ? JOX_FLOOR_TIGHT : JOX_FLOOR_SOLID;
@@ -114,10 +116,10 @@ static JoxFloorCell judge_cell(const JoxEntrance *e, bool outlined, JoxV2 p) {
 /* ---- pieces ---- */
 
 typedef struct Piece {
-    uint32_t first, count; /* of its cells, in a list */
+    uint32_t first, count; /* range of its cells in a list */
 } Piece;
 
-/* Lists the piece that a cell belongs to behind those that are listed, and marks its cells. */
+/* Appends the piece of a cell to the list, and marks its cells as listed. */
 static Piece gather_piece(const JoxEntrance *e, uint32_t from, bool *listed, uint32_t *list,
                           uint32_t first) {
     Piece piece = {first, 1};
@@ -130,7 +132,8 @@ static Piece gather_piece(const JoxEntrance *e, uint32_t from, bool *listed, uin
                                  y + 1 < e->rows ? cell + e->columns : cell};
         for (int n = 0; n < 4; n++) {
             if (listed[next[n]] || e->cells[next[n]] != JOX_FLOOR_BEYOND ||
-                jox_wall_grid_separates(e->grid, middle_of(e, cell), middle_of(e, next[n])))
+                jox_wall_grid_separates(e->grid, find_cell_middle(e, cell),
+                                        find_cell_middle(e, next[n])))
                 continue;
             listed[next[n]] = true;
             list[first + piece.count++] = next[n];
@@ -139,9 +142,10 @@ static Piece gather_piece(const JoxEntrance *e, uint32_t from, bool *listed, uin
     return piece;
 }
 
-/* Of two pieces of about one size: whether people rather come in on the second. */
+/* Returns whether people enter on the second rather than the first of two equally large pieces. */
 static bool is_preferred(const JoxEntrance *e, const uint32_t *list, Piece before, Piece piece) {
-    const JoxV2 a = middle_of(e, list[before.first]), b = middle_of(e, list[piece.first]);
+    const JoxV2 a = find_cell_middle(e, list[before.first]),
+                b = find_cell_middle(e, list[piece.first]);
     const uint32_t rooms_a = count_rooms(e->grid->walls, a),
                    rooms_b = count_rooms(e->grid->walls, b);
     if (rooms_a != rooms_b || !jox_place_is_line(&e->floor))
@@ -150,7 +154,7 @@ static bool is_preferred(const JoxEntrance *e, const uint32_t *list, Piece befor
     return jox_det(way, jox_sub(b, from)) > jox_det(way, jox_sub(a, from));
 }
 
-/* Opens the cells of the piece on which people come in. */
+/* Opens the cells of the piece on which people enter. */
 static void open_piece(JoxEntrance *e) {
     const uint32_t all = e->columns * e->rows;
     uint32_t *list = jox_alloc(all, sizeof *list), listed_count = 0, most = 0;
@@ -180,8 +184,8 @@ static void open_piece(JoxEntrance *e) {
     jox_free(list);
 }
 
-/* Whether walls take more from the floor than where nobody stands close to them. */
-static bool is_cut(const JoxEntrance *e) {
+/* Returns whether walls cut the floor, apart from the margin next to them. */
+static bool is_floor_cut(const JoxEntrance *e) {
     for (uint32_t cell = 0; cell < e->columns * e->rows; cell++)
         if (e->cells[cell] == JOX_FLOOR_SOLID || e->cells[cell] == JOX_FLOOR_OUTSIDE ||
             e->cells[cell] == JOX_FLOOR_BEYOND)
@@ -193,7 +197,7 @@ static void measure_shares(JoxEntrance *e, const JoxPlace *place) {
     uint32_t given = 0, blocked = 0, outside = 0;
     for (uint32_t cell = 0; cell < e->columns * e->rows; cell++) {
         const JoxFloorCell is = e->cells[cell];
-        if (is == JOX_FLOOR_NONE || !is_given(place, e->cell, middle_of(e, cell)))
+        if (is == JOX_FLOOR_NONE || !belongs_to_place(place, e->cell, find_cell_middle(e, cell)))
             continue;
         given++;
         outside += is == JOX_FLOOR_OUTSIDE;
@@ -227,9 +231,9 @@ void jox_entrance_make(JoxEntrance *e, JoxWallGrid *grid, const JoxPlace *place)
     e->index = jox_area_index(&e->clear);
     e->cells = jox_alloc((size_t)e->columns * e->rows, sizeof *e->cells);
     for (uint32_t cell = 0; cell < e->columns * e->rows; cell++)
-        e->cells[cell] = judge_cell(e, outlined, middle_of(e, cell));
+        e->cells[cell] = judge_cell(e, outlined, find_cell_middle(e, cell));
     open_piece(e);
-    e->cut = is_cut(e);
+    e->cut = is_floor_cut(e);
     if (e->cut)
         measure_shares(e, place);
 }
@@ -246,9 +250,9 @@ void jox_entrance_free(JoxEntrance *e) {
 /* ---- points ---- */
 
 bool jox_entrance_holds(const JoxEntrance *e, JoxV2 p) {
-    if (!is_of_floor(e, p) || !e->cut)
-        return is_of_floor(e, p);
-    const JoxFloorCell is = e->cells[cell_at(e, p)];
+    if (!is_on_floor(e, p) || !e->cut)
+        return is_on_floor(e, p);
+    const JoxFloorCell is = e->cells[find_floor_cell(e, p)];
     return is != JOX_FLOOR_BEYOND && is != JOX_FLOOR_SOLID && is != JOX_FLOOR_OUTSIDE;
 }
 
@@ -265,7 +269,7 @@ bool jox_entrance_is_open(const JoxEntrance *e, JoxV2 p) {
                 continue;
             const uint32_t cell = (uint32_t)row * e->columns + (uint32_t)column;
             if (e->cells[cell] == JOX_FLOOR_OPEN &&
-                !jox_wall_grid_separates(e->grid, p, middle_of(e, cell)))
+                !jox_wall_grid_separates(e->grid, p, find_cell_middle(e, cell)))
                 return true;
         }
     return false;
@@ -273,5 +277,5 @@ bool jox_entrance_is_open(const JoxEntrance *e, JoxV2 p) {
 
 JoxV2 jox_entrance_pick(const JoxEntrance *e, double share) {
     JOX_ASSERT(e->open_count > 0 && share >= 0.0 && share < 1.0);
-    return middle_of(e, e->open[(uint32_t)(share * e->open_count)]);
+    return find_cell_middle(e, e->open[(uint32_t)(share * e->open_count)]);
 }

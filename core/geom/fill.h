@@ -1,4 +1,4 @@
-/* Where the agents of a group stand at the start. */
+/* Positions of a group's agents at the start: lattices and random points in an area. */
 #ifndef JOX_GEOM_FILL_H
 #define JOX_GEOM_FILL_H
 
@@ -7,8 +7,8 @@
 
 #include "geom/area.h"
 
-/* How the agents of a group stand at the start, with the words of scenes; JOX_FILL_AT: at given
-   points. The first three spread over an area. */
+/* Arrangements of a group with their names in scenes. The first three fill an area; JOX_FILL_AT
+   means listed points. */
 #define JOX_FILLS(X)                                                                               \
     X(HEX, "hex")                                                                                  \
     X(GRID, "grid")                                                                                \
@@ -22,11 +22,11 @@ typedef enum JoxFillMode {
         JOX_FILL_AT
 } JoxFillMode;
 
-/* Writes `count` positions at least `spacing` metres apart (0: lattices as wide as the count
-   allows, from the area; points at random 0.4 m, or less where they are many). `mode` is hex, grid
-   or random. Of a lattice with more points, `count` are drawn by (seed, stream). Random points are
-   drawn one after the other, each uniformly over what of the area is left by those before. Returns
-   the number that fit, `count` if all did; the array is allocated by jox_alloc. */
+/* Fills an area with `count` positions, at least `spacing` m apart. 0: a lattice as wide as `count`
+   allows, or random points 0.4 m apart, less if they are many. `mode` is HEX, GRID or RANDOM. If a
+   lattice has more points, `count` of them are drawn by (seed, stream). Random points are drawn one
+   by one, each uniformly over the part of the area that the points before leave free. Returns the
+   number that fit, `count` if all did; the caller frees `positions` (jox_free). */
 uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
                   uint64_t seed, uint32_t stream, JoxV2 **positions);
 

@@ -9,10 +9,11 @@
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 
-static const float CLEARANCE = 0.03f;  /* m between a body and a wall, which is 4 cm thick */
-static const float FAST_MASS = 200.0f; /* kg: an arm does not shove aside what is heavier */
+static const float CLEARANCE = 0.03f;  /* m: gap between a carried body and a wall, which is 4 cm
+                                          thick */
+static const float FAST_MASS = 200.0f; /* kg: arms do not push aside heavier bodies */
 
-/* ---- what is in the way ---- */
+/* ---- obstacles ---- */
 
 static void add_edge(JoxHands *h, JoxV2 a, JoxV2 b, JoxV2 from, float reach) {
     if (jox_minf(a.x, b.x) > from.x + reach || jox_maxf(a.x, b.x) < from.x - reach ||
@@ -22,7 +23,8 @@ static void add_edge(JoxHands *h, JoxV2 a, JoxV2 b, JoxV2 from, float reach) {
     h->edges[h->count++] = (struct JoxHandEdge){a, b};
 }
 
-static void add_walls(JoxHands *h, const JoxWalls *walls, float lowest, JoxV2 from, float reach) {
+static void add_wall_obstacles(JoxHands *h, const JoxWalls *walls, float lowest, JoxV2 from,
+                               float reach) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         if (ring->open || ring->height <= lowest)
@@ -33,8 +35,8 @@ static void add_walls(JoxHands *h, const JoxWalls *walls, float lowest, JoxV2 fr
     }
 }
 
-/* Corners of a polygon about a disc. */
-static void lay_circle(JoxV2 corners[JOX_FOOTPRINT_POINTS], JoxV2 centre, float radius) {
+/* Makes a polygon around a disc. */
+static void make_circle(JoxV2 corners[JOX_FOOTPRINT_POINTS], JoxV2 centre, float radius) {
     const double wedge = JOX_TURN / JOX_FOOTPRINT_POINTS;
     const float about = radius / (float)jox_cos(wedge / 2.0);
     for (int k = 0; k < JOX_FOOTPRINT_POINTS; k++)
@@ -42,19 +44,19 @@ static void lay_circle(JoxV2 corners[JOX_FOOTPRINT_POINTS], JoxV2 centre, float 
                             centre.y + about * (float)jox_sin(k * wedge));
 }
 
-/* The edges of a body's footprint, which is a disc where it has no corners. */
+/* Adds the edges of a body's footprint; a disc becomes a polygon. */
 static void add_footprint(JoxHands *h, const JoxObject *body, JoxV2 from, float reach) {
     JoxV2 circle[JOX_FOOTPRINT_POINTS];
     const bool round = body->footprint_count == 0;
     const uint32_t count = round ? JOX_FOOTPRINT_POINTS : body->footprint_count;
     const JoxV2 *ring = round ? circle : body->footprint;
     if (round)
-        lay_circle(circle, jox_v2(body->position.x, body->position.y), body->round);
+        make_circle(circle, jox_v2(body->position.x, body->position.y), body->round);
     for (uint32_t k = 0; k < count; k++)
         add_edge(h, ring[k], ring[(k + 1) % count], from, reach);
 }
 
-static bool stands_fast(const JoxObject *body) {
+static bool is_fixed(const JoxObject *body) {
     return body->live && body->in_band && body->inverse_mass < 1.0f / FAST_MASS;
 }
 
@@ -64,33 +66,34 @@ static void add_objects(JoxHands *h, const JoxObjects *objects, uint32_t row, fl
     uint32_t other;
     while (jox_objects_next(&walk, &other)) {
         const JoxObject *body = &objects->rows[other];
-        if (other != row && stands_fast(body) && body->high > lowest && body->low < highest &&
+        if (other != row && is_fixed(body) && body->high > lowest && body->low < highest &&
             jox_footprint_nearest(body, from).gap > 0.0f)
             add_footprint(h, body, from, reach);
     }
 }
 
-/* The corners of a ring about a point, each edge moved outwards by the clearance. */
-static void widen(JoxHands *h, const JoxV2 *corners, uint32_t count, JoxV2 centre) {
+/* Makes the held body's outline, relative to its centre, with each edge moved outwards by
+   CLEARANCE. */
+static void make_outline(JoxHands *h, const JoxV2 *corners, uint32_t count, JoxV2 centre) {
     h->ring_count = count;
     for (uint32_t k = 0; k < count; k++) {
         const JoxV2 before = corners[(k + count - 1) % count], at = corners[k],
                     after = corners[(k + 1) % count];
         const JoxV2 in = jox_unit(jox_sub(at, before)), out = jox_unit(jox_sub(after, at));
-        const JoxV2 both = {in.y + out.y, -in.x - out.x}; /* the ring goes anti-clockwise */
+        const JoxV2 both = {in.y + out.y, -in.x - out.x}; /* the ring is counter-clockwise */
         const float scale = CLEARANCE / jox_maxf(0.2f, 0.5f * jox_length2(both));
         h->ring[k] = jox_add(jox_sub(at, centre), jox_scale(both, scale));
     }
 }
 
-static void lay_ring(JoxHands *h, const JoxObject *body) {
+static void make_held_outline(JoxHands *h, const JoxObject *body) {
     const JoxV2 centre = {body->position.x, body->position.y};
     if (body->footprint_count >= 3) {
-        widen(h, body->footprint, body->footprint_count, centre);
+        make_outline(h, body->footprint, body->footprint_count, centre);
         return;
     }
     h->ring_count = JOX_FOOTPRINT_POINTS;
-    lay_circle(h->ring, jox_v2(0.0f, 0.0f), body->disc + CLEARANCE);
+    make_circle(h->ring, jox_v2(0.0f, 0.0f), body->disc + CLEARANCE);
 }
 
 void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxWalls *images,
@@ -100,15 +103,15 @@ void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxWalls *imag
     const float middle = jox_maxf(JOX_HAND_HEIGHT, body->position.z);
     const float lowest = middle - body->below, highest = middle + body->above;
     hands->count = 0;
-    lay_ring(hands, body);
+    make_held_outline(hands, body);
     if (walls)
-        add_walls(hands, walls, lowest, from, reach);
+        add_wall_obstacles(hands, walls, lowest, from, reach);
     if (images)
-        add_walls(hands, images, lowest, from, reach);
+        add_wall_obstacles(hands, images, lowest, from, reach);
     add_objects(hands, objects, row, lowest, highest, from, reach);
 }
 
-/* ---- what that leaves ---- */
+/* ---- queries ---- */
 
 bool jox_hands_reach(const JoxHands *hands, JoxV2 from, JoxV2 to) {
     for (uint32_t k = 0; k < hands->count; k++)
@@ -117,8 +120,8 @@ bool jox_hands_reach(const JoxHands *hands, JoxV2 from, JoxV2 to) {
     return true;
 }
 
-/* Whether a point lies in a triangle, whichever way its corners go. */
-static bool is_within(JoxV2 point, JoxV2 a, JoxV2 b, JoxV2 c) {
+/* Returns whether a point lies in a triangle, whatever its orientation. */
+static bool is_in_triangle(JoxV2 point, JoxV2 a, JoxV2 b, JoxV2 c) {
     const bool left = jox_det(jox_sub(b, a), jox_sub(point, a)) > 0.0f;
     return left == (jox_det(jox_sub(c, b), jox_sub(point, b)) > 0.0f) &&
            left == (jox_det(jox_sub(a, c), jox_sub(point, c)) > 0.0f);
@@ -132,7 +135,7 @@ bool jox_hands_hold(const JoxHands *hands, JoxV2 from, JoxV2 at) {
             const JoxV2 next = jox_add(at, hands->ring[(k + 1) % hands->ring_count]);
             if (jox_segments_cross(corner, next, edge->a, edge->b) ||
                 jox_segments_cross(from, corner, edge->a, edge->b) ||
-                is_within(edge->a, from, corner, next))
+                is_in_triangle(edge->a, from, corner, next))
                 return false;
         }
     }
@@ -141,7 +144,7 @@ bool jox_hands_hold(const JoxHands *hands, JoxV2 from, JoxV2 at) {
 
 enum { STRIDES = 16, HALVINGS = 5 };
 
-/* The farthest point along a way, up to `gap`, at which the body can be held. */
+/* Finds the farthest point along a direction, up to `gap`, at which the body can be held. */
 static bool find_along(const JoxHands *h, JoxV2 from, JoxV2 way, float gap, JoxV2 *at) {
     int stride = STRIDES;
     *at = jox_add(from, jox_scale(way, gap));

@@ -1,4 +1,4 @@
-/* The grid of bodies, and those nearest to a point. */
+/* Builds the grid of bodies, and keeps the list of those nearest to a point. */
 #include "geom/objects.h"
 
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-/* Bounds of what a body covers in the plane; false where agents cannot meet it. */
-static bool bounds_of(const JoxObject *body, JoxV2 *low, JoxV2 *high) {
+/* Finds the bounds of a body in the plane; false if agents cannot meet it. */
+static bool find_body_bounds(const JoxObject *body, JoxV2 *low, JoxV2 *high) {
     if (!body->live || !body->in_band)
         return false;
     float reach = jox_maxf(body->disc, body->round);
@@ -18,12 +18,12 @@ static bool bounds_of(const JoxObject *body, JoxV2 *low, JoxV2 *high) {
         *low = jox_v2(jox_minf(low->x, p.x), jox_minf(low->y, p.y));
         *high = jox_v2(jox_maxf(high->x, p.x), jox_maxf(high->y, p.y));
     }
-    /* False for bodies thrown to where numbers end, too. */
+    /* Bodies thrown far out of the world have no bounds either. */
     return low->x > -1e7f && low->y > -1e7f && high->x < 1e7f && high->y < 1e7f;
 }
 
-/* The column or row of a place, kept within the grid. */
-static inline uint32_t cell_at(float place, float low, float cell, uint32_t count) {
+/* Returns the column or row of a coordinate, clamped to the grid. */
+static inline uint32_t find_grid_cell(float place, float low, float cell, uint32_t count) {
     if (count == 1)
         return 0;
     float at = (place - low) / cell;
@@ -34,18 +34,18 @@ typedef struct Range {
     uint32_t left, bottom, right, top;
 } Range;
 
-static inline Range range_of(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
-    return (Range){cell_at(low.x, g->low.x, g->cell, g->columns),
-                   cell_at(low.y, g->low.y, g->cell, g->rows),
-                   cell_at(high.x, g->low.x, g->cell, g->columns),
-                   cell_at(high.y, g->low.y, g->cell, g->rows)};
+static inline Range find_cell_range(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
+    return (Range){find_grid_cell(low.x, g->low.x, g->cell, g->columns),
+                   find_grid_cell(low.y, g->low.y, g->cell, g->rows),
+                   find_grid_cell(high.x, g->low.x, g->cell, g->columns),
+                   find_grid_cell(high.y, g->low.y, g->cell, g->rows)};
 }
 
 static bool is_met(const JoxCover *c) {
     return c->left <= c->right;
 }
 
-/* Cells of the present size of all bodies; returns how many these are in all. */
+/* Computes the cells that each body covers at the present cell size; returns their total number. */
 static size_t cover_cells(JoxObjects *objects) {
     const JoxObjectGrid *g = &objects->grid;
     size_t count = 0;
@@ -53,7 +53,7 @@ static size_t cover_cells(JoxObjects *objects) {
         JoxCover *c = &g->covers[i];
         if (!is_met(c))
             continue;
-        Range r = range_of(g, c->low, c->high);
+        Range r = find_cell_range(g, c->low, c->high);
         c->left = r.left;
         c->bottom = r.bottom;
         c->right = r.right;
@@ -63,9 +63,9 @@ static size_t cover_cells(JoxObjects *objects) {
     return count;
 }
 
-/* Cells of at least a metre, and neither many more cells than bodies nor a body in too many: so a
-   walk over all of them costs little more than one over the bodies. Returns the number of entries.
- */
+/* Chooses the cell size: at least 1 m, with not many more cells than bodies and no body in too many
+   cells, so that visiting all cells costs little more than visiting all bodies. Returns the number
+   of entries. */
 static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
     JoxObjectGrid *g = &objects->grid;
     float width = g->high.x - g->low.x, height = g->high.y - g->low.y;
@@ -82,10 +82,10 @@ static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
     }
 }
 
-/* Counts, or enters backwards, each body in the cells that it covers. */
-static void enter(JoxObjects *objects, bool count) {
+/* Counts each body in the cells that it covers, or lists it there, from the end of each list. */
+static void list_bodies(JoxObjects *objects, bool count) {
     const JoxObjectGrid *g = &objects->grid;
-    for (uint32_t i = objects->count; i-- > 0;) { /* so that rows ascend within a cell */
+    for (uint32_t i = objects->count; i-- > 0;) { /* backwards, so that rows ascend within a cell */
         const JoxCover *c = &g->covers[i];
         if (!is_met(c))
             continue;
@@ -100,21 +100,21 @@ static void enter(JoxObjects *objects, bool count) {
     }
 }
 
-/* Lists the bodies of each of so many cells. */
+/* Lists the bodies of each cell. */
 static void list_by_cells(JoxObjects *objects, uint32_t cells) {
     JoxObjectGrid *g = &objects->grid;
     uint32_t sum = 0;
     memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
-    enter(objects, true);
+    list_bodies(objects, true);
     for (uint32_t c = 0; c <= cells; c++) {
         sum += g->starts[c];
-        g->starts[c] = sum; /* the end; entering backwards makes it the start */
+        g->starts[c] = sum; /* the end of the list; listing backwards moves it to the start */
     }
-    enter(objects, false);
+    list_bodies(objects, false);
 }
 
-/* The same where there is one cell alone, which all are in. */
-static void list_all(JoxObjects *objects) {
+/* Lists the bodies of a grid of a single cell. */
+static void list_single_cell(JoxObjects *objects) {
     JoxObjectGrid *g = &objects->grid;
     uint32_t count = 0;
     for (uint32_t i = 0; i < objects->count; i++)
@@ -124,8 +124,8 @@ static void list_all(JoxObjects *objects) {
     g->starts[1] = count;
 }
 
-/* Assertion: cells list live bodies, ascending. */
-static void check_grid(const JoxObjects *objects) {
+/* Asserts that cells list live bodies in ascending order. */
+static void check_object_grid(const JoxObjects *objects) {
     const JoxObjectGrid *g = &objects->grid;
     JOX_ASSERT(g->columns > 0 && g->starts[0] == 0);
     for (uint32_t c = 0; c < g->columns * g->rows; c++) {
@@ -149,8 +149,8 @@ void jox_objects_lay(JoxObjects *objects) {
     for (uint32_t i = 0; i < objects->count; i++) {
         JoxCover *c = &g->covers[i];
         c->left = c->right = 0;
-        if (!bounds_of(&objects->rows[i], &c->low, &c->high)) {
-            c->left = 1; /* none */
+        if (!find_body_bounds(&objects->rows[i], &c->low, &c->high)) {
+            c->left = 1; /* an empty range */
             continue;
         }
         g->low = jox_v2(jox_minf(g->low.x, c->low.x), jox_minf(g->low.y, c->low.y));
@@ -162,16 +162,16 @@ void jox_objects_lay(JoxObjects *objects) {
         return;
     size_t entries = choose_cells(objects, bodies);
     uint32_t cells = g->columns * g->rows;
-    /* Room for what there may be, so that bodies that only move need no more. */
+    /* Room for the most that there may be, so that moving bodies needs no more memory. */
     JOX_RESERVE(g->starts, g->start_capacity, 4 * (size_t)objects->count + 17);
     JOX_RESERVE(g->members, g->member_capacity, 16 * (size_t)objects->count);
     JOX_ASSERT(cells < g->start_capacity && entries <= g->member_capacity);
     if (cells == 1)
-        list_all(objects);
+        list_single_cell(objects);
     else
         list_by_cells(objects, cells);
     JOX_ASSERT(g->starts[cells] == entries);
-    JOX_CHECK(check_grid(objects));
+    JOX_CHECK(check_object_grid(objects));
 }
 
 void jox_objects_free_grid(JoxObjects *objects) {
@@ -188,8 +188,8 @@ JoxObjectWalk jox_objects_near(const JoxObjects *objects, JoxV2 point, float rea
     JoxV2 low = {point.x - reach, point.y - reach}, high = {point.x + reach, point.y + reach};
     if (!g->columns ||
         !(low.x <= g->high.x && low.y <= g->high.y && high.x >= g->low.x && high.y >= g->low.y))
-        return walk; /* one cell, without a member that is left */
-    Range r = range_of(g, low, high);
+        return walk; /* a single cell with no member left */
+    Range r = find_cell_range(g, low, high);
     walk.left = walk.column = r.left;
     walk.bottom = walk.row = r.bottom;
     walk.right = r.right;
@@ -199,20 +199,20 @@ JoxObjectWalk jox_objects_near(const JoxObjects *objects, JoxV2 point, float rea
     return walk;
 }
 
-static bool comes_before(float gap, uint32_t row, float other_gap, uint32_t other_row) {
+static bool is_nearer(float gap, uint32_t row, float other_gap, uint32_t other_row) {
     return gap < other_gap || (gap == other_gap && row < other_row);
 }
 
 void jox_nearest_offer(JoxNearest *n, float gap, uint32_t row) {
     JOX_ASSERT(n->most > 0 && n->most <= JOX_MOST_NEAREST && n->count <= n->most);
     uint32_t at = n->count;
-    if (isnan(gap) || (at == n->most && !comes_before(gap, row, n->gaps[at - 1], n->rows[at - 1])))
+    if (isnan(gap) || (at == n->most && !is_nearer(gap, row, n->gaps[at - 1], n->rows[at - 1])))
         return;
     if (at == n->most)
         at--;
     else
         n->count++;
-    for (; at > 0 && comes_before(gap, row, n->gaps[at - 1], n->rows[at - 1]); at--) {
+    for (; at > 0 && is_nearer(gap, row, n->gaps[at - 1], n->rows[at - 1]); at--) {
         n->gaps[at] = n->gaps[at - 1];
         n->rows[at] = n->rows[at - 1];
     }

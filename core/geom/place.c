@@ -9,11 +9,11 @@
 #include "geom/place_kinds.h"
 #include "simd/four.h"
 
-static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
+static const float LINE_REACH = 0.5f; /* m: agents within this distance are at a line */
 
-/* Principal direction of a ring's corners about `centre`: the eigenvector of the larger eigenvalue
-   of their covariance. */
-static JoxV2 principal(const JoxPlace *place) {
+/* Returns the principal direction of a ring's corners about its centre: the eigenvector of the
+   larger eigenvalue of their covariance. */
+static JoxV2 find_principal_direction(const JoxPlace *place) {
     double xx = 0.0, xy = 0.0, yy = 0.0;
     for (uint32_t i = 0; i < place->count; i++) {
         JoxV2 d = jox_sub(place->points[i], place->centre);
@@ -33,7 +33,7 @@ static void finish_axis(JoxPlace *place) {
         place->axis_radius = place->radius;
         return;
     }
-    JoxV2 along = principal(place), across = jox_left(along);
+    JoxV2 along = find_principal_direction(place), across = jox_left(along);
     float low_l = INFINITY, high_l = -INFINITY, low_w = INFINITY, high_w = -INFINITY;
     for (uint32_t i = 0; i < place->count; i++) {
         JoxV2 d = jox_sub(place->points[i], place->centre);
@@ -55,48 +55,48 @@ static void finish_axis(JoxPlace *place) {
 
 /* ---- the kinds ---- */
 
-static JoxV2 first_point(const JoxPlace *place) {
+static JoxV2 find_first_point(const JoxPlace *place) {
     return place->points[0];
 }
 
-static bool in_point(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static bool is_in_point(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
     return jox_length(jox_sub(point, place->centre)) <= place->radius;
 }
 
-static JoxV2 to_centre(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static JoxV2 nearest_is_centre(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places, (void)point;
     return place->centre;
 }
 
-static JoxV2 middle_of_line(const JoxPlace *place) {
+static JoxV2 find_line_middle(const JoxPlace *place) {
     return jox_scale(jox_add(place->points[0], place->points[1]), 0.5f);
 }
 
-static JoxV2 to_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static JoxV2 find_nearest_on_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
     return jox_segment_nearest(place->points[0], place->points[1], point);
 }
 
-static bool near_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
-    return jox_length(jox_sub(point, to_line(places, place, point))) <= LINE_REACH;
+static bool is_near_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    return jox_length(jox_sub(point, find_nearest_on_line(places, place, point))) <= LINE_REACH;
 }
 
-static JoxV2 centroid(const JoxPlace *place) {
+static JoxV2 find_centroid(const JoxPlace *place) {
     return jox_polygon_centroid(place->points, place->count);
 }
 
-static bool in_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static bool is_in_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
     JOX_ASSERT(place->low.x <= place->high.x); /* the place is finished */
     return jox_is_within(point, place->low, place->high) &&
            jox_polygon_contains(place->points, place->count, point);
 }
 
-static JoxV2 to_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static JoxV2 find_nearest_on_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     JoxV2 best = place->centre;
     float least = INFINITY;
-    if (in_polygon(places, place, point))
+    if (is_in_polygon(places, place, point))
         return point;
     for (uint32_t i = 0; i < place->count; i++) {
         JoxV2 q =
@@ -110,13 +110,13 @@ static JoxV2 to_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 poi
     return best;
 }
 
-static bool at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static bool is_at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
     return jox_length(jox_sub(point, place->centre)) <= place->spacing / 2.0f;
 }
 
-/* Which of four boxes a point lies in, a bit for each. */
-static inline uint32_t boxes_about(const JoxPlaceBoxes *boxes, JoxV2 point) {
+/* Returns which of four boxes contain a point, one bit each. */
+static inline uint32_t find_boxes_around(const JoxPlaceBoxes *boxes, JoxV2 point) {
     const JoxFour x = {point.x, point.x, point.x, point.x};
     const JoxFour y = {point.y, point.y, point.y, point.y};
     const JoxFourMask in = (x >= jox_load_four(boxes->low_x)) &
@@ -124,15 +124,15 @@ static inline uint32_t boxes_about(const JoxPlaceBoxes *boxes, JoxV2 point) {
                            (y >= jox_load_four(boxes->low_y)) & (y <= jox_load_four(boxes->high_y));
     uint64_t halves[2];
     memcpy(halves, &in, sizeof halves);
-    if (!(halves[0] | halves[1])) /* of many exits all but one are elsewhere */
+    if (!(halves[0] | halves[1])) /* the common case: of many exits a point is at one at most */
         return 0;
     return (uint32_t)((in[0] & 1) | (in[1] & 2) | (in[2] & 4) | (in[3] & 8));
 }
 
-static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static bool is_in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     for (uint32_t first = 0; first < place->member_count; first += 4) {
         const uint32_t left = place->member_count - first;
-        uint32_t in = place->boxes ? boxes_about(&place->boxes[first / 4], point)
+        uint32_t in = place->boxes ? find_boxes_around(&place->boxes[first / 4], point)
                                    : (1u << (left < 4 ? left : 4)) - 1;
         for (; in; in &= in - 1) {
             const int32_t member = place->members[first + (uint32_t)__builtin_ctz(in)];
@@ -143,7 +143,7 @@ static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point
     return false;
 }
 
-static JoxV2 to_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+static JoxV2 find_nearest_on_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     JoxV2 best = place->centre;
     float least = INFINITY;
     for (uint32_t i = 0; i < place->member_count; i++) {
@@ -164,9 +164,9 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                          .most_points = 1,
                          .outline = JOX_OUTLINE_CIRCLE,
                          .goal_points = 1,
-                         .centre = first_point,
-                         .contains = in_point,
-                         .nearest = to_centre,
+                         .centre = find_first_point,
+                         .contains = is_in_point,
+                         .nearest = nearest_is_centre,
                          .meaning = "a spot with a `radius`. Agents are inside while they are "
                                     "nearer than that."},
     [JOX_PLACE_LINE] = {.name = "line",
@@ -174,9 +174,9 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                         .least_points = 2,
                         .most_points = 2,
                         .outline = JOX_OUTLINE_OPEN,
-                        .centre = middle_of_line,
-                        .contains = near_line,
-                        .nearest = to_line,
+                        .centre = find_line_middle,
+                        .contains = is_near_line,
+                        .nearest = find_nearest_on_line,
                         .meaning =
                             "two points. `crosses` is true in the step in which an agent passes "
                             "from the right of the line to its left, looking from the first point "
@@ -186,9 +186,9 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                            .least_points = 3,
                            .most_points = UINT32_MAX,
                            .outline = JOX_OUTLINE_RING,
-                           .centre = centroid,
-                           .contains = in_polygon,
-                           .nearest = to_polygon,
+                           .centre = find_centroid,
+                           .contains = is_in_polygon,
+                           .nearest = find_nearest_on_polygon,
                            .meaning = "an area. Agents go about it (`orbit`), and with a `start` "
                                       "line their circuits are counted, anti-clockwise."},
     [JOX_PLACE_QUEUE] = {.name = "queue",
@@ -197,46 +197,46 @@ const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
                          .most_points = UINT32_MAX,
                          .outline = JOX_OUTLINE_OPEN,
                          .goal_points = 1,
-                         .centre = first_point,
-                         .contains = at_head,
-                         .nearest = to_centre,
+                         .centre = find_first_point,
+                         .contains = is_at_head,
+                         .nearest = nearest_is_centre,
                          .meaning = "a line with bends in which people stand one behind the "
                                     "other, `spacing` apart; its first point is the head."},
     [JOX_PLACE_SET] = {.name = "set",
                        .form = JOX_FORM_SET,
-                       .contains = in_member,
-                       .nearest = to_member,
+                       .contains = is_in_member,
+                       .nearest = find_nearest_on_member,
                        .meaning = "several places under one name: to be in one of them is to be "
                                   "in the set."},
 };
 
 const uint32_t jox_place_kind_count = JOX_PLACE_KINDS;
 
-/* ---- calls ---- */
+/* ---- functions of places ---- */
 
-static const JoxPlaceKindInfo *kind_of(const JoxPlace *place) {
+static const JoxPlaceKindInfo *get_kind(const JoxPlace *place) {
     JOX_ASSERT(place->kind < JOX_PLACE_KINDS && jox_place_kinds[place->kind].name);
     return &jox_place_kinds[place->kind];
 }
 
 JoxPlaceOutline jox_place_outline(const JoxPlace *place) {
-    return kind_of(place)->outline;
+    return get_kind(place)->outline;
 }
 
 uint32_t jox_place_goal_points(const JoxPlace *place) {
-    const uint32_t goals = kind_of(place)->goal_points;
+    const uint32_t goals = get_kind(place)->goal_points;
     return goals && goals < place->count ? goals : place->count;
 }
 
 float jox_place_radius(const JoxPlace *place) {
-    return kind_of(place)->outline == JOX_OUTLINE_CIRCLE ? place->radius : 0.0f;
+    return get_kind(place)->outline == JOX_OUTLINE_CIRCLE ? place->radius : 0.0f;
 }
 
 void jox_place_finish(JoxPlace *place) {
-    if (!kind_of(place)->centre)
+    if (!get_kind(place)->centre)
         return;
-    JOX_ASSERT(place->count >= kind_of(place)->least_points);
-    place->centre = kind_of(place)->centre(place);
+    JOX_ASSERT(place->count >= get_kind(place)->least_points);
+    place->centre = get_kind(place)->centre(place);
     jox_bounds(place->points, place->count, &place->low, &place->high);
     finish_axis(place);
 }
@@ -276,9 +276,9 @@ void jox_place_make_set(JoxPlace *place, uint32_t first, uint32_t count) {
         place->members[m] = (int32_t)(first + m);
 }
 
-/* Distance from its points within which people are at a place, m. */
-static float reach_of(const JoxPlace *place) {
-    const float HAIR = 0.01f; /* m: more than distances are rounded by */
+/* Returns the distance from its points within which people are at a place, m. */
+static float find_place_reach(const JoxPlace *place) {
+    const float HAIR = 0.01f; /* m: exceeds the rounding of distances */
     switch (jox_place_form(place)) {
     case JOX_FORM_SPOT:
         return place->radius + HAIR;
@@ -300,7 +300,7 @@ void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *
         JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
         if (i < set->member_count) {
             const JoxPlace *member = &places[set->members[i]];
-            const float reach = reach_of(member);
+            const float reach = find_place_reach(member);
             JOX_ASSERT(!jox_place_is_set(member));
             low = (JoxV2){member->low.x - reach, member->low.y - reach};
             high = (JoxV2){member->high.x + reach, member->high.y + reach};
@@ -315,17 +315,17 @@ void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *
 }
 
 bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {
-    return kind_of(&places[index])->contains(places, &places[index], point);
+    return get_kind(&places[index])->contains(places, &places[index], point);
 }
 
 void jox_place_contains_each(const JoxPlace *places, uint32_t index, const JoxV2 *points,
                              uint32_t count, bool *in) {
     const JoxPlace *place = &places[index];
-    /* Of few members one look at their boxes tells nearly everybody off. */
+    /* For a few members, one test of their boxes rejects nearly all points. */
     const bool boxed = jox_place_is_set(place) && place->boxes && place->member_count <= 4;
     for (uint32_t k = 0; k < count; k++)
-        in[k] = (!boxed || boxes_about(place->boxes, points[k])) &&
-                kind_of(place)->contains(places, place, points[k]);
+        in[k] = (!boxed || find_boxes_around(place->boxes, points[k])) &&
+                get_kind(place)->contains(places, place, points[k]);
 }
 
 float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
@@ -337,14 +337,14 @@ float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
         return best;
     }
     if (jox_place_is_area(place))
-        return in_polygon(places, place, point)
+        return is_in_polygon(places, place, point)
                    ? 0.0f
                    : jox_polygon_distance(place->points, place->count, point, false);
     return jox_length(jox_sub(point, jox_place_nearest(places, index, point)));
 }
 
 JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t index, JoxV2 point) {
-    return kind_of(&places[index])->nearest(places, &places[index], point);
+    return get_kind(&places[index])->nearest(places, &places[index], point);
 }
 
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance) {
@@ -394,7 +394,7 @@ void jox_place_free(JoxPlace *place) {
     *place = (JoxPlace){0};
 }
 
-static bool same_boxes(const JoxPlace *a, const JoxPlace *b) {
+static bool has_same_boxes(const JoxPlace *a, const JoxPlace *b) {
     return !a->boxes == !b->boxes &&
            (!a->boxes ||
             !memcmp(a->boxes, b->boxes, JOX_PLACE_FOURS(a->member_count) * sizeof *a->boxes));
@@ -406,15 +406,15 @@ bool jox_place_same(const JoxPlace *a, const JoxPlace *b) {
            (!a->count || !memcmp(a->points, b->points, a->count * sizeof *a->points)) &&
            (!a->member_count ||
             !memcmp(a->members, b->members, a->member_count * sizeof *a->members)) &&
-           same_boxes(a, b);
+           has_same_boxes(a, b);
 }
 
-/* ---- a point among places, in words ---- */
+/* ---- descriptions of positions ---- */
 
-static const float NEAR = 10.0f; /* m: what is farther is not mentioned */
+static const float NEAR = 10.0f; /* m: places farther away are not mentioned */
 
-/* The smallest area in which the point lies; NULL: none. */
-static const JoxPlace *area_about(const JoxPlace *places, uint32_t count, JoxV2 at) {
+/* Returns the smallest area that contains the point; NULL: none. */
+static const JoxPlace *find_area_around(const JoxPlace *places, uint32_t count, JoxV2 at) {
     const JoxPlace *found = NULL;
     double least = INFINITY;
     for (uint32_t p = 0; p < count; p++) {
@@ -431,7 +431,8 @@ static const JoxPlace *area_about(const JoxPlace *places, uint32_t count, JoxV2 
     return found;
 }
 
-static const JoxPlace *place_near(const JoxPlace *places, uint32_t count, JoxV2 at, float *away) {
+static const JoxPlace *find_place_near(const JoxPlace *places, uint32_t count, JoxV2 at,
+                                       float *away) {
     const JoxPlace *found = NULL;
     *away = NEAR;
     for (uint32_t p = 0; p < count; p++) {
@@ -448,12 +449,12 @@ static const JoxPlace *place_near(const JoxPlace *places, uint32_t count, JoxV2 
 
 void jox_place_where(const JoxPlace *places, uint32_t count, JoxV2 at, bool near, JoxText *out) {
     float away;
-    const JoxPlace *place = area_about(places, count, at);
+    const JoxPlace *place = find_area_around(places, count, at);
     if (place) {
         jox_text_printf(out, ", in %.60s", place->name);
         return;
     }
-    place = near ? place_near(places, count, at, &away) : NULL;
+    place = near ? find_place_near(places, count, at, &away) : NULL;
     if (place)
         jox_text_printf(out, ", %.1f m from %.60s", (double)away, place->name);
 }

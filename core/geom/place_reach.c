@@ -3,9 +3,9 @@
 #include "geom/wall_grid.h"
 #include "geom/wall_way.h"
 
-static const float BEYOND = 0.01f; /* m behind the end of a way: a gate on which it ends cuts it */
+static const float BEYOND = 0.01f; /* m beyond the end of a segment: a gate at its end cuts it */
 
-/* Whether one ring cuts the way from p to q. */
+/* Returns whether one ring cuts the segment from p to q. */
 static bool cuts_way(const JoxWalls *walls, uint32_t r, JoxV2 p, JoxV2 q) {
     const struct JoxWallRing *ring = &walls->rings[r];
     for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
@@ -15,9 +15,9 @@ static bool cuts_way(const JoxWalls *walls, uint32_t r, JoxV2 p, JoxV2 q) {
     return false;
 }
 
-/* Whether a standing wall cuts the way from p to a place's nearest point q; `leaves`: by it people
-   leave, so that closed gates at q count. */
-static bool is_cut(const JoxWalls *walls, JoxV2 p, JoxV2 q, bool leaves) {
+/* Returns whether a closed wall cuts the segment from p to a place's nearest point q. `leaves`:
+   people leave the world at q, so closed gates at q count too. */
+static bool is_way_cut(const JoxWalls *walls, JoxV2 p, JoxV2 q, bool leaves) {
     const JoxV2 beyond = jox_add(q, jox_scale(jox_unit(jox_sub(q, p)), BEYOND));
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
@@ -37,7 +37,7 @@ bool jox_place_is_reached(const JoxPlace *places, uint32_t index, const JoxWalls
     if (!walls || walls->ring_count == 0 || jox_place_is_area(place))
         return true;
     if (!jox_place_is_set(place))
-        return !is_cut(walls, point, jox_place_nearest(places, index, point), true);
+        return !is_way_cut(walls, point, jox_place_nearest(places, index, point), true);
     for (uint32_t m = 0; m < place->member_count; m++)
         if (jox_place_is_reached(places, (uint32_t)place->members[m], walls, point))
             return true;
@@ -59,7 +59,7 @@ bool jox_place_is_near(const JoxPlace *places, uint32_t index, const JoxWalls *w
     if (!walls || walls->ring_count == 0)
         return true;
     if (!jox_place_is_set(place))
-        return !is_cut(walls, point, jox_place_nearest(places, index, point), false);
+        return !is_way_cut(walls, point, jox_place_nearest(places, index, point), false);
     for (uint32_t m = 0; m < place->member_count; m++)
         if (jox_place_is_near(places, (uint32_t)place->members[m], walls, point, distance))
             return true;

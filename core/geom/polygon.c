@@ -33,22 +33,25 @@ float jox_polygon_distance(const JoxV2 *ring, uint32_t count, JoxV2 p, bool soli
     return sqrtf(best);
 }
 
-/* Sign of the turn a -> b -> c, in double so that nearly straight corners are judged right. */
-static int turn(JoxV2 a, JoxV2 b, JoxV2 c) {
+/* Returns the sign of the turn a -> b -> c, computed in double so that nearly straight corners are
+   classified correctly. */
+static int find_turn_sign(JoxV2 a, JoxV2 b, JoxV2 c) {
     double d =
         ((double)b.x - a.x) * ((double)c.y - a.y) - ((double)b.y - a.y) * ((double)c.x - a.x);
     return (d > 0.0) - (d < 0.0);
 }
 
-static bool on_segment(JoxV2 a, JoxV2 b, JoxV2 p) {
-    return turn(a, b, p) == 0 && p.x >= jox_minf(a.x, b.x) && p.x <= jox_maxf(a.x, b.x) &&
+static bool is_on_segment(JoxV2 a, JoxV2 b, JoxV2 p) {
+    return find_turn_sign(a, b, p) == 0 && p.x >= jox_minf(a.x, b.x) && p.x <= jox_maxf(a.x, b.x) &&
            p.y >= jox_minf(a.y, b.y) && p.y <= jox_maxf(a.y, b.y);
 }
 
-static bool segments_meet(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 d) {
-    if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
+static bool do_segments_meet(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 d) {
+    if (find_turn_sign(a, b, c) * find_turn_sign(a, b, d) < 0 &&
+        find_turn_sign(c, d, a) * find_turn_sign(c, d, b) < 0)
         return true;
-    return on_segment(a, b, c) || on_segment(a, b, d) || on_segment(c, d, a) || on_segment(c, d, b);
+    return is_on_segment(a, b, c) || is_on_segment(a, b, d) || is_on_segment(c, d, a) ||
+           is_on_segment(c, d, b);
 }
 
 bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_a,
@@ -59,9 +62,9 @@ bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_
             JoxV2 c = ring[j], d = ring[(j + 1) % count];
             bool next = j == i + 1, last = (j + 1) % count == i;
             /* Neighbouring edges share a corner: they cross only by folding back on themselves. */
-            bool cross = next   ? on_segment(a, b, d) || on_segment(c, d, a)
-                         : last ? on_segment(a, b, c) || on_segment(c, d, b)
-                                : segments_meet(a, b, c, d);
+            bool cross = next   ? is_on_segment(a, b, d) || is_on_segment(c, d, a)
+                         : last ? is_on_segment(a, b, c) || is_on_segment(c, d, b)
+                                : do_segments_meet(a, b, c, d);
             if (cross) {
                 *edge_a = i;
                 *edge_b = j;
@@ -75,7 +78,8 @@ bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_
 JoxV2 jox_polygon_centroid(const JoxV2 *ring, uint32_t count) {
     JOX_ASSERT(count > 0);
     double area = 0.0, x = 0.0, y = 0.0;
-    JoxV2 o = ring[0]; /* about the first corner: far from the origin precision would be lost */
+    JoxV2 o = ring[0]; /* relative to the first corner, as precision would be lost far from the
+                          origin */
     for (uint32_t i = 0; i < count; i++) {
         double ax = (double)ring[i].x - o.x, ay = (double)ring[i].y - o.y;
         double bx = (double)ring[(i + 1) % count].x - o.x;
@@ -99,7 +103,7 @@ void jox_bounds(const JoxV2 *points, uint32_t count, JoxV2 *low, JoxV2 *high) {
     }
 }
 
-/* Which side of a-b a point is on: points of the line itself belong to the left. */
+/* Returns whether a point is left of a-b; points on the line count as left. */
 static bool is_left(JoxV2 a, JoxV2 b, JoxV2 p) {
     return ((double)b.x - a.x) * ((double)p.y - a.y) - ((double)b.y - a.y) * ((double)p.x - a.x) >=
            0.0;

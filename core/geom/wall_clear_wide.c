@@ -1,5 +1,5 @@
-/* The kernel of how far nothing is behind a wall. A lane is a point; edges are near to few of them,
-   which are looked at one after the other. */
+/* Kernel of jox_wall_grid_clear2; each lane is a point. Few points have edges nearby, and these are
+   handled one by one. */
 #include <math.h>
 
 #include "geom/wall_grid_lanes.h"

@@ -1,4 +1,4 @@
-/* A grid over the edges of walls, which tells the edges near a point. */
+/* Builds the grid over the edges of walls, and answers queries on it. */
 #include "geom/wall_grid.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { MOST_CELLS = 1 << 20 };
 
-static const JoxWallVertex *end_of(const JoxWalls *walls, uint32_t edge) {
+static const JoxWallVertex *find_edge_end(const JoxWalls *walls, uint32_t edge) {
     return &walls->vertices[walls->vertices[edge].next];
 }
 
@@ -27,8 +27,8 @@ static uint32_t clamp_cell(float at, uint32_t count) {
     return at <= 0.0f ? 0 : at >= (float)(count - 1) ? count - 1 : (uint32_t)at;
 }
 
-static CellRange cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
-    JoxV2 a = g->walls->vertices[edge].point, b = end_of(g->walls, edge)->point;
+static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
+    JoxV2 a = g->walls->vertices[edge].point, b = find_edge_end(g->walls, edge)->point;
     return (CellRange){
         clamp_cell(floorf((jox_minf(a.x, b.x) - g->reach - g->low.x) / g->cell), g->columns),
         clamp_cell(floorf((jox_maxf(a.x, b.x) + g->reach - g->low.x) / g->cell), g->columns),
@@ -36,10 +36,10 @@ static CellRange cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
         clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
 }
 
-static bool cell_is_near(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
+static bool is_cell_near_edge(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
     JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
-    JoxV2 near =
-        jox_segment_nearest(g->walls->vertices[edge].point, end_of(g->walls, edge)->point, centre);
+    JoxV2 near = jox_segment_nearest(g->walls->vertices[edge].point,
+                                     find_edge_end(g->walls, edge)->point, centre);
     float limit = g->reach + 0.7072f * g->cell;
     return jox_length2(jox_sub(near, centre)) <= limit * limit;
 }
@@ -60,16 +60,16 @@ static void size_grid(JoxWallGrid *g) {
     g->rows = (uint32_t)((high.y - g->low.y) / g->cell) + 1;
 }
 
-/* Puts an edge into the cells that it comes near; counts them as long as there is no list. */
+/* Lists an edge in the cells that it comes near; only counts if the list does not exist yet. */
 static void enter_edge(JoxWallGrid *g, uint32_t edge) {
     if (g->walls->vertices[edge].covered)
         return;
-    CellRange r = cells_near_edge(g, edge);
+    CellRange r = find_cells_near_edge(g, edge);
     JOX_ASSERT(r.x0 <= r.x1 && r.x1 < g->columns && r.y0 <= r.y1 && r.y1 < g->rows);
     for (uint32_t y = r.y0; y <= r.y1; y++)
         for (uint32_t x = r.x0; x <= r.x1; x++) {
             uint32_t *first = &g->first[(size_t)y * g->columns + x];
-            if (!cell_is_near(g, x, y, edge))
+            if (!is_cell_near_edge(g, x, y, edge))
                 continue;
             if (g->edges)
                 g->edges[--*first] = edge;
@@ -78,7 +78,7 @@ static void enter_edge(JoxWallGrid *g, uint32_t edge) {
         }
 }
 
-static void check_grid(const JoxWallGrid *g) {
+static void check_wall_grid(const JoxWallGrid *g) {
     size_t cells = (size_t)g->columns * g->rows;
     JOX_ASSERT(cells > 0 && g->cell > 0.0f && g->reach > 0.0f);
     JOX_ASSERT(g->first[0] == 0);
@@ -106,14 +106,15 @@ void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     for (size_t c = 1; c <= cells; c++)
         g->first[c] += g->first[c - 1];
     g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
-    for (uint32_t e = walls->count; e-- > 0;) /* backwards, as each list fills from its end */
+    for (uint32_t e = walls->count; e-- > 0;) /* backwards, as lists are filled from their end */
         enter_edge(g, e);
-    JOX_CHECK(check_grid(g));
+    JOX_CHECK(check_wall_grid(g));
 }
 
 void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
     if (g->walls && g->walls->count > 0 && reach > g->reach)
-        jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
+        jox_wall_grid_reset(g, reach * 1.25f); /* with a margin, so that it is not rebuilt in each
+                                                  step */
 }
 
 bool jox_wall_grid_is_near(const JoxWallGrid *grid, JoxV2 p, float clear) {
@@ -132,7 +133,8 @@ bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 p) {
     const struct JoxWallRing *r = &walls->rings[ring];
     bool inside = false;
     for (uint32_t i = 0; i < r->count; i++) {
-        JoxV2 a = walls->vertices[r->first + i].point, b = end_of(walls, r->first + i)->point;
+        JoxV2 a = walls->vertices[r->first + i].point,
+              b = find_edge_end(walls, r->first + i)->point;
         if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
             inside = !inside;
     }
@@ -158,13 +160,13 @@ bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);
     for (uint32_t k = 0; k < count; k++)
         if (jox_segments_cross(from, to, g->walls->vertices[edges[k]].point,
-                               end_of(g->walls, edges[k])->point))
+                               find_edge_end(g->walls, edges[k])->point))
             return true;
     return false;
 }
 
 float jox_wall_grid_clear2(const JoxWallGrid *g, JoxV2 from) {
-    const float SLACK = 1e-5f; /* of coordinates: more than sides are rounded by */
+    const float SLACK = 1e-5f; /* relative to coordinates: exceeds the rounding of sides */
     const float size = fabsf(from.x) + fabsf(from.y);
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);

@@ -1,4 +1,5 @@
-/* A grid over the edges of walls, which tells the edges near a point. */
+/* A grid over the edges of walls, for finding the edges near a point. nav, force, world and scene
+   use it. */
 #ifndef JOX_GEOM_WALL_GRID_H
 #define JOX_GEOM_WALL_GRID_H
 
@@ -9,21 +10,22 @@
 #include "geom/walls.h"
 #include "simd/isa.h"
 
-/* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
+/* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. The grid
+   does not own `walls`; callers set that member and keep the walls unchanged. */
 typedef struct JoxWallGrid {
     const JoxWalls *walls;
     float reach, cell; /* m */
     JoxV2 low;
     uint32_t columns, rows;
-    uint32_t *first; /* columns * rows + 1 */
+    uint32_t *first; /* columns * rows + 1 indices into edges */
     uint32_t *edges;
 } JoxWallGrid;
 
-/* Makes the grid serve queries up to `reach` metres; does nothing if it already does. */
+/* Extends the reach to at least `reach` m; does nothing if it is long enough already. */
 void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
-/* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
+/* Rebuilds the grid with exactly this reach, m; empty for 0. */
 void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
-/* Edges that may be within the grid's reach of a point. */
+/* Returns the edges of a point's cell, which include all edges within reach of the point. */
 static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
     *count = 0;
     if (!g->first)
@@ -35,32 +37,34 @@ static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point
     *count = g->first[c + 1] - g->first[c];
     return g->edges + g->first[c];
 }
-/* Whether an edge that is within the grid's reach of `from` separates it from `to`: no one touches
-   another through a wall. Ends that lie on an edge are separated from those beyond it. */
+/* Returns whether an edge within the grid's reach of `from` separates it from `to`: agents do not
+   touch through walls. Points on an edge are separated from points beyond it. */
 bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
-/* m2: whoever is nearer to a point than the root of this is not separated from it, being on the
-   same side of the lines of all edges within the grid's reach; INFINITY where there are none. */
+/* Returns a squared distance, m2: no wall separates a point from others nearer than its root, since
+   these are on the same side of the lines through all edges within the grid's reach. INFINITY
+   without such edges. */
 float jox_wall_grid_clear2(const JoxWallGrid *grid, JoxV2 from);
-/* Whether all edges are farther from somebody than `reach` m, which the grid serves; clear2: of
-   where they are, or NULL, where it is not known. */
+/* Returns whether all edges are farther than `reach` m from agent `of`. `clear2`:
+   jox_wall_grid_clear2 by agent; NULL: unknown. The grid's reach must be at least `reach`. */
 static inline bool jox_wall_grid_is_clear(const float *clear2, uint32_t of, float reach) {
     return clear2 && reach * reach < clear2[of];
 }
-/* The kernel: jox_wall_grid_clear2 of many points, to the bit. It reads and writes whole packets of
-   lanes. */
+/* Kernel: jox_wall_grid_clear2 of many points, with the same bits. Reads and writes whole
+   packets. */
 typedef void JoxWallClearKernel(const JoxWallGrid *grid, const float *x, const float *y,
                                 uint32_t count, float *clear2);
 #define X(name, isa) JoxWallClearKernel jox_wall_clear_##name;
 JOX_ISAS(X)
 #undef X
-/* Whether the ways p -> q and a -> b cross; where one ends on the other is on its right. */
+/* Returns whether the segments p -> q and a -> b cross; an end on the other segment counts as on
+   its right. */
 bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b);
 void jox_wall_grid_free(JoxWallGrid *grid);
-/* Whether an edge lies nearer to a point than `clear` m; the grid reaches as far. */
+/* Returns whether an edge is nearer to a point than `clear` m, which is within the grid's reach. */
 bool jox_wall_grid_is_near(const JoxWallGrid *grid, JoxV2 point, float clear);
-/* Point inside a ring (crossing number). */
+/* Returns whether a point is inside a ring (crossing number). */
 bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 point);
-/* Point inside a solid. */
+/* Returns whether a point is inside a solid. */
 bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);
 
 #endif

@@ -1,11 +1,12 @@
-/* The grid of walls for kernels: part of those that include it. */
+/* Lookups in the grid of walls by lanes, for kernels (*_wide.c) to include. */
 #ifndef JOX_GEOM_WALL_GRID_LANES_H
 #define JOX_GEOM_WALL_GRID_LANES_H
 
 #include "geom/wall_grid.h"
 #include "simd/lanes.h"
 
-/* The lanes whose point (m) has edges within the grid's reach, as jox_wall_grid_at counts them. */
+/* Returns the lanes whose point, m, has edges within the grid's reach, in the sense of
+   jox_wall_grid_at. */
 static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats px, JoxFloats py) {
     const JoxFloats zero = jf_set(0.0f), cell = jf_set(g->cell);
     if (!g->first)
@@ -17,7 +18,7 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
         jm_and(jm_and(jf_le(zero, x), jf_lt(x, columns)), jm_and(jf_le(zero, y), jf_lt(y, rows)));
     if (!jm_bits(within))
         return within;
-    /* There are less cells than whole numbers that a float holds. */
+    /* exact: there are fewer cells than integers that a float can represent */
     JoxFloats row = ji_to_floats(jf_to_ints(y)) * columns;
     JoxInts at = jf_to_ints(row + ji_to_floats(jf_to_ints(x)));
     at = ji_select(within, at, ji_set(0));
@@ -25,7 +26,7 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
     return jm_and(within, ji_less(begin, end));
 }
 
-/* jox_wall_grid_is_clear of agents from `first` on, within these reaches, m. */
+/* Does jox_wall_grid_is_clear for a packet of agents from `first` on, with a reach, m, for each. */
 static inline JoxMask jox_wall_grid_clear_lanes(const float *clear2, uint32_t first,
                                                 JoxFloats reach) {
     return clear2 ? jf_lt(reach * reach, jf_load(clear2 + first)) : jm_of_bits(0);

@@ -143,7 +143,7 @@ static void append_vertex(Laying *l, uint32_t of, float along, bool covered) {
 }
 
 /* Appends the image of an edge, cut where what covers it begins and ends. */
-static void append_edge(Laying *l, uint32_t of) {
+static void append_edge_image(Laying *l, uint32_t of) {
     const JoxWalls *walls = &l->images->walls;
     const JoxWallVertex v = walls->vertices[of];
     const JoxV2 a = jox_add(v.point, l->shift);
@@ -161,12 +161,12 @@ static void append_edge(Laying *l, uint32_t of) {
     }
 }
 
-static void append_ring(Laying *l, uint32_t of) {
+static void append_ring_image(Laying *l, uint32_t of) {
     JoxWalls *walls = &l->images->walls;
     struct JoxWallRing ring = walls->rings[of];
     const uint32_t first = walls->count;
     for (uint32_t v = ring.first; v < ring.first + ring.count; v++)
-        append_edge(l, v);
+        append_edge_image(l, v);
     ring.first = first;
     ring.count = walls->count - first;
     walls->vertices[first].previous = walls->count - 1;
@@ -176,7 +176,7 @@ static void append_ring(Laying *l, uint32_t of) {
 }
 
 /* Returns where a ring begins and ends along one axis, m. */
-static Span extent_of(const JoxWalls *walls, uint32_t ring, bool x) {
+static Span find_ring_extent(const JoxWalls *walls, uint32_t ring, bool x) {
     const struct JoxWallRing *r = &walls->rings[ring];
     Span extent = {INFINITY, -INFINITY};
     for (uint32_t v = r->first; v < r->first + r->count; v++) {
@@ -193,7 +193,7 @@ static int count_turns(const JoxWalls *walls, bool x, Span bounds, float reach) 
     const float period = bounds.to - bounds.from;
     float beyond = 0.0f;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
-        const Span extent = extent_of(walls, r, x);
+        const Span extent = find_ring_extent(walls, r, x);
         beyond = jox_maxf(beyond, jox_maxf(bounds.from - extent.from, extent.to - bounds.to));
     }
     return (int)ceilf((reach + jox_minf(beyond, 2.0f * period)) / period);
@@ -212,9 +212,9 @@ static void lay_along(JoxWallImages *images, bool x, Span bounds, float reach) {
             l.grid.walls = &images->walls;
             jox_wall_grid_reset(&l.grid, STRIDE);
             for (uint32_t r = 0; r < rings; r++) {
-                const Span extent = extent_of(&images->walls, r, x);
+                const Span extent = find_ring_extent(&images->walls, r, x);
                 if (extent.to + by >= bounds.from - reach && extent.from + by <= bounds.to + reach)
-                    append_ring(&l, r);
+                    append_ring_image(&l, r);
             }
         }
     jox_wall_grid_free(&l.grid);

@@ -5,11 +5,15 @@
 #include "base/assert.h"
 #include "geom/polygon.h"
 
-static const float SKIN = 0.001f; /* m: kept from a wall that was about to be passed */
-#define MOST_PIECES 1e5f          /* of a way; who goes farther is beyond the world's end */
+static const float SKIN = 0.001f; /* m: distance kept from a wall that stopped a move */
+#define MOST_PIECES                                                                                \
+    1e5f /* greatest number of pieces of a move; longer ones lead out of                           \
+            the world */
 
-/* First edge that the way p -> q passes from its outer side; t in [0, 1] along the way. */
-static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *edge, float *t) {
+/* Finds the first edge that the move p -> q crosses from its outer side; t in [0, 1] along the
+   move. */
+static bool find_first_crossed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *edge,
+                               float *t) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
     float best = 2.0f;
@@ -19,7 +23,7 @@ static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *ed
         JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
         float before = jox_det(v->direction, jox_sub(p, a));
         float after = jox_det(v->direction, jox_sub(q, a));
-        /* Outside is to the right: negative. Who stands on the line itself counts as outside. */
+        /* Outside is to the right: negative. Points on the line count as outside. */
         if (before > 0.0f || after < 0.0f || before == after)
             continue;
         float at = before / (before - after);
@@ -33,12 +37,12 @@ static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *ed
     return best <= 1.0f;
 }
 
-/* Stops a way at the wall that it would pass and lets it slide along it. */
+/* Stops a move at the wall that it would cross, and lets it slide along the wall. */
 static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
     for (int round = 0; round < 3; round++) {
         uint32_t edge = 0;
         float t;
-        if (!first_passed(grid, p, q, &edge, &t))
+        if (!find_first_crossed(grid, p, q, &edge, &t))
             return q;
         JOX_ASSERT(edge < grid->walls->count && t >= 0.0f && t <= 1.0f);
         JoxV2 normal = jox_scale(jox_left(grid->walls->vertices[edge].direction), -1.0f);
@@ -46,12 +50,12 @@ static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
         float outside = jox_dot(jox_sub(q, a), normal);
         q = jox_add(q, jox_scale(normal, SKIN - outside));
     }
-    return p; /* a corner narrower than the step: stay */
+    return p; /* a corner narrower than the move: stay */
 }
 
-/* A way that is longer than the grid tells walls for, in pieces that are not: where the piece
-   begins in which a wall ends it, or the last; *q is then that piece's end. */
-static JoxV2 piece_of_way(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
+/* Splits a move that is longer than the grid's reach. Returns the start of the piece in which a
+   wall stops it, or of the last one, and sets *q to that piece's end. */
+static JoxV2 find_blocked_piece(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
     const JoxV2 way = jox_sub(*q, p);
     const float length = jox_length(way), pieces = ceilf(length / grid->reach);
     if (!(pieces > 1.0f && pieces < MOST_PIECES))
@@ -62,14 +66,14 @@ static JoxV2 piece_of_way(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
         float t;
         from = to;
         to = jox_add(p, jox_scale(way, n / pieces));
-        if (first_passed(grid, from, to, &edge, &t))
+        if (find_first_crossed(grid, from, to, &edge, &t))
             break;
     }
     *q = to;
     return from;
 }
 
-/* Out of walls that are nearer than the radius. */
+/* Moves a point out of walls that are nearer than the radius. */
 static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
@@ -88,19 +92,19 @@ static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     return p;
 }
 
-/* On which side of a line through a and b a point lies: 1 left, -1 right, 0 on it. */
-static int side_of(JoxV2 a, JoxV2 b, JoxV2 p) {
+/* Returns on which side of the line through a and b a point lies: 1 left, -1 right, 0 on it. */
+static int find_line_side(JoxV2 a, JoxV2 b, JoxV2 p) {
     const double d =
         ((double)b.x - a.x) * ((double)p.y - a.y) - ((double)b.y - a.y) * ((double)p.x - a.x);
     return (d > 0.0) - (d < 0.0);
 }
 
 bool jox_edge_lies_between(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
-    return jox_boxes_meet(a, b, p, q) && side_of(a, b, p) * side_of(a, b, q) < 0 &&
-           side_of(p, q, a) * side_of(p, q, b) <= 0;
+    return jox_boxes_meet(a, b, p, q) && find_line_side(a, b, p) * find_line_side(a, b, q) < 0 &&
+           find_line_side(p, q, a) * find_line_side(p, q, b) <= 0;
 }
 
-/* For assertions: whether a way leads through an edge on whose outer side it clearly begins. */
+/* For assertions: returns whether a move crosses an edge on whose outer side it clearly begins. */
 static bool leads_through_edge(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
@@ -116,7 +120,7 @@ static bool leads_through_edge(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
 JoxV2 jox_way_by_walls(const JoxWallGrid *grid, JoxV2 from, JoxV2 to, float radius) {
     uint32_t near;
     if (jox_length2(jox_sub(to, from)) > grid->reach * grid->reach)
-        from = piece_of_way(grid, from, &to);
+        from = find_blocked_piece(grid, from, &to);
     jox_wall_grid_at(grid, from, &near);
     if (near == 0)
         return to;

@@ -110,7 +110,7 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
         JOX_ASSERT(ring->first >= out->count && ring->first + ring->count <= all->count);
         if (ring->open || (ring->name && !gates))
             continue;
-        uint32_t back = ring->first - out->count; /* rings lie one behind the other */
+        uint32_t back = ring->first - out->count; /* rings are contiguous */
         for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
             JoxWallVertex *v = &out->vertices[out->count++];
             *v = all->vertices[i];

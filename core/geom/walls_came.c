@@ -1,4 +1,5 @@
-/* Which edges of walls came: the world asks when gates close and scenes are edited. */
+/* Marks the edges of walls that closed or were added (`came`), out of which the world then moves
+   people. Called when gates close and scenes are edited. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -6,7 +7,7 @@
 #include "base/sort.h"
 #include "geom/walls.h"
 
-/* An edge without its direction: the lesser end first. */
+/* An undirected edge: the lesser end first. */
 typedef struct Edge {
     JoxV2 a, b;
     bool solid, came;
@@ -28,29 +29,29 @@ static int compare_edges(const void *left, const void *right, const void *contex
     return second ? second : (int)e->solid - (int)f->solid;
 }
 
-static Edge edge_at(const JoxWalls *walls, uint32_t v, bool solid) {
+static Edge get_edge(const JoxWalls *walls, uint32_t v, bool solid) {
     const JoxV2 a = walls->vertices[v].point;
     const JoxV2 b = walls->vertices[walls->vertices[v].next].point;
     const bool turned = compare_points(a, b) > 0;
     return (Edge){turned ? b : a, turned ? a : b, solid, walls->vertices[v].came};
 }
 
-/* The edges that stand, in order; the caller frees them. */
+/* Lists the closed edges in order; the caller frees them. */
 static Edge *list_standing(const JoxWalls *walls, uint32_t *count) {
     Edge *edges = jox_alloc((size_t)walls->count + 1, sizeof *edges);
     *count = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t i = 0; i < ring->count && !ring->open; i++)
-            edges[(*count)++] = edge_at(walls, ring->first + i, ring->solid);
+            edges[(*count)++] = get_edge(walls, ring->first + i, ring->solid);
     }
     JOX_ASSERT(*count <= walls->count);
     jox_sort(edges, *count, sizeof *edges, compare_edges, NULL, NULL);
     return edges;
 }
 
-/* Whether an edge is in the list, and had not come itself. */
-static bool stood(const Edge *list, uint32_t count, const Edge *edge) {
+/* Returns whether an edge is in the list, and was not marked as came there. */
+static bool was_closed(const Edge *list, uint32_t count, const Edge *edge) {
     uint32_t low = 0, high = count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -79,9 +80,9 @@ bool jox_walls_mark_new(JoxWalls *walls, const JoxWalls *before) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t i = 0; i < ring->count && !ring->open; i++) {
-            const Edge edge = edge_at(walls, ring->first + i, ring->solid);
+            const Edge edge = get_edge(walls, ring->first + i, ring->solid);
             JoxWallVertex *v = &walls->vertices[ring->first + i];
-            v->came |= !stood(list, count, &edge);
+            v->came |= !was_closed(list, count, &edge);
             any |= v->came;
         }
     }
