@@ -149,7 +149,8 @@ void jox_area_index_free(JoxAreaIndex *index) {
 /* ---- points ---- */
 
 /* Returns what jox_polygon_contains would, from the edges at the point's height alone. */
-static bool is_in_place(const JoxAreaIndex *index, uint32_t number, uint32_t place, JoxV2 p) {
+static bool is_in_indexed_place(const JoxAreaIndex *index, uint32_t number, uint32_t place,
+                                JoxV2 p) {
     const Strips *s = &index->places[number];
     if (s->count == 0)
         return jox_place_contains(index->area->places, place, p);
@@ -197,9 +198,9 @@ bool jox_area_contains(const JoxAreaIndex *index, JoxV2 p) {
     const JoxArea *area = index->area;
     bool in = false;
     for (uint32_t i = 0; i < area->in_count && !in; i++)
-        in = is_in_place(index, i, area->in[i], p);
+        in = is_in_indexed_place(index, i, area->in[i], p);
     for (uint32_t i = 0; i < area->out_count && in; i++)
-        in = !is_in_place(index, area->in_count + i, area->out[i], p);
+        in = !is_in_indexed_place(index, area->in_count + i, area->out[i], p);
     return in && is_clear_of_walls(index, p);
 }
 

@@ -9,7 +9,7 @@
 
 enum { MOST_CELLS = 1 << 20 };
 
-static const JoxWallVertex *find_edge_end(const JoxWalls *walls, uint32_t edge) {
+static const JoxWallVertex *get_edge_end(const JoxWalls *walls, uint32_t edge) {
     return &walls->vertices[walls->vertices[edge].next];
 }
 
@@ -28,7 +28,7 @@ static uint32_t clamp_cell(float at, uint32_t count) {
 }
 
 static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
-    JoxV2 a = g->walls->vertices[edge].point, b = find_edge_end(g->walls, edge)->point;
+    JoxV2 a = g->walls->vertices[edge].point, b = get_edge_end(g->walls, edge)->point;
     return (CellRange){
         clamp_cell(floorf((jox_minf(a.x, b.x) - g->reach - g->low.x) / g->cell), g->columns),
         clamp_cell(floorf((jox_maxf(a.x, b.x) + g->reach - g->low.x) / g->cell), g->columns),
@@ -39,7 +39,7 @@ static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
 static bool is_cell_near_edge(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
     JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
     JoxV2 near = jox_segment_nearest(g->walls->vertices[edge].point,
-                                     find_edge_end(g->walls, edge)->point, centre);
+                                     get_edge_end(g->walls, edge)->point, centre);
     float limit = g->reach + 0.7072f * g->cell;
     return jox_length2(jox_sub(near, centre)) <= limit * limit;
 }
@@ -133,8 +133,7 @@ bool jox_walls_ring_holds(const JoxWalls *walls, uint32_t ring, JoxV2 p) {
     const struct JoxWallRing *r = &walls->rings[ring];
     bool inside = false;
     for (uint32_t i = 0; i < r->count; i++) {
-        JoxV2 a = walls->vertices[r->first + i].point,
-              b = find_edge_end(walls, r->first + i)->point;
+        JoxV2 a = walls->vertices[r->first + i].point, b = get_edge_end(walls, r->first + i)->point;
         if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
             inside = !inside;
     }
@@ -160,7 +159,7 @@ bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);
     for (uint32_t k = 0; k < count; k++)
         if (jox_segments_cross(from, to, g->walls->vertices[edges[k]].point,
-                               find_edge_end(g->walls, edges[k])->point))
+                               get_edge_end(g->walls, edges[k])->point))
             return true;
     return false;
 }

@@ -38,7 +38,7 @@ static bool clip_to_line(JoxV2 from, JoxV2 along, JoxV2 p, JoxV2 q, float *first
     return true;
 }
 
-static int compare_stretches(const void *a, const void *b, const void *context) {
+static int compare_wall_stretches(const void *a, const void *b, const void *context) {
     const float x = ((const Stretch *)a)->first, y = ((const Stretch *)b)->first;
     (void)context;
     return (x > y) - (x < y);
@@ -63,7 +63,7 @@ static uint32_t find_stretches(const JoxWalls *walls, JoxV2 from, JoxV2 along, S
         }
     }
     if (count)
-        jox_sort(out, count, sizeof *out, compare_stretches, NULL, NULL);
+        jox_sort(out, count, sizeof *out, compare_wall_stretches, NULL, NULL);
     return count;
 }
 

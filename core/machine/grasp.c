@@ -13,7 +13,7 @@ static const float STIFFNESS = 2e3f; /* N/m: stiffness of an arm */
    would oscillate. */
 static const float STIFF_MOST = 0.12f, DAMPED_MOST = 0.7f;
 
-static float measure_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
+static float measure_arm_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
 }
@@ -23,11 +23,12 @@ static uint32_t find_held(const JoxMachineRun *run, uint32_t i, int32_t target) 
     const JoxAgents *a = run->agents;
     if (a->grasped[i]) {
         const uint32_t j = jox_agents_find(a, a->grasped[i] - 1);
-        if (j != JOX_NO_INDEX && !a->removed[j] && measure_gap(a, i, j) <= SLIPS)
+        if (j != JOX_NO_INDEX && !a->removed[j] && measure_arm_gap(a, i, j) <= SLIPS)
             return j;
     }
     const JoxSpot spot = jox_target_find(run, i, target);
-    return spot.agent != JOX_NO_INDEX && spot.agent != i && measure_gap(a, i, spot.agent) <= REACH
+    return spot.agent != JOX_NO_INDEX && spot.agent != i &&
+                   measure_arm_gap(a, i, spot.agent) <= REACH
                ? spot.agent
                : JOX_NO_INDEX;
 }
@@ -38,7 +39,7 @@ static void pull_together(const JoxMachineRun *run, uint32_t i, uint32_t j, floa
     const float dt = (float)run->dt;
     const float both = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
     const JoxV2 way = jox_unit(jox_offset(a, i, j));
-    const float apart = jox_maxf(measure_gap(a, i, j), 0.0f);
+    const float apart = jox_maxf(measure_arm_gap(a, i, j), 0.0f);
     const float parting = way.x * (a->vx[j] - a->vx[i]) + way.y * (a->vy[j] - a->vy[i]);
     const float stiffness = jox_minf(STIFFNESS, STIFF_MOST * both / (dt * dt));
     const float damping = jox_minf(2.0f * sqrtf(stiffness * both), DAMPED_MOST * both / dt);

@@ -31,7 +31,8 @@ static bool was_reported(const JoxMachineRun *run, const JoxOdd *odd) {
 }
 
 /* Returns the line that sets a parameter, and its file's index in `source`. */
-static int32_t find_line(const JoxMachine *machine, const JoxValue *value, uint32_t *source) {
+static int32_t find_source_line(const JoxMachine *machine, const JoxValue *value,
+                                uint32_t *source) {
     const bool own = value->line <= 0 && value->kind == JOX_VALUE_OWN;
     *source = own ? machine->own[value->index].source : value->source;
     return own ? machine->own[value->index].line : value->line;
@@ -43,7 +44,7 @@ static JoxOdd describe_odd(const JoxMachineRun *run, uint32_t i, int parameter, 
     const JoxState *state = &machine->states[a->state[i]];
     uint32_t source;
     const int32_t line =
-        find_line(machine, jox_state_parameter(machine, state, parameter), &source);
+        find_source_line(machine, jox_state_parameter(machine, state, parameter), &source);
     return (JoxOdd){.found = true,
                     .agent_id = a->id[i],
                     .machine = a->machine[i],

@@ -30,7 +30,7 @@ typedef struct Way {
     JoxFloats length;
 } Way;
 
-static inline JoxFloats find_cells(const JoxField *f, JoxInts row, JoxFloats column) {
+static inline JoxFloats find_cell_lanes(const JoxField *f, JoxInts row, JoxFloats column) {
     /* exact: there are fewer cells than integers that a float can represent */
     return ji_to_floats(row) * (float)f->columns + column;
 }
@@ -51,7 +51,7 @@ static inline JoxMask locate_lanes(const JoxField *f, JoxVector p, Spot *s) {
     s->in_cells = jv_select(within, s->in_cells, (JoxVector){zero, zero});
     s->column = clamp_to_index(s->in_cells.x, f->columns - 1);
     s->row = clamp_to_index(s->in_cells.y, f->rows - 1);
-    s->cell = jf_to_ints(find_cells(f, s->row, ji_to_floats(s->column)));
+    s->cell = jf_to_ints(find_cell_lanes(f, s->row, ji_to_floats(s->column)));
     return within;
 }
 
@@ -77,7 +77,7 @@ static inline Corners find_corner_lanes(const JoxField *f, const Spot *s) {
         ji_select(ji_less(c.column[0], last_column), ji_add(c.column[0], ji_set(1)), c.column[0]);
     c.row[1] = ji_select(ji_less(c.row[0], last_row), ji_add(c.row[0], ji_set(1)), c.row[0]);
     for (int k = 0; k < 4; k++)
-        c.cell[k] = jf_to_ints(find_cells(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
+        c.cell[k] = jf_to_ints(find_cell_lanes(f, c.row[k >> 1], ji_to_floats(c.column[k & 1])));
     const JoxFloats u = x - ji_to_floats(c.column[0]);
     const JoxFloats v = y - ji_to_floats(c.row[0]);
     const JoxFloats rest_u = one - u, rest_v = one - v;
