@@ -1,6 +1,6 @@
-/* The kernel of fields against looking up one point after another, by every instruction set that
-   the machine runs, to the bit: in the open, at walls, in solids, at the goal, outside the box, at
-   the borders of cells and at what is no number. */
+/* Tests the kernel of field lookups against single lookups, bitwise, on every instruction set of
+   the machine: on open floor, at walls, in solids, at the goal, outside the box, at borders of
+   cells, and for NaN and infinity. */
 #include "geom_walk.h"
 
 #define X(name, isa) [isa] = jox_field_look_##name,
@@ -8,58 +8,61 @@ static JoxFieldKernel *const LOOK[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 enum { ROUNDS = 40 };
-static const float HALF = 6.0f; /* m: of the box */
+static const float HALF = 6.0f; /* m: half the side of the box */
 
-static float across(uint32_t k, uint32_t sub, float from, float to) {
-    return from + (to - from) * (float)draw(k, sub);
+static float draw_between(uint32_t k, uint32_t sub, float from, float to) {
+    return from + (to - from) * (float)draw_walk_number(k, sub);
 }
 
-/* A room with a door, a slanted line and a block in it. */
-static JoxWalls plan(double angle) {
+/* Makes a room with a door, a slanted wall and a block in it. */
+static JoxWalls make_room_plan(double angle) {
     JoxWalls walls = {0};
-    add_line(&walls, (JoxV2[]){{-4, -3}, {-4, 3}, {4, 3}, {4, -3}, {0.7f, -3}}, 5, angle);
-    add_line(&walls, (JoxV2[]){{-0.4f, -3}, {-4, -3}}, 2, angle);
-    add_line(&walls, (JoxV2[]){{-2, -1}, {-1, 2}}, 2, angle);
-    add_solid(&walls, (JoxV2[]){{1, -1}, {3, -1}, {3, 1}, {1, 1}}, 4, angle);
+    add_turned_line(&walls, (JoxV2[]){{-4, -3}, {-4, 3}, {4, 3}, {4, -3}, {0.7f, -3}}, 5, angle);
+    add_turned_line(&walls, (JoxV2[]){{-0.4f, -3}, {-4, -3}}, 2, angle);
+    add_turned_line(&walls, (JoxV2[]){{-2, -1}, {-1, 2}}, 2, angle);
+    add_turned_solid(&walls, (JoxV2[]){{1, -1}, {3, -1}, {3, 1}, {1, 1}}, 4, angle);
     return walls;
 }
 
-/* A point anywhere, at the goal, on a border of cells or on a wall, far outside, or nowhere. */
-static JoxV2 some_point(uint32_t k, const JoxField *field, JoxV2 goal, double angle) {
+/* Returns a point anywhere, at the goal, on a border of cells or on a wall, far outside, or NaN. */
+static JoxV2 draw_point(uint32_t k, const JoxField *field, JoxV2 goal, double angle) {
     JoxV2 low, high;
     float size;
     jox_field_box(field, &low, &high, &size);
-    const float cell = floorf(across(k, 3, 0, (high.x - low.x) / size));
-    switch ((int)(10.0 * draw(k, 2))) {
+    const float cell = floorf(draw_between(k, 3, 0, (high.x - low.x) / size));
+    switch ((int)(10.0 * draw_walk_number(k, 2))) {
     case 0:
-        return jox_add(goal, (JoxV2){across(k, 0, -0.4f, 0.4f), across(k, 1, -0.4f, 0.4f)});
+        return jox_add(goal,
+                       (JoxV2){draw_between(k, 0, -0.4f, 0.4f), draw_between(k, 1, -0.4f, 0.4f)});
     case 1:
         return (JoxV2){low.x + size * cell, low.y + size * (cell + 0.5f)};
     case 2:
-        return turned((JoxV2){across(k, 0, -4, 4), 3}, angle);
+        return turn_point((JoxV2){draw_between(k, 0, -4, 4), 3}, angle);
     case 3:
-        return (JoxV2){across(k, 0, -9, 9), across(k, 1, -9, 9)};
+        return (JoxV2){draw_between(k, 0, -9, 9), draw_between(k, 1, -9, 9)};
     case 4:
         return (JoxV2){k % 3 ? INFINITY : NAN, k % 2 ? -1e30f : 0.0f};
     case 5:
-        return turned((JoxV2){across(k, 0, 0.9f, 3.1f), across(k, 1, -1.1f, 1.1f)}, angle);
+        return turn_point((JoxV2){draw_between(k, 0, 0.9f, 3.1f), draw_between(k, 1, -1.1f, 1.1f)},
+                          angle);
     default:
-        return (JoxV2){across(k, 0, low.x, high.x), across(k, 1, low.y, high.y)};
+        return (JoxV2){draw_between(k, 0, low.x, high.x), draw_between(k, 1, low.y, high.y)};
     }
 }
 
-static void assert_same(const void *is, const void *wanted, JoxV2 p) {
+static void assert_same_float(const void *is, const void *wanted, JoxV2 p) {
     if (memcmp(is, wanted, sizeof(float)))
         fail_msg("at %g %g: %g, not %g", (double)p.x, (double)p.y, (double)*(const float *)is,
                  (double)*(const float *)wanted);
 }
 
-static void compare(const JoxField *field, JoxFieldKernel *look, uint32_t number, JoxV2 goal,
-                    double angle) {
+static void compare_lookups(const JoxField *field, JoxFieldKernel *look, uint32_t number,
+                            JoxV2 goal, double angle) {
     static JoxFieldPoints points;
-    points.count = number % 5 == 0 ? JOX_FIELD_POINTS : 1 + (uint32_t)(255 * draw(number, 9));
+    points.count =
+        number % 5 == 0 ? JOX_FIELD_POINTS : 1 + (uint32_t)(255 * draw_walk_number(number, 9));
     for (uint32_t k = 0; k < JOX_FIELD_POINTS; k++) {
-        const JoxV2 p = some_point(number * JOX_FIELD_POINTS + k, field, goal, angle);
+        const JoxV2 p = draw_point(number * JOX_FIELD_POINTS + k, field, goal, angle);
         points.x[k] = p.x;
         points.y[k] = p.y;
     }
@@ -67,31 +70,31 @@ static void compare(const JoxField *field, JoxFieldKernel *look, uint32_t number
     for (uint32_t k = 0; k < points.count; k++) {
         const JoxV2 p = {points.x[k], points.y[k]}, way = jox_field_direction(field, p);
         const float length = jox_field_distance(field, p);
-        assert_same(&points.way_x[k], &way.x, p);
-        assert_same(&points.way_y[k], &way.y, p);
-        assert_same(&points.length[k], &length, p);
+        assert_same_float(&points.way_x[k], &way.x, p);
+        assert_same_float(&points.way_y[k], &way.y, p);
+        assert_same_float(&points.length[k], &length, p);
     }
 }
 
-static void many_points_are_looked_up_as_one_is(void **state) {
+static void lookups_in_lanes_equal_single_lookups(void **state) {
     (void)state;
     static const float CELLS[] = {0.125f, 0.3f, 0.8f};
     for (uint32_t number = 0; number < ROUNDS; number++) {
         const double angle = number % 4 == 0 ? 0.0 : 0.3 * number;
-        const JoxV2 goal = turned(number % 3 ? (JoxV2){0, -5} : (JoxV2){-3, 2.5f}, angle);
-        JoxWalls walls = plan(angle);
-        if (number % 8 == 7) /* nothing stands anywhere: no cell is at a wall */
+        const JoxV2 goal = turn_point(number % 3 ? (JoxV2){0, -5} : (JoxV2){-3, 2.5f}, angle);
+        JoxWalls walls = make_room_plan(angle);
+        if (number % 8 == 7) /* no walls: no cell has a patch */
             jox_walls_free(&walls);
-        JoxField *field = to_point(&walls, goal, HALF, CELLS[number % 3], 0.15f);
+        JoxField *field = make_field_to_point(&walls, goal, HALF, CELLS[number % 3], 0.15f);
         for (JoIsa isa = JO_ISA_SCALAR; isa < (JoIsa)JOX_ISA_ROOM; isa++)
             if (LOOK[isa] && jox_isa_runs(isa))
-                compare(field, LOOK[isa], number, goal, angle);
+                compare_lookups(field, LOOK[isa], number, goal, angle);
         jox_field_free(field);
         jox_walls_free(&walls);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(many_points_are_looked_up_as_one_is)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lookups_in_lanes_equal_single_lookups)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

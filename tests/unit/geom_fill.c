@@ -1,4 +1,5 @@
-/* Filling areas: exact counts, spacing, walls kept clear, the same for the same seed. */
+/* Tests filling areas: exact counts, spacing, distance from walls, the same result for the same
+   seed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -53,14 +54,14 @@ static void floor_reaches_to_walls_and_leaves_out_solids(void **state) {
     JoxArea area = {.places = &place, .in = &in, .in_count = 1, .walls = &walls, .clear = 0.2f};
     jox_walls_add_outline(&walls, room, 4, INFINITY);
     assert_float_equal(jox_area_floor(&area), 6, 0.03);
-    assert_true(jox_area_size(&area) < 5); /* of 2.6 x 1.6 m, as `clear` leaves it */
+    assert_true(jox_area_size(&area) < 5); /* 2.6 x 1.6 m, which `clear` leaves */
     jox_walls_add_solid(&walls, pillar, 4, INFINITY);
     assert_float_equal(jox_area_floor(&area), 5, 0.03);
     jox_walls_free(&walls);
 }
 
-/* A lattice as wide as one agent's share of a corridor may miss it with every point. */
-static void few_fit_wherever_there_is_room(void **state) {
+/* A lattice as wide as one agent's share of a corridor may miss the corridor with every point. */
+static void few_agents_fit_into_any_narrow_area(void **state) {
     (void)state;
     JoxV2 corridors[3][4] = {{{0, 0}, {40, 0}, {40, 1}, {0, 1}},
                              {{0, 0}, {1, 0}, {1, 40}, {0, 40}},
@@ -90,13 +91,13 @@ static JoxPlace hall_place = {
     .kind = JOX_PLACE_POLYGON, .points = hall_corners, .count = 4, .start = -1};
 static uint32_t hall_index;
 
-static JoxArea hall(void) {
+static JoxArea make_hall(void) {
     return (JoxArea){.places = &hall_place, .in = &hall_index, .in_count = 1};
 }
 
-/* Power of the points in a wave of a length along an axis, by their number: 1 on average of points
-   at random, their number for a lattice of that length. */
-static double power(const JoxV2 *p, uint32_t count, double length, bool y) {
+/* Returns the spectral power of the points for one wavelength along an axis, per point: 1 on
+   average for random points, their number for a lattice of that spacing. */
+static double find_power(const JoxV2 *p, uint32_t count, double length, bool y) {
     double c = 0, s = 0;
     for (uint32_t i = 0; i < count; i++) {
         const double phase = 6.283185307179586 * (double)(y ? p[i].y : p[i].x) / length;
@@ -106,11 +107,12 @@ static double power(const JoxV2 *p, uint32_t count, double length, bool y) {
     return (c * c + s * s) / count;
 }
 
-/* Two to the square metre: over the seeds, as many in each strip of either axis as chance gives,
-   and no wave along either that rows would have. A lattice shaken by an eighth has 400 and more. */
+/* With two agents per m2, over all seeds, each strip along either axis holds as many as chance
+   gives, and no wavelength stands out as rows would make it. A lattice shaken by an eighth of its
+   spacing yields 400 and more. */
 static void random_is_uniform_along_both_axes(void **state) {
     (void)state;
-    const JoxArea area = hall();
+    const JoxArea area = make_hall();
     uint32_t strips[2][10] = {{0}};
     for (uint64_t seed = 1; seed <= 5; seed++) {
         JoxV2 *p;
@@ -123,7 +125,7 @@ static void random_is_uniform_along_both_axes(void **state) {
         }
         for (int axis = 0; axis < 2; axis++)
             for (double length = 0.3; length < 1.5; length *= 1.004) {
-                const double is = power(p, MANY, length, axis);
+                const double is = find_power(p, MANY, length, axis);
                 if (is > 20)
                     fail_msg("a wave of %.3g m along %c has a power of %.3g", length, "xy"[axis],
                              is);
@@ -135,10 +137,10 @@ static void random_is_uniform_along_both_axes(void **state) {
             assert_in_range(strips[axis][s], 875, 1125);
 }
 
-/* Those who stand there keep their room, and ends that are joined count as one. */
-static void random_keeps_from_others_and_across_joined_ends(void **state) {
+/* Points keep their spacing from given points, and across joined edges. */
+static void random_points_keep_spacing_across_joined_edges(void **state) {
     (void)state;
-    JoxArea area = hall();
+    JoxArea area = make_hall();
     JoxV2 *first, *second;
     area.period = jox_v2(40, 25);
     assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 900, 0, 1, 1, &first), 900);
@@ -160,14 +162,12 @@ static void random_keeps_from_others_and_across_joined_ends(void **state) {
     jox_free(second);
 }
 
-/* A spacing that is asked for is kept: what does not fit is left out, and that is found out soon.
- */
-static void a_spacing_that_does_not_fit_leaves_some_out(void **state) {
+/* A given spacing is kept: agents that do not fit are left out, and the search ends soon. */
+static void a_given_spacing_limits_the_count(void **state) {
     (void)state;
-    const JoxArea area = hall();
+    const JoxArea area = make_hall();
     JoxV2 *p;
-    /* Discs thrown one after the other jam when they cover 54.7 %; the hall's edge adds a little.
-     */
+    /* Discs placed one by one jam at a cover of 54.7 %; the hall's border adds a little. */
     const double jammed = 0.547 * 41 * 26 / (3.14159265 / 4);
     const uint32_t fit = jox_fill(&area, JOX_FILL_RANDOM, 100000, 1.0f, 1, 1, &p);
     assert_true(fit > 0.93 * jammed && fit < jammed);
@@ -175,16 +175,16 @@ static void a_spacing_that_does_not_fit_leaves_some_out(void **state) {
     assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, (uint32_t)(0.9 * jammed), 1.0f, 2, 1, &p),
                      (uint32_t)(0.9 * jammed));
     jox_free(p);
-    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 7000, 0, 1, 1, &p), 7000); /* 7 on a m2 */
+    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 7000, 0, 1, 1, &p), 7000); /* 7 per m2 */
     jox_free(p);
 }
 
-/* The edges at a point's height tell the same of it as all edges do. */
-static void a_point_is_in_an_area_as_all_its_edges_have_it(void **state) {
+/* Testing the edges at a point's height gives the same result as testing all edges. */
+static void area_index_agrees_with_all_edges(void **state) {
     (void)state;
     enum { CORNERS = 60 };
     JoxV2 corners[CORNERS];
-    for (int k = 0; k < CORNERS; k++) { /* a star whose rays reach 4 and 10 m */
+    for (int k = 0; k < CORNERS; k++) { /* a star with rays of 4 and 10 m */
         const double angle = 6.283185307179586 * k / CORNERS;
         corners[k] = jox_scale(jox_v2((float)cos(angle), (float)sin(angle)), k % 2 ? 4 : 10);
     }
@@ -219,12 +219,12 @@ static void a_point_is_in_an_area_as_all_its_edges_have_it(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_point_is_in_an_area_as_all_its_edges_have_it),
+        cmocka_unit_test(area_index_agrees_with_all_edges),
         cmocka_unit_test(counts_and_spacing_are_kept),
         cmocka_unit_test(floor_reaches_to_walls_and_leaves_out_solids),
         cmocka_unit_test(random_is_uniform_along_both_axes),
-        cmocka_unit_test(random_keeps_from_others_and_across_joined_ends),
-        cmocka_unit_test(a_spacing_that_does_not_fit_leaves_some_out),
-        cmocka_unit_test(few_fit_wherever_there_is_room)};
+        cmocka_unit_test(random_points_keep_spacing_across_joined_edges),
+        cmocka_unit_test(a_given_spacing_limits_the_count),
+        cmocka_unit_test(few_agents_fit_into_any_narrow_area)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

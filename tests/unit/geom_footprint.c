@@ -1,5 +1,4 @@
-/* The nearest point of a footprint, edge by edge as one would write it down, against the engine's,
-   to the bit. */
+/* Tests the nearest point of a footprint against a plain search of all edges, bitwise. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,11 +13,11 @@
 
 static uint32_t drawn;
 
-static float draw(void) {
+static float draw_unit(void) {
     return (float)jox_random_unit(7, drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
-static JoxFootprintPoint plainly(const JoxObject *body, JoxV2 point) {
+static JoxFootprintPoint find_nearest_plainly(const JoxObject *body, JoxV2 point) {
     const uint32_t count = body->footprint_count;
     float nearest2 = INFINITY, deepest = -INFINITY;
     JoxFootprintPoint inside = {{1.0f, 0.0f}, point, 0.0f};
@@ -51,11 +50,13 @@ static JoxFootprintPoint plainly(const JoxObject *body, JoxV2 point) {
     return (JoxFootprintPoint){jox_scale(away, 1.0f / gap), on_border, gap};
 }
 
-/* A ring of 3 to 16 corners on an ellipse that lies anywhere. */
-static JoxObject ring(uint32_t trial) {
+/* Makes a ring of 3 to 16 corners on an ellipse anywhere. */
+static JoxObject make_ring(uint32_t trial) {
     JoxObject body = {.footprint_count = 3 + trial % 14};
-    const float x = 60.0f * draw() - 30.0f, y = 10.0f * draw() - 5.0f, turn = 6.28f * draw();
-    const float size = trial % 50 ? 0.1f + 0.6f * draw() : 8.0f, flat = trial % 3 ? 1.0f : 0.05f;
+    const float x = 60.0f * draw_unit() - 30.0f, y = 10.0f * draw_unit() - 5.0f,
+                turn = 6.28f * draw_unit();
+    const float size = trial % 50 ? 0.1f + 0.6f * draw_unit() : 8.0f,
+                flat = trial % 3 ? 1.0f : 0.05f;
     for (uint32_t k = 0; k < body.footprint_count; k++) {
         const float angle = 6.2831853f * (float)k / (float)body.footprint_count;
         const float u = size * cosf(angle), v = size * flat * sinf(angle);
@@ -67,28 +68,29 @@ static JoxObject ring(uint32_t trial) {
     return body;
 }
 
-static JoxV2 between(JoxV2 a, JoxV2 b, float share) {
+static JoxV2 interpolate_points(JoxV2 a, JoxV2 b, float share) {
     return jox_add(a, jox_scale(jox_sub(b, a), share));
 }
 
-static JoxV2 point_at(const JoxObject *body, uint32_t query) {
+static JoxV2 draw_query(const JoxObject *body, uint32_t query) {
     const JoxV2 *corners = body->footprint, centre = {body->position.x, body->position.y};
     const float reach = body->disc * (query % 3 == 0 ? 0.3f : query % 3 == 1 ? 1.1f : 4.0f);
     if (query == 0)
         return corners[1];
     if (query == 1)
-        return between(corners[0], corners[1], draw());
+        return interpolate_points(corners[0], corners[1], draw_unit());
     if (query == 2)
-        return between(corners[body->footprint_count - 1], corners[0], 0.5f);
+        return interpolate_points(corners[body->footprint_count - 1], corners[0], 0.5f);
     if (query == 3)
         return centre;
-    return jox_add(centre, jox_v2(reach * (2.0f * draw() - 1.0f), reach * (2.0f * draw() - 1.0f)));
+    return jox_add(
+        centre, jox_v2(reach * (2.0f * draw_unit() - 1.0f), reach * (2.0f * draw_unit() - 1.0f)));
 }
 
 static uint32_t inside_or_on;
 
-static void compare(const JoxObject *body, JoxV2 point) {
-    const JoxFootprintPoint wanted = plainly(body, point);
+static void compare_nearest(const JoxObject *body, JoxV2 point) {
+    const JoxFootprintPoint wanted = find_nearest_plainly(body, point);
     const JoxFootprintPoint found = jox_footprint_nearest(body, point);
     inside_or_on += wanted.gap <= 0.0f;
     if (memcmp(&wanted, &found, sizeof found) != 0)
@@ -96,42 +98,43 @@ static void compare(const JoxObject *body, JoxV2 point) {
                  (double)wanted.gap);
 }
 
-static void the_nearest_point_is_that_of_the_nearest_edge(void **state) {
+static void nearest_points_agree_with_a_plain_search(void **state) {
     (void)state;
     const uint32_t trials = 20000, queries = 20;
     for (uint32_t trial = 0; trial < trials; trial++) {
-        const JoxObject body = ring(trial);
+        const JoxObject body = make_ring(trial);
         for (uint32_t query = 0; query < queries; query++)
-            compare(&body, point_at(&body, query));
+            compare_nearest(&body, draw_query(&body, query));
     }
-    assert_in_range(inside_or_on, trials, trials * queries - trials); /* both were met */
+    assert_in_range(inside_or_on, trials, trials * queries - trials); /* both kinds of points
+                                                                         occurred */
 }
 
-static void rings_that_are_none_are_looked_at_edge_by_edge(void **state) {
+static void degenerate_rings_agree_with_a_plain_search(void **state) {
     (void)state;
     for (uint32_t trial = 0; trial < 2000; trial++) {
-        JoxObject body = ring(trial);
-        const JoxV2 near = point_at(&body, 5);
-        body.footprint[1] = body.footprint[0]; /* an edge of no length */
-        compare(&body, near);
-        for (uint32_t k = 0; k < body.footprint_count; k++) /* a point for a ring */
+        JoxObject body = make_ring(trial);
+        const JoxV2 near = draw_query(&body, 5);
+        body.footprint[1] = body.footprint[0]; /* an edge of length 0 */
+        compare_nearest(&body, near);
+        for (uint32_t k = 0; k < body.footprint_count; k++) /* a ring shrunk to a point */
             body.footprint[k] = body.footprint[0];
-        compare(&body, near);
-        body = ring(trial);
+        compare_nearest(&body, near);
+        body = make_ring(trial);
         body.footprint[trial % body.footprint_count].y += 1e30f;
-        compare(&body, near);
-        compare(&body, between(body.footprint[0], body.footprint[1], 0.5f));
-        body = ring(trial);
+        compare_nearest(&body, near);
+        compare_nearest(&body, interpolate_points(body.footprint[0], body.footprint[1], 0.5f));
+        body = make_ring(trial);
         for (uint32_t k = 0; k < body.footprint_count; k++)
             body.footprint[k].x += 1e20f;
-        compare(&body, near);
+        compare_nearest(&body, near);
     }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_nearest_point_is_that_of_the_nearest_edge),
-        cmocka_unit_test(rings_that_are_none_are_looked_at_edge_by_edge),
+        cmocka_unit_test(nearest_points_agree_with_a_plain_search),
+        cmocka_unit_test(degenerate_rings_agree_with_a_plain_search),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* The grid of bodies: a walk meets each body near by once, and the nearest are the nearest. */
+/* Tests the grid of bodies: an iteration yields each body nearby once, and the list of the nearest
+   is correct. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,22 +15,23 @@
 
 enum { BODIES = 300 };
 
-static float draw(uint32_t trial, uint32_t i, uint32_t k) {
+static float draw_body_number(uint32_t trial, uint32_t i, uint32_t k) {
     return (float)jox_random_unit(trial, i, 0, JOX_DRAW_FILL, k);
 }
 
-/* Discs and boxes of many sizes; some cannot be met. */
-static void fill(JoxObject *rows, uint32_t trial) {
+/* Makes discs and boxes of many sizes; some cannot be met. */
+static void make_random_bodies(JoxObject *rows, uint32_t trial) {
     float side = trial % 2 ? 10.0f : 60.0f;
     for (uint32_t i = 0; i < BODIES; i++) {
-        float size = 0.1f + (i % 40 == 7 ? 12.0f : 0.9f) * draw(trial, i, 2);
+        float size = 0.1f + (i % 40 == 7 ? 12.0f : 0.9f) * draw_body_number(trial, i, 2);
         rows[i] = (JoxObject){.live = i % 11 != 3, .in_band = i % 13 != 5};
-        rows[i].position = (JoxV3){side * draw(trial, i, 0), side * draw(trial, i, 1), 1.0f};
+        rows[i].position = (JoxV3){side * draw_body_number(trial, i, 0),
+                                   side * draw_body_number(trial, i, 1), 1.0f};
         rows[i].disc = rows[i].round = size;
         if (i % 3)
             continue;
         rows[i].footprint_count = 4;
-        for (uint32_t k = 0; k < 4; k++) /* a box whose corners lie on the disc */
+        for (uint32_t k = 0; k < 4; k++) /* a box with its corners on the disc */
             rows[i].footprint[k] =
                 jox_v2(rows[i].position.x + size * (k == 1 || k == 2 ? 0.8f : -0.8f),
                        rows[i].position.y + size * (k >= 2 ? 0.6f : -0.6f));
@@ -40,17 +42,18 @@ static bool can_be_met(const JoxObject *o) {
     return o->live && o->in_band;
 }
 
-static void a_walk_meets_each_body_near_by_once(void **state) {
+static void an_iteration_yields_each_body_nearby_once(void **state) {
     (void)state;
     static JoxObject rows[BODIES];
     JoxObjects objects = {.rows = rows, .count = BODIES};
     uint32_t met_in_all = 0;
     for (uint32_t trial = 0; trial < 20; trial++) {
-        fill(rows, trial);
+        make_random_bodies(rows, trial);
         jox_objects_lay(&objects);
         for (uint32_t query = 0; query < 50; query++) {
-            JoxV2 at = {70.0f * draw(trial, query, 3) - 5.0f, 70.0f * draw(trial, query, 4) - 5.0f};
-            float reach = query % 5 == 0 ? 40.0f : 3.0f * draw(trial, query, 5);
+            JoxV2 at = {70.0f * draw_body_number(trial, query, 3) - 5.0f,
+                        70.0f * draw_body_number(trial, query, 4) - 5.0f};
+            float reach = query % 5 == 0 ? 40.0f : 3.0f * draw_body_number(trial, query, 5);
             uint8_t met[BODIES] = {0};
             JoxObjectWalk walk = jox_objects_near(&objects, at, reach);
             uint32_t row;
@@ -66,17 +69,17 @@ static void a_walk_meets_each_body_near_by_once(void **state) {
             }
         }
     }
-    assert_true(met_in_all < 20 * 50 * BODIES / 2); /* it is not a walk over everything */
+    assert_true(met_in_all < 20 * 50 * BODIES / 2); /* the iteration skips most bodies */
     jox_objects_free_grid(&objects);
 }
 
-static void the_nearest_are_the_nearest(void **state) {
+static void nearest_list_holds_the_nearest_bodies(void **state) {
     (void)state;
     static JoxObject rows[BODIES];
     JoxObjects objects = {.rows = rows, .count = BODIES};
     for (uint32_t trial = 0; trial < 40; trial++) {
-        fill(rows, trial);
-        for (uint32_t i = 100; i < 110; i++) /* as near as each other */
+        make_random_bodies(rows, trial);
+        for (uint32_t i = 100; i < 110; i++) /* equally near */
             rows[i] = rows[99];
         jox_objects_lay(&objects);
         JoxV2 at = {rows[99].position.x + 0.3f, rows[99].position.y};
@@ -105,23 +108,24 @@ static void the_nearest_are_the_nearest(void **state) {
     jox_objects_free_grid(&objects);
 }
 
-static void bodies_that_move_need_no_more_memory(void **state) {
+static void moving_bodies_allocate_nothing(void **state) {
     (void)state;
     static JoxObject rows[BODIES];
     JoxObjects objects = {.rows = rows, .count = BODIES};
-    fill(rows, 0);
+    make_random_bodies(rows, 0);
     jox_objects_lay(&objects);
     uint64_t allocations = jox_alloc_count();
     for (uint32_t trial = 1; trial < 20; trial++) {
-        fill(rows, trial);
+        make_random_bodies(rows, trial);
         jox_objects_lay(&objects);
     }
     assert_int_equal(jox_alloc_count(), allocations);
     jox_objects_free_grid(&objects);
 }
 
-/* Bodies at the ends of numbers, huge ones, none: every walk ends, and the rest is found. */
-static void extremes_are_met_or_left_out(void **state) {
+/* Bodies at extreme positions, huge and invalid ones: every iteration ends, and the others are
+   found. */
+static void extreme_bodies_are_found_or_skipped(void **state) {
     (void)state;
     JoxObject rows[8];
     for (uint32_t i = 0; i < 8; i++)
@@ -157,10 +161,10 @@ static void extremes_are_met_or_left_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_walk_meets_each_body_near_by_once),
-        cmocka_unit_test(the_nearest_are_the_nearest),
-        cmocka_unit_test(bodies_that_move_need_no_more_memory),
-        cmocka_unit_test(extremes_are_met_or_left_out),
+        cmocka_unit_test(an_iteration_yields_each_body_nearby_once),
+        cmocka_unit_test(nearest_list_holds_the_nearest_bodies),
+        cmocka_unit_test(moving_bodies_allocate_nothing),
+        cmocka_unit_test(extreme_bodies_are_found_or_skipped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Polygons, crossings, places, walls. */
+/* Tests polygons, crossings, places and walls. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 
 static const JoxV2 SQUARE[] = {{0, 0}, {4, 0}, {4, 2}, {0, 2}};
 
-static void polygons_measure(void **state) {
+static void polygons_have_area_centroid_and_distance(void **state) {
     (void)state;
     assert_true(jox_polygon_area(SQUARE, 4) == 8.0);
     JoxV2 c = jox_polygon_centroid(SQUARE, 4);
@@ -44,7 +44,7 @@ static void a_crossing_is_directed_and_counted_once(void **state) {
     assert_int_equal(jox_segment_crossing(a, b, (JoxV2){5, -1}, (JoxV2){5, 1}), 1);
     assert_int_equal(jox_segment_crossing(a, b, (JoxV2){5, 1}, (JoxV2){5, -1}), -1);
     assert_int_equal(jox_segment_crossing(a, b, (JoxV2){11, -1}, (JoxV2){11, 1}), 0);
-    /* A walk that pauses exactly upon the line crosses once, and coming back undoes it. */
+    /* A move that stops exactly on the line crosses it once, and moving back undoes that. */
     int split = jox_segment_crossing(a, b, (JoxV2){5, -1}, (JoxV2){5, 0}) +
                 jox_segment_crossing(a, b, (JoxV2){5, 0}, (JoxV2){5, 1});
     assert_int_equal(split, 1);
@@ -53,7 +53,7 @@ static void a_crossing_is_directed_and_counted_once(void **state) {
     assert_int_equal(back, 0);
 }
 
-static void places_answer_by_kind(void **state) {
+static void places_contain_points_by_kind(void **state) {
     (void)state;
     JoxV2 point = {10, 0}, line[] = {{0, 5}, {4, 5}}, queue[] = {{0, 0}, {0, -2}, {3, -2}};
     int32_t members[] = {1, 2};
@@ -77,15 +77,15 @@ static void places_answer_by_kind(void **state) {
     assert_true(q.x == 5.0f && q.y == -2.0f);
     assert_int_equal(jox_place_find(places, 5, "row"), 3);
     assert_int_equal(jox_place_find(places, 5, "tower"), -1);
-    /* The stadium about a 4 x 2 rectangle: its axis runs along x from 1 to 3, half width 1. */
+    /* The stadium around a 4 x 2 rectangle: its axis runs along x from 1 to 3, half width 1. */
     float low = fminf(places[0].axis_a.x, places[0].axis_b.x);
     float high = fmaxf(places[0].axis_a.x, places[0].axis_b.x);
     assert_true(fabsf(low - 1) < 1e-5f && fabsf(high - 3) < 1e-5f);
     assert_true(fabsf(places[0].axis_radius - 1) < 1e-5f);
 }
 
-/* The boxes of a set's members change no answer, however many there are. */
-static void a_set_holds_what_its_members_hold(void **state) {
+/* Boxes of a set's members change no result, however many there are. */
+static void a_set_contains_what_its_members_contain(void **state) {
     (void)state;
     enum { MOST = 9 };
     for (uint32_t round = 0; round < 60; round++) {
@@ -152,11 +152,11 @@ static void walls_are_linked_rings(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polygons_measure),
+        cmocka_unit_test(polygons_have_area_centroid_and_distance),
         cmocka_unit_test(self_crossing_is_found_with_its_edges),
         cmocka_unit_test(a_crossing_is_directed_and_counted_once),
-        cmocka_unit_test(places_answer_by_kind),
-        cmocka_unit_test(a_set_holds_what_its_members_hold),
+        cmocka_unit_test(places_contain_points_by_kind),
+        cmocka_unit_test(a_set_contains_what_its_members_contain),
         cmocka_unit_test(walls_are_linked_rings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Walls of tests, and walks by a field of distances. */
+/* Helpers of the tests geom_field*: turned walls, and walks along a distance field. */
 #ifndef JOSTLE_TESTS_GEOM_WALK_H
 #define JOSTLE_TESTS_GEOM_WALK_H
 
@@ -19,40 +19,40 @@
 
 static const double TURN = 6.283185307179586;
 
-/* ---- help ---- */
-
-static inline double draw(uint32_t k, uint32_t sub) {
+static inline double draw_walk_number(uint32_t k, uint32_t sub) {
     return jox_random_unit(7, k, 0, JOX_DRAW_FILL, sub);
 }
 
-static inline JoxV2 turned(JoxV2 p, double angle) {
+static inline JoxV2 turn_point(JoxV2 p, double angle) {
     double c = jox_cos(angle), s = jox_sin(angle);
     return (JoxV2){(float)(c * p.x - s * p.y), (float)(s * p.x + c * p.y)};
 }
 
-static inline void add_line(JoxWalls *walls, const JoxV2 *points, uint32_t count, double angle) {
+static inline void add_turned_line(JoxWalls *walls, const JoxV2 *points, uint32_t count,
+                                   double angle) {
     JoxV2 moved[16];
     for (uint32_t i = 0; i < count; i++)
-        moved[i] = turned(points[i], angle);
+        moved[i] = turn_point(points[i], angle);
     jox_walls_add_polyline(walls, moved, count, false, INFINITY);
 }
 
-static inline void add_solid(JoxWalls *walls, const JoxV2 *points, uint32_t count, double angle) {
+static inline void add_turned_solid(JoxWalls *walls, const JoxV2 *points, uint32_t count,
+                                    double angle) {
     JoxV2 moved[16];
     for (uint32_t i = 0; i < count; i++)
-        moved[i] = turned(points[i], angle);
+        moved[i] = turn_point(points[i], angle);
     jox_walls_add_solid(walls, moved, count, INFINITY);
 }
 
-static inline JoxField *to_point(const JoxWalls *walls, JoxV2 goal, float half, float cell,
-                                 float clearance) {
+static inline JoxField *make_field_to_point(const JoxWalls *walls, JoxV2 goal, float half,
+                                            float cell, float clearance) {
     JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
     jox_place_finish(&place);
     return jox_field_create(walls, &place, 0, (JoxV2){-half, -half}, (JoxV2){half, half}, cell,
                             clearance, NULL, NULL);
 }
 
-static inline bool crosses(const JoxWalls *walls, JoxV2 p, JoxV2 q) {
+static inline bool is_wall_crossed(const JoxWalls *walls, JoxV2 p, JoxV2 q) {
     for (uint32_t i = 0; i < walls->count; i++)
         if (jox_segment_crossing(walls->vertices[i].point,
                                  walls->vertices[walls->vertices[i].next].point, p, q))
@@ -60,7 +60,7 @@ static inline bool crosses(const JoxWalls *walls, JoxV2 p, JoxV2 q) {
     return false;
 }
 
-static inline float wall_distance(const JoxWalls *walls, JoxV2 p) {
+static inline float find_wall_distance(const JoxWalls *walls, JoxV2 p) {
     float least = INFINITY;
     for (uint32_t i = 0; i < walls->count; i++) {
         JoxV2 a = walls->vertices[i].point, b = walls->vertices[walls->vertices[i].next].point;
@@ -69,7 +69,7 @@ static inline float wall_distance(const JoxWalls *walls, JoxV2 p) {
     return least;
 }
 
-static inline bool in_solid(const JoxWalls *walls, JoxV2 p) {
+static inline bool is_point_in_solid(const JoxWalls *walls, JoxV2 p) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         JoxV2 ring[16];
         for (uint32_t k = 0; k < walls->rings[r].count && k < 16; k++)
@@ -81,9 +81,10 @@ static inline bool in_solid(const JoxWalls *walls, JoxV2 p) {
 }
 
 enum { ARRIVED, CROSSED, LOST };
-/* Walks by steps of 2 cm until within 0.3 m of the goal; the length that was walked. */
-static inline int walk(const JoxField *field, const JoxWalls *walls, JoxV2 p, JoxV2 goal,
-                       float most, float *length) {
+/* Walks in steps of 2 cm until within 0.3 m of the goal, at most `most` m; returns how it ended,
+   and the length of the walk, m. */
+static inline int walk_by_field(const JoxField *field, const JoxWalls *walls, JoxV2 p, JoxV2 goal,
+                                float most, float *length) {
     const float step = 0.02f;
     for (*length = 0.0f; *length < most; *length += step) {
         if (jox_length(jox_sub(p, goal)) < 0.3f) {
@@ -91,7 +92,7 @@ static inline int walk(const JoxField *field, const JoxWalls *walls, JoxV2 p, Jo
             return ARRIVED;
         }
         JoxV2 q = jox_add(p, jox_scale(jox_field_direction(field, p), step));
-        if (crosses(walls, p, q)) {
+        if (is_wall_crossed(walls, p, q)) {
             print_message("crossed a wall at %g %g -> %g %g\n", (double)p.x, (double)p.y,
                           (double)q.x, (double)q.y);
             return CROSSED;
@@ -102,7 +103,7 @@ static inline int walk(const JoxField *field, const JoxWalls *walls, JoxV2 p, Jo
     return LOST;
 }
 
-/* What people add to a way who keep 0.2 m off: to both sides of the end, and about it. */
+/* m: length that a clearance of 0.2 m adds to a way round the end of a wall. */
 static const float ROUND_AN_END = 0.6f;
 
 #endif

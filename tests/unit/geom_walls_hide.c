@@ -1,5 +1,5 @@
-/* How far off nothing is behind a wall: never farther than the first who is, and the same by every
-   instruction set. */
+/* Tests jox_wall_grid_clear2: no point within its distance is separated by a wall, and every
+   instruction set gives the same result. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,31 +17,31 @@ enum { WALLS = 12, POINTS = 603, ROUNDS = 40, AIMS = 24 };
 static JoxWallClearKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static float draw(uint32_t round, uint32_t *drawn, double least, double most) {
+static float draw_in_range(uint32_t round, uint32_t *drawn, double least, double most) {
     return (float)(least +
                    (most - least) * jox_random_unit(11, (*drawn)++, round, JOX_DRAW_FILL, 0));
 }
 
-/* Lines at any angle, some along an axis and some very short; far from the origin in some rounds.
- */
-static void build(JoxWalls *walls, uint32_t round, uint32_t *drawn, float far) {
+/* Makes walls at any angle, some along an axis and some very short; far from the origin in some
+   rounds. */
+static void make_random_walls(JoxWalls *walls, uint32_t round, uint32_t *drawn, float far) {
     for (uint32_t w = 0; w < WALLS; w++) {
         const float longest = w % 4 == 3 ? 0.01f : 6.0f;
         JoxV2 line[3];
         for (int k = 0; k < 3; k++)
-            line[k] = (JoxV2){far + draw(round, drawn, 0, (double)longest),
-                              far + draw(round, drawn, 0, (double)longest)};
+            line[k] = (JoxV2){far + draw_in_range(round, drawn, 0, (double)longest),
+                              far + draw_in_range(round, drawn, 0, (double)longest)};
         if (w % 3 == 0)
             line[1].x = line[0].x;
         jox_walls_add_polyline(walls, line, w % 2 ? 2 : 3, false, INFINITY);
     }
 }
 
-static uint32_t nobody_nearer_is_separated(const JoxWallGrid *g, uint32_t round, uint32_t *drawn,
-                                           JoxV2 from, float clear2) {
+static uint32_t expect_no_nearer_separation(const JoxWallGrid *g, uint32_t round, uint32_t *drawn,
+                                            JoxV2 from, float clear2) {
     uint32_t beyond = 0;
     for (uint32_t k = 0; k < AIMS && clear2 < INFINITY; k++) {
-        const float angle = draw(round, drawn, 0, 6.2831853), length = sqrtf(clear2);
+        const float angle = draw_in_range(round, drawn, 0, 6.2831853), length = sqrtf(clear2);
         const JoxV2 way = {length * cosf(angle), length * sinf(angle)};
         for (float share = 0.9999f; share > 0.0f; share -= 0.3333f) {
             const JoxV2 offset = jox_scale(way, share);
@@ -53,7 +53,7 @@ static uint32_t nobody_nearer_is_separated(const JoxWallGrid *g, uint32_t round,
     return beyond;
 }
 
-static void what_is_near_is_behind_no_wall(void **state) {
+static void points_within_clear_distance_are_not_separated(void **state) {
     (void)state;
     uint32_t beyond = 0, clear = 0;
     for (uint32_t round = 0; round < ROUNDS; round++) {
@@ -62,19 +62,19 @@ static void what_is_near_is_behind_no_wall(void **state) {
         JoxWallGrid grid = {.walls = &walls};
         uint32_t drawn = 0;
         float x[POINTS + 16] = {0}, y[POINTS + 16] = {0}, clear2[POINTS + 16];
-        build(&walls, round, &drawn, far);
-        if (round != 7) /* no grid: no walls */
+        make_random_walls(&walls, round, &drawn, far);
+        if (round != 7) /* without a grid: no walls */
             jox_wall_grid_fit(&grid, 1.5f);
         for (uint32_t i = 0; i < POINTS; i++) {
-            x[i] = far + draw(round, &drawn, -3, 9);
-            y[i] = far + draw(round, &drawn, -3, 9);
-            if (i % 5 == 0) { /* upon a wall */
+            x[i] = far + draw_in_range(round, &drawn, -3, 9);
+            y[i] = far + draw_in_range(round, &drawn, -3, 9);
+            if (i % 5 == 0) { /* on a wall */
                 x[i] = walls.vertices[i % walls.count].point.x;
                 y[i] = walls.vertices[i % walls.count].point.y;
             }
             const float own = jox_wall_grid_clear2(&grid, (JoxV2){x[i], y[i]});
             clear += own > 0.01f && own < INFINITY;
-            beyond += nobody_nearer_is_separated(&grid, round, &drawn, (JoxV2){x[i], y[i]}, own);
+            beyond += expect_no_nearer_separation(&grid, round, &drawn, (JoxV2){x[i], y[i]}, own);
         }
         for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
             if (!jox_isa_runs(isa))
@@ -91,7 +91,7 @@ static void what_is_near_is_behind_no_wall(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_near_is_behind_no_wall),
+        cmocka_unit_test(points_within_clear_distance_are_not_separated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

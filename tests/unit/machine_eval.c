@@ -1,6 +1,6 @@
-/* The kernel of programs against one plain expression for each instruction, by every instruction
-   set that the machine runs: over random numbers and hard ones (zeros of both signs, infinite,
-   none), in batches of any length, into a register of its own and into one that is read. */
+/* Tests the kernel of expressions against one scalar expression per instruction, on every
+   instruction set of the machine: random and special numbers (zeros of both signs, infinities,
+   NaN), batches of any length, a separate output register and one that is also an input. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,8 +20,8 @@ static JoxEvalKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 
 static JoxRegisters is, wanted;
 
-/* A number that is often one that others equal. */
-static double some(uint32_t number, uint32_t drawn) {
+/* Returns a random number, often one of a few special ones, so that operands are often equal. */
+static double draw_special_number(uint32_t number, uint32_t drawn) {
     static const double HARD[] = {0.0, -0.0, 1.0, -1.0, INFINITY, -INFINITY, NAN, 1e-320, 1e308};
     const double unit = jox_random_unit(5, number, 0, JOX_DRAW_FILL, drawn);
     if (unit < 0.4)
@@ -29,7 +29,7 @@ static double some(uint32_t number, uint32_t drawn) {
     return (unit - 0.7) * 40.0;
 }
 
-static double plain(JoxOp op, double a, double b, double c, bool *known) {
+static double evaluate_plainly(JoxOp op, double a, double b, double c, bool *known) {
     switch (op) {
     case JOX_OP_CONST:
         return 2.5;
@@ -75,12 +75,13 @@ static double plain(JoxOp op, double a, double b, double c, bool *known) {
     }
 }
 
-static bool same(double a, double b) {
+static bool is_same_number(double a, double b) {
     return (isnan(a) && isnan(b)) || memcmp(&a, &b, sizeof a) == 0;
 }
 
-/* One instruction over `count` agents, into register `to`; whether it is one of arithmetic. */
-static bool compare(JoxEvalKernel *kernel, JoxOp op, uint8_t to, uint32_t count) {
+/* Runs one instruction for `count` agents, into register `to`, and compares the results; false if
+   it is not arithmetic. */
+static bool compare_instruction(JoxEvalKernel *kernel, JoxOp op, uint8_t to, uint32_t count) {
     uint32_t agents[JOX_BATCH] = {0};
     JoxAgents none = {0};
     JoxMachineRun run = {.agents = &none};
@@ -88,14 +89,14 @@ static bool compare(JoxEvalKernel *kernel, JoxOp op, uint8_t to, uint32_t count)
     bool known = true;
     for (uint32_t k = 0; k < 4; k++)
         for (uint32_t n = 0; n < JOX_BATCH; n++)
-            is[k][n] = some(k * JOX_BATCH + n, (uint32_t)op * 4 + to);
+            is[k][n] = draw_special_number(k * JOX_BATCH + n, (uint32_t)op * 4 + to);
     for (uint32_t n = 0; n < count; n++)
-        wanted[to][n] = plain(op, is[0][n], is[1][n], is[2][n], &known);
+        wanted[to][n] = evaluate_plainly(op, is[0][n], is[1][n], is[2][n], &known);
     if (!known)
         return false;
     assert_true(kernel(&run, &in, agents, count, is));
     for (uint32_t n = 0; n < count; n++)
-        if (!same(is[to][n], wanted[to][n]))
+        if (!is_same_number(is[to][n], wanted[to][n]))
             fail_msg("operation %d, agent %u of %u: %g, not %g", op, n, count, is[to][n],
                      wanted[to][n]);
     return true;
@@ -109,12 +110,12 @@ static void arithmetic_is_as_written(void **state) {
             for (uint8_t to = 0; to < 4; to++) {
                 const uint32_t counts[] = {1, 3, 8, 21, JOX_BATCH};
                 for (size_t k = 0; k < sizeof counts / sizeof *counts; k++)
-                    compared += compare(KERNELS[isa], (JoxOp)op, to, counts[k]);
+                    compared += compare_instruction(KERNELS[isa], (JoxOp)op, to, counts[k]);
             }
     assert_true(compared >= 19 * 4 * 5);
 }
 
-/* Words about others are no business of the kernel. */
+/* Words about other agents are left to the caller of the kernel. */
 static void other_words_are_refused(void **state) {
     (void)state;
     uint32_t agents[JOX_BATCH] = {0};

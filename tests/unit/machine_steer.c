@@ -1,6 +1,6 @@
-/* The kernels of prefer against plain references, by every instruction set that the machine runs:
-   over random batches and hard ones, of people on an axis, in the same place, with weights and ways
-   that are no numbers. */
+/* Tests the kernels of prefer against scalar references, on every instruction set of the machine:
+   random and special batches, with agents on an axis and at the same place, and weights and
+   velocities that are NaN or infinite. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,32 +20,32 @@ typedef struct Draws {
     uint32_t number, drawn;
 } Draws;
 
-static float draw(Draws *d, double from, double to) {
+static float draw_steering_number(Draws *d, double from, double to) {
     double unit = jox_random_unit(33, d->number, 0, JOX_DRAW_FILL, d->drawn++);
     return (float)(from + (to - from) * unit);
 }
 
-static void fill(JoxAgents *a, Draws *d) {
+static void add_random_agents(JoxAgents *a, Draws *d) {
     for (uint32_t k = 0; k < PEOPLE; k++) {
         const uint32_t i = jox_agents_add(a);
-        const float kind = draw(d, 0.0, 1.0);
-        a->x[i] = kind < 0.1f ? 0.0f : draw(d, -50.0, 50.0);
-        a->y[i] = kind < 0.05f ? 0.0f : draw(d, -50.0, 50.0);
-        a->vx[i] = kind < 0.3f ? 0.0f : draw(d, -1.5, 1.5);
-        a->vy[i] = kind < 0.35f ? 0.0f : draw(d, -1.5, 1.5);
-        a->density[i] = draw(d, 0.0, 9.0);
+        const float kind = draw_steering_number(d, 0.0, 1.0);
+        a->x[i] = kind < 0.1f ? 0.0f : draw_steering_number(d, -50.0, 50.0);
+        a->y[i] = kind < 0.05f ? 0.0f : draw_steering_number(d, -50.0, 50.0);
+        a->vx[i] = kind < 0.3f ? 0.0f : draw_steering_number(d, -1.5, 1.5);
+        a->vy[i] = kind < 0.35f ? 0.0f : draw_steering_number(d, -1.5, 1.5);
+        a->density[i] = draw_steering_number(d, 0.0, 9.0);
         a->face_x[i] = 1.0f;
         a->face_y[i] = 0.0f;
-        jox_param_set(a, JOX_PARAM_speed, i, draw(d, 0.0, 2.0));
-        jox_param_set(a, JOX_PARAM_max_speed, i, draw(d, 0.2, 3.0));
+        jox_param_set(a, JOX_PARAM_speed, i, draw_steering_number(d, 0.0, 2.0));
+        jox_param_set(a, JOX_PARAM_max_speed, i, draw_steering_number(d, 0.2, 3.0));
     }
 }
 
-/* A batch of some of the people, in ascending order, with gaps. */
-static void gather(JoxSteer *s, JoxAgents *a, Draws *d) {
+/* Fills a batch with some of the agents, in ascending order, with gaps. */
+static void pick_random_batch(JoxSteer *s, JoxAgents *a, Draws *d) {
     *s = (JoxSteer){.agents = a, .args = ORBIT};
     for (uint32_t i = 0; i < a->count; i++)
-        if (d->number == 0 || draw(d, 0.0, 1.0) < 0.7f)
+        if (d->number == 0 || draw_steering_number(d, 0.0, 1.0) < 0.7f)
             s->index[s->count++] = i;
     assert_true(s->count > 0);
     for (uint32_t n = s->count; n < JOX_BATCH; n++)
@@ -54,7 +54,7 @@ static void gather(JoxSteer *s, JoxAgents *a, Draws *d) {
 
 /* ---- references ---- */
 
-static JoxV2 orbit_of(const JoxAgents *a, const JoxPlace *place, uint32_t i) {
+static JoxV2 find_orbit_way(const JoxAgents *a, const JoxPlace *place, uint32_t i) {
     JoxV2 p = {a->x[i], a->y[i]}, ab = jox_sub(place->axis_b, place->axis_a), axis = place->axis_a;
     if (jox_length2(ab) > 0.0f) {
         float t = jox_clampf(jox_dot(jox_sub(p, axis), ab) / jox_length2(ab), 0.0f, 1.0f);
@@ -70,7 +70,7 @@ static JoxV2 orbit_of(const JoxAgents *a, const JoxPlace *place, uint32_t i) {
     return jox_unit(jox_sub(jox_left(normal), jox_scale(normal, inward)));
 }
 
-static JoxV2 added(JoxV2 sum, JoxV2 way, float by) {
+static JoxV2 add_weighted_way(JoxV2 sum, JoxV2 way, float by) {
     if (!jox_weight_counts(by))
         return sum;
     if (!(jox_length2(way) <= 1e12f))
@@ -78,14 +78,14 @@ static JoxV2 added(JoxV2 sum, JoxV2 way, float by) {
     return jox_add(sum, jox_scale(way, by));
 }
 
-static JoxV2 finished(const JoxAgents *a, JoxV2 sum, uint32_t i) {
+static JoxV2 find_preferred_velocity(const JoxAgents *a, JoxV2 sum, uint32_t i) {
     float speed = jox_minf(jox_param(a, JOX_PARAM_speed, i), jox_param(a, JOX_PARAM_max_speed, i));
     return jox_scale(jox_length2(sum) > 1.0f ? jox_unit(sum) : sum, speed);
 }
 
 /* ---- comparisons ---- */
 
-static void assert_same(JoxV2 is, JoxV2 wanted) {
+static void assert_same_vector(JoxV2 is, JoxV2 wanted) {
     assert_memory_equal(&is, &wanted, sizeof is);
 }
 
@@ -93,10 +93,11 @@ typedef struct Kernels {
     JoxSteerKernel *orbit, *add, *finish, *face;
 } Kernels;
 
-/* A span within a batch: nothing else is written. */
+/* Orbits for a range of the batch; nothing else may be written. */
 static void compare_orbit(const Kernels *k, JoxSteer *s, const JoxPlace *place, Draws *d) {
-    s->begin = (uint32_t)draw(d, 0.0, s->count * 0.5);
-    s->end = d->number == 0 ? s->count : s->begin + 1 + (uint32_t)draw(d, 0.0, s->count * 0.4);
+    s->begin = (uint32_t)draw_steering_number(d, 0.0, s->count * 0.5);
+    s->end = d->number == 0 ? s->count
+                            : s->begin + 1 + (uint32_t)draw_steering_number(d, 0.0, s->count * 0.4);
     s->place = d->number % 7 == 6 ? NULL : place;
     for (uint32_t n = 0; n < JOX_BATCH; n++)
         s->way_x[n] = s->way_y[n] = 77.0f;
@@ -104,8 +105,8 @@ static void compare_orbit(const Kernels *k, JoxSteer *s, const JoxPlace *place, 
     for (uint32_t n = 0; n < s->count; n++) {
         JoxV2 wanted = {77.0f, 77.0f};
         if (n >= s->begin && n < s->end)
-            wanted = s->place ? orbit_of(s->agents, place, s->index[n]) : (JoxV2){0.0f, 0.0f};
-        assert_same((JoxV2){s->way_x[n], s->way_y[n]}, wanted);
+            wanted = s->place ? find_orbit_way(s->agents, place, s->index[n]) : (JoxV2){0.0f, 0.0f};
+        assert_same_vector((JoxV2){s->way_x[n], s->way_y[n]}, wanted);
     }
 }
 
@@ -114,21 +115,21 @@ static void compare_sums(const Kernels *k, JoxSteer *s, Draws *d) {
     JoxV2 sums[JOX_BATCH] = {{0}};
     for (uint32_t term = 0; term < 3; term++) {
         for (uint32_t n = 0; n < s->count; n++) {
-            const uint32_t kind = (uint32_t)draw(d, 0.0, 40.0);
-            s->way_x[n] = kind < 8 ? HARD[kind] : draw(d, -1.0, 1.0);
-            s->way_y[n] = draw(d, -1.0, 1.0);
-            s->by[n] = kind >= 32 ? HARD[kind - 32] : draw(d, -2.0, 2.0);
-            sums[n] = added(sums[n], (JoxV2){s->way_x[n], s->way_y[n]}, s->by[n]);
+            const uint32_t kind = (uint32_t)draw_steering_number(d, 0.0, 40.0);
+            s->way_x[n] = kind < 8 ? HARD[kind] : draw_steering_number(d, -1.0, 1.0);
+            s->way_y[n] = draw_steering_number(d, -1.0, 1.0);
+            s->by[n] = kind >= 32 ? HARD[kind - 32] : draw_steering_number(d, -2.0, 2.0);
+            sums[n] = add_weighted_way(sums[n], (JoxV2){s->way_x[n], s->way_y[n]}, s->by[n]);
         }
         k->add(s);
     }
     for (uint32_t n = 0; n < s->count; n++)
-        assert_same((JoxV2){s->sum_x[n], s->sum_y[n]}, sums[n]);
+        assert_same_vector((JoxV2){s->sum_x[n], s->sum_y[n]}, sums[n]);
     k->finish(s);
     for (uint32_t n = 0; n < s->count; n++) {
         const uint32_t i = s->index[n];
-        assert_same((JoxV2){s->agents->pref_x[i], s->agents->pref_y[i]},
-                    finished(s->agents, sums[n], i));
+        assert_same_vector((JoxV2){s->agents->pref_x[i], s->agents->pref_y[i]},
+                           find_preferred_velocity(s->agents, sums[n], i));
     }
 }
 
@@ -140,13 +141,14 @@ static void compare_faces(const Kernels *k, JoxSteer *s) {
         const uint32_t i = s->index[n];
         const JoxV2 v = {a->vx[i], a->vy[i]};
         const bool moves = jox_length2(v) > 0.0025f;
-        assert_same((JoxV2){a->face_x[i], a->face_y[i]}, moves ? jox_unit(v) : jox_v2(1.0f, 0.0f));
+        assert_same_vector((JoxV2){a->face_x[i], a->face_y[i]},
+                           moves ? jox_unit(v) : jox_v2(1.0f, 0.0f));
         turned += moves;
     }
     assert_true(turned > s->count / 4 && turned < s->count);
 }
 
-static void test_kernels(void **state) {
+static void kernels_agree_with_scalar_references(void **state) {
 #define X(name, isa)                                                                               \
     [isa] = {jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,                \
              jox_steer_face_##name},
@@ -154,15 +156,15 @@ static void test_kernels(void **state) {
 #undef X
     static const JoxPlace PLACES[2] = {
         {.axis_a = {-3.0f, 1.0f}, .axis_b = {4.0f, -2.0f}, .axis_radius = 6.0f},
-        {.axis_radius = 2.0f}}; /* an axis that is a point */
+        {.axis_radius = 2.0f}}; /* an axis of length 0 */
     static JoxSteer steer;
     (void)state;
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_AVX512; isa++)
         for (uint32_t number = 0; jox_isa_runs(isa) && number < CASES; number++) {
             Draws draws = {.number = number};
             JoxAgents agents = {0};
-            fill(&agents, &draws);
-            gather(&steer, &agents, &draws);
+            add_random_agents(&agents, &draws);
+            pick_random_batch(&steer, &agents, &draws);
             compare_orbit(&KERNELS[isa], &steer, &PLACES[number % 2], &draws);
             compare_sums(&KERNELS[isa], &steer, &draws);
             compare_faces(&KERNELS[isa], &steer);
@@ -171,6 +173,6 @@ static void test_kernels(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kernels)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(kernels_agree_with_scalar_references)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* Machines built by hand: conditions, chance, order of hooks, counters, queues, kicks, reload. */
+/* Tests machines that are built by hand: conditions, chance, order of hooks, counters, queues,
+   kicks, reload. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +14,7 @@
 #include "geom/place_kinds.h"
 #include "machine/run.h"
 
-/* A small world about machines: agents without neighbours, places that a test gives. */
+/* A small world around machines: agents without neighbours, places given by each test. */
 typedef struct Fixture {
     JoxAgents agents;
     JoxNeighbours neighbours;
@@ -37,7 +38,7 @@ static JoxMachine *new_machine(uint32_t states) {
     return m;
 }
 
-static int32_t add_expression(JoxMachine *m, const JoxInstruction *code, uint32_t count) {
+static int32_t append_expression(JoxMachine *m, const JoxInstruction *code, uint32_t count) {
     m->expressions = jox_realloc(m->expressions, m->expression_count + 1, sizeof *m->expressions);
     JoxExpression *p = &m->expressions[m->expression_count];
     p->code = jox_alloc(count, sizeof *code);
@@ -63,7 +64,7 @@ static int16_t add_place_target(JoxMachine *m, int32_t place) {
     return (int16_t)m->target_count++;
 }
 
-static void begin(Fixture *f, JoxMachine *machine, uint32_t agents) {
+static void set_up_fixture(Fixture *f, JoxMachine *machine, uint32_t agents) {
     *f = (Fixture){0};
     f->machines = (JoxMachineRun){.set = &f->set,
                                   .state = &f->state,
@@ -81,24 +82,24 @@ static void begin(Fixture *f, JoxMachine *machine, uint32_t agents) {
     }
 }
 
-static void think(Fixture *f) {
+static void run_step(Fixture *f) {
     jox_machines_think(&f->machines, NULL);
     jox_machines_prefer(&f->machines, NULL);
     f->machines.tick++;
 }
 
-static void end(Fixture *f) {
+static void tear_down_fixture(Fixture *f) {
     jox_machines_free(&f->machines);
     jox_agents_free(&f->agents);
     jox_neighbours_free(&f->neighbours);
 }
 
-/* A condition that holds from `seconds` in the state on. */
-static int32_t after(JoxMachine *m, double seconds) {
+/* Adds a condition that holds once the state has lasted `seconds`. */
+static int32_t add_time_condition(JoxMachine *m, double seconds) {
     const JoxInstruction code[] = {
         {.op = JOX_OP_CONST, .number = seconds, .target = -1, .place = -1},
         {.op = JOX_OP_AFTER, .target = -1, .place = -1}};
-    return add_expression(m, code, 2);
+    return append_expression(m, code, 2);
 }
 
 static void operators_compute(void **state) {
@@ -121,50 +122,51 @@ static void operators_compute(void **state) {
             {.op = JOX_OP_CONST, .to = 1, .number = CASES[i].b, .target = -1, .place = -1},
             {.op = JOX_OP_CONST, .to = 2, .number = CASES[i].c, .target = -1, .place = -1},
             {.op = CASES[i].op, .a = 0, .b = 1, .c = 2, .target = -1, .place = -1},
-            /* kept above zero, so that a parameter can show it */
+            /* kept above zero, so that a parameter can hold it */
             {.op = JOX_OP_CONST, .to = 1, .number = 10, .target = -1, .place = -1},
             {.op = JOX_OP_ADD, .a = 0, .b = 1, .target = -1, .place = -1}};
         m->states[0].param[JOX_PARAM_push] =
-            (JoxValue){JOX_VALUE_EXPRESSION, 0, add_expression(m, code, 6), 0, 0};
+            (JoxValue){JOX_VALUE_EXPRESSION, 0, append_expression(m, code, 6), 0, 0};
         Fixture f;
-        begin(&f, m, 1);
-        think(&f);
+        set_up_fixture(&f, m, 1);
+        run_step(&f);
         assert_true(fabsf(jox_param(&f.agents, JOX_PARAM_push, 0) - (float)(CASES[i].result + 10)) <
                     1e-5f);
-        end(&f);
+        tear_down_fixture(&f);
     }
 }
 
 static void the_first_transition_that_holds_wins(void **state) {
     (void)state;
     JoxMachine *m = new_machine(3);
-    add_transition(m, 0, 1, after(m, 0.3));
-    add_transition(m, 0, 2, after(m, 0.2));
+    add_transition(m, 0, 1, add_time_condition(m, 0.3));
+    add_transition(m, 0, 2, add_time_condition(m, 0.2));
     Fixture f;
-    begin(&f, m, 300); /* more than a batch */
-    think(&f);
-    think(&f);
+    set_up_fixture(&f, m, 300); /* more than a batch */
+    run_step(&f);
+    run_step(&f);
     assert_int_equal(f.agents.state[299], 0);
-    think(&f); /* 0.2 s in the state */
+    run_step(&f); /* 0.2 s in the state */
     for (uint32_t i = 0; i < 300; i++)
         assert_int_equal(f.agents.state[i], 2);
     assert_int_equal(f.machines.taken_count, 300);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 static void chance_is_rolled_once_each_time_the_condition_turns_true(void **state) {
     (void)state;
     JoxMachine *m = new_machine(2);
-    add_transition(m, 0, 1, after(m, 0.1))->chance = (JoxValue){JOX_VALUE_CONST, 0.3, 0, 0, 0};
+    add_transition(m, 0, 1, add_time_condition(m, 0.1))->chance =
+        (JoxValue){JOX_VALUE_CONST, 0.3, 0, 0, 0};
     Fixture f;
-    begin(&f, m, 2000);
+    set_up_fixture(&f, m, 2000);
     for (int i = 0; i < 50; i++)
-        think(&f);
+        run_step(&f);
     uint32_t gone = 0;
     for (uint32_t i = 0; i < 2000; i++)
         gone += f.agents.state[i] == 1;
     assert_true(gone > 500 && gone < 700); /* 600 +- 5 sigma; rolled each step, nearly all */
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 static void a_drawn_duration_ends_the_state(void **state) {
@@ -173,11 +175,11 @@ static void a_drawn_duration_ends_the_state(void **state) {
     m->states[0].has_lasts = true;
     m->states[0].lasts = (JoxDist){.kind = JOX_DIST_UNIFORM, .a = 1.0, .b = 2.0};
     const JoxInstruction lasted[] = {{.op = JOX_OP_LASTED, .target = -1, .place = -1}};
-    add_transition(m, 0, 1, add_expression(m, lasted, 1));
+    add_transition(m, 0, 1, append_expression(m, lasted, 1));
     Fixture f;
-    begin(&f, m, 200);
+    set_up_fixture(&f, m, 200);
     for (int step = 0; step < 30; step++) {
-        think(&f);
+        run_step(&f);
         for (uint32_t i = 0; i < 200; i++) {
             if (step < 9)
                 assert_int_equal(f.agents.state[i], 0);
@@ -185,7 +187,7 @@ static void a_drawn_duration_ends_the_state(void **state) {
                 assert_int_equal(f.agents.state[i], 1);
         }
     }
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 static uint32_t calls[64];
@@ -205,26 +207,26 @@ static bool note_call(void *context, const JoxMachine *machine, int32_t hook, Jo
 static void hooks_run_by_id_whatever_the_order_in_memory(void **state) {
     (void)state;
     JoxMachine *m = new_machine(2);
-    add_transition(m, 0, 1, after(m, 0.1))->on_take = 2;
+    add_transition(m, 0, 1, add_time_condition(m, 0.1))->on_take = 2;
     m->states[0].on_exit = 1;
     m->states[1].on_enter = 3;
     Fixture f;
-    begin(&f, m, 4);
+    set_up_fixture(&f, m, 4);
     f.machines.call = note_call;
     f.machines.call_context = &f.agents;
     const uint32_t order[] = {2, 0, 3, 1};
     jox_agents_permute(&f.agents, order);
     call_count = 0;
-    think(&f);
-    think(&f);
+    run_step(&f);
+    run_step(&f);
     const uint32_t expected[] = {1, 2, 3, 11, 12, 13, 21, 22, 23, 31, 32, 33};
     assert_int_equal(call_count, 12);
     assert_memory_equal(calls, expected, sizeof expected);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
-/* Walks agent 0 round the origin by `turns`, in steps of 9 degrees. */
-static void walk(Fixture *f, double *angle, double turns) {
+/* Moves agent 0 round the origin by `turns`, in steps of 9 degrees. */
+static void walk_round(Fixture *f, double *angle, double turns) {
     int steps = (int)(fabs(turns) * 40 + 0.5);
     for (int i = 0; i < steps; i++) {
         f->agents.prev_x[0] = f->agents.x[0];
@@ -232,11 +234,11 @@ static void walk(Fixture *f, double *angle, double turns) {
         *angle += turns > 0 ? 6.283185307179586 / 40 : -6.283185307179586 / 40;
         f->agents.x[0] = (float)(5.0 * cos(*angle));
         f->agents.y[0] = (float)(5.0 * sin(*angle));
-        think(f);
+        run_step(f);
     }
 }
 
-static void circuits_count_from_the_line_and_take_back(void **state) {
+static void circuits_count_from_the_line_and_back_again(void **state) {
     (void)state;
     JoxV2 ring[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, line[] = {{1, 0}, {9, 0}};
     JoxPlace places[] = {
@@ -253,21 +255,21 @@ static void circuits_count_from_the_line_and_take_back(void **state) {
     m->counters[0] = (JoxCounter){add_place_target(m, 0), 0, 1, 2, -1};
     m->counter_count = 1;
     Fixture f;
-    begin(&f, m, 1);
+    set_up_fixture(&f, m, 1);
     f.machines.places = places;
     f.machines.place_count = 2;
     double angle = -1.0;
     f.agents.x[0] = (float)(5.0 * cos(angle));
     f.agents.y[0] = (float)(5.0 * sin(angle));
-    walk(&f, &angle, 0.125); /* not yet at the line */
+    walk_round(&f, &angle, 0.125); /* not yet at the start line */
     assert_true(f.agents.memory[0] == 0.0 && f.agents.memory[2] == 0.0);
-    walk(&f, &angle, 7.2); /* over it, and seven times round */
+    walk_round(&f, &angle, 7.2); /* across it, and seven times round */
     assert_true(f.agents.memory[0] == 7.0);
-    walk(&f, &angle, -3.0);
+    walk_round(&f, &angle, -3.0);
     assert_true(f.agents.memory[0] == 4.0);
-    walk(&f, &angle, 3.0);
+    walk_round(&f, &angle, 3.0);
     assert_true(f.agents.memory[0] == 7.0);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 static void a_queue_keeps_its_order(void **state) {
@@ -284,24 +286,25 @@ static void a_queue_keeps_its_order(void **state) {
     int16_t target = add_place_target(m, 0);
     m->states[1].steer[0] = (JoxSteerTerm){.kind = JOX_STEER_QUEUE, .target = target, .hook = -1};
     m->states[1].steer_count = 1;
-    /* Whoever is nearer than x metres joins; x grows with time, so that they join one by one. */
+    /* Agents nearer than x metres join the queue; x grows with time, so that they join one by
+       one. */
     const JoxInstruction near[] = {
         {.op = JOX_OP_NOW, .arg = JOX_NOW_time, .target = -1, .place = -1},
         {.op = JOX_OP_NEAR, .target = target, .place = -1}};
-    add_transition(m, 0, 1, add_expression(m, near, 2));
+    add_transition(m, 0, 1, append_expression(m, near, 2));
     Fixture f;
-    begin(&f, m, 3);
+    set_up_fixture(&f, m, 3);
     f.machines.places = &place;
     f.machines.place_count = 1;
     const float away[] = {0.55f, 0.25f, 0.85f}; /* joins second, first, third */
     for (int i = 0; i < 3; i++)
         f.agents.y[i] = away[i];
     for (int i = 0; i < 11; i++)
-        think(&f);
+        run_step(&f);
     /* The first aims at the head, the second at 0.5 m, the third at 1 m along the tail. */
     assert_true(fabsf(f.agents.pref_x[1]) < 1e-3f);
     assert_true(f.agents.pref_x[0] > 0.1f && f.agents.pref_x[2] > f.agents.pref_x[0]);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 static void a_reload_keeps_states_and_memory_by_name(void **state) {
@@ -310,11 +313,11 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     old->memory = jox_alloc(1, sizeof *old->memory);
     old->memory[0].name = jox_strdup("laps");
     old->memory_count = 1;
-    add_transition(old, 0, 1, after(old, 0.1));
+    add_transition(old, 0, 1, add_time_condition(old, 0.1));
     Fixture f;
-    begin(&f, old, 5);
-    think(&f);
-    think(&f);
+    set_up_fixture(&f, old, 5);
+    run_step(&f);
+    run_step(&f);
     f.agents.memory[3 * f.agents.memory_stride] = 6.0;
     uint32_t entered = f.agents.entered[3];
 
@@ -346,11 +349,11 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     assert_int_equal(f.agents.state[3], 1);
     assert_int_equal(f.agents.entered[3], entered);
     assert_int_equal(f.set.items[0]->reloads, 1);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
-/* Counts of transitions, as "A>B=5 A>C=0 ". */
-static void list_counts(void *context, const char *from, const char *to, uint64_t taken) {
+/* Appends counts of transitions as "A>B=5 A>C=0 ". */
+static void append_count(void *context, const char *from, const char *to, uint64_t taken) {
     char *out = context;
     size_t n = strlen(out);
     snprintf(out + n, 256 - n, "%s>%s=%llu ", from, to, (unsigned long long)taken);
@@ -359,38 +362,39 @@ static void list_counts(void *context, const char *from, const char *to, uint64_
 static void transitions_are_counted_over_all_versions(void **state) {
     (void)state;
     JoxMachine *old = new_machine(3);
-    add_transition(old, 0, 1, after(old, 0.1));
-    add_transition(old, 0, 2, after(old, 9));
-    add_transition(old, 1, 0, after(old, 0.1));
+    add_transition(old, 0, 1, add_time_condition(old, 0.1));
+    add_transition(old, 0, 2, add_time_condition(old, 9));
+    add_transition(old, 1, 0, add_time_condition(old, 0.1));
     Fixture f;
-    begin(&f, old, 5);
-    for (int k = 0; k < 4; k++) /* in B from the second on, in A at the third, in B at the fourth */
-        think(&f);
+    set_up_fixture(&f, old, 5);
+    for (int k = 0; k < 4; k++) /* in B from the second step, in A at the third, in B at the
+                                   fourth */
+        run_step(&f);
     char counts[256] = "";
-    jox_machines_taken(&f.machines, 0, list_counts, counts);
+    jox_machines_taken(&f.machines, 0, append_count, counts);
     assert_string_equal(counts, "A>B=10 A>C=0 B>A=5 ");
 
-    /* B is named K now, nothing leads back to A, and two transitions lead to it. */
+    /* In this version B is called K, nothing leads back to A, and two transitions lead to K. */
     JoxMachine *next = new_machine(3);
     next->states[1].name[0] = 'K';
     next->renamed = jox_alloc(1, sizeof *next->renamed);
     next->renamed[0] = (struct JoxRenamed){jox_strdup("B"), jox_strdup("K")};
     next->renamed_count = 1;
-    JoxTransition *kept = add_transition(next, 0, 1, after(next, 0.1));
+    JoxTransition *kept = add_transition(next, 0, 1, add_time_condition(next, 0.1));
     kept->id[0] = 'B';
-    add_transition(next, 0, 1, after(next, 9));
-    add_transition(next, 1, 2, after(next, 0.1));
+    add_transition(next, 0, 1, add_time_condition(next, 9));
+    add_transition(next, 1, 2, add_time_condition(next, 0.1));
     JoxReplacement *replacement = jox_replacement_prepare(old, next, 7, f.agents.next_id);
     jox_machine_free(jox_machines_replace(&f.machines, 0, replacement));
     jox_replacement_free(replacement);
-    think(&f);
+    run_step(&f);
     counts[0] = 0;
-    jox_machines_taken(&f.machines, 0, list_counts, counts);
+    jox_machines_taken(&f.machines, 0, append_count, counts);
     assert_string_equal(counts, "A>K=10 K>C=5 B>A=5 ");
-    end(&f);
+    tear_down_fixture(&f);
 }
 
-static void a_kick_sends_the_ball_where_it_should(void **state) {
+static void a_kick_sends_the_ball_towards_its_target(void **state) {
     (void)state;
     JoxV2 spot = {10, 0};
     JoxPlace place = {.name = "p",
@@ -408,7 +412,7 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
     m->states[0].kick = 1;
     m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0, 0};
     Fixture f;
-    begin(&f, m, 1);
+    set_up_fixture(&f, m, 1);
     f.machines.places = &place;
     f.machines.place_count = 1;
     JoxObject ball = {.live = true,
@@ -420,15 +424,15 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
                       .round = 0.1f,
                       .disc = 0.1f};
     f.objects = (JoxObjects){.rows = &ball, .count = 1, .capacity = 1};
-    think(&f);
+    run_step(&f);
     assert_int_equal(f.machines.kick_count, 1);
-    assert_true(fabsf(f.machines.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s on 0.4 kg */
+    assert_true(fabsf(f.machines.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s for 0.4 kg */
     assert_true(fabsf(f.machines.kicks[0].impulse.y) < 1e-4f);
     assert_int_equal(f.agents.kicked[0], 1);
-    think(&f); /* not again at once */
+    run_step(&f); /* too soon for another kick */
     assert_int_equal(f.machines.kick_count, 0);
     assert_int_equal(f.agents.kicked[0], 0);
-    end(&f);
+    tear_down_fixture(&f);
 }
 
 int main(void) {
@@ -438,11 +442,11 @@ int main(void) {
         cmocka_unit_test(chance_is_rolled_once_each_time_the_condition_turns_true),
         cmocka_unit_test(a_drawn_duration_ends_the_state),
         cmocka_unit_test(hooks_run_by_id_whatever_the_order_in_memory),
-        cmocka_unit_test(circuits_count_from_the_line_and_take_back),
+        cmocka_unit_test(circuits_count_from_the_line_and_back_again),
         cmocka_unit_test(a_queue_keeps_its_order),
         cmocka_unit_test(a_reload_keeps_states_and_memory_by_name),
         cmocka_unit_test(transitions_are_counted_over_all_versions),
-        cmocka_unit_test(a_kick_sends_the_ball_where_it_should),
+        cmocka_unit_test(a_kick_sends_the_ball_towards_its_target),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
