@@ -40,7 +40,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
     JoxForces *f = context;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
-        if (jox_touch_nothing(f, i, last) && jox_loads_are_none(f, i, last))
+        if (jox_have_no_contacts(f, i, last) && jox_loads_are_none(f, i, last))
             continue; /* the columns are zero since the stage began */
         for (uint32_t k = i; k < last; k++)
             write_contact_force(f, k);
@@ -61,8 +61,8 @@ static void finish_walls(JoxForces *f) {
 void jox_force_contact(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     jox_contacts_find(f);
-    jox_contacts_lay(f);
-    if (f->bodies)
+    jox_contacts_lay_out(f);
+    if (f->has_bodies)
         jox_touches_collect(f);
     f->contacts_known = true;
     if (f->options.literal)

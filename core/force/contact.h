@@ -118,8 +118,8 @@ typedef struct JoxKeptImpulses {
 typedef struct JoxSupportAxis {
     JoxFour along;                /* unit */
     JoxFour lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
-    float lightness[2],
-        sway[2];         /* 1/kg; root of the velocity gained by 1 N s at the point, root of 1/kg */
+    float inverse_mass[2];        /* 1/kg */
+    float sway[2]; /* root of the speed that 1 N s gives the point along the axis, root of 1/kg */
     float mass, impulse; /* kg; impulse on the first body, N s */
 } JoxSupportAxis;
 
@@ -133,9 +133,9 @@ typedef struct JoxSupport {
 /* Decides whether a support has to be solved again (support_solve.c). */
 typedef struct JoxSupportWatch {
     uint32_t rows[2];
-    float answer[2];   /* greatest impulse per unrest of each body, root of kg */
-    float answered[2]; /* unrest of each body when the support was tested last */
-    float left;        /* N s: change that was left then */
+    float most_per_unrest[2]; /* greatest impulse per unrest of each body, root of kg */
+    float tested_unrest[2];   /* unrest of each body when the support was tested last */
+    float remaining;          /* N s: change that was left then */
 } JoxSupportWatch;
 
 /* Motion of a body while contacts are solved. */

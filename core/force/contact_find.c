@@ -16,7 +16,7 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     jox_chunk_empty(&f->found, chunk);
     jox_chunk_empty(&f->found_walls, chunk);
     KERNELS[f->isa](f, begin, end);
-    if (f->bodies)
+    if (f->has_bodies)
         jox_touches_find(f, begin, end);
 }
 
@@ -37,13 +37,13 @@ void jox_contacts_find(JoxForces *f) {
     JOX_RESERVE(f->found_number, f->found_number_capacity, n + JOX_LANES);
     JOX_RESERVE(f->wall_first, f->wall_first_capacity, n + JOX_LANES);
     JOX_RESERVE(f->wall_number, f->wall_number_capacity, n + JOX_LANES);
-    if (f->bodies) {
+    if (f->has_bodies) {
         jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
                          sizeof(JoxTouch));
         JOX_RESERVE(f->touch_first, f->touch_first_capacity, n);
         JOX_RESERVE(f->touch_number, f->touch_number_capacity, n);
     }
-    f->cut = n && has_full_list(f->step.neighbours, n);
+    f->has_full_list = n && has_full_list(f->step.neighbours, n);
     jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, find_chunk, f);
     for (uint32_t c = 0; c < f->chunks; c++)
         f->totals.pairs += f->chunk[c].overlaps;

@@ -22,39 +22,40 @@ typedef struct JoxFindPacket {
 } JoxFindPacket;
 
 /* Data of an agent that is the same for all of its contacts. */
-typedef struct JoxToucher {
+typedef struct JoxContactSelf {
     JoxFloats x, y, vx, vy, breadth, radius, mass, restitution;
     JoxInts least_id; /* neighbours of lesser id find the contact themselves */
     JoxV2 period;     /* m; 0: none */
-} JoxToucher;
+} JoxContactSelf;
 
-static inline JoxToucher jox_toucher_of(const JoxAgents *a, uint32_t first) {
-    return (JoxToucher){jf_load(a->x + first),
-                        jf_load(a->y + first),
-                        jf_load(a->vx + first),
-                        jf_load(a->vy + first),
-                        jf_load(a->breadth + first),
-                        jox_param_lanes(a, JOX_PARAM_radius, first),
-                        jox_param_lanes(a, JOX_PARAM_mass, first),
-                        jox_param_lanes(a, JOX_PARAM_restitution, first),
-                        ji_load(a->id + first),
-                        a->period};
+static inline JoxContactSelf jox_load_contact_self(const JoxAgents *a, uint32_t first) {
+    return (JoxContactSelf){jf_load(a->x + first),
+                            jf_load(a->y + first),
+                            jf_load(a->vx + first),
+                            jf_load(a->vy + first),
+                            jf_load(a->breadth + first),
+                            jox_param_lanes(a, JOX_PARAM_radius, first),
+                            jox_param_lanes(a, JOX_PARAM_mass, first),
+                            jox_param_lanes(a, JOX_PARAM_restitution, first),
+                            ji_load(a->id + first),
+                            a->period};
 }
 
 /* Data of one neighbour of each lane. */
-typedef struct JoxMeeting {
+typedef struct JoxContactCandidates {
     JoxFloats x, y; /* position of the agent relative to the neighbour, m */
     JoxFloats distance2, distance, gap, squeeze; /* m2, m, m, N */
     JoxVector velocity; /* velocity of the agent relative to the neighbour, m/s */
     JoxFloats mass;     /* mass of the neighbour, kg */
-} JoxMeeting;
+} JoxContactCandidates;
 
 /* Returns those of `lanes` (bits) whose gap to their neighbour may close within the step, and fills
    *m. A contact is found a little before the discs meet: agents that would meet within the step are
    kept from moving into each other, so that agents at rest neither overlap nor lose and regain
    contact from step to step. */
-static inline uint32_t jox_find_meetings(const JoxForces *f, const JoxToucher *self,
-                                         const uint32_t *others, uint32_t lanes, JoxMeeting *m) {
+static inline uint32_t jox_find_touching(const JoxForces *f, const JoxContactSelf *self,
+                                         const uint32_t *others, uint32_t lanes,
+                                         JoxContactCandidates *m) {
     const float *motions = &f->step.neighbours->motions[0].x;
     const JoxParameterColumn radius = f->step.agents->param[JOX_PARAM_radius];
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
@@ -100,9 +101,9 @@ static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloa
 }
 
 /* Returns the targets (JoxPair) of the contacts with the lanes' neighbours, m/s. */
-static inline JoxFloats jox_targets_of(const JoxForces *f, const JoxToucher *self,
-                                       const uint32_t *others, const JoxMeeting *m,
-                                       JoxVector normal) {
+static inline JoxFloats jox_find_targets(const JoxForces *f, const JoxContactSelf *self,
+                                         const uint32_t *others, const JoxContactCandidates *m,
+                                         JoxVector normal) {
     const float dt = (float)f->step.dt;
     const JoxFloats zero = jf_set(0.0f);
     if (!jm_bits(jf_lt(zero, self->restitution)))
@@ -114,8 +115,8 @@ static inline JoxFloats jox_targets_of(const JoxForces *f, const JoxToucher *sel
 
 /* Adds the contacts of `lanes` (bits) with their neighbours, unless a wall stands between. Agents
    at the same point part along x. */
-static inline void jox_add_contacts(JoxFindPacket *p, const JoxToucher *self, uint32_t lanes,
-                                    const uint32_t *other, const JoxMeeting *m) {
+static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self, uint32_t lanes,
+                                    const uint32_t *other, const JoxContactCandidates *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = one / m->distance;
@@ -129,7 +130,7 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxToucher *self, ui
     jv_store(nx, ny, 0, normal);
     jf_store(gap, m->gap);
     jf_store(squeeze, m->squeeze);
-    jf_store(target, jox_targets_of(f, self, other, m, normal));
+    jf_store(target, jox_find_targets(f, self, other, m, normal));
     jf_store(mass, self->mass * m->mass / (self->mass + m->mass));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;

@@ -11,15 +11,15 @@ static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const uint32_t i = p->first;
-    const JoxToucher self = jox_toucher_of(a, i);
+    const JoxContactSelf self = jox_load_contact_self(a, i);
     const JoxInts most = ji_load_bytes(jox_close_counts(near, f->widest) + i);
     const uint32_t *others = near->index + jox_neighbour_at(near, i, 0);
     for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
         lanes &= jm_bits(ji_less(ji_set((int32_t)k), most));
         if (!lanes)
             break;
-        JoxMeeting m;
-        const uint32_t meeting = jox_find_meetings(f, &self, others, lanes, &m);
+        JoxContactCandidates m;
+        const uint32_t meeting = jox_find_touching(f, &self, others, lanes, &m);
         if (meeting)
             jox_add_contacts(p, &self, meeting, others, &m);
     }
@@ -28,7 +28,7 @@ static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
 /* Returns the lanes whose neighbour list covers touch range. */
 static uint32_t find_seen_lanes(const JoxFindPacket *p) {
     const uint8_t *touch_count = p->f->step.neighbours->touch_count;
-    if (p->f->cut)
+    if (p->f->has_full_list)
         return 0;
     if (!touch_count)
         return p->lanes;
@@ -60,7 +60,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(seen >> lane & 1))
-            p->count[lane] = jox_contacts_of(f, i, p->walls >> lane & 1, p->found[lane]);
+            p->count[lane] = jox_find_contacts_alone(f, i, p->walls >> lane & 1, p->found[lane]);
         JOX_ASSERT(*n + p->count[lane] <= f->found.room);
         f->found_first[i] = chunk * f->found.room + *n;
         f->found_number[i] = (uint8_t)p->count[lane];
@@ -70,7 +70,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
         }
         f->wall_first[i] = chunk * f->found_walls.room + *w;
         f->wall_number[i] =
-            p->walled >> lane & 1 ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
+            p->walled >> lane & 1 ? (uint8_t)jox_find_wall_contacts(f, i, walls + *w) : 0;
         *w += f->wall_number[i];
     }
 }

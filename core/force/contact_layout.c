@@ -113,7 +113,8 @@ static void start_colours(JoxForces *f) {
     p->starts[JOX_CONTACT_MOST_COLOURS] = sum;
 }
 
-/* Places the pairs that agents [begin, end) found into their colours, with the kept impulses. */
+/* Writes the pairs that agents [begin, end) found into the ranges of their colours, with the kept
+   impulses. */
 static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -191,8 +192,8 @@ static void reserve_layout(JoxForces *f, uint32_t pairs, uint32_t walls) {
     JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)agents + 1);
     JOX_RESERVE(f->pairs.items, f->pairs.capacity, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
-    f->work = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->work);
-    f->lightness = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->lightness);
+    f->velocities = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->velocities);
+    f->inverse_mass = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->inverse_mass);
     JOX_RESERVE(f->wall, f->wall_capacity, walls);
     JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
 }
@@ -225,11 +226,11 @@ static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worke
             lay_walls(layout->forces);
 }
 
-void jox_contacts_lay(JoxForces *f) {
+void jox_contacts_lay_out(JoxForces *f) {
     const uint32_t agents = f->step.agents->count;
     Layout layout = {f, sum_counts(f->found.counts, f->chunks),
                      sum_counts(f->found_walls.counts, f->chunks)};
-    const bool touched = f->bodies && sum_counts(f->touches.counts, f->chunks);
+    const bool touched = f->has_bodies && sum_counts(f->touches.counts, f->chunks);
     reserve_layout(f, layout.pairs, layout.walls);
     f->wall_count = f->wall_groups = 0;
     f->pairs.count = f->pairs.colours = 0;

@@ -25,22 +25,22 @@ static bool is_touch_list_full(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
-uint32_t jox_contacts_of(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out) {
+uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
     const uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i];
     JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
-    JoxToucher self = jox_toucher_of(a, i);
+    JoxContactSelf self = jox_load_contact_self(a, i);
     self.least_id = INT32_MIN; /* the other agent is tested below */
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
                                     : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
-        JoxMeeting m;
+        JoxContactCandidates m;
         if (a->id[other] < a->id[i] &&
             (!is_touch_list_full(near, other) || is_in_touch_list(near, other, i)))
             continue;
-        if (jox_find_meetings(f, &self, &other, 1, &m))
+        if (jox_find_touching(f, &self, &other, 1, &m))
             jox_add_contacts(&packet, &self, 1, &other, &m);
     }
     JOX_ASSERT(packet.count[0] <= JOX_MOST_NEIGHBOURS);
@@ -75,8 +75,8 @@ static bool find_edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, Jox
     return true;
 }
 
-uint32_t jox_contacts_walls_of(const JoxForces *f, uint32_t i,
-                               JoxFoundWall out[JOX_CONTACT_MOST_WALLS]) {
+uint32_t jox_find_wall_contacts(const JoxForces *f, uint32_t i,
+                                JoxFoundWall out[JOX_CONTACT_MOST_WALLS]) {
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
     uint32_t count, found = 0;

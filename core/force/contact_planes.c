@@ -89,7 +89,7 @@ static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint3
     JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
-        if (jox_touch_nothing(f, i, last)) {
+        if (jox_have_no_contacts(f, i, last)) {
             memset(planes->people + i, 0, last - i);
             memset(planes->bodies + i, 0, last - i);
             continue;

@@ -34,8 +34,8 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
         float impulse = p->impulse + p->squeeze * (float)f->step.dt;
         if (!(impulse > 0.0f))
             continue;
-        add_along(&f->work[p->first], p->normal, impulse * f->lightness[p->first]);
-        add_along(&f->work[p->second], p->normal, -impulse * f->lightness[p->second]);
+        add_along(&f->velocities[p->first], p->normal, impulse * f->inverse_mass[p->first]);
+        add_along(&f->velocities[p->second], p->normal, -impulse * f->inverse_mass[p->second]);
     }
 }
 
@@ -48,15 +48,15 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     float most = 0.0f;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
         JoxPair *p = &f->pairs.items[k];
-        JoxV2 *vi = &f->work[p->first], *vj = &f->work[p->second];
+        JoxV2 *vi = &f->velocities[p->first], *vj = &f->velocities[p->second];
         float speed = (vi->x - vj->x) * p->normal.x + (vi->y - vj->y) * p->normal.y;
         float before = p->impulse;
         float after = jox_maxf(0.0f, before + (p->target - speed) * p->mass);
         float change = after - before;
         p->impulse = after;
         most = jox_maxf(most, fabsf(change));
-        add_along(vi, p->normal, change * f->lightness[p->first]);
-        add_along(vj, p->normal, -change * f->lightness[p->second]);
+        add_along(vi, p->normal, change * f->inverse_mass[p->first]);
+        add_along(vj, p->normal, -change * f->inverse_mass[p->second]);
     }
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
@@ -64,11 +64,11 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
 static void warm_walls(JoxForces *f) {
     for (uint32_t k = 0; k < f->wall_count; k++) {
         const JoxWallContact *w = &f->wall[k];
-        add_along(&f->work[w->agent], w->normal, w->impulse * f->lightness[w->agent]);
+        add_along(&f->velocities[w->agent], w->normal, w->impulse * f->inverse_mass[w->agent]);
     }
 }
 
-/* Solves the contacts of agents [begin, end) of those at walls. */
+/* Solves the wall contacts of the groups [begin, end); a group is one agent at walls. */
 static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
@@ -77,11 +77,11 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     float most = 0.0f;
     for (uint32_t k = f->wall_group[begin]; k < f->wall_group[end]; k++) {
         JoxWallContact *w = &f->wall[k];
-        float before = w->impulse, speed = jox_dot(f->work[w->agent], w->normal);
+        float before = w->impulse, speed = jox_dot(f->velocities[w->agent], w->normal);
         w->impulse = jox_maxf(0.0f, before + (w->target - speed) * jox_at(mass, w->agent));
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
-        add_along(&f->work[w->agent], w->normal, change * f->lightness[w->agent]);
+        add_along(&f->velocities[w->agent], w->normal, change * f->inverse_mass[w->agent]);
     }
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }

@@ -15,15 +15,15 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
-        const JoxFloats lightness = 1.0f / jox_param_lanes(a, JOX_PARAM_mass, i);
+        const JoxFloats inverse_mass = 1.0f / jox_param_lanes(a, JOX_PARAM_mass, i);
         const JoxVector force = jox_moving_lanes(a, i, jox_stands_lanes(a, i));
-        const JoxVector change = jv_scale(jv_scale(force, lightness), dt);
+        const JoxVector change = jv_scale(jv_scale(force, inverse_mass), dt);
         const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
         const JoxMask finite = jm_and(are_finite(begins.x), are_finite(begins.y));
         float x[JOX_WIDTH], y[JOX_WIDTH];
-        jf_store(f->lightness + i, lightness);
+        jf_store(f->inverse_mass + i, inverse_mass);
         jv_store(x, y, 0, jv_select(finite, begins, (JoxVector){zero, zero}));
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            f->work[i + lane] = (JoxV2){x[lane], y[lane]};
+            f->velocities[i + lane] = (JoxV2){x[lane], y[lane]};
     }
 }

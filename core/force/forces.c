@@ -169,7 +169,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (n)
         jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);
-    f->bodies = n && step->objects && step->objects->grid.columns;
+    f->has_bodies = n && step->objects && step->objects->grid.columns;
 }
 
 static void list_kept_impulses(JoxSections *s, const char *name, JoxKeptImpulses *kept) {

@@ -23,7 +23,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
     const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
                                       jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.dt);
     for (uint32_t k = 0; k < n; k++)
-        jox_transfer_give(f, chunk, i, found[k], each);
+        jox_transfers_add(f, chunk, i, found[k], each);
 }
 
 /* Returns the share of a force that agent `to` takes from an agent that slowed down and lost
@@ -54,11 +54,11 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
     for (uint32_t k = 0; k < n; k++) {
         float share = find_taken_share(f, found[k], given, absorb * lost / (float)n);
-        jox_transfer_give(f, chunk, i, found[k], jox_scale(given, share));
+        jox_transfers_add(f, chunk, i, found[k], jox_scale(given, share));
     }
     if (n || jox_stands(a, i))
         return; /* an agent that wants to stand brakes as planned: nothing carries it on */
-    jox_transfer_give(f, chunk, i, i,
+    jox_transfers_add(f, chunk, i, i,
                       jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
 }
 

@@ -21,14 +21,14 @@ static JoxFloats find_shortfall(const JoxForces *f, uint32_t i, JoxVector old, J
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
-    const JoxFloats lightness = one / jox_param_lanes(a, JOX_PARAM_mass, i);
+    const JoxFloats inverse_mass = one / jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxVector others = jox_sum_terms_lanes(a, i, JOX_FORCE_BRACED);
     const JoxVector held = jv_sub(others, jox_unheld_lanes(a, i, others, jox_stands_lanes(a, i)));
     const JoxVector taken =
         jv_sub(jv_load(a->forced_x, a->forced_y, i), jv_load(a->next_x, a->next_y, i));
     const JoxFloats along = jf_max(zero, jv_dot(old, unit));
     const JoxFloats worn = along * (one - jox_decay_lanes(damping, dt, decay));
-    const JoxFloats holds = jv_dot(held, unit) * dt * lightness;
+    const JoxFloats holds = jv_dot(held, unit) * dt * inverse_mass;
     const JoxFloats takes = jv_dot(taken, unit) * (float)f->step.response;
     return holds + takes - worn;
 }

@@ -59,7 +59,7 @@ struct JoxForces {
     uint32_t *found_first, *wall_first; /* wall_first: after the layout an index into `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
-    bool cut; /* some list of agents within touch range is full: contacts are found singly */
+    bool has_full_list; /* of agents within touch range: contacts are found singly */
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bits of the colours of its pairs */
     JoxListed *listed;    /* per agent */
@@ -91,9 +91,9 @@ struct JoxForces {
     uint32_t support_count;
     JoxSupportWatch *watch; /* per support */
     size_t support_capacity, watch_capacity;
-    JoxV2 *work;      /* velocities while contacts are solved */
-    float *lightness; /* 1 / mass, 1/kg */
-    float *residuals; /* per chunk of a pass */
+    JoxV2 *velocities;   /* m/s, while contacts are solved */
+    float *inverse_mass; /* 1 / mass, 1/kg */
+    float *residuals;    /* per chunk of a pass */
     size_t residual_capacity;
     JoxV2 *braced; /* per agent: reaction of its own pushes, N */
     size_t braced_capacity;
@@ -109,8 +109,8 @@ struct JoxForces {
     /* State: the impulses from which the next step's solve starts. */
     JoxKeptImpulses kept_pairs, kept_walls, kept_touches;
 
-    float widest; /* greatest radius, m */
-    bool bodies;  /* there are bodies that agents can meet */
+    float widest;    /* greatest radius, m */
+    bool has_bodies; /* there are bodies that agents can meet */
     JoxPendingImpulse *pending;
     size_t pending_capacity;
     uint32_t pending_count, pending_sorted;
@@ -148,7 +148,7 @@ bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
 /* Makes room for transfers between agents. */
 void jox_transfers_begin(JoxForces *forces);
 /* Adds a force, N, that agent i of a chunk gives agent `to`. */
-void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
+void jox_transfers_add(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i become sorted[starts[i]] to sorted[starts[i +
    1]]. Returns how many there are; with none nothing is written. */
 uint32_t jox_transfers_sort(JoxForces *forces);
@@ -218,10 +218,10 @@ void jox_contacts_find(JoxForces *forces);
 /* contact_near.c: finds the contacts with other agents that one agent has to find, by ascending id;
    returns how many. The agent of lesser id finds a contact, or the other one where the list of the
    first is full. `walls`: some are near. */
-uint32_t jox_contacts_of(JoxForces *forces, uint32_t agent, bool walls, JoxFoundPair *out);
+uint32_t jox_find_contacts_alone(JoxForces *forces, uint32_t agent, bool walls, JoxFoundPair *out);
 /* contact_near.c: finds the nearest edges that an agent touches; returns how many. */
-uint32_t jox_contacts_walls_of(const JoxForces *forces, uint32_t agent,
-                               JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
+uint32_t jox_find_wall_contacts(const JoxForces *forces, uint32_t agent,
+                                JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
 /* Inserts a contact into a list of `count`, sorted by id. */
 static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
     for (; count > 0 && list[count - 1].other_id > pair->other_id; count--)
@@ -232,7 +232,7 @@ static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const Jox
 #define JOX_SQUEEZE 2000.0f
 /* contact_layout.c: lays out the contacts found, in the order of ids, with the impulses of the last
    step, and computes the start of the solve (lay); keeps the impulses for the next step (keep). */
-void jox_contacts_lay(JoxForces *forces);
+void jox_contacts_lay_out(JoxForces *forces);
 void jox_contacts_keep(JoxForces *forces);
 /* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
  *at is the place in the list, 0 at first. */
@@ -271,7 +271,7 @@ static inline uint32_t jox_touches_of(const JoxForces *forces, uint32_t agent) {
     return forces->touch_count ? forces->touch_number[agent] : 0;
 }
 /* Returns whether agents [begin, end), at most JOX_LANES, have no contact with agents or bodies. */
-static inline bool jox_touch_nothing(const JoxForces *f, uint32_t begin, uint32_t end) {
+static inline bool jox_have_no_contacts(const JoxForces *f, uint32_t begin, uint32_t end) {
     uint32_t touches = f->end_starts[end] - f->end_starts[begin];
     for (uint32_t i = begin; f->touch_count && i < end; i++)
         touches |= f->touch_number[i];
@@ -290,7 +290,7 @@ void jox_supports_finish(JoxForces *forces);
 /* Velocity of a point of a body, m/s; and applying an impulse there, N s, while contacts are
    solved. */
 JoxV3 jox_body_velocity(const JoxForces *forces, uint32_t row, JoxV3 point);
-void jox_body_give(JoxForces *forces, uint32_t row, JoxV3 point, JoxV3 impulse);
+void jox_body_apply_impulse(JoxForces *forces, uint32_t row, JoxV3 point, JoxV3 impulse);
 
 /* literal.c: the equations as printed. (5): returns the direction of a push, from where the pusher
    will be to the target's centre. */

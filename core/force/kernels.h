@@ -19,8 +19,8 @@ typedef void JoxFindKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxFindKernel jox_find_packets_##name;
 JOX_ISAS(X)
 #undef X
-/* Computes `work` and `lightness` of agents [begin, end), the start of the contact solve. Both have
-   room for whole blocks of JOX_LANES. */
+/* Computes `velocities` and `inverse_mass` of agents [begin, end), the start of the contact solve.
+   Both have room for whole blocks of JOX_LANES. */
 typedef void JoxStartKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxStartKernel jox_start_packets_##name;
 JOX_ISAS(X)

@@ -115,9 +115,9 @@ static void share_in_cone(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, 
     if (axis.x != 0.0f || axis.y != 0.0f)
         n = jox_people_in_cone(f, i, jox_unit(axis), found);
     for (uint32_t k = 0; k < n; k++)
-        jox_transfer_give(f, chunk, i, found[k], jox_scale(force, 1.0f / (float)n));
+        jox_transfers_add(f, chunk, i, found[k], jox_scale(force, 1.0f / (float)n));
     if (!n)
-        jox_transfer_give(f, chunk, i, i, force);
+        jox_transfers_add(f, chunk, i, i, force);
 }
 
 /* (8), (9) k m dv/dt in the cone about the old velocity, k m (v - v_f)/dt in that about the forced

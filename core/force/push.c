@@ -164,7 +164,7 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
         return;
     Target targets[MOST_TARGETS];
     uint32_t n = find_people_targets(f, i, aim, targets);
-    if (f->bodies)
+    if (f->has_bodies)
         n += find_body_targets(f, i, aim, targets + n);
     JOX_ASSERT(n <= MOST_TARGETS);
     if (!n)
@@ -179,13 +179,13 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
         if (targets[k].is_body)
             queue_body_push(f, chunk, i, &targets[k], force);
         else
-            jox_transfer_give(f, chunk, i, targets[k].index, force);
+            jox_transfers_add(f, chunk, i, targets[k].index, force);
     }
     struct JoxForceChunk *totals = &f->chunk[chunk];
     totals->pushers++;
     f->braced[i] = jox_scale(sum, -1.0f);
     if (f->options.react) {
-        jox_transfer_give(f, chunk, i, i, jox_scale(sum, -1.0f));
+        jox_transfers_add(f, chunk, i, i, jox_scale(sum, -1.0f));
     } else {
         totals->ground_x += to_fixed(sum.x * f->step.dt);
         totals->ground_y += to_fixed(sum.y * f->step.dt);

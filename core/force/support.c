@@ -39,7 +39,7 @@ JoxV3 jox_body_velocity(const JoxForces *f, uint32_t row, JoxV3 point) {
     return add_scaled(to_three(m->velocity), turning, 1.0f);
 }
 
-void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
+void jox_body_apply_impulse(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     if (row == JOX_NO_OBJECT || !f->motions[row].solved)
         return;
     const JoxObject *body = &f->step.objects->rows[row];
@@ -115,7 +115,7 @@ static JoxSupportAxis make_axis(const JoxForces *f, const uint32_t rows[2], JoxV
             continue;
         JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
         axis.turning[side] = to_four(turning);
-        axis.lightness[side] = body->inverse_mass;
+        axis.inverse_mass[side] = body->inverse_mass;
         float sway2 = body->inverse_mass + jox_dot3(lever, turning);
         axis.sway[side] = sqrtf(sway2);
         gain += sway2;
@@ -130,7 +130,8 @@ static JoxSupportWatch make_watch(const JoxSupport *s) {
     JoxSupportWatch watch = {.rows = {s->rows[0], s->rows[1]}};
     for (int k = 0; k < 3; k++)
         for (int side = 0; side < 2; side++)
-            watch.answer[side] = jox_maxf(watch.answer[side], axes[k]->mass * axes[k]->sway[side]);
+            watch.most_per_unrest[side] =
+                jox_maxf(watch.most_per_unrest[side], axes[k]->mass * axes[k]->sway[side]);
     return watch;
 }
 
@@ -173,7 +174,7 @@ void jox_supports_begin(JoxForces *f) {
     uint32_t pushes; /* sorted by the pusher's id: the order in memory changes no bit */
     const JoxImpulse *push = jox_force_impulses(f, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
-        jox_body_give(f, push[k].object, push[k].point, push[k].impulse);
+        jox_body_apply_impulse(f, push[k].object, push[k].point, push[k].impulse);
 }
 
 /* Returns the share of the impulses that agents gave a body which its supports took: 1 if it is

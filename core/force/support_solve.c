@@ -34,10 +34,10 @@ static inline float measure_speed(const JoxBodyMotion *first, const JoxBodyMotio
 static inline void apply_impulse(JoxBodyMotion *first, JoxBodyMotion *second,
                                  const JoxSupportAxis *axis, float impulse) {
     const float size = fabsf(impulse);
-    first->velocity += axis->along * (axis->lightness[0] * impulse);
+    first->velocity += axis->along * (axis->inverse_mass[0] * impulse);
     first->spin += axis->turning[0] * impulse;
     first->unrest += axis->sway[0] * size;
-    second->velocity -= axis->along * (axis->lightness[1] * impulse);
+    second->velocity -= axis->along * (axis->inverse_mass[1] * impulse);
     second->spin -= axis->turning[1] * impulse;
     second->unrest += axis->sway[1] * size;
 }
@@ -80,9 +80,9 @@ static float solve_support(JoxBodyMotion *first, JoxBodyMotion *second, JoxSuppo
                            JoxSupportWatch *watch) {
     const float before = s->normal.impulse;
     set_impulse(first, second, &s->normal, find_normal_impulse(first, second, s));
-    watch->answered[0] = first->unrest;
-    watch->answered[1] = second->unrest;
-    watch->left = 0.0f;
+    watch->tested_unrest[0] = first->unrest;
+    watch->tested_unrest[1] = second->unrest;
+    watch->remaining = 0.0f;
     const JoxV2 rub = find_friction(first, second, s);
     set_impulse(first, second, &s->across[0], rub.x);
     set_impulse(first, second, &s->across[1], rub.y);
@@ -102,18 +102,18 @@ static inline float find_change(const JoxBodyMotion *first, const JoxBodyMotion 
    bound of the change. */
 static inline bool is_settled(const JoxBodyMotion *first, const JoxBodyMotion *second,
                               const JoxSupport *s, JoxSupportWatch *w, float little, float *most) {
-    const float since = w->answer[0] * (first->unrest - w->answered[0]) +
-                        w->answer[1] * (second->unrest - w->answered[1]);
+    const float since = w->most_per_unrest[0] * (first->unrest - w->tested_unrest[0]) +
+                        w->most_per_unrest[1] * (second->unrest - w->tested_unrest[1]);
     if (since > little) {
         const float due = find_change(first, second, s);
         if (!(due <= little))
             return false;
-        w->answered[0] = first->unrest;
-        w->answered[1] = second->unrest;
-        *most = w->left = due;
+        w->tested_unrest[0] = first->unrest;
+        w->tested_unrest[1] = second->unrest;
+        *most = w->remaining = due;
         return true;
     }
-    *most = w->left + since;
+    *most = w->remaining + since;
     return true;
 }
 

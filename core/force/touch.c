@@ -107,11 +107,11 @@ float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
 
 /* Applies an impulse, N s, to the agent and the opposite one to the body of a touch. */
 static void apply_touch_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
-    float lightness = f->lightness[t->agent];
-    f->work[t->agent].x += t->normal.x * impulse * lightness;
-    f->work[t->agent].y += t->normal.y * impulse * lightness;
-    jox_body_give(f, t->object, t->point,
-                  (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
+    float inverse_mass = f->inverse_mass[t->agent];
+    f->velocities[t->agent].x += t->normal.x * impulse * inverse_mass;
+    f->velocities[t->agent].y += t->normal.y * impulse * inverse_mass;
+    jox_body_apply_impulse(f, t->object, t->point,
+                           (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
 }
 
 /* ---- driven bodies ----
@@ -203,8 +203,8 @@ static float find_way_share(const JoxForces *f, uint32_t drive) {
         const JoxTouch *t = &f->touch[k];
         if (t->drive != (int)drive || !(t->ahead > 0.0f && t->impulse > 0.0f))
             continue;
-        const float gives =
-            jox_dot(f->work[t->agent], t->normal) + jox_maxf(0.0f, t->gap) / (float)f->step.dt;
+        const float gives = jox_dot(f->velocities[t->agent], t->normal) +
+                            jox_maxf(0.0f, t->gap) / (float)f->step.dt;
         share = jox_minf(share, gives / (t->ahead * f->drives[drive].speed));
     }
     return jox_clampf(share, 0.0f, 1.0f);
@@ -280,7 +280,7 @@ float jox_touches_pass(JoxForces *f) {
     float most = jox_supports_pass(f);
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
-        float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
+        float speed = jox_dot(f->velocities[t->agent], t->normal) - jox_touch_speed_after(f, t);
         t->before = t->impulse;
         t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
         apply_touch_impulse(f, t, t->impulse - t->before);

@@ -70,7 +70,7 @@ static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
     return (JoxTransfer *)f->transfers.items + ((size_t)run * f->chunks + chunk) * RUN;
 }
 
-void jox_transfer_give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
+void jox_transfers_add(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
     const uint32_t at = f->transfers.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
     JOX_ASSERT(chunk < f->chunks && at < f->transfers.room);

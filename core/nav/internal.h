@@ -27,7 +27,7 @@ typedef struct JoxHeading {
 /* Draws of the time gaps of JOX_LANES consecutive agents, each from -1 to 1: the agent's own, and
    those of the knots before and after the present time. Kept while the agents stay the same. */
 typedef struct JoxGapDraws {
-    uint32_t of[JOX_LANES]; /* ids of the agents; JOX_NO_INDEX: not drawn yet */
+    uint32_t id[JOX_LANES]; /* ids of the agents; JOX_NO_INDEX: not drawn yet */
     double own[JOX_LANES], from[JOX_LANES], to[JOX_LANES];
 } JoxGapDraws;
 

@@ -112,7 +112,7 @@ typedef struct JoxMove {
 
 /* Returns where walls let a disc of `radius` m get on its way to a point. A way longer than
    `served` is split into pieces; pieces that cross joined edges go on at the other side. */
-JoxV2 jox_nav_way(const JoxMove *move, JoxV2 from, JoxV2 to, float radius);
+JoxV2 jox_nav_move_past_walls(const JoxMove *move, JoxV2 from, JoxV2 to, float radius);
 
 #define JOX_STILL_REACH 0.25f /* m: lesser movement counts as standing still */
 

@@ -7,7 +7,7 @@
 
 #define MOST_PIECES 1e5f /* pieces of a way; a longer way leaves the world */
 
-JoxV2 jox_nav_way(const JoxMove *m, JoxV2 from, JoxV2 to, float radius) {
+JoxV2 jox_nav_move_past_walls(const JoxMove *m, JoxV2 from, JoxV2 to, float radius) {
     const JoxWallGrid *grid = &m->nav->grid;
     const JoxV2 way = jox_sub(to, from);
     const float pieces = ceilf(jox_length(way) / m->served);

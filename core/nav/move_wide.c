@@ -116,8 +116,9 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         for (uint32_t lane = 0; walled >> lane; lane++) {
             if (!(walled >> lane & 1))
                 continue;
-            const JoxV2 at = jox_nav_way(m, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
-                                         (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
+            const JoxV2 at =
+                jox_nav_move_past_walls(m, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
+                                        (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
             x[lane] = at.x;
             y[lane] = at.y;
         }

@@ -46,8 +46,8 @@ typedef uint32_t JoxMaker(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *o
 
 /* Puts the half-planes that `make` returns for lanes (bits) into rows from `row` on. `at`: offset
    of their number in JoxHalfPlaneCounts. */
-static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxMaker *make,
-                                size_t at) {
+static inline void jox_put_lane_by_lane(JoxPacket *p, uint32_t lanes, uint32_t row, JoxMaker *make,
+                                        size_t at) {
     p->counted |= lanes;
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         if (!(lanes >> lane & 1))
@@ -62,8 +62,8 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
         }
     }
 }
-#define JOX_PUT_EACH(packet, lanes, row, make, kind)                                               \
-    jox_put_each(packet, lanes, row, make, offsetof(JoxHalfPlaneCounts, kind))
+#define JOX_PUT_LANE_BY_LANE(packet, lanes, row, make, kind)                                       \
+    jox_put_lane_by_lane(packet, lanes, row, make, offsetof(JoxHalfPlaneCounts, kind))
 
 /* ---- half-planes of neighbours ---- */
 
@@ -97,17 +97,18 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
     return ~jm_bits(s->clear2 ? jm_or(far, jf_lt(d2, jf_load(s->clear2 + first))) : far);
 }
 
-/* Returns those of `lanes` that avoid their neighbour, whose indices are given. `picky`: lanes that
-   need the scalar test jox_solve_passes_over. */
-static inline uint32_t jox_minding(const JoxPacket *p, const JoxTouched *t, uint32_t lanes,
-                                   uint32_t picky, const uint32_t *index) {
+/* Returns those of `lanes` that avoid their neighbour, whose indices are given. `scalar_tested`:
+   lanes that need the scalar test jox_solve_passes_over. */
+static inline uint32_t jox_find_avoiding(const JoxPacket *p, const JoxTouched *t, uint32_t lanes,
+                                         uint32_t scalar_tested, const uint32_t *index) {
     JoxMask touched = jm_of_bits(0);
     for (uint32_t k = 0; k < t->rows; k++)
         touched = jm_or(touched, ji_equal(ji_load(index), ji_load(t->other[k])));
     lanes &= ~jm_bits(touched);
-    picky &= lanes;
-    for (uint32_t lane = 0; picky >> lane; lane++)
-        if ((picky >> lane & 1) && jox_solve_passes_over(p->s, p->first + lane, index[lane]))
+    scalar_tested &= lanes;
+    for (uint32_t lane = 0; scalar_tested >> lane; lane++)
+        if ((scalar_tested >> lane & 1) &&
+            jox_solve_passes_over(p->s, p->first + lane, index[lane]))
             lanes &= ~(1u << lane);
     return lanes;
 }
@@ -236,18 +237,18 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSelf self = jox_self_of(s, p->first, walkers);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
-    const uint32_t picky = jox_picky_lanes(p->s->agents, p->first) & p->lanes,
+    const uint32_t scalar_tested = jox_scalar_test_lanes(p->s->agents, p->first) & p->lanes,
                    walled = s->touched ? p->near_walls : 0;
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
-    const uint32_t choosy = picky | walled | (touched.rows ? p->touching : 0);
+    const uint32_t some_tested = scalar_tested | walled | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
     jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
         nearest[k].half = jox_orca_begin(&nearest[k].pair, &self.orca, s->planning_time,
                                          jox_have_more(&counts, k), &coincide);
-    if (!walkers && !choosy && counts.least == counts.most) {
+    if (!walkers && !some_tested && counts.least == counts.most) {
         jox_put_whole_rows(p, &self, nearest, counts.most);
         return coincide;
     }
@@ -261,10 +262,11 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
             coincide |= walkers & lanes & jm_bits(jf_le(gap.distance, jf_set(0.0f)));
             lanes &= ~(walkers & jm_bits(jox_walker_is_far(s->nav->walk, &gap)));
         }
-        if (lanes & choosy)
-            lanes = jox_minding(p, &touched, lanes,
-                                picky | (walled & jox_may_be_hidden(s, p->first, &nearest[k].pair)),
-                                others);
+        if (lanes & some_tested)
+            lanes = jox_find_avoiding(
+                p, &touched, lanes,
+                scalar_tested | (walled & jox_may_be_hidden(s, p->first, &nearest[k].pair)),
+                others);
         if (!lanes)
             continue;
         JoxPlaneLanes plane;
@@ -311,7 +313,7 @@ static inline void jox_put_neighbours(JoxPacket *p) {
         for (uint32_t row = p->hard; (alone >> lane & 1) && row < p->count; row++)
             p->rows[row].x[lane] = p->rows[row].y[lane] = p->rows[row].offset[lane] = 0.0f;
     if (alone)
-        JOX_PUT_EACH(p, alone, p->hard, jox_solve_neighbours, agents);
+        JOX_PUT_LANE_BY_LANE(p, alone, p->hard, jox_solve_neighbours, agents);
 }
 
 /* Appends the row of the forces' half-planes, and sets `pressed`. */
@@ -341,15 +343,15 @@ static inline void jox_put_half_planes(JoxPacket *p) {
             p->made[lane] = (JoxHalfPlaneCounts){0};
     p->counted = 0;
     if (p->near_walls)
-        JOX_PUT_EACH(p, p->near_walls, 0, jox_solve_walls, walls);
+        JOX_PUT_LANE_BY_LANE(p, p->near_walls, 0, jox_solve_walls, walls);
     p->contacts = p->count;
     if (p->touching)
-        JOX_PUT_EACH(p, p->touching, p->contacts, jox_solve_contacts, contacts);
+        JOX_PUT_LANE_BY_LANE(p, p->touching, p->contacts, jox_solve_contacts, contacts);
     p->hard = p->count;
     jox_put_neighbours(p);
     p->objects = p->count;
     if (p->s->objects && p->s->objects->count)
-        JOX_PUT_EACH(p, p->lanes, p->objects, jox_solve_objects, objects);
+        JOX_PUT_LANE_BY_LANE(p, p->lanes, p->objects, jox_solve_objects, objects);
     jox_put_force(p);
 }
 

@@ -71,7 +71,7 @@ static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velo
 
 /* Returns the forced velocity for agents in contact whose planned one differs from it only by the
    program's rounding: then contact alone acts, and keeps momentum. */
-static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector velocity) {
+static inline JoxVector jox_snap_to_forced_lanes(const JoxPressed *p, JoxVector velocity) {
     const JoxFloats rounding = jf_set(2e-5f); /* m/s */
     JoxVector d = {velocity.x - p->forced.x, velocity.y - p->forced.y};
     JoxMask same = jm_and(p->touching, jf_lt(jv_dot(d, d), rounding * rounding));
@@ -79,7 +79,8 @@ static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector veloc
 }
 
 /* Writes the planned velocity of an agent, m/s. */
-static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, float y, bool failed) {
+static inline void jox_write_plan(const JoxSolve *s, uint32_t agent, float x, float y,
+                                  bool failed) {
     s->agents->next_x[agent] = x;
     s->agents->next_y[agent] = y;
     s->agents->failed[agent] |= failed;
@@ -94,7 +95,7 @@ typedef struct JoxRestLanes {
     JoxInts contacts, failed_at; /* rows: the first of contacts; the one that could not be met */
     uint32_t count, hard;        /* rows; the first soft row */
     JoxRow *rows;
-    float asked[JOX_REST_HARD + 1][JOX_WIDTH]; /* m/s: offsets of the hard rows, and of force,
+    float unlowered[JOX_REST_HARD + 1][JOX_WIDTH]; /* m/s: offsets of the hard rows, and of force,
                                                   before any was lowered */
     JoxPressed pressed;
     JoxVector velocity;
@@ -133,8 +134,8 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
 
 /* Plans one agent that can only move if hard half-planes are relaxed, with its half-planes as they
    were before any was lowered. Returns whether one was relaxed. */
-static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRestLanes *l,
-                                uint32_t k) {
+static inline bool jox_rest_solve_one(const JoxSolve *s, const JoxRest *r, const JoxRestLanes *l,
+                                      uint32_t k) {
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
     JoxHalfPlaneCounts made = r->made[k];
     uint32_t count = 0;
@@ -142,11 +143,11 @@ static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRe
         const JoxV2 normal = {l->rows[row].x[k], l->rows[row].y[k]};
         if (normal.x == 0.0f && normal.y == 0.0f)
             continue;
-        const float offset = row < l->hard ? l->asked[row][k] : l->rows[row].offset[k];
+        const float offset = row < l->hard ? l->unlowered[row][k] : l->rows[row].offset[k];
         list[count++] = (JoxHalfPlane){normal, offset};
     }
     if (made.force)
-        list[count - 1].offset = l->asked[l->hard][k];
+        list[count - 1].offset = l->unlowered[l->hard][k];
     made.agents = count - (made.walls + made.contacts + made.objects + made.force);
     return jox_solve_one(s, r->agent[k], &made, list, jox_v2(r->wanted_x[k], r->wanted_y[k]));
 }
@@ -165,9 +166,9 @@ static inline JoxMask jox_best_lanes(const JoxRow *rows, uint32_t count, uint32_
     return unmet;
 }
 
-/* Lowers contacts and force to the best velocity within reach: see keep_within_reach. Returns the
-   lanes where any was lowered; *unmet: lanes in which a hard half-plane has to be relaxed, which
-   are not done here. */
+/* Lowers the half-planes of contacts and force until they allow the best velocity within reach, as
+   keep_within_reach of solve_one.c does. Returns the lanes where any was lowered; *unmet: lanes in
+   which a hard half-plane has to be relaxed, which jox_solve_one does. */
 static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask *unmet) {
     const JoxFloats slack = jf_set(1e-5f);
     const JoxVector wanted = l->pressed.wanted, none = {jf_set(0.0f), jf_set(0.0f)};
@@ -179,7 +180,7 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
         JoxFloats offset = is_hard ? jf_load(l->rows[row].offset) : force->offset;
         jf_store(imposed[row].x, n.x);
         jf_store(imposed[row].y, n.y);
-        jf_store(l->asked[row], offset);
+        jf_store(l->unlowered[row], offset);
         jf_store(imposed[row].offset, offset - jv_dot(n, wanted));
     }
     JoxVector change;
@@ -212,7 +213,7 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
 /* Plans the gathered agents, from the velocity of their own program, after lowering contacts and
    force to what is within reach; empties the list. Returns how many had a hard half-plane
    relaxed. */
-static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
+static inline uint32_t jox_rest_solve_far(const JoxSolve *s, JoxRest *r) {
     JoxRestLanes l;
     JoxVector lowest;
     JoxMask unmet, lowered;
@@ -228,14 +229,14 @@ static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
                                             l.pressed.wanted, &lowest));
         l.velocity = jv_select(lowered, lowest, l.velocity);
     }
-    l.velocity = jox_as_forced_lanes(&l.pressed, l.velocity);
+    l.velocity = jox_snap_to_forced_lanes(&l.pressed, l.velocity);
     jf_store(x, l.velocity.x);
     jf_store(y, l.velocity.y);
     for (uint32_t k = 0; k < r->count; k++)
         if (jm_bits(unmet) >> k & 1)
-            relaxed += jox_rest_one(s, r, &l, k);
+            relaxed += jox_rest_solve_one(s, r, &l, k);
         else
-            jox_keep_plan(s, r->agent[k], x[k], y[k], r->failed[k]);
+            jox_write_plan(s, r->agent[k], x[k], y[k], r->failed[k]);
     jox_rest_clear(r);
     return relaxed;
 }
@@ -264,7 +265,7 @@ static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
 /* Plans the gathered agents whose half-planes cannot all be met, with the least greatest violation.
    Agents that are then out of reach move on to `far`; if that gets full it is planned. Returns how
    many of those had a hard half-plane relaxed. */
-static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, JoxRest *far) {
+static inline uint32_t jox_rest_solve_unmet(const JoxSolve *s, JoxRest *r, JoxRest *far) {
     JoxRestLanes l;
     uint32_t relaxed = 0;
     float x[JOX_WIDTH], y[JOX_WIDTH];
@@ -274,7 +275,7 @@ static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, Jox
     jox_least_violation_lanes(l.rows, l.count, l.hard, l.all, l.failed_at, l.limit,
                               l.pressed.wanted, &l.velocity);
     const uint32_t out = jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity));
-    const JoxVector planned = jox_as_forced_lanes(&l.pressed, l.velocity);
+    const JoxVector planned = jox_snap_to_forced_lanes(&l.pressed, l.velocity);
     jf_store(r->velocity_x, l.velocity.x);
     jf_store(r->velocity_y, l.velocity.y);
     jf_store(x, planned.x);
@@ -283,9 +284,9 @@ static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, Jox
         if (out >> k & 1) {
             jox_rest_copy(r, k, far);
             if (far->count == JOX_WIDTH)
-                relaxed += jox_rest_pull_in(s, far);
+                relaxed += jox_rest_solve_far(s, far);
         } else {
-            jox_keep_plan(s, r->agent[k], x[k], y[k], true);
+            jox_write_plan(s, r->agent[k], x[k], y[k], true);
         }
     jox_rest_clear(r);
     return relaxed;

@@ -111,7 +111,8 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
     if (keep_within_reach(s, i, made, half_planes, &pressed, velocity))
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                  &still);
-    const JoxVector planned = jox_as_forced_lanes(&pressed, (JoxVector){velocity.x, velocity.y});
+    const JoxVector planned =
+        jox_snap_to_forced_lanes(&pressed, (JoxVector){velocity.x, velocity.y});
     a->failed[i] |= !met;
     a->next_x[i] = planned.x;
     a->next_y[i] = planned.y;

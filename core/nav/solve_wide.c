@@ -138,12 +138,12 @@ static uint32_t queue_unsolved(JoxPacket *p, const Plan *plan, uint32_t soft, ui
     while (soft) {
         soft = queue_lanes(p->unmet, p, soft, plan);
         if (p->unmet->count == JOX_WIDTH)
-            relaxed += jox_rest_violate_least(p->s, p->unmet, p->far);
+            relaxed += jox_rest_solve_unmet(p->s, p->unmet, p->far);
     }
     while (far) {
         far = queue_lanes(p->far, p, far, plan);
         if (p->far->count == JOX_WIDTH)
-            relaxed += jox_rest_pull_in(p->s, p->far);
+            relaxed += jox_rest_solve_far(p->s, p->far);
     }
     return relaxed;
 }
@@ -169,7 +169,7 @@ static uint32_t solve_packet(JoxPacket *p) {
     JOX_CHECK(check_lanes(p, p->lanes & ~jm_bits(failed), limit, velocity));
     const JoxMask hard = jm_and(failed, ji_less(failed_at, ji_set((int32_t)p->hard)));
     const JoxMask far = jm_without(jox_out_of_reach_lanes(&pressed, velocity), failed);
-    const JoxVector planned = jox_as_forced_lanes(&pressed, velocity);
+    const JoxVector planned = jox_snap_to_forced_lanes(&pressed, velocity);
     const uint32_t rest = p->lanes & jm_bits(jm_or(failed, far));
     const JoxMask planned_now = jm_of_bits(p->lanes & ~rest);
     if (!rest && p->lanes == JOX_ALL_LANES) {
@@ -230,6 +230,6 @@ uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t
         if (packet.lanes)
             relaxed += solve_packet(&packet);
     }
-    relaxed += jox_rest_violate_least(s, &unmet, &far);
-    return relaxed + jox_rest_pull_in(s, &far);
+    relaxed += jox_rest_solve_unmet(s, &unmet, &far);
+    return relaxed + jox_rest_solve_far(s, &far);
 }

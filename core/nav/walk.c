@@ -76,7 +76,7 @@ static void refresh_gap_draws(const JoxWalk *w) {
         nav->gap_room = packets * JOX_LANES;
     }
     for (uint32_t i = 0; i < nav->gap_room; i++)
-        nav->gap_draws[i / JOX_LANES].of[i % JOX_LANES] = JOX_NO_INDEX;
+        nav->gap_draws[i / JOX_LANES].id[i % JOX_LANES] = JOX_NO_INDEX;
     nav->gap_stream = w->stream;
     nav->gap_knots[0] = w->knots[0];
     nav->gap_knots[1] = w->knots[1];

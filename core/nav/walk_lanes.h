@@ -58,16 +58,16 @@ static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, 
 }
 
 /* Returns the lanes that ignore agents or mean to touch one: their neighbours need scalar tests. */
-static inline uint32_t jox_picky_lanes(const JoxAgents *a, uint32_t first) {
-    uint32_t picky = 0;
+static inline uint32_t jox_scalar_test_lanes(const JoxAgents *a, uint32_t first) {
+    uint32_t scalar_tested = 0;
     uint64_t ignoring = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         ignoring |= a->ignore[first + lane];
     for (uint32_t lane = 0; ignoring && lane < JOX_WIDTH; lane++)
-        picky |= (uint32_t)(a->ignore[first + lane] != 0) << lane;
+        scalar_tested |= (uint32_t)(a->ignore[first + lane] != 0) << lane;
     const JoxInts close = ji_or(ji_load(a->approached + first),
                                 ji_or(ji_load(a->grasped + first), ji_load_bytes(a->held + first)));
-    return picky | ~jm_bits(ji_equal(close, ji_set(0)));
+    return scalar_tested | ~jm_bits(ji_equal(close, ji_set(0)));
 }
 
 /* ---- tempers ---- */
@@ -122,7 +122,7 @@ static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lane
         draws->from[at] = jox_drawn(jox_random_mix(bits ^ w->knots[0]));
         draws->to[at] = jox_drawn(jox_random_mix(bits ^ w->knots[1]));
         draws->own[at] = jox_drawn(jox_random_mix(jox_random_mix(w->stream ^ (id | 1)) ^ w->own));
-        draws->of[at] = w->agents->id[first + lane];
+        draws->id[at] = w->agents->id[first + lane];
     }
 }
 
@@ -134,7 +134,7 @@ static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t
     const float *base = jox_params(w->agents, JOX_PARAM_time_gap, first);
     const JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
     const uint32_t at = first % JOX_LANES;
-    const JoxMask known = ji_equal(ji_load(w->agents->id + first), ji_load(draws->of + at));
+    const JoxMask known = ji_equal(ji_load(w->agents->id + first), ji_load(draws->id + at));
     if (lanes & ~jm_bits(known))
         jox_draw_gaps(w, first, lanes & ~jm_bits(known));
     float eager[JOX_WIDTH], gap[JOX_WIDTH];

@@ -112,7 +112,7 @@ static inline __attribute__((always_inline)) Minded find_minded(const Packet *p,
     const uint32_t i = p->first;
     const JoxMask wants = jm_of_bits(p->lanes);
     const JoxInts counts = ji_select(wants, ji_load_bytes(n->count + i), none);
-    const uint32_t picky = jox_picky_lanes(a, i);
+    const uint32_t scalar_tested = jox_scalar_test_lanes(a, i);
     Minded minded = {none, none};
     JoxMask there;
     for (uint32_t k = 0; jm_bits(there = ji_less(ji_set((int32_t)k), counts)); k++) {
@@ -126,7 +126,7 @@ static inline __attribute__((always_inline)) Minded find_minded(const Packet *p,
         const JoxMindsLanes how = jox_minds_lanes(a, i, others, heading, offset);
         const JoxMask hidden = jf_le(p->clear2, jv_dot(offset, offset));
         JoxMask minds = jm_and(there, jm_or(how.ahead, how.crossing));
-        const uint32_t doubtful = jm_bits(minds) & (picky | jm_bits(hidden));
+        const uint32_t doubtful = jm_bits(minds) & (scalar_tested | jm_bits(hidden));
         if (doubtful)
             minds = jm_without(minds, jm_of_bits(find_passed_over(p, doubtful, others, offset)));
         const JoxInts bit = ji_set((int32_t)(1u << k));
@@ -358,19 +358,19 @@ static void try_sides(const Packet *p, uint32_t lanes, const JoxWalkTable *walls
                       uint32_t k, Best *best) {
     const JoxVector e[2] = {walk_direction(k), walk_direction(k + 1)};
     JoxFloats wall[2];
-    uint32_t asked = 0;
+    uint32_t tried = 0;
     for (uint32_t d = 0; d < 2; d++) {
         wall[d] = walls ? jf_load(walls->allowed[k + d]) : jf_set(INFINITY);
         const JoxFloats most = score_direction(t, k + d, e[d], jf_min(p->speed, wall[d]));
-        asked |= (uint32_t)((lanes & ~jm_bits(jf_le(most, best->taste))) != 0) << d;
+        tried |= (uint32_t)((lanes & ~jm_bits(jf_le(most, best->taste))) != 0) << d;
     }
     Judgement j[2];
-    if (asked == 3)
+    if (tried == 3)
         judge_both(p, e, j);
-    else if (asked)
-        j[asked - 1] = judge_direction(p, e[asked - 1]);
+    else if (tried)
+        j[tried - 1] = judge_direction(p, e[tried - 1]);
     for (uint32_t d = 0; d < 2; d++)
-        if (asked >> d & 1)
+        if (tried >> d & 1)
             offer_direction(
                 best, t, k + d, e[d],
                 (Judgement){jf_min(j[d].allowed, wall[d]), jf_min(j[d].worth, wall[d])});

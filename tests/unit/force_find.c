@@ -215,7 +215,7 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
         assert_true(same_pair(&found[k], &pairs[k]));
     const JoxFoundWall *wall = (const JoxFoundWall *)f->found_walls.items + f->wall_first[i];
     if (edges)
-        count = jox_contacts_walls_of(f, i, walls);
+        count = jox_find_wall_contacts(f, i, walls);
     assert_int_equal(f->wall_number[i], count);
     for (uint32_t k = 0; k < count; k++)
         assert_true(wall[k].edge == walls[k].edge && wall[k].gap == walls[k].gap);
@@ -237,7 +237,7 @@ static void compare_find_crowd(JoIsa isa, uint32_t number, Seen *seen) {
         again += c.forces->chunk[k].overlaps;
     assert_int_equal(overlaps, again);
     seen->overlaps += overlaps;
-    seen->cut += c.forces->cut;
+    seen->cut += c.forces->has_full_list;
     close_find_crowd(&c);
 }
 

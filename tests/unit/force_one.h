@@ -76,14 +76,14 @@ static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
 static float plain_shortfall(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, response = (float)f->step.response;
-    float lightness = 1.0f / jox_param(a, JOX_PARAM_mass, i);
+    float inverse_mass = 1.0f / jox_param(a, JOX_PARAM_mass, i);
     float damping = jox_param(a, JOX_PARAM_damping, i);
     JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
     JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
     float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
     float worn = along * (1.0f - jox_decay(decay, damping, dt));
-    return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
+    return jox_dot(held, unit) * dt * inverse_mass + jox_dot(taken, unit) * response - worn;
 }
 
 static bool plain_is_under_force(const JoxAgents *a, uint32_t i) {

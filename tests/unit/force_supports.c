@@ -148,12 +148,13 @@ static void skipped_supports_change_within_their_bound(void **state) {
                 const JoxSupportWatch *w = &f->watch[k];
                 float since = 0.0f, presses, rubs;
                 for (int side = 0; side < 2; side++)
-                    since +=
-                        w->answer[side] * (f->motions[w->rows[side]].unrest - w->answered[side]);
+                    since += w->most_per_unrest[side] *
+                             (f->motions[w->rows[side]].unrest - w->tested_unrest[side]);
                 find_changes(f, k, &presses, &rubs);
-                assert_true(presses <= w->left + since + 1e-4f);
-                assert_true(rubs <= w->left + 1.42f * since + 1e-4f); /* along two axes together */
-                passed_over += since > 0.0f && w->left + since < 0.1f;
+                assert_true(presses <= w->remaining + since + 1e-4f);
+                assert_true(rubs <=
+                            w->remaining + 1.42f * since + 1e-4f); /* along two axes together */
+                passed_over += since > 0.0f && w->remaining + since < 0.1f;
                 in_all++;
             }
             jox_touches_pass(f);

@@ -70,8 +70,8 @@ static void add_crowd(Crowd *c, float side) {
     }
 }
 
-/* Writes what agents want in a step, after the sort, which discards it. Half are bound for the same
-   place. */
+/* Writes the preferred velocities, ways and places of a step; called after the sort, which discards
+   these columns. Half of the agents are bound for the same place. */
 static void set_wishes(Crowd *c) {
     JoxAgents *a = &c->agents;
     for (uint32_t i = 0; i < a->count; i++) {
