@@ -1,5 +1,6 @@
-// The C interface for C++17, without a library of its own: worlds and scenes that free themselves, errors as
-// exceptions, columns and events as ranges. Whatever is not here is called as in C, with `get()`.
+// C++17 wrapper of the C interface, in this header alone: worlds and scenes that free themselves, errors as
+// exceptions, columns and events as ranges. Functions without a wrapper are called as in C, with the handle of
+// `get()`.
 #ifndef JOSTLE_HPP
 #define JOSTLE_HPP
 
@@ -16,7 +17,7 @@
 
 namespace jostle {
 
-// What a call failed with: what() has file and line where there are some.
+// Exception for a JoError: what() is its text, after file and line if these are known.
 class Error : public std::runtime_error {
   public:
     explicit Error(const JoError &error) : std::runtime_error(text_of(error)), error_(error) {}
@@ -41,7 +42,7 @@ inline void require(bool good, const JoError &error) {
 }
 } // namespace detail
 
-// `count` items from a pointer, which holds as long as the C interface says.
+// View of `count` items at a pointer, valid as long as the C interface says.
 template <class T> class Range {
   public:
     Range(const T *data, std::size_t count) noexcept : data_(data), count_(count) {}
@@ -65,7 +66,7 @@ template <> struct TypeOf<std::uint64_t> { static constexpr JoType value = JO_U6
 template <> struct TypeOf<float> { static constexpr JoType value = JO_F32; };
 template <> struct TypeOf<double> { static constexpr JoType value = JO_F64; };
 
-// A number of every agent, in place: column[i] is that of agent i until the next step.
+// View of one number per agent, read in place: column[i] is that of agent i, until the next step.
 template <class T> class Column {
   public:
     explicit Column(const JoColumn &column) noexcept
@@ -81,7 +82,7 @@ template <class T> class Column {
     std::size_t stride_, count_;
 };
 
-// The arrays of JoEvents: they hold until the next call on the world.
+// Arrays of JoEvents as ranges, valid until the next call on the world.
 struct Events {
     explicit Events(const JoEvents &e) noexcept
         : transitions(e.transitions, e.transition_count), touches(e.touches, e.touch_count),
@@ -97,7 +98,7 @@ struct Events {
     Range<JoActionEvent> actions;
 };
 
-// A world that somebody owns, as seen: of a scene, or of a World.
+// Non-owning reference to a world, of a Scene or a World.
 class WorldRef {
   public:
     explicit WorldRef(JoWorld *world) noexcept : world_(world) {}
@@ -106,7 +107,7 @@ class WorldRef {
     std::uint64_t hash() const noexcept { return jo_world_hash(world_); }
     std::uint32_t agent_count() const noexcept { return jo_world_agent_count(world_); }
 
-    // Throws std::invalid_argument where there is no such column, or it holds another type.
+    // Finds a column. Throws std::invalid_argument if there is none with that name, or its numbers have another type.
     template <class T> Column<T> column(const char *name) const {
         const JoColumn column = jo_world_column(world_, name);
         if (column.data && column.type != TypeOf<T>::value)
@@ -116,7 +117,7 @@ class WorldRef {
         return Column<T>(column);
     }
 
-    // What happened in the last step.
+    // Events of the last step.
     Events events() const { return Events(jo_world_events(world_)); }
 
     JoAgent spawn(const char *group, double x, double y) {
@@ -142,7 +143,7 @@ struct Free {
     template <class T> void operator()(T *told) const noexcept { jo_free(told); }
 };
 
-// A struct of jostle_tell.h, which frees itself: told->items[0].
+// Owner of a struct of jostle_tell.h: told->items[0].
 template <class T> class Told {
   public:
     // Throws std::bad_alloc for NULL.
@@ -157,7 +158,7 @@ template <class T> class Told {
     std::unique_ptr<T, Free> told_;
 };
 
-// A world that is made by hand.
+// Owner of a world made by hand.
 class World : public WorldRef {
   public:
     explicit World(const JoWorldDef &def = jo_default_world_def()) : World(create(def)) {}
@@ -174,7 +175,7 @@ class World : public WorldRef {
         detail::require(body.generation != 0, error);
         return body;
     }
-    // Throws std::runtime_error where the world ended.
+    // Advances the world. Throws std::runtime_error if it has failed.
     void step(std::uint32_t steps = 1) {
         jo_world_step(get(), steps);
         const char *failure = jo_world_failure(get());
@@ -193,7 +194,7 @@ class World : public WorldRef {
     std::unique_ptr<JoWorld, Free> owned_;
 };
 
-// A scene from its file, or from a definition made as in C.
+// Owner of a scene, loaded from its file or from a definition.
 class Scene {
   public:
     explicit Scene(const JoSceneDef &def) {
@@ -214,10 +215,10 @@ class Scene {
         JoError error{};
         detail::require(jo_scene_input(get(), line.c_str(), &error), error);
     }
-    // Of the run so far; what it returns may outlive the scene.
+    // Figures and troubles of the run so far; the results may outlive the scene.
     Told<JoFigures> figures() const { return Told<JoFigures>(jo_scene_figures(get())); }
     Told<JoTroubles> troubles() const { return Told<JoTroubles>(jo_scene_troubles(get())); }
-    // Of a probe by its number; throws std::out_of_range where there is none.
+    // Measurements of the n-th probe; throws std::out_of_range if there is none.
     Told<JoTable> probe(std::uint32_t n) const {
         if (!jo_scene_probe_name(get(), n))
             throw std::out_of_range("the scene has no such probe");

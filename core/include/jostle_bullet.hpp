@@ -1,6 +1,7 @@
-// Bodies of a program's own Bullet world among Jostle's people, for C++17: they push the crowd, and it pushes them. Jostle
-// has a body of the same shape, mass and friction for each; before a step that is put where the program's is, after it
-// the program's is given the impulse that people gave it. What the bodies do to each other stays the program's.
+// Couples bodies of a program's own Bullet world with Jostle's people, for C++17: they push the crowd, and it pushes
+// them. Each has a counterpart of the same shape, mass and friction in Jostle, which takes the body's pose before a
+// step; after the step the body gets the impulse that people gave to the counterpart. Collisions between the bodies
+// stay the program's.
 //
 //     jostle::BulletBridge bridge(world);      // a JoWorld; it must outlive the bridge
 //     bridge.join(*body);                      // a btRigidBody
@@ -25,9 +26,10 @@ class BulletBridge {
   public:
     explicit BulletBridge(JoWorld *world) noexcept : world_(world) {}
 
-    // A body that people meet from here on. Boxes, spheres and upright cylinders (btCylinderShapeZ) are met as what they
-    // are, other shapes as the box about them in their own frame. One without mass, or that is kinematic, pushes people
-    // and is not pushed. It may be joined once, and must live until it leaves. Throws Error where Jostle refuses it.
+    // Adds a counterpart of a body, which people meet from now on. Boxes, spheres and upright cylinders
+    // (btCylinderShapeZ) keep their shape, other shapes become the bounding box in their own frame. A body without
+    // mass, or a kinematic one, pushes people and is not pushed. It may be joined once, and must live until it
+    // leaves. Throws Error if Jostle refuses it.
     JoBody join(btRigidBody &body) {
         JoBodyDef def = jo_default_body_def();
         shape_of(body, def);
@@ -37,7 +39,7 @@ class BulletBridge {
         def.x = at.x();
         def.y = at.y();
         def.z = at.z();
-        def.force_limit = 0; // it goes where the program's body goes; jo_body_pushed tells what presses on it
+        def.force_limit = 0; // none: it follows the program's body; jo_body_pushed reports the push of people
         def.friction = body.getFriction();
         def.restitution = body.getRestitution();
         JoError error{};
@@ -47,7 +49,7 @@ class BulletBridge {
         return like;
     }
 
-    // Nothing where it has not joined.
+    // Removes the counterpart of a body; does nothing if it has not joined.
     void leave(btRigidBody &body) {
         const auto found = std::find_if(joined_.begin(), joined_.end(), [&](const Joined &one) { return one.own == &body; });
         if (found == joined_.end())
@@ -57,7 +59,8 @@ class BulletBridge {
         joined_.erase(found);
     }
 
-    // Before a step: Jostle's bodies are put where the program's are, with their velocities. Throws Error.
+    // Moves the counterparts to the poses and velocities of the program's bodies. Call it before a step. Throws
+    // Error.
     void before() const {
         for (const Joined &one : joined_) {
             const btTransform &frame = one.own->getWorldTransform();
@@ -76,8 +79,9 @@ class BulletBridge {
         }
     }
 
-    // After a step: the program's bodies are given what people gave Jostle's, as forces throughout the `seconds` of the
-    // program's next stepSimulation, so that what stands by friction is not jerked loose.
+    // Applies the impulses that people gave the counterparts to the program's bodies, as forces throughout the
+    // `seconds` of the program's next stepSimulation, so that a body held by friction is not jerked loose. Call it
+    // after a step.
     void after(double seconds) const {
         for (const Joined &one : joined_) {
             double impulse[3], turn[3];
