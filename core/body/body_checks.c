@@ -1,5 +1,5 @@
-/* Checks of blocks and bonds, the grid of discs and footprints; builds with assertions call them.
- */
+/* Assertions on blocks and bonds, the grid of discs and footprints; builds with assertions call
+   them. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -7,12 +7,12 @@
 #include "body/footprint.h"
 #include "body/sweep.h"
 
-static bool finite_three(const double v[3]) {
+static bool is_finite_triple(const double v[3]) {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-/* The block that is entered for the cell of block n. */
-static uint32_t entered(const JoxBondGraph *g, uint32_t n) {
+/* Returns the block in the table entry for the cell of block n. */
+static uint32_t find_entered_block(const JoxBondGraph *g, uint32_t n) {
     uint32_t c[3];
     for (int i = 0; i < 3; i++) {
         c[i] = g->cell[n][i] - g->low[i];
@@ -25,7 +25,7 @@ void jox_bonds_check(const JoxBondGraph *g) {
     const uint32_t cells = g->range[0] * g->range[1] * g->range[2];
     JOX_ASSERT(g->count > 0 && g->count <= JOX_BONDS_MOST_BLOCKS && g->count <= cells);
     JOX_ASSERT(g->bond_count <= 3 * g->count);
-    JOX_ASSERT(g->block_mass > 0.0 && finite_three(g->centre));
+    JOX_ASSERT(g->block_mass > 0.0 && is_finite_triple(g->centre));
     for (int i = 0; i < 3; i++)
         JOX_ASSERT(g->inertia[4 * i] > 0.0 && g->inverse[4 * i] > 0.0);
     uint32_t filled = 0;
@@ -33,9 +33,9 @@ void jox_bonds_check(const JoxBondGraph *g) {
         filled += g->at[c] != UINT32_MAX;
     JOX_ASSERT(filled == g->count);
     for (uint32_t n = 0; n < g->count; n++) {
-        JOX_ASSERT(entered(g, n) == n);
-        JOX_ASSERT(finite_three(g->impulse[n]) && finite_three(g->load[n]));
-        JOX_ASSERT(finite_three(g->displacement[n]));
+        JOX_ASSERT(find_entered_block(g, n) == n);
+        JOX_ASSERT(is_finite_triple(g->impulse[n]) && is_finite_triple(g->load[n]));
+        JOX_ASSERT(is_finite_triple(g->displacement[n]));
     }
     for (uint32_t k = 0; k < g->bond_count; k++) {
         const JoxBond *bond = &g->bonds[k];
@@ -47,11 +47,12 @@ void jox_bonds_check(const JoxBondGraph *g) {
 void jox_bonds_pieces_check(const JoxBondGraph *g, uint32_t pieces) {
     uint32_t seen = 0;
     for (uint32_t n = 0; n < g->count; n++) {
-        JOX_ASSERT(g->label[n] <= seen); /* counted in the order of the least blocks */
+        JOX_ASSERT(g->label[n] <= seen); /* pieces are numbered by their least block */
         seen += g->label[n] == seen;
     }
     JOX_ASSERT(seen == pieces);
-    JOX_ASSERT((uint64_t)pieces + g->bond_count >= g->count); /* a bond joins two at most */
+    JOX_ASSERT((uint64_t)pieces + g->bond_count >=
+               g->count); /* each bond joins at most two pieces */
     for (uint32_t k = 0; k < g->bond_count; k++)
         JOX_ASSERT(g->label[g->bonds[k].a] == g->label[g->bonds[k].b]);
 }

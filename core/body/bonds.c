@@ -1,4 +1,4 @@
-/* Blocks and bonds: making, finding, falling apart. The loads are in bonds_load.c. */
+/* Graph of blocks and bonds: creates, searches, splits it. bonds_load.c computes the loads. */
 #include "body/bonds.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ void jox_bonds_free(JoxBondGraph *g) {
     jox_free(g);
 }
 
-static uint32_t *cell_entry(const JoxBondGraph *g, const uint32_t cell[3]) {
+static uint32_t *find_cell_entry(const JoxBondGraph *g, const uint32_t cell[3]) {
     uint32_t x = cell[0] - g->low[0], y = cell[1] - g->low[1], z = cell[2] - g->low[2];
     return &g->at[x + g->range[0] * (y + g->range[1] * z)];
 }
@@ -29,8 +29,8 @@ void jox_bonds_block_centre(const JoxBondGraph *g, uint32_t block, double out[3]
         out[i] = g->origin[i] + (g->cell[block][i] + 0.5) * g->size[i];
 }
 
-/* Adjugate over determinant; of a symmetric, positive matrix. */
-static void invert(const double m[9], double out[9]) {
+/* Inverts a symmetric, positive matrix: adjugate over determinant. */
+static void invert_inertia(const double m[9], double out[9]) {
     double a = m[4] * m[8] - m[5] * m[7], b = m[5] * m[6] - m[3] * m[8];
     double c = m[3] * m[7] - m[4] * m[6], d = m[0] * a + m[1] * b + m[2] * c;
     double adjugate[9] = {a, m[2] * m[7] - m[1] * m[8], m[1] * m[5] - m[2] * m[4],
@@ -40,7 +40,7 @@ static void invert(const double m[9], double out[9]) {
         out[i] = adjugate[i] / d;
 }
 
-static void weigh(JoxBondGraph *g) {
+static void compute_inertia(JoxBondGraph *g) {
     double p[3];
     memset(g->centre, 0, sizeof g->centre);
     memset(g->inertia, 0, sizeof g->inertia);
@@ -62,10 +62,10 @@ static void weigh(JoxBondGraph *g) {
                 g->inertia[3 * i + j] += g->block_mass * (own - p[i] * p[j]);
             }
     }
-    invert(g->inertia, g->inverse);
+    invert_inertia(g->inertia, g->inverse);
 }
 
-static void make_columns(JoxBondGraph *g) {
+static void allocate_block_arrays(JoxBondGraph *g) {
     g->at = jox_alloc((size_t)g->range[0] * g->range[1] * g->range[2], sizeof *g->at);
     memset(g->at, 0xff, (size_t)g->range[0] * g->range[1] * g->range[2] * sizeof *g->at);
     g->cell = jox_alloc(g->count, sizeof *g->cell);
@@ -82,14 +82,14 @@ JoxBondGraph *jox_bonds_allocate(const uint32_t low[3], const uint32_t range[3],
     memcpy(g->low, low, sizeof g->low);
     memcpy(g->range, range, sizeof g->range);
     g->count = count;
-    make_columns(g);
+    allocate_block_arrays(g);
     return g;
 }
 
 void jox_bonds_index(JoxBondGraph *g) {
     for (uint32_t n = 0; n < g->count; n++)
-        *cell_entry(g, g->cell[n]) = n;
-    weigh(g);
+        *find_cell_entry(g, g->cell[n]) = n;
+    compute_inertia(g);
     JOX_CHECK(jox_bonds_check(g));
 }
 
@@ -111,7 +111,7 @@ JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], do
         g->origin[i] = -0.5 * count[i] * size[i];
         g->range[i] = count[i];
     }
-    make_columns(g);
+    allocate_block_arrays(g);
     uint32_t stride[3] = {1, count[0], count[0] * count[1]};
     for (uint32_t n = 0; n < g->count; n++) {
         uint32_t cell[3] = {n % count[0], n / count[0] % count[1], n / stride[2]};
@@ -121,7 +121,7 @@ JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], do
             if (cell[axis] + 1 < count[axis])
                 g->bonds[g->bond_count++] = (JoxBond){n, n + stride[axis], axis, strength};
     }
-    weigh(g);
+    compute_inertia(g);
     JOX_CHECK(jox_bonds_check(g));
     return g;
 }
@@ -133,7 +133,7 @@ uint32_t jox_bonds_block_at(const JoxBondGraph *g, const double point[3]) {
         double last = g->range[i] - 1.0;
         cell[i] = g->low[i] + (uint32_t)(at > last ? last : at > 0.0 ? at : 0.0);
     }
-    uint32_t found = *cell_entry(g, cell);
+    uint32_t found = *find_cell_entry(g, cell);
     if (found != NONE)
         return found;
     double least = INFINITY, p[3];
@@ -152,20 +152,22 @@ uint32_t jox_bonds_block_at(const JoxBondGraph *g, const double point[3]) {
     return found;
 }
 
-/* Labels spread along the bonds until none changes; bonds ascend, so that few passes do. */
+/* Spreads the least label of each piece along the bonds until none changes. Bonds ascend, so few
+   passes suffice. */
 uint32_t jox_bonds_label_pieces(JoxBondGraph *g) {
     for (uint32_t n = 0; n < g->count; n++)
         g->label[n] = n;
     for (bool changed = true; changed;) {
         changed = false;
-        for (uint32_t k = 0; k < 2 * g->bond_count; k++) { /* forth and back */
+        for (uint32_t k = 0; k < 2 * g->bond_count;
+             k++) { /* first in ascending, then in descending order */
             const JoxBond *bond = &g->bonds[k < g->bond_count ? k : 2 * g->bond_count - 1 - k];
             uint32_t *a = &g->label[bond->a], *b = &g->label[bond->b];
             changed = changed || *a != *b;
             *a = *b = *a < *b ? *a : *b;
         }
     }
-    /* A piece's label is its least block so far: count them through. */
+    /* The label of a piece is its least block up to here; number the pieces instead. */
     uint32_t pieces = 0;
     for (uint32_t n = 0; n < g->count; n++)
         g->label[n] = g->label[n] == n ? pieces++ : g->label[g->label[n]];
@@ -173,7 +175,7 @@ uint32_t jox_bonds_label_pieces(JoxBondGraph *g) {
     return pieces;
 }
 
-/* Cells and columns of the blocks with this label; new index of each old block in `renamed`. */
+/* Copies the blocks with a label into `part`; renamed[n] becomes the new index of block n. */
 static void copy_blocks(const JoxBondGraph *g, JoxBondGraph *part, uint32_t label,
                         uint32_t *renamed) {
     uint32_t high[3] = {0, 0, 0};
@@ -192,7 +194,7 @@ static void copy_blocks(const JoxBondGraph *g, JoxBondGraph *part, uint32_t labe
     JOX_ASSERT(part->count > 0);
     for (int i = 0; i < 3; i++)
         part->range[i] = high[i] - part->low[i] + 1;
-    make_columns(part);
+    allocate_block_arrays(part);
     for (uint32_t n = 0; n < g->count; n++) {
         if (g->label[n] != label)
             continue;
@@ -201,7 +203,7 @@ static void copy_blocks(const JoxBondGraph *g, JoxBondGraph *part, uint32_t labe
         memcpy(part->impulse[to], g->impulse[n], sizeof part->impulse[to]);
         memcpy(part->load[to], g->load[n], sizeof part->load[to]);
         memcpy(part->displacement[to], g->displacement[n], sizeof part->displacement[to]);
-        *cell_entry(part, part->cell[to]) = to;
+        *find_cell_entry(part, part->cell[to]) = to;
     }
 }
 
@@ -220,14 +222,14 @@ JoxBondGraph *jox_bonds_extract(const JoxBondGraph *g, uint32_t label, bool own_
                 (JoxBond){renamed[bond->a], renamed[bond->b], bond->axis, bond->strength};
     }
     jox_free(renamed);
-    weigh(part);
+    compute_inertia(part);
     memset(centre, 0, 3 * sizeof *centre);
     if (own_frame) {
         for (int i = 0; i < 3; i++) {
             centre[i] = part->centre[i];
             part->origin[i] -= centre[i];
         }
-        weigh(part);
+        compute_inertia(part);
     }
     JOX_CHECK(jox_bonds_check(part));
     return part;

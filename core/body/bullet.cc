@@ -1,4 +1,5 @@
-/* Bullet's world: bodies come and go, are pushed, and are read. */
+/* Bodies in Bullet's world: creates the world, adds and removes bodies, applies impulses, and
+   reads poses. */
 #include "body/bullet.h"
 
 #include <new>
@@ -6,7 +7,7 @@
 
 static const float REACH = 10000.0f;
 
-static void release_bodies(void *bodies) {
+static void release_bodies_heap(void *bodies) {
     jox_bullet_free_heap(static_cast<JoxBodies *>(bodies)->heap);
 }
 
@@ -14,44 +15,46 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
     jox_bullet_use_memory();
     JoxBodies *b = static_cast<JoxBodies *>(jox_alloc(1, sizeof(JoxBodies)));
     b->heap = jox_heap_used();
-    jox_hold(b, release_bodies);
+    jox_hold(b, release_bodies_heap);
     b->def = *def;
     b->last_dt = 0.05f;
     return b;
 }
 
-/* Classes of Bullet that would otherwise be allocated past its own functions. */
-template <typename T, typename... Arguments> static T *make(Arguments... arguments) {
+/* Creates objects of Bullet's classes that lack its own operator new, so that they too come from
+   its memory functions. */
+template <typename T, typename... Arguments>
+static T *create_bullet_object(Arguments... arguments) {
     return new (btAlignedAlloc(sizeof(T), 16)) T(arguments...);
 }
 
-template <typename T> static void unmake(T *object) {
+template <typename T> static void destroy_bullet_object(T *object) {
     object->~T();
     btAlignedFree(object);
 }
 
-static void make_world(JoxBodies *b) {
+static void create_bullet_world(JoxBodies *b) {
     btDefaultCollisionConstructionInfo info;
     info.m_defaultMaxPersistentManifoldPoolSize = 512;
     info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
-    b->configuration = make<btDefaultCollisionConfiguration>(info);
-    b->dispatcher = make<btCollisionDispatcher>(b->configuration);
-    b->broadphase = make<btDbvtBroadphase>();
+    b->configuration = create_bullet_object<btDefaultCollisionConfiguration>(info);
+    b->dispatcher = create_bullet_object<btCollisionDispatcher>(b->configuration);
+    b->broadphase = create_bullet_object<btDbvtBroadphase>();
     b->solver = new btSequentialImpulseConstraintSolver();
     b->world = new JoxBulletWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
-    /* What stands on the ground has all its contacts from the first step on, not one more in each,
-       on which it would rock. */
+    /* Find all contacts of a body with the ground in the first step, not one more in each, on
+       which the body would rock. */
     b->configuration->setPlaneConvexMultipointIterations(3, 3);
-    /* Friction in one direction alone lets what is pressed on creep. */
+    /* With friction in one direction alone, bodies under pressure creep. */
     b->world->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-    /* What touches overlaps by this much, m: where faces just meet, Bullet takes now their edges
-       and now the faces for what touches, and boxes that are pressed together rock. */
+    /* Overlap of touching bodies, m: with faces that just meet, Bullet finds now their edges,
+       now the faces in contact, and boxes pressed together rock. */
     b->world->getSolverInfo().m_linearSlop = 0.002f;
-    /* Bodies that touch are solved until a pass changes no velocity by more than 1 um/s: by
-       themselves, so that those who are through do not wait for all others. */
+    /* Solve each group of touching bodies until a pass changes no velocity by more than 1 um/s;
+       groups are solved apart, so that a converged one does not wait for the others. */
     b->world->getSolverInfo().m_leastSquaresResidualThreshold = 1e-12f;
     b->world->getSolverInfo().m_minimumSolverBatchSize = 1;
-    b->world->setForceUpdateAllAabbs(false); /* what sleeps stays where it is */
+    b->world->setForceUpdateAllAabbs(false); /* sleeping bodies do not move */
     b->world->setGravity(btVector3(0, 0, float(-b->def.gravity)));
     if (!b->def.ground)
         return;
@@ -62,7 +65,7 @@ static void make_world(JoxBodies *b) {
 
 void jox_bodies_ensure(JoxBodies *b) {
     if (!b->world)
-        make_world(b);
+        create_bullet_world(b);
     if (!b->walls_raised)
         jox_bodies_raise_walls(b);
 }
@@ -75,13 +78,13 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
     b->wall_grid.walls = &b->standing;
     b->wall_height = height;
     b->walls_raised = false;
-    for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
+    for (uint32_t k = 0; k < b->live; k++) /* wake bodies that leant on a removed wall */
         b->rows[b->order[k]].body->activate();
-    if (b->live) /* else with the first body: most worlds have none */
+    if (b->live) /* else the first body raises them: most worlds have none */
         jox_bodies_raise_walls(b);
 }
 
-/* Frees what a row holds; its body has left Bullet's world. */
+/* Frees the members of a row whose body has left Bullet's world. */
 static void empty_row(JoxBodies *b, JoxRow *r) {
     delete r->body;
     jox_body_shape_free(&r->shape);
@@ -96,7 +99,7 @@ static void empty_row(JoxBodies *b, JoxRow *r) {
     r->body = nullptr;
 }
 
-void jox_bodies_drop(JoxBodies *b, uint32_t row) {
+void jox_bodies_drop_row(JoxBodies *b, uint32_t row) {
     b->world->remove(b->rows[row].body);
     empty_row(b, &b->rows[row]);
     uint32_t k = 0;
@@ -120,17 +123,17 @@ void jox_bodies_free(JoxBodies *b) {
             jox_static_drop(b, b->ground);
         JOX_ASSERT(b->dispatcher->getNumManifolds() == 0);
         delete b->ground_shape;
-        delete b->world; /* takes all bodies out, each of which would search the list of them */
+        delete b->world; /* takes all bodies out at once; removing one searches the whole list */
         for (uint32_t k = 0; k < b->live; k++)
             empty_row(b, &b->rows[b->order[k]]);
         delete b->solver;
-        unmake(b->broadphase);
-        unmake(b->dispatcher);
-        unmake(b->configuration);
+        destroy_bullet_object(b->broadphase);
+        destroy_bullet_object(b->dispatcher);
+        destroy_bullet_object(b->configuration);
     }
-    void *owned[] = {b->walls,  b->rows,    b->order,          b->objects,      b->hits,
-                     b->gone,   b->corners, b->contact_loads,  b->contact_runs, b->contacts,
-                     b->breaks, b->kept,    b->object_contacts};
+    void *owned[] = {b->walls,  b->rows,           b->order,          b->objects,      b->hits,
+                     b->gone,   b->corners,        b->contact_loads,  b->contact_runs, b->contacts,
+                     b->breaks, b->saved_contacts, b->object_contacts};
     for (void *memory : owned)
         jox_free(memory);
     jox_walls_free(&b->standing);
@@ -139,19 +142,19 @@ void jox_bodies_free(JoxBodies *b) {
     jox_free(b);
 }
 
-static bool within(const double *values, int n, double most) {
+static bool are_values_within(const double *values, int n, double most) {
     for (int i = 0; i < n; i++)
         if (!(fabs(values[i]) <= most))
             return false;
     return true;
 }
 
-static const char *wrong(const JoxBodyDef *d) {
-    if (!within(d->position, 3, REACH))
+static const char *find_definition_fault(const JoxBodyDef *d) {
+    if (!are_values_within(d->position, 3, REACH))
         return "a body must lie within 10 km of the origin";
-    if (!within(d->turn, 4, 1e6))
+    if (!are_values_within(d->turn, 4, 1e6))
         return "a body's turn must be a finite quaternion";
-    if (!within(d->velocity, 3, 500) || !within(d->spin, 3, 500))
+    if (!are_values_within(d->velocity, 3, 500) || !are_values_within(d->spin, 3, 500))
         return "a body's velocity must be below 500 m/s and its spin below 500 rad/s";
     if (!(d->mass >= 0 && d->mass <= 1e9) || !(d->density >= 0 && d->density <= 1e6))
         return "a body's mass must lie between 0 and 1e9 kg, its density below 1e6 kg/m3";
@@ -166,10 +169,10 @@ static const char *wrong(const JoxBodyDef *d) {
         return "a body presses with up to 1e6 N; one that reopens has such a limit";
     if (d->path.count && !d->kinematic)
         return "a path is for a kinematic body";
-    return d->path.count ? jox_path_wrong(&d->path) : nullptr;
+    return d->path.count ? jox_path_find_fault(&d->path) : nullptr;
 }
 
-static uint32_t free_row(JoxBodies *b) {
+static uint32_t find_free_row(JoxBodies *b) {
     for (uint32_t i = 0; i < b->count && b->live < b->count; i++)
         if (!b->rows[i].live)
             return i;
@@ -177,7 +180,7 @@ static uint32_t free_row(JoxBodies *b) {
     return b->count++;
 }
 
-static btVector3 vector(const double v[3]) {
+static btVector3 vector_from_doubles(const double v[3]) {
     return btVector3(float(v[0]), float(v[1]), float(v[2]));
 }
 
@@ -211,7 +214,7 @@ void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
 
 uint32_t jox_row_add(JoxBodies *b, const JoxBodyShape *shape, const btTransform &frame,
                      const JoxMaterial &material, bool kinematic) {
-    uint32_t at = free_row(b);
+    uint32_t at = find_free_row(b);
     b->rows[at] = JoxRow();
     b->rows[at].live = true;
     b->rows[at].id = b->next_id++;
@@ -225,7 +228,7 @@ uint32_t jox_row_add(JoxBodies *b, const JoxBodyShape *shape, const btTransform 
 }
 
 uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
-    const char *problem = wrong(def);
+    const char *problem = find_definition_fault(def);
     if (problem) {
         if (error)
             jox_text_add(error, problem);
@@ -236,7 +239,7 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     JoxBodyShape shape;
     JoxBondGraph *bonds = nullptr;
     if (def->shape.kind == JOX_SHAPE_BLOCKS) {
-        bonds = jox_row_bonds(def, error);
+        bonds = jox_row_make_bonds(def, error);
         if (!bonds || !jox_body_shape_of_blocks(bonds, still, &shape, error)) {
             jox_bonds_free(bonds);
             return JOX_NO_BODY;
@@ -250,10 +253,10 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     turn = turn.length2() > 1e-12f ? turn.normalized() : btQuaternion::getIdentity();
     JoxMaterial material = {float(def->friction), float(def->restitution), float(def->damping),
                             float(def->spin_damping)};
-    uint32_t at =
-        jox_row_add(b, &shape, btTransform(turn, vector(def->position)), material, def->kinematic);
+    uint32_t at = jox_row_add(b, &shape, btTransform(turn, vector_from_doubles(def->position)),
+                              material, def->kinematic);
     if (jox_bodies_are_heaped(b, error)) {
-        jox_bodies_drop(b, at);
+        jox_bodies_drop_row(b, at);
         jox_bonds_free(bonds);
         return JOX_NO_BODY;
     }
@@ -261,8 +264,8 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     r->name = def->name ? jox_strdup(def->name) : nullptr;
     r->tags = def->tags;
     if (!still || def->kinematic) {
-        r->body->setLinearVelocity(vector(def->velocity));
-        r->body->setAngularVelocity(vector(def->spin));
+        r->body->setLinearVelocity(vector_from_doubles(def->velocity));
+        r->body->setAngularVelocity(vector_from_doubles(def->spin));
     }
     r->force_limit = def->kinematic ? float(def->force_limit) : 0;
     r->ends_run = def->kinematic && def->ends_run;
@@ -272,17 +275,17 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
         r->bonds = bonds;
         b->bonded++;
     } else {
-        jox_bonds_free(bonds); /* what never moves never breaks, nor does a single block */
+        jox_bonds_free(bonds); /* a static body or a single block cannot break */
     }
     JOX_CHECK(jox_bodies_check(b));
     return at;
 }
 
 bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
-    if (!jox_row_of(b, row))
+    if (!jox_live_row(b, row))
         return false;
-    jox_bodies_drop(b, row);
-    for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
+    jox_bodies_drop_row(b, row);
+    for (uint32_t k = 0; k < b->live; k++) /* wake bodies that leant on it */
         b->rows[b->order[k]].body->activate();
     JOX_CHECK(jox_bodies_check(b));
     return true;
@@ -311,18 +314,18 @@ uint32_t jox_bodies_find_name(const JoxBodies *b, const char *name) {
 }
 
 uint32_t jox_bodies_id(const JoxBodies *b, uint32_t row) {
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     return r ? r->id : JOX_NO_BODY;
 }
 
 const char *jox_bodies_name(const JoxBodies *b, uint32_t row) {
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     return r && r->name ? r->name : "";
 }
 
 bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     *pose = JoxPose();
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     if (!r)
         return false;
     btTransform at = jox_row_frame(r);
@@ -342,7 +345,7 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
 
 bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
     *out = JoxBodyLook();
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     if (!r || part >= r->shape.part_count)
         return false;
     const JoxConvexPart *p = &r->shape.parts[part];
@@ -354,7 +357,7 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
     for (int i = 0; i < 4; i++)
         out->turn[i] = q[i];
     const JoxV3 *c = p->corners;
-    if (p->kind == JOX_SHAPE_BOX) { /* its corners are counted along x, y, z */
+    if (p->kind == JOX_SHAPE_BOX) { /* corner i: bits 0, 1, 2 choose the side along x, y, z */
         out->size[0] = jox_bt(c[0]).distance(jox_bt(c[1]));
         out->size[1] = jox_bt(c[0]).distance(jox_bt(c[2]));
         out->size[2] = jox_bt(c[0]).distance(jox_bt(c[4]));
@@ -363,20 +366,20 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
         out->corner_count = p->corner_count;
     } else {
         out->size[0] = p->radius;
-        if (p->kind == JOX_SHAPE_CYLINDER) /* from the circle below to that above */
+        if (p->kind == JOX_SHAPE_CYLINDER) /* from the lower circle to the upper one */
             out->size[1] = jox_bt(c[0]).distance(jox_bt(c[p->corner_count / 2]));
     }
     return true;
 }
 
 bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 spin) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || !(r->shape.mass > 0 || r->kinematic) || !jox_finite(jox_bt(velocity)) ||
         !jox_finite(jox_bt(spin)))
         return false;
     jox_row_leave_path(r);
     r->held_up = 0;
-    r->met = r->meets = false;
+    r->reached_limit = r->reaches_limit = false;
     r->body->activate(true);
     r->body->setLinearVelocity(jox_bt(velocity));
     r->body->setAngularVelocity(jox_bt(spin));
@@ -384,7 +387,7 @@ bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 s
 }
 
 bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || r->shape.mass <= 0 || !jox_finite(jox_bt(force)))
         return false;
     r->force = jox_v3(jox_bt(r->force) + jox_bt(force));
@@ -403,8 +406,8 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
     uint32_t odd = 0;
     for (uint32_t i = 0; i < count; i++) {
         btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
-        JoxRow *r = jox_row_of(b, impulses[i].object);
-        if (r && r->kinematic && jox_finite(p) && jox_finite(at)) { /* felt, and no more */
+        JoxRow *r = jox_live_row(b, impulses[i].object);
+        if (r && r->kinematic && jox_finite(p) && jox_finite(at)) { /* counted, but not applied */
             jox_row_count_impulse(r, p, at - r->body->getWorldTransform().getOrigin());
             continue;
         }
@@ -415,7 +418,8 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
         float change = p.length() / r->shape.mass, most = float(b->def.most_change);
         if (!(change <= most)) {
             odd++;
-            /* Scaled twice, so that a square that overflows is still clamped. */
+            /* Normalise by the greatest component first: the square of the length might
+               overflow. */
             p /= p.absolute()[p.absolute().maxAxis()];
             p *= most * r->shape.mass / p.length();
         }
@@ -446,26 +450,26 @@ bool jox_bodies_available(void) {
     return true;
 }
 
-/* ---- what people give bodies ---- */
+/* ---- impulses of people on bodies ---- */
 
 void jox_row_count_impulse(JoxRow *r, const btVector3 &impulse, const btVector3 &arm) {
     const btVector3 turn = arm.cross(impulse);
     for (int i = 0; i < 3; i++) {
-        r->given[i] += double(impulse[i]);
-        r->given[3 + i] += double(turn[i]);
+        r->impulse_sums[i] += double(impulse[i]);
+        r->impulse_sums[3 + i] += double(turn[i]);
     }
 }
 
 bool jox_bodies_given(const JoxBodies *b, uint32_t row, double impulse[3], double turn[3]) {
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     for (int i = 0; i < 3; i++) {
-        impulse[i] = r ? r->given[i] : 0;
-        turn[i] = r ? r->given[3 + i] : 0;
+        impulse[i] = r ? r->impulse_sums[i] : 0;
+        turn[i] = r ? r->impulse_sums[3 + i] : 0;
     }
     return r != nullptr;
 }
 
 void jox_bodies_count_impulses(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++)
-        memset(b->rows[b->order[k]].given, 0, sizeof b->rows[0].given);
+        memset(b->rows[b->order[k]].impulse_sums, 0, sizeof b->rows[0].impulse_sums);
 }

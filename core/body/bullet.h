@@ -1,4 +1,7 @@
-/* Shared by bullet*.cc alone. */
+/* Types and functions that the files bullet*.cc share; no other file includes this header.
+
+   Calls within a step (bullet_step.cc): begin_drive, then for each substep store_poses,
+   drive, Bullet's step, gather_contacts, handle_lost; then end_drive, keep_carried, break. */
 #ifndef JOX_BODY_BULLET_H
 #define JOX_BODY_BULLET_H
 
@@ -31,27 +34,29 @@ struct JoxConvexPart {
     JoxShapeKind kind;
     float radius; /* sphere, cylinder */
     btTransform frame;
-    JoxV3 *corners; /* of a polytope; a cylinder as a prism; none for a sphere */
+    JoxV3 *corners; /* corners of a polytope; of a prism for a cylinder; none for a sphere */
     uint32_t corner_count;
     uint32_t *edges;
     uint32_t edge_count;
 };
 
-/* What a definition comes to: the shape for Bullet, the parts for footprints, and the mass. */
+/* Shape made from a definition: Bullet's collision shape, the parts for footprints, and the mass
+   properties. */
 struct JoxBodyShape {
-    btCollisionShape *collision; /* a compound owns nothing: `children` are freed one by one */
+    /* Bullet's compound does not own `children`, which are freed one by one */
+    btCollisionShape *collision;
     btCollisionShape **children;
     uint32_t child_count;
     JoxConvexPart *parts;
     uint32_t part_count;
-    btTransform frame = btTransform::getIdentity(); /* of the centre of mass and principal axes in
-                                                       the shape's own frame */
+    btTransform frame = btTransform::getIdentity(); /* frame of the centre of mass and principal
+                                                       axes in the shape's own frame */
     float mass;
     btVector3 inertia = btVector3(0, 0, 0); /* principal moments */
     float inner, bound; /* smallest half extent; bounding radius about the centre of mass */
     bool still;
-    JoxBodyPartRecord *source; /* of each part: what it was made of, to make it again */
-    double *source_points;     /* of all hulls among them */
+    JoxBodyPartRecord *source; /* definition of each part, from which a saved body is made again */
+    double *source_points;     /* points of all hulls in `source` */
     uint32_t source_point_count, source_point_capacity; /* numbers */
 };
 
@@ -59,12 +64,12 @@ struct JoxBodyShape {
 bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, JoxText *error);
 void jox_body_shape_free(JoxBodyShape *shape);
 
-/* What a body is made of beside its shape. */
+/* Material of a body. */
 struct JoxMaterial {
     float friction, restitution, damping, spin_damping;
 };
 
-/* Everything of a live row but `shape`, `body` and `activation` is state; see image.h. */
+/* One body. Every member but `shape`, `body` and those marked scratch is state; see image.h. */
 struct JoxRow {
     bool live;
     uint32_t id;
@@ -73,66 +78,68 @@ struct JoxRow {
     JoxBodyShape shape;
     JoxMaterial material;
     btRigidBody *body;
-    JoxV3 force;                 /* over the next step, N */
-    JoxV3 lasting, lasting_turn; /* impulse and angular impulse spread over the step that is next:
-                                    scratch, N s and N m s */
-    double given[6]; /* scratch: what impulses came to since it was last asked to begin anew, N s,
-                        and about the centre of mass, N m s */
+    JoxV3 force;                 /* force during the next step, N */
+    JoxV3 lasting, lasting_turn; /* scratch: impulse, N s, and angular impulse, N m s, spread over
+                                    the next step */
+    double impulse_sums[6]; /* scratch: sum of impulses since jox_bodies_count_impulses, N s, and of
+                        angular impulses about the centre of mass, N m s */
     bool grounded, swept;
-    int activation;      /* scratch: Bullet's state of sleep */
-    JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
-    JoxV3 pushed;        /* scratch: the force of the last substep, N */
-    btTransformFloatData before; /* scratch: where the substep began */
-    bool kinematic;              /* no mass, and moved by its velocity, or along its path */
-    JoxBodyPath path;            /* of the centre of mass; its points are owned */
-    double path_time;            /* s, since it began: how far along it is */
-    bool goes_back;              /* along the path, to where its leg began */
-    float force_limit;           /* N: of a kinematic one; 0: none */
-    bool ends_run;               /* where it meets that */
-    float held_up;               /* share of its way that it did not go in the last step, 0 to 1 */
-    bool met;                    /* its limit, in the last step */
-    bool meets;                  /* scratch: in the step that is next; then so much of its way is */
-    float goes;                  /* left */
-    JoxV3 drive, drive_spin;     /* scratch: how it goes in this step if nothing holds it up */
-    bool held;                   /* by an agent */
+    int activation; /* scratch: Bullet's state of sleep */
+    /* bonds of a body of blocks, in the shape's own frame; NULL for other bodies */
+    JoxBondGraph *bonds;
+    JoxV3 pushed;                /* scratch: the force of the last substep, N */
+    btTransformFloatData before; /* scratch: pose at the start of the substep */
+    bool kinematic;              /* has no mass, and moves by its velocity, or along its path */
+    JoxBodyPath path;            /* path of the centre of mass; its points are owned */
+    double path_time;        /* s since its start, without time held up: the position along it */
+    bool goes_back;          /* moves back along the path to the start of its leg */
+    float force_limit;       /* N: force limit of a kinematic body; 0: none */
+    bool ends_run;           /* the world ends when that limit is reached */
+    float held_up;           /* share of its way that it did not move in the last step, 0 to 1 */
+    bool reached_limit;      /* the limit was reached in the last step */
+    bool reaches_limit;      /* scratch: the limit will be reached in the next step */
+    float way_share;         /* scratch: share of its way that the body moves in that step */
+    JoxV3 drive, drive_spin; /* scratch: velocity and spin in this step if nothing holds it up */
+    bool held;               /* carried by an agent */
     uint32_t holder;
-    bool placed; /* scratch: held where its carrier put it for this step, at `carried`, m, with the
-                    velocity `carried_along`, m/s */
+    bool placed; /* scratch: its carrier moved it in this step to `carried`, m, with the velocity
+                    `carried_along`, m/s */
     JoxV3 carried, carried_along;
-    /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
-       m, and rows of its rotation), and whether people could reach it there. */
+    /* Scratch: whether its object was written since it got this shape, its pose then (origin, m,
+       and rows of its rotation), and whether that was within people's height band. */
     bool shown, shown_in_band;
     float shown_at[12];
 };
 
-/* A contact of a bonded body. */
+/* Contact point of a bonded body, with the impulse on it, N s. */
 struct JoxContactLoad {
     uint32_t block;
     btVector3 point, impulse, normal;
 };
 
-/* Those of one of Bullet's manifolds; `key` orders them by body, then by what it touches. */
+/* Contacts from one of Bullet's manifolds; `key` orders runs by body, then by the other body. */
 struct JoxContactRun {
     uint64_t key;
-    uint32_t first, count; /* among the contacts, at least one */
+    uint32_t first, count; /* range of `contact_loads`, not empty */
 };
 
-/* Has Bullet allocate so that it meets no null pointer. */
+/* Replaces Bullet's memory functions so that it never gets a null pointer. Later calls do nothing.
+ */
 void jox_bullet_use_memory();
-/* Frees what Bullet allocated while the heap was in use. */
+/* Frees all memory that Bullet allocated while the heap was in use. */
 void jox_bullet_free_heap(const JoxHeap *heap);
-/* Whether bodies meet in so many pairs that they must begin in each other. A pair takes about 2 KB
-   as soon as they touch; those of what is stacked are some ten for each body.
-   `error` may be NULL. */
+/* Whether bodies overlap in so many pairs that they must have been put into each other. A pair
+   takes about 2 KB as soon as the bodies touch; a stack has some ten pairs per body. `error` may
+   be NULL. */
 bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 
-/* Bullet's world, without what it does in vain of bodies that sleep or are slow. Contacts that it
-   foresees of fast bodies are not those of its pairs: they stay until the next step, and have to be
-   taken out with what they are of. */
+/* Bullet's world, without work on sleeping and slow bodies that changes nothing. Bullet predicts
+   contacts of fast bodies apart from its pairs: these stay until the next step, and must be
+   removed together with the body. */
 struct JoxBulletWorld : btDiscreteDynamicsWorld {
     using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
     void remove(btRigidBody *body);
-    void release_predictions(); /* of all bodies, which then are in no contact that is foreseen */
+    void release_predictions(); /* removes all predicted contacts */
     void performDiscreteCollisionDetection() override;
 
   protected:
@@ -143,7 +150,7 @@ struct JoxBulletWorld : btDiscreteDynamicsWorld {
 };
 
 struct JoxBodies {
-    JoxHeap *heap; /* in use where it was made */
+    JoxHeap *heap; /* heap in use when it was created */
     JoxBodiesDef def;
     btDefaultCollisionConfiguration *configuration;
     btCollisionDispatcher *dispatcher;
@@ -154,13 +161,13 @@ struct JoxBodies {
     btRigidBody *ground;
     btRigidBody **walls;
     uint32_t wall_count, wall_capacity;
-    bool walls_raised;     /* they are there; not before a body is */
-    JoxWalls standing;     /* of which these are made */
-    JoxWallGrid wall_grid; /* over them, for the guard; empty until something moves */
-    float wall_height;     /* m: where none is given */
+    bool walls_raised;     /* `walls` are in Bullet's world; false until there is a body */
+    JoxWalls standing;     /* closed walls of the scene, from which `walls` are made */
+    JoxWallGrid wall_grid; /* grid over `standing`, for the guard; empty until a body moves */
+    float wall_height;     /* m: height of walls without one */
     JoxRow *rows;
     uint32_t count, capacity;
-    uint32_t *order; /* live rows in order of id */
+    uint32_t *order; /* rows of live bodies in order of id */
     uint32_t live, order_capacity;
     uint32_t next_id;
     float last_dt;
@@ -171,24 +178,25 @@ struct JoxBodies {
     uint32_t object_contact_capacity;
     JoxDiscHit *hits;
     uint32_t hit_count, hit_capacity;
-    double hit_impulse, hit_residual; /* N s, of the step */
+    double hit_impulse, hit_residual; /* totals of the step, N s */
     JoxBodyGone *gone;
     uint32_t gone_count, gone_capacity;
     JoxContactLoad *contact_loads; /* contacts of bonded bodies in a substep */
     uint32_t contact_load_count, contact_load_capacity;
-    JoxContactRun *contact_runs; /* of them, sorted */
+    JoxContactRun *contact_runs; /* runs of `contact_loads`, sorted by key */
     uint32_t contact_run_count, contact_run_capacity;
-    JoxBondContact *contacts; /* of one of them with one other body */
+    JoxBondContact *contacts; /* scratch: contacts of one bonded body with one other body */
     uint32_t contact_capacity;
     JoxBodyBreak *breaks;
     uint32_t break_count, break_capacity;
-    uint32_t bonded; /* bodies that can come apart */
-    /* What the solver begins from after the next re-insertion: noted there, or, `restored`, from a
-       saved state. */
-    JoxContactRecord *kept;
-    uint32_t kept_count, kept_capacity;
+    uint32_t bonded; /* number of bodies with bonds */
+    /* Contacts with which the solver starts after the next re-insertion: noted there, or read
+       from a saved state if `restored`. */
+    JoxContactRecord *saved_contacts;
+    uint32_t saved_contact_count, saved_contact_capacity;
     bool restored;
-    JoxBodiesImage *visited; /* while a test changes its cells: then it is what is hashed */
+    /* image that is hashed in place of the bodies while a test changes its cells */
+    JoxBodiesImage *visited;
     JoxDiscGrid grid;
     JoxFootprint footprint;
     JoxV3 *corners; /* scratch: a part's corners in world coordinates */
@@ -213,71 +221,77 @@ static inline bool jox_finite(const btVector3 &v) {
     return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
-/* Before a body is added: makes Bullet's world, with the walls, if it is not there yet. */
+/* Creates Bullet's world, with the walls, unless it exists. Called before a body is added. */
 void jox_bodies_ensure(JoxBodies *bodies);
-/* bullet_place.cc, after a step: what is carried is where it was put, whatever Bullet made of it.
- */
+/* Moves carried bodies back to where their carriers put them, whatever Bullet did. Called after
+   a step; in bullet_place.cc. */
 void jox_bodies_keep_carried(JoxBodies *bodies);
-void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
-/* bullet_memory.cc: before many bodies leave Bullet's world. */
+void jox_bodies_drop_row(JoxBodies *bodies, uint32_t row);
+/* Removes all pairs. Called before many bodies leave Bullet's world; in bullet_memory.cc. */
 void jox_bodies_remove_pairs(JoxBodies *bodies);
-/* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or
-   puts them back. */
-void jox_bodies_guard_begin(JoxBodies *bodies);
-void jox_bodies_guard(JoxBodies *bodies);
-/* Takes `shape` over as a new body in a free row; the caller fills name, tags, and velocity. */
+/* In bullet_guard.cc. Store the poses before a substep; find lost bodies after it, list them,
+   and remove them or put them back. */
+void jox_bodies_store_poses(JoxBodies *bodies);
+void jox_bodies_handle_lost(JoxBodies *bodies);
+/* Adds a body in a free row, which takes over `shape`; the caller sets name, tags, and velocity.
+   Returns the row. */
 uint32_t jox_row_add(JoxBodies *bodies, const JoxBodyShape *shape, const btTransform &frame,
                      const JoxMaterial &material, bool kinematic);
-/* Bullet's body of a row whose shape is there: `frame` is that of the shape. */
+/* Creates Bullet's body for a row whose shape is set; `frame` is the pose of the shape's own
+   frame. */
 void jox_row_create_body(JoxBodies *bodies, uint32_t row, const btTransform &frame,
                          const JoxMaterial &material);
-/* bullet_drive.cc. Makes a still body of a row one that moves by its velocity; sets it upon the
-   path of its definition, gives it a copy of a path of its centre of mass, or takes that away. */
+/* In bullet_drive.cc. Make a static body kinematic; start the path of its definition; copy a
+   path of its centre of mass; remove its path. */
 void jox_row_make_kinematic(JoxRow *row);
 void jox_row_begin_path(JoxRow *row, const JoxBodyDef *def);
 void jox_row_set_path(JoxRow *row, const JoxBodyPath *path);
 void jox_row_leave_path(JoxRow *row);
-/* Before a step: how far driven bodies go in it. Before a substep: the velocities that lead them
-   there. After a step: those with which they go on if nothing holds them up. */
+/* Prepare driven bodies before a step; set their velocities before a substep of dt seconds;
+   after the step restore the velocities with which they go on if nothing holds them up. */
 void jox_bodies_begin_drive(JoxBodies *bodies);
 void jox_bodies_drive(JoxBodies *bodies, float dt);
-void jox_bodies_driven(JoxBodies *bodies);
-/* The shape of bonded blocks; NULL with a sentence in `error`. */
-JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);
+void jox_bodies_end_drive(JoxBodies *bodies);
+/* Creates the bonds of a body of blocks, NULL with a sentence in `error`; and the shape of
+   bonded blocks, false with a sentence in `error`. */
+JoxBondGraph *jox_row_make_bonds(const JoxBodyDef *def, JoxText *error);
 bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
                               JoxText *error);
-/* A live row, or NULL. */
-static inline JoxRow *jox_row_of(const JoxBodies *b, uint32_t row) {
+/* Returns the row of a live body, or NULL. */
+static inline JoxRow *jox_live_row(const JoxBodies *b, uint32_t row) {
     return row < b->count && b->rows[row].live ? &b->rows[row] : nullptr;
 }
-/* The shape's own frame in the world. */
+/* Returns the shape's own frame in world coordinates. */
 static inline btTransform jox_row_frame(const JoxRow *row) {
     return row->body->getWorldTransform() * row->shape.frame.inverse();
 }
-/* Counts an impulse at an arm from the centre of mass among those that a body was given. */
+/* Adds an impulse, N s, with its arm from the centre of mass, m, to the sums of
+   jox_bodies_given. */
 void jox_row_count_impulse(JoxRow *row, const btVector3 &impulse, const btVector3 &arm);
-/* An impulse upon a bonded body, at a point of the world. */
+/* Adds an impulse, N s, at a point, m, in world coordinates to the loads of a bonded body. */
 void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
-/* After a substep: what ground, walls and bodies did to bonded ones. After a step: what broke. */
+/* Add the contacts with ground, walls and bodies to the loads of bonded bodies after a substep;
+   break overloaded bonds after a step. */
 void jox_bodies_gather_contacts(JoxBodies *bodies);
 void jox_bodies_break(JoxBodies *bodies, float dt);
 void jox_bodies_raise_walls(JoxBodies *bodies);
 void jox_bodies_drop_walls(JoxBodies *bodies);
-/* What never moves. Its user index is negative and its own: -1 the ground, then the walls. */
+/* Creates a body that never moves. Its user index is negative and unique: -1 for the ground,
+   then the walls. */
 btRigidBody *jox_static_make(btCollisionShape *shape, const btTransform &at, int index);
 void jox_static_drop(JoxBodies *bodies, btRigidBody *body);
-/* bullet_contacts.cc. Writes what the solver would begin from, and says how many; gives it to the
-   contacts that are found in a world into which everything was just put. */
+/* In bullet_contacts.cc. Write the contacts with which the solver would start, and return their
+   number; give these to the contacts that Bullet finds after a re-insertion. */
 uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&contacts,
                                   uint32_t &capacity);
 void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
-/* Lists the contacts of moving bodies as others see them; `bodies`: JoxBodies. */
+/* Lists the contacts of dynamic bodies for JoxObjects; `bodies` is a JoxBodies. */
 JoxObjectContacts jox_bodies_list_contacts(void *bodies);
-/* Whether a body at this speed is to be swept in a step of dt. */
-bool jox_row_fast(const JoxRow *row, float dt);
+/* Whether a body moves so fast that a step of dt seconds sweeps it against people. */
+bool jox_row_is_fast(const JoxRow *row, float dt);
 
-/* bullet_check.cc: a shape that was just made; rows against Bullet's world; what a step hands out;
-   the sorted contacts of bonded bodies. */
+/* Assertions, in bullet_check.cc: on a new shape; on rows and Bullet's world; on the result of a
+   step; on the sorted contacts of bonded bodies. */
 void jox_body_shape_check(const JoxBodyShape *shape);
 void jox_bodies_check(const JoxBodies *bodies);
 void jox_bodies_report_check(const JoxBodies *bodies, uint32_t disc_count);

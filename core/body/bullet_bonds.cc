@@ -1,5 +1,5 @@
-/* Bodies of bonded blocks: one compound in Bullet while whole. Here their loads are gathered from
-   Bullet's contacts, and what broke goes on in pieces. */
+/* Bodies of bonded blocks, which are one compound in Bullet while intact: gathers the loads of
+   their bonds from Bullet's contacts, and splits broken bodies into pieces. */
 #include "body/bullet.h"
 
 namespace {
@@ -8,17 +8,18 @@ struct Triple {
     double at[3];
 };
 
-Triple triple(const btVector3 &v) {
+Triple make_triple(const btVector3 &v) {
     return Triple{{v.x(), v.y(), v.z()}};
 }
 
-const float TOUCHING = 0.005f; /* m: nearer points of contact are taken for touching */
+const float TOUCHING = 0.005f; /* m: contact points with a smaller gap count as touching */
 
 } // namespace
 
 /* ---- contacts ---- */
 
-/* `sign` is 1 where the bonded body is the first of the manifold. */
+/* Appends the contacts of a manifold on a bonded body `own` as a run; `sign` is 1 if it is the
+   manifold's first body, else -1. */
 static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold,
                               const btCollisionObject *own, const btCollisionObject *other,
                               float sign) {
@@ -36,7 +37,8 @@ static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold
                             p.m_lateralFrictionDir2 * p.m_appliedImpulseLateral2;
         if (!jox_finite(impulse))
             continue;
-        int child = sign > 0 ? p.m_index0 : p.m_index1; /* children are in the order of blocks */
+        int child =
+            sign > 0 ? p.m_index0 : p.m_index1; /* child shapes are in the order of blocks */
         uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].bonds->count ? child : 0;
         jox_reserve(b->contact_loads, b->contact_load_capacity, b->contact_load_count + 1);
         b->contact_loads[b->contact_load_count] =
@@ -51,13 +53,14 @@ static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold
     b->contact_runs[b->contact_run_count++] = run;
 }
 
-static int by_key(const void *a, const void *b, const void *) {
+static int compare_run_keys(const void *a, const void *b, const void *) {
     const JoxContactRun *x = static_cast<const JoxContactRun *>(a);
     const JoxContactRun *y = static_cast<const JoxContactRun *>(b);
     return (x->key > y->key) - (x->key < y->key);
 }
 
-/* Lists what loads bonded bodies: the contacts of each of them with one other body side by side. */
+/* Lists the contact loads of all bonded bodies, sorted so that the runs of one body with one
+   other body are adjacent. */
 static void list_contact_loads(JoxBodies *b) {
     b->contact_load_count = b->contact_run_count = 0;
     for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
@@ -68,18 +71,19 @@ static void list_contact_loads(JoxBodies *b) {
     }
     const uint32_t count = b->contact_run_count;
     jox_reserve(b->contact_runs, b->contact_run_capacity, count + uint32_t(JOX_SORT_SPARE(count)));
-    jox_sort(b->contact_runs, count, sizeof *b->contact_runs, by_key, nullptr,
+    jox_sort(b->contact_runs, count, sizeof *b->contact_runs, compare_run_keys, nullptr,
              b->contact_runs + count);
     JOX_CHECK(jox_contact_loads_check(b));
 }
 
-/* Adds the contacts of a run, in the body's own frame, behind `count`; and their normals. */
-static uint32_t take_run(JoxBodies *b, const JoxContactRun *run, const btTransform &frame,
-                         uint32_t count, btVector3 *normal) {
+/* Appends the contacts of a run, in the body's own frame, at index `count`, and adds up their
+   normals. Returns the new count. */
+static uint32_t append_run(JoxBodies *b, const JoxContactRun *run, const btTransform &frame,
+                           uint32_t count, btVector3 *normal) {
     for (uint32_t k = run->first; k < run->first + run->count; k++) {
         const JoxContactLoad *load = &b->contact_loads[k];
-        Triple at = triple(frame.invXform(load->point));
-        Triple p = triple(load->impulse * frame.getBasis());
+        Triple at = make_triple(frame.invXform(load->point));
+        Triple p = make_triple(load->impulse * frame.getBasis());
         JoxBondContact *to = &b->contacts[count++];
         to->block = load->block;
         for (int i = 0; i < 3; i++) {
@@ -103,17 +107,17 @@ void jox_bodies_gather_contacts(JoxBodies *b) {
         btVector3 normal(0, 0, 0);
         uint32_t count = 0;
         for (; k < b->contact_run_count && b->contact_runs[k].key == key; k++)
-            count = take_run(b, &b->contact_runs[k], frame, count, &normal);
+            count = append_run(b, &b->contact_runs[k], frame, count, &normal);
         normal = normal.length2() > 1e-12f ? normal.normalized() : btVector3(0, 0, 0);
-        Triple n = triple(normal * frame.getBasis());
+        Triple n = make_triple(normal * frame.getBasis());
         jox_bonds_add_contacts(r->bonds, b->contacts, count, n.at);
     }
 }
 
-/* ---- coming apart ---- */
+/* ---- breaking ---- */
 
-/* A body without bonds left needs no graph. */
-static void set_bonds(JoxBodies *b, uint32_t row, JoxBondGraph *bonds) {
+/* Gives a row its bond graph, or frees the graph if no bonds are left. */
+static void attach_bonds(JoxBodies *b, uint32_t row, JoxBondGraph *bonds) {
     if (bonds->bond_count == 0) {
         jox_bonds_free(bonds);
         return;
@@ -122,21 +126,21 @@ static void set_bonds(JoxBodies *b, uint32_t row, JoxBondGraph *bonds) {
     b->bonded++;
 }
 
-/* A piece keeps turning, and moves as its own centre of mass did in the whole: then momentum and
-   spin of all pieces are those of the whole. */
+/* Motion of a whole body. Each piece keeps its spin, and moves as its own centre of mass did in
+   the whole: so the pieces have the momentum and spin of the whole. */
 struct Motion {
     btTransform frame;
     btVector3 centre, velocity, spin;
 };
 
-static void set_going(btRigidBody *body, const Motion &whole) {
+static void set_piece_motion(btRigidBody *body, const Motion &whole) {
     btVector3 away = body->getWorldTransform().getOrigin() - whole.centre;
     body->setLinearVelocity(whole.velocity + whole.spin.cross(away));
     body->setAngularVelocity(whole.spin);
     body->activate(true);
 }
 
-static uint32_t greatest_piece(const JoxBondGraph *bonds, uint32_t pieces) {
+static uint32_t find_largest_piece(const JoxBondGraph *bonds, uint32_t pieces) {
     uint32_t best = 0, most = 0;
     for (uint32_t label = 0; label < pieces; label++) {
         uint32_t blocks = 0;
@@ -150,14 +154,14 @@ static uint32_t greatest_piece(const JoxBondGraph *bonds, uint32_t pieces) {
     return best;
 }
 
-static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
+static void split_into_pieces(JoxBodies *b, uint32_t row, uint32_t pieces) {
     JoxRow *r = &b->rows[row];
     JoxBondGraph *bonds = r->bonds;
     const Motion whole = {jox_row_frame(r), r->body->getWorldTransform().getOrigin(),
                           r->body->getLinearVelocity(), r->body->getAngularVelocity()};
     const JoxMaterial material = r->material;
     const uint64_t tags = r->tags;
-    uint32_t keeps = greatest_piece(bonds, pieces);
+    uint32_t keeps = find_largest_piece(bonds, pieces);
     const float mass = r->shape.mass;
     btVector3 momentum(0, 0, 0);
     uint32_t blocks = 0;
@@ -171,7 +175,7 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
         Triple centre;
         JoxBodyShape shape;
         JoxBondGraph *part = jox_bonds_extract(bonds, label, label != keeps, centre.at);
-        /* As good as the whole, which was made: it cannot be refused. */
+        /* Cannot fail: the shape of the whole, with the same blocks, was valid. */
         jox_body_shape_of_blocks(part, false, &shape, nullptr);
         uint32_t at = row;
         if (label == keeps) {
@@ -184,11 +188,11 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
             at = jox_row_add(b, &shape, whole.frame * shift, material, false);
             b->rows[at].tags = tags;
         }
-        set_going(b->rows[at].body, whole);
+        set_piece_motion(b->rows[at].body, whole);
         momentum += b->rows[at].body->getLinearVelocity() * shape.mass;
         sum += shape.mass;
         blocks += part->count;
-        set_bonds(b, at, part);
+        attach_bonds(b, at, part);
     }
     JOX_ASSERT(blocks == bonds->count && std::fabs(sum - mass) <= 1e-4f * mass);
     JOX_ASSERT((momentum - whole.velocity * mass).length() <=
@@ -197,13 +201,13 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
 }
 
 void jox_bodies_break(JoxBodies *b, float dt) {
-    uint32_t bodies = b->live; /* pieces are added behind them */
+    uint32_t bodies = b->live; /* new pieces are appended after these */
     for (uint32_t k = 0; k < bodies; k++) {
         uint32_t row = b->order[k];
         JoxRow *r = &b->rows[row];
         if (!r->bonds || r->held || !r->body->isActive())
             continue;
-        Triple spin = triple(r->body->getAngularVelocity() * jox_row_frame(r).getBasis());
+        Triple spin = make_triple(r->body->getAngularVelocity() * jox_row_frame(r).getBasis());
         uint32_t cut = jox_bonds_step(r->bonds, dt, spin.at);
         if (cut == 0)
             continue;
@@ -211,7 +215,7 @@ void jox_bodies_break(JoxBodies *b, float dt) {
         jox_reserve(b->breaks, b->break_capacity, b->break_count + 1);
         b->breaks[b->break_count++] = JoxBodyBreak{row, r->id, cut, pieces};
         if (pieces > 1)
-            fall_apart(b, row, pieces);
+            split_into_pieces(b, row, pieces);
     }
 }
 

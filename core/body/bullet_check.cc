@@ -1,12 +1,12 @@
-/* Checks of the rows of bodies against Bullet's world; builds with assertions call them. */
+/* Assertions on the rows of bodies and Bullet's world; builds with assertions call them. */
 #include "body/bullet.h"
 
-static bool turns_only(const btTransform &t) {
+static bool is_rigid_frame(const btTransform &t) {
     return std::fabs(t.getBasis().determinant() - 1) < 1e-3f && jox_finite(t.getOrigin());
 }
 
-static void check_part(const JoxConvexPart *p) {
-    JOX_ASSERT(p->kind <= JOX_SHAPE_HULL && turns_only(p->frame));
+static void check_convex_part(const JoxConvexPart *p) {
+    JOX_ASSERT(p->kind <= JOX_SHAPE_HULL && is_rigid_frame(p->frame));
     JOX_ASSERT((p->kind == JOX_SHAPE_SPHERE) == (p->corner_count == 0));
     for (uint32_t e = 0; e < p->edge_count; e++) {
         JOX_ASSERT(p->edges[2 * e] < p->corner_count && p->edges[2 * e + 1] < p->corner_count);
@@ -17,14 +17,16 @@ static void check_part(const JoxConvexPart *p) {
 void jox_body_shape_check(const JoxBodyShape *s) {
     uint32_t numbers = 0;
     JOX_ASSERT(s->collision && s->part_count > 0 && s->child_count == s->part_count);
-    JOX_ASSERT(s->still == (s->mass == 0) && turns_only(s->frame));
+    JOX_ASSERT(s->still == (s->mass == 0) && is_rigid_frame(s->frame));
     for (int i = 0; i < 3 && !s->still; i++) {
         const float two = s->inertia[(i + 1) % 3] + s->inertia[(i + 2) % 3];
-        JOX_ASSERT(s->inertia[i] > 0 && s->inertia[i] <= 1.001f * two); /* as of any solid */
+        JOX_ASSERT(s->inertia[i] > 0 &&
+                   s->inertia[i] <= 1.001f * two); /* triangle inequality of moments */
     }
-    JOX_ASSERT(s->inner > 0 && s->inner <= 1.01f * s->bound + 0.01f); /* Bullet adds margins */
+    JOX_ASSERT(s->inner > 0 &&
+               s->inner <= 1.01f * s->bound + 0.01f); /* tolerance for Bullet's margins */
     for (uint32_t p = 0; p < s->part_count; p++) {
-        check_part(&s->parts[p]);
+        check_convex_part(&s->parts[p]);
         numbers += 3 * s->source[p].point_count;
     }
     JOX_ASSERT(numbers == s->source_point_count);
@@ -38,14 +40,14 @@ static void check_row(const JoxBodies *b, uint32_t row) {
     JOX_ASSERT(r->body->getCollisionShape() == r->shape.collision);
     JOX_ASSERT(r->body->isStaticOrKinematicObject() == r->shape.still);
     JOX_ASSERT(r->body->isKinematicObject() == r->kinematic);
-    JOX_ASSERT(!r->path.count || (r->kinematic && !jox_path_wrong(&r->path)));
+    JOX_ASSERT(!r->path.count || (r->kinematic && !jox_path_find_fault(&r->path)));
     JOX_ASSERT((r->body->getInvMass() > 0) == (r->shape.mass > 0));
     JOX_ASSERT(r->held == ((r->body->getCollisionFlags() & no_response) != 0));
     JOX_ASSERT(!r->shape.still || !(r->held || r->bonds));
     if (!r->bonds)
         return;
     jox_bonds_check(r->bonds);
-    JOX_ASSERT(r->bonds->count == r->shape.part_count); /* a part for each block */
+    JOX_ASSERT(r->bonds->count == r->shape.part_count); /* one part per block */
     JOX_ASSERT(r->bonds->bond_count > 0);
 }
 
@@ -81,7 +83,7 @@ void jox_bodies_report_check(const JoxBodies *b, uint32_t disc_count) {
         JOX_ASSERT(std::isfinite(b->hits[n].impulse.x) && std::isfinite(b->hits[n].impulse.y));
     }
     for (uint32_t n = 0; n < b->gone_count; n++) {
-        const JoxRow *r = &b->rows[b->gone[n].row]; /* a piece may have it since */
+        const JoxRow *r = &b->rows[b->gone[n].row]; /* a new piece may use the row since */
         JOX_ASSERT(b->gone[n].id < b->next_id);
         JOX_ASSERT(b->def.lost == JO_LOST_STOP || !(r->live && r->id <= b->gone[n].id));
     }

@@ -1,21 +1,22 @@
-/* Bodies that move by velocities of their own: kinematic ones. */
+/* Kinematic bodies: moves them by their velocities or along their paths, and slows them at their
+   force limit. */
 #include "body/bullet.h"
 
 #include <algorithm>
 #include <cstring>
 
-static void set_velocity(JoxRow *r, const double v[3]) {
+static void set_linear_velocity(JoxRow *r, const double v[3]) {
     r->body->setLinearVelocity(btVector3(float(v[0]), float(v[1]), float(v[2])));
 }
 
-/* A path is given for the shape's own frame, and kept for the centre of mass, about which a body
-   turns. */
+/* Starts the path of a definition. It is given for the shape's own frame, and stored for the
+   centre of mass, about which a body turns. */
 void jox_row_begin_path(JoxRow *r, const JoxBodyDef *def) {
     const btVector3 &centre = r->body->getWorldTransform().getOrigin();
     jox_row_set_path(r, &def->path);
     for (uint32_t n = 0; n < 3 * def->path.count; n++)
         r->path.points[n] += double(centre[int(n % 3)]) - def->position[n % 3];
-    set_velocity(r, jox_path_spot(&r->path, 0).velocity);
+    set_linear_velocity(r, jox_path_spot(&r->path, 0).velocity);
 }
 
 void jox_row_set_path(JoxRow *r, const JoxBodyPath *path) {
@@ -32,27 +33,27 @@ void jox_row_leave_path(JoxRow *r) {
     r->goes_back = false;
 }
 
-/* ---- what holds it up ---- */
+/* ---- force limit ---- */
 
-/* How it goes on from where it is along its path, m/s. */
-static btVector3 going(const JoxRow *r) {
+/* Returns the velocity with which a body goes on along its path, m/s. */
+static btVector3 compute_path_velocity(const JoxRow *r) {
     const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
     return (r->goes_back ? -1.0f : 1.0f) *
            btVector3(float(spot.velocity[0]), float(spot.velocity[1]), float(spot.velocity[2]));
 }
 
 bool jox_bodies_hold_up(JoxBodies *b, uint32_t row, float share) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || !r->kinematic)
         return false;
     JOX_ASSERT(share >= 0.0f && share <= 1.0f);
-    r->meets = true;
-    r->goes = share;
-    return !r->met;
+    r->reaches_limit = true;
+    r->way_share = share;
+    return !r->reached_limit;
 }
 
 bool jox_bodies_ends_run(const JoxBodies *b, uint32_t row) {
-    const JoxRow *r = jox_row_of(b, row);
+    const JoxRow *r = jox_live_row(b, row);
     return r && r->kinematic && r->ends_run;
 }
 
@@ -61,10 +62,10 @@ void jox_bodies_begin_drive(JoxBodies *b) {
         JoxRow *r = &b->rows[b->order[k]];
         if (!r->kinematic)
             continue;
-        r->held_up = r->meets ? 1.0f - r->goes : 0.0f;
-        r->met = r->meets;
-        r->meets = false;
-        if (r->met && r->path.reopens && !r->goes_back) {
+        r->held_up = r->reaches_limit ? 1.0f - r->way_share : 0.0f;
+        r->reached_limit = r->reaches_limit;
+        r->reaches_limit = false;
+        if (r->reached_limit && r->path.reopens && !r->goes_back) {
             r->goes_back = true;
             r->held_up = 1.0f;
         }
@@ -73,12 +74,13 @@ void jox_bodies_begin_drive(JoxBodies *b) {
     }
 }
 
-/* On by dt along its path, or back: what is held up comes to all that follows so much later. */
-static void go_on(JoxRow *r, double dt) {
+/* Advances the time along a path by dt, s, or back. Time held up delays everything later on the
+   path. */
+static void advance_path_time(JoxRow *r, double dt) {
     if (r->goes_back) {
         const double began = jox_path_leg_began(&r->path, r->path_time);
         r->path_time = std::max(began, r->path_time - dt);
-        if (r->path_time == began) { /* there it waits, as it did before it set out */
+        if (r->path_time == began) { /* waits at the start of the leg as before setting out */
             r->path_time = std::max(0.0, began - r->path.wait);
             r->goes_back = false;
         }
@@ -94,8 +96,9 @@ void jox_row_make_kinematic(JoxRow *r) {
     r->body->setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
 }
 
-/* What is under way is awake, and wakes what it touches; at rest it lets that sleep. */
-static void wake(JoxRow *r) {
+/* Keeps a moving body awake, so that it wakes bodies that it touches; a body at rest lets them
+ * sleep. */
+static void update_activation(JoxRow *r) {
     const bool moves =
         r->body->getLinearVelocity().length2() > 0 || r->body->getAngularVelocity().length2() > 0;
     r->body->forceActivationState(moves ? ACTIVE_TAG : ISLAND_SLEEPING);
@@ -108,29 +111,30 @@ void jox_bodies_drive(JoxBodies *b, float dt) {
         if (!r->kinematic)
             continue;
         const float share = 1.0f - r->held_up;
-        if (r->path.count) { /* to where it has to be, whatever was rounded so far */
-            go_on(r, double(dt) * double(share));
+        if (r->path.count) { /* velocity to the exact position on the path, so that rounding does
+                                not add up */
+            advance_path_time(r, double(dt) * double(share));
             const JoxPathSpot spot = jox_path_spot(&r->path, r->path_time);
             const btVector3 &at = r->body->getWorldTransform().getOrigin();
             double v[3];
             for (int i = 0; i < 3; i++)
                 v[i] = (spot.at[i] - double(at[i])) / double(dt);
-            set_velocity(r, v);
+            set_linear_velocity(r, v);
         } else if (r->held_up > 0.0f) {
             r->body->setLinearVelocity(share * jox_bt(r->drive));
             r->body->setAngularVelocity(share * jox_bt(r->drive_spin));
         }
-        wake(r);
+        update_activation(r);
     }
 }
 
-void jox_bodies_driven(JoxBodies *b) {
+void jox_bodies_end_drive(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
         if (!r->kinematic)
             continue;
         if (r->path.count) {
-            r->body->setLinearVelocity(going(r));
+            r->body->setLinearVelocity(compute_path_velocity(r));
         } else if (r->held_up > 0.0f) {
             r->body->setLinearVelocity(jox_bt(r->drive));
             r->body->setAngularVelocity(jox_bt(r->drive_spin));

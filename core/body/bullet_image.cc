@@ -1,5 +1,5 @@
-/* Bodies out of Bullet's world and into it again: the re-insertion at fixed steps, the image of all
-   that their future depends on, and the way back. */
+/* Re-insertion of all bodies into Bullet's world at fixed steps, capture of their state into an
+   image, and rebuilding from one. */
 #include "body/bullet.h"
 
 #include <string.h>
@@ -10,7 +10,8 @@ void jox_bodies_reinsert(JoxBodies *b) {
     if (!b->world)
         return;
     if (!b->restored)
-        b->kept_count = jox_bodies_note_contacts(b, b->kept, b->kept_capacity);
+        b->saved_contact_count =
+            jox_bodies_note_contacts(b, b->saved_contacts, b->saved_contact_capacity);
     jox_bodies_remove_pairs(b);
     for (uint32_t k = b->live; k > 0; k--)
         b->world->removeRigidBody(b->rows[b->order[k - 1]].body);
@@ -28,36 +29,36 @@ void jox_bodies_reinsert(JoxBodies *b) {
         b->world->addRigidBody(b->walls[n]);
     for (uint32_t k = 0; k < b->live; k++)
         b->world->addRigidBody(b->rows[b->order[k]].body);
-    jox_bodies_renew_contacts(b, b->kept, b->kept_count);
+    jox_bodies_renew_contacts(b, b->saved_contacts, b->saved_contact_count);
     JOX_CHECK(jox_bodies_check(b));
 }
 
-/* ---- out ---- */
+/* ---- capture ---- */
 
-static float *put_vector(float *to, const btVector3 &v) {
+static float *capture_vector(float *to, const btVector3 &v) {
     for (int i = 0; i < 3; i++)
         *to++ = v[i];
     return to;
 }
 
-static float *put_transform(float *to, const btTransform &t) {
+static float *capture_transform(float *to, const btTransform &t) {
     for (int i = 0; i < 3; i++)
-        to = put_vector(to, t.getBasis()[i]);
-    return put_vector(to, t.getOrigin());
+        to = capture_vector(to, t.getBasis()[i]);
+    return capture_vector(to, t.getOrigin());
 }
 
-static void put_motion(JoxBodyRecord *record, const btRigidBody *body) {
-    float *to = put_transform(record->motion, body->getWorldTransform());
-    to = put_transform(to, body->getInterpolationWorldTransform());
-    to = put_vector(to, body->getLinearVelocity());
-    to = put_vector(to, body->getAngularVelocity());
-    to = put_vector(to, body->getInterpolationLinearVelocity());
-    put_vector(to, body->getInterpolationAngularVelocity());
+static void capture_motion(JoxBodyRecord *record, const btRigidBody *body) {
+    float *to = capture_transform(record->motion, body->getWorldTransform());
+    to = capture_transform(to, body->getInterpolationWorldTransform());
+    to = capture_vector(to, body->getLinearVelocity());
+    to = capture_vector(to, body->getAngularVelocity());
+    to = capture_vector(to, body->getInterpolationLinearVelocity());
+    capture_vector(to, body->getInterpolationAngularVelocity());
     record->activation = uint32_t(body->getActivationState());
     record->deactivation_time = body->getDeactivationTime();
 }
 
-static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBodyShape &shape) {
+static void capture_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBodyShape &shape) {
     const uint32_t parts = shape.part_count, points = shape.source_point_count;
     record->part_count = parts;
     jox_reserve(image->parts, image->part_capacity, image->part_count + parts);
@@ -69,7 +70,7 @@ static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBod
     image->point_count += points;
 }
 
-static void put_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow *r) {
+static void capture_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow *r) {
     const uint32_t numbers = 3 * r->path.count;
     record->path_count = r->path.count;
     record->path_end = r->path.end;
@@ -85,7 +86,7 @@ static void put_path(JoxBodiesImage *image, JoxBodyRecord *record, const JoxRow 
     image->path_point_count += numbers;
 }
 
-static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
+static void capture_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
     const JoxRow *r = &b->rows[row];
     jox_reserve(image->bodies, image->body_capacity, image->body_count + 1);
     JoxBodyRecord *record = &image->bodies[image->body_count++];
@@ -97,19 +98,19 @@ static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
     record->held = r->held;
     record->holder = r->held ? r->holder : 0;
     record->grounded = r->grounded;
-    record->swept = jox_row_fast(r, b->last_dt); /* as the next step will find it */
+    record->swept = jox_row_is_fast(r, b->last_dt); /* as the next step will set it */
     const float material[4] = {r->material.friction, r->material.restitution, r->material.damping,
                                r->material.spin_damping};
     memcpy(record->material, material, sizeof material);
-    put_vector(record->force, jox_bt(r->force));
-    put_motion(record, r->body);
+    capture_vector(record->force, jox_bt(r->force));
+    capture_motion(record, r->body);
     record->still = r->kinematic ? JOX_BODY_KINEMATIC : r->shape.still ? JOX_BODY_STATIC : 0;
-    put_shape(image, record, r->shape);
-    put_path(image, record, r);
+    capture_shape(image, record, r->shape);
+    capture_path(image, record, r);
     record->force_limit = r->force_limit;
     record->held_up = r->held_up;
     record->drive = (r->path.reopens ? JOX_DRIVE_REOPENS : 0) | (r->ends_run ? JOX_DRIVE_ENDS : 0) |
-                    (r->met ? JOX_DRIVE_MET : 0);
+                    (r->reached_limit ? JOX_DRIVE_MET : 0);
     if (r->bonds)
         jox_bodies_image_add_bonds(image, record, r->bonds);
     record->name_length = r->name ? uint32_t(strlen(r->name)) : 0;
@@ -124,44 +125,45 @@ void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
     image->name_count = image->block_count = image->bond_count = image->path_point_count = 0;
     image->counters = {b->next_id, b->count, 0, b->last_dt};
     for (uint32_t k = 0; k < b->live; k++)
-        put_row(b, image, b->order[k]);
+        capture_row(b, image, b->order[k]);
     if (b->restored) {
-        jox_reserve(image->contacts, image->contact_capacity, b->kept_count);
-        image->contact_count = b->kept_count;
-        if (b->kept_count)
-            memcpy(image->contacts, b->kept, b->kept_count * sizeof *b->kept);
+        jox_reserve(image->contacts, image->contact_capacity, b->saved_contact_count);
+        image->contact_count = b->saved_contact_count;
+        if (b->saved_contact_count)
+            memcpy(image->contacts, b->saved_contacts,
+                   b->saved_contact_count * sizeof *b->saved_contacts);
     } else {
         image->contact_count =
             jox_bodies_note_contacts(b, image->contacts, image->contact_capacity);
     }
-    JOX_ASSERT(jox_bodies_image_check(image, nullptr)); /* what is saved can be restored */
+    JOX_ASSERT(jox_bodies_image_check(image, nullptr)); /* every captured image is valid */
 }
 
-/* ---- back ---- */
+/* ---- rebuild ---- */
 
-static const float *take_vector(const float *from, btVector3 *v) {
+static const float *read_vector(const float *from, btVector3 *v) {
     *v = btVector3(from[0], from[1], from[2]);
     return from + 3;
 }
 
-static const float *take_transform(const float *from, btTransform *t) {
+static const float *read_transform(const float *from, btTransform *t) {
     btVector3 rows[3], origin;
     for (btVector3 &row : rows)
-        from = take_vector(from, &row);
-    from = take_vector(from, &origin);
+        from = read_vector(from, &row);
+    from = read_vector(from, &origin);
     *t = btTransform(btMatrix3x3(rows[0][0], rows[0][1], rows[0][2], rows[1][0], rows[1][1],
                                  rows[1][2], rows[2][0], rows[2][1], rows[2][2]),
                      origin);
     return from;
 }
 
-static void take_motion(const JoxBodyRecord *record, btRigidBody *body) {
+static void rebuild_motion(const JoxBodyRecord *record, btRigidBody *body) {
     btTransform world, interpolated;
     btVector3 v[4];
-    const float *from = take_transform(record->motion, &world);
-    from = take_transform(from, &interpolated);
+    const float *from = read_transform(record->motion, &world);
+    from = read_transform(from, &interpolated);
     for (btVector3 &one : v)
-        from = take_vector(from, &one);
+        from = read_vector(from, &one);
     body->setWorldTransform(world);
     body->updateInertiaTensor();
     body->setLinearVelocity(v[0]);
@@ -173,9 +175,10 @@ static void take_motion(const JoxBodyRecord *record, btRigidBody *body) {
     body->setDeactivationTime(record->deactivation_time);
 }
 
-/* The shape of a record whose parts and points begin at these indices. */
-static bool take_shape(const JoxBodiesImage *image, const JoxBodyRecord *record,
-                       uint32_t first_part, uint32_t first_point, JoxBodyShape *out) {
+/* Makes the shape of a record whose parts and points start at these indices; false if it is not
+   valid. */
+static bool rebuild_shape(const JoxBodiesImage *image, const JoxBodyRecord *record,
+                          uint32_t first_part, uint32_t first_point, JoxBodyShape *out) {
     JoxBodyPart *parts =
         static_cast<JoxBodyPart *>(jox_alloc(record->part_count, sizeof(JoxBodyPart)));
     for (uint32_t p = 0; p < record->part_count; p++) {
@@ -199,12 +202,12 @@ static bool take_shape(const JoxBodiesImage *image, const JoxBodyRecord *record,
     return made;
 }
 
-/* Where the next body's parts, points, names, blocks and bonds begin. */
+/* Indices at which the next body's parts, points, name, blocks, bonds and path points start. */
 struct Cursor {
     uint32_t part, point, name, block, bond, path;
 };
 
-static void advance(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord *record) {
+static void advance_cursor(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord *record) {
     for (uint32_t p = 0; p < record->part_count; p++)
         at->point += 3 * image->parts[at->part + p].point_count;
     at->part += record->part_count;
@@ -214,8 +217,8 @@ static void advance(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord
     at->path += 3 * record->path_count;
 }
 
-static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRecord *record,
-                     const Cursor &at, const JoxBodyShape &shape) {
+static void rebuild_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRecord *record,
+                        const Cursor &at, const JoxBodyShape &shape) {
     JoxRow *r = &b->rows[record->row];
     r->live = true;
     r->id = record->id;
@@ -237,7 +240,7 @@ static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRec
     r->force_limit = float(record->force_limit);
     r->held_up = float(record->held_up);
     r->ends_run = (record->drive & JOX_DRIVE_ENDS) != 0;
-    r->met = (record->drive & JOX_DRIVE_MET) != 0;
+    r->reached_limit = (record->drive & JOX_DRIVE_MET) != 0;
     r->grounded = record->grounded != 0;
     r->swept = record->swept != 0;
     r->force = JoxV3{record->force[0], record->force[1], record->force[2]};
@@ -250,26 +253,26 @@ static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRec
     const float *m = record->material;
     jox_row_create_body(b, record->row, btTransform::getIdentity(),
                         JoxMaterial{m[0], m[1], m[2], m[3]});
-    take_motion(record, r->body);
+    rebuild_motion(record, r->body);
     b->order[b->live++] = record->row;
     if (record->held)
         jox_bodies_hold(b, record->row, record->holder);
 }
 
-/* All shapes first: nothing has changed where one is refused. */
-static JoxBodyShape *take_shapes(const JoxBodiesImage *image) {
+/* Makes all shapes before anything changes; NULL if one is not valid. */
+static JoxBodyShape *rebuild_shapes(const JoxBodiesImage *image) {
     JoxBodyShape *shapes =
         static_cast<JoxBodyShape *>(jox_alloc(size_t(image->body_count) + 1, sizeof(JoxBodyShape)));
     Cursor at = {};
     for (uint32_t n = 0; n < image->body_count; n++) {
         const JoxBodyRecord *record = &image->bodies[n];
-        if (!take_shape(image, record, at.part, at.point, &shapes[n])) {
+        if (!rebuild_shape(image, record, at.part, at.point, &shapes[n])) {
             for (uint32_t made = 0; made < n; made++)
                 jox_body_shape_free(&shapes[made]);
             jox_free(shapes);
             return nullptr;
         }
-        advance(&at, image, record);
+        advance_cursor(&at, image, record);
     }
     return shapes;
 }
@@ -277,14 +280,14 @@ static JoxBodyShape *take_shapes(const JoxBodiesImage *image) {
 bool jox_bodies_rebuild(JoxBodies *b, const JoxBodiesImage *image, JoxText *error) {
     if (!jox_bodies_image_check(image, error))
         return false;
-    JoxBodyShape *shapes = take_shapes(image);
+    JoxBodyShape *shapes = rebuild_shapes(image);
     if (!shapes) {
         if (error)
             jox_text_add(error, "a body's shape in the saved state makes no sense");
         return false;
     }
     while (b->live)
-        jox_bodies_drop(b, b->order[b->live - 1]);
+        jox_bodies_drop_row(b, b->order[b->live - 1]);
     if (image->body_count)
         jox_bodies_ensure(b);
     b->next_id = image->counters.next_id;
@@ -296,15 +299,16 @@ bool jox_bodies_rebuild(JoxBodies *b, const JoxBodiesImage *image, JoxText *erro
     jox_reserve(b->order, b->order_capacity, image->body_count);
     Cursor at = {};
     for (uint32_t n = 0; n < image->body_count; n++) {
-        take_row(b, image, &image->bodies[n], at, shapes[n]);
-        advance(&at, image, &image->bodies[n]);
+        rebuild_row(b, image, &image->bodies[n], at, shapes[n]);
+        advance_cursor(&at, image, &image->bodies[n]);
     }
     jox_free(shapes);
-    jox_reserve(b->kept, b->kept_capacity, image->contact_count);
-    b->kept_count = image->contact_count;
-    if (b->kept_count)
-        memcpy(b->kept, image->contacts, b->kept_count * sizeof *b->kept);
-    b->restored = true; /* until the next step */
+    jox_reserve(b->saved_contacts, b->saved_contact_capacity, image->contact_count);
+    b->saved_contact_count = image->contact_count;
+    if (b->saved_contact_count)
+        memcpy(b->saved_contacts, image->contacts,
+               b->saved_contact_count * sizeof *b->saved_contacts);
+    b->restored = true; /* cleared by the next step */
     jox_bodies_reinsert(b);
     return true;
 }
@@ -333,7 +337,7 @@ void jox_bodies_sections(JoxBodies *b, JoxSections *s) {
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
     JoxSections sections = jox_sections_hash();
     jox_bodies_sections(const_cast<JoxBodies *>(bodies),
-                        &sections); /* which a hash does not change */
+                        &sections); /* hashing does not change them */
     const uint64_t sum = jox_hash_end(&sections.hash);
     jox_hash_add(hash, &sum, sizeof sum);
 }

@@ -1,30 +1,32 @@
-/* Bullet's allocations: where memory is out, Bullet would go on with a null pointer. So its
-   functions for memory, which are the process's, are replaced by ones that give what malloc gives
-   and, within a call of ours, do not return without it. What a world allocated before belongs to a
-   heap that has failed: it is freed without Bullet, whose destructors expect whole objects. */
+/* Memory functions for Bullet. When memory is out, Bullet would go on with a null pointer. So
+   its functions, which are global to the process, are replaced by ones that use malloc and,
+   within a call of the engine, leave that call (base/mem.h) in place of returning NULL. The
+   memory of a world whose heap has failed is freed here without Bullet, whose destructors expect
+   complete objects. */
 #include <pthread.h>
 #include <stdlib.h>
 
 #include "body/bullet.h"
 
-/* What Bullet allocated while a heap was in use; open addressing, a power of two. */
+/* Hash table of the blocks that Bullet allocated while a heap was in use; open addressing, its
+   size is a power of two. */
 struct Allocation {
-    void *memory; /* NULL: free; GONE: was freed */
+    void *memory; /* NULL: free entry; &gone: its block was freed */
     JoxHeap *heap;
 };
 static Allocation *table;
-static size_t capacity, used; /* used: with those that are gone */
+static size_t capacity, used; /* used: entries that are not free, including those of freed blocks */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static char gone;
 
-static size_t place_of(const void *memory) {
+static size_t hash_address(const void *memory) {
     return (reinterpret_cast<uintptr_t>(memory) >> 4) * 0x9e3779b97f4a7c15u >> 20;
 }
 
-/* Takes the first place that is free or whose memory is gone: the same addresses come back again
-   and again. Returns whether it was free. */
-static bool put(Allocation *to, size_t size, Allocation allocation) {
-    size_t at = place_of(allocation.memory) & (size - 1);
+/* Stores an allocation in the first entry that is free or whose block was freed, as the same
+   addresses come back again and again. Returns whether the entry was free. */
+static bool insert_allocation(Allocation *to, size_t size, Allocation allocation) {
+    size_t at = hash_address(allocation.memory) & (size - 1);
     while (to[at].memory && to[at].memory != &gone)
         at = (at + 1) & (size - 1);
     const bool was_free = !to[at].memory;
@@ -32,8 +34,8 @@ static bool put(Allocation *to, size_t size, Allocation allocation) {
     return was_free;
 }
 
-/* Room for one more, without those that are gone. */
-static bool grow() {
+/* Makes room for one more entry, dropping those of freed blocks. False if memory is out. */
+static bool grow_allocation_table() {
     if (2 * (used + 1) <= capacity)
         return true;
     size_t live = 0;
@@ -48,7 +50,7 @@ static bool grow() {
     memset(wider, 0, size * sizeof *wider);
     for (size_t i = 0; i < capacity; i++)
         if (table[i].memory && table[i].memory != &gone)
-            put(wider, size, table[i]);
+            insert_allocation(wider, size, table[i]);
     free(table);
     table = wider;
     capacity = size;
@@ -57,14 +59,14 @@ static bool grow() {
     return true;
 }
 
-static void *allocate(size_t bytes) {
+static void *allocate_for_bullet(size_t bytes) {
     JoxHeap *heap = jox_heap_used();
     void *memory = jox_try_malloc(bytes);
     if (memory && heap) {
         pthread_mutex_lock(&lock);
-        bool room = grow();
+        bool room = grow_allocation_table();
         if (room)
-            used += put(table, capacity, {memory, heap});
+            used += insert_allocation(table, capacity, {memory, heap});
         pthread_mutex_unlock(&lock);
         if (!room) {
             free(memory);
@@ -76,10 +78,11 @@ static void *allocate(size_t bytes) {
     return memory;
 }
 
-/* Memory of which nothing is known is another program's part, or was allocated without a heap. */
-static void release(void *memory) {
+/* Frees a block. A block that is not in the table belongs to another part of the program, or was
+   allocated without a heap. */
+static void free_for_bullet(void *memory) {
     pthread_mutex_lock(&lock);
-    size_t at = capacity ? place_of(memory) & (capacity - 1) : 0;
+    size_t at = capacity ? hash_address(memory) & (capacity - 1) : 0;
     while (memory && capacity && table[at].memory && table[at].memory != memory)
         at = (at + 1) & (capacity - 1);
     if (memory && capacity && table[at].memory == memory)
@@ -88,18 +91,18 @@ static void release(void *memory) {
     free(memory);
 }
 
-static void install() {
-    btAlignedAllocSetCustom(allocate, release);
+static void install_bullet_allocator() {
+    btAlignedAllocSetCustom(allocate_for_bullet, free_for_bullet);
 }
 
-/* A library that is unloaded leaves Bullet as it was. */
-__attribute__((destructor)) static void restore() {
+/* Restores Bullet's own functions when the library is unloaded. */
+__attribute__((destructor)) static void uninstall_bullet_allocator() {
     btAlignedAllocSetCustom(nullptr, nullptr);
 }
 
 void jox_bullet_use_memory() {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, install);
+    pthread_once(&once, install_bullet_allocator);
 }
 
 void jox_bullet_free_heap(const JoxHeap *heap) {
@@ -125,7 +128,8 @@ bool jox_bodies_are_heaped(const JoxBodies *b, JoxText *error) {
     return true;
 }
 
-/* In one pass; as each object is removed Bullet would search all pairs for its own. */
+/* Removes the pairs in one pass; otherwise Bullet would search all pairs for each removed
+   object. */
 void jox_bodies_remove_pairs(JoxBodies *b) {
     btOverlappingPairCache *pairs = b->broadphase->getOverlappingPairCache();
     for (int n = pairs->getNumOverlappingPairs(); n > 0; n = pairs->getNumOverlappingPairs()) {

@@ -1,8 +1,8 @@
-/* Bodies that somebody carries or puts elsewhere. */
+/* Bodies that agents carry or that are moved to another place. */
 #include "body/bullet.h"
 
 bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || r->shape.mass <= 0)
         return false;
     r->held = true;
@@ -12,7 +12,7 @@ bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
     return true;
 }
 
-static void put_into_hand(JoxRow *r) {
+static void move_to_carrier(JoxRow *r) {
     btTransform at = r->body->getWorldTransform();
     at.setOrigin(jox_bt(r->carried));
     r->body->setWorldTransform(at);
@@ -22,13 +22,13 @@ static void put_into_hand(JoxRow *r) {
 }
 
 void jox_bodies_carry(JoxBodies *b, uint32_t row, JoxV3 centre, JoxV3 velocity) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || !r->held || !jox_finite(jox_bt(centre)) || !jox_finite(jox_bt(velocity)))
         return;
     r->placed = true;
     r->carried = centre;
     r->carried_along = velocity;
-    put_into_hand(r);
+    move_to_carrier(r);
     r->body->activate(true);
 }
 
@@ -36,13 +36,13 @@ void jox_bodies_keep_carried(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
         if (r->held && r->placed)
-            put_into_hand(r);
+            move_to_carrier(r);
         r->placed = false;
     }
 }
 
 void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r || !r->held)
         return;
     r->held = false;
@@ -52,7 +52,7 @@ void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
 }
 
 bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], const double turn[4]) {
-    JoxRow *r = jox_row_of(b, row);
+    JoxRow *r = jox_live_row(b, row);
     if (!r)
         return false;
     btTransform frame = jox_row_frame(r);
@@ -73,7 +73,7 @@ bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], cons
         r->body->updateInertiaTensor();
     }
     b->world->updateSingleAabb(r->body);
-    for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
+    for (uint32_t k = 0; k < b->live; k++) /* wake bodies that leant on it */
         if (b->rows[b->order[k]].shape.mass > 0)
             b->rows[b->order[k]].body->activate(true);
     JOX_CHECK(jox_bodies_check(b));

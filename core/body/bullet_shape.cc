@@ -1,5 +1,5 @@
-/* From a definition to Bullet's shape, its parts, and its mass properties. Bullet's own inertia of
-   a hull is that of its box, so the integrals are done here. */
+/* Makes Bullet's shape, its parts and its mass properties from a definition. The integrals over
+   a hull are computed here, as Bullet takes the inertia of its bounding box. */
 #include "body/bullet.h"
 
 #include <string.h>
@@ -14,30 +14,30 @@ extern "C" {
 namespace {
 
 const double MOST_SIZE = 1000.0, LEAST_SIZE = 0.001, MOST_MASS = 1e9;
-const double LEAST_MASS = 1e-9; /* kg: the inverse moments of what is lighter are no floats */
+const double LEAST_MASS = 1e-9; /* kg: the inverse moments of a lighter body overflow a float */
 enum { PRISM_SIDES = 16 };
 
-/* Mass properties of one part of unit density in its own frame. */
+/* Volume and moments of one part of unit density in its own frame. */
 struct Solid {
     double volume;
     double centre[3];
     double second[3][3]; /* integral of x_i x_j dV about the centre */
 };
 
-bool fail(JoxText *error, const char *text) {
+bool refuse_shape(JoxText *error, const char *text) {
     if (error)
         jox_text_add(error, text);
     return false;
 }
 
-bool good(double value, double low, double high) {
+bool is_in_range(double value, double low, double high) {
     return std::isfinite(value) && value >= low && value <= high;
 }
 
-bool quaternion(const double turn[4], btQuaternion *out) {
+bool make_unit_quaternion(const double turn[4], btQuaternion *out) {
     double n = 0;
     for (int i = 0; i < 4; i++) {
-        if (!good(turn[i], -1e6, 1e6))
+        if (!is_in_range(turn[i], -1e6, 1e6))
             return false;
         n += turn[i] * turn[i];
     }
@@ -53,17 +53,17 @@ bool quaternion(const double turn[4], btQuaternion *out) {
     return true;
 }
 
-void corners_of(JoxConvexPart *part, uint32_t corners, uint32_t edges) {
+void allocate_corners(JoxConvexPart *part, uint32_t corners, uint32_t edges) {
     part->corners = static_cast<JoxV3 *>(jox_alloc(corners, sizeof(JoxV3)));
     part->edges = static_cast<uint32_t *>(jox_alloc(edges, 2 * sizeof(uint32_t)));
     part->corner_count = corners;
     part->edge_count = edges;
 }
 
-btCollisionShape *make_box(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
+btCollisionShape *make_box_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double a = shape->size[0], b = shape->size[1], c = shape->size[2];
     btVector3 half(float(a / 2), float(b / 2), float(c / 2));
-    corners_of(part, 8, 12);
+    allocate_corners(part, 8, 12);
     uint32_t e = 0;
     for (uint32_t i = 0; i < 8; i++) {
         part->corners[i] = JoxV3{i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(),
@@ -81,7 +81,7 @@ btCollisionShape *make_box(const JoxShape *shape, JoxConvexPart *part, Solid *so
     return new btBoxShape(half);
 }
 
-btCollisionShape *make_sphere(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
+btCollisionShape *make_sphere_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double r = shape->size[0];
     part->radius = float(r);
     solid->volume = 4.0 / 3.0 * JOX_PI * r * r * r;
@@ -90,10 +90,10 @@ btCollisionShape *make_sphere(const JoxShape *shape, JoxConvexPart *part, Solid 
     return new btSphereShape(float(r));
 }
 
-btCollisionShape *make_cylinder(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
+btCollisionShape *make_cylinder_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double r = shape->size[0], h = shape->size[1];
     part->radius = float(r);
-    corners_of(part, 2 * PRISM_SIDES, 3 * PRISM_SIDES);
+    allocate_corners(part, 2 * PRISM_SIDES, 3 * PRISM_SIDES);
     for (uint32_t i = 0; i < PRISM_SIDES; i++) {
         double angle = i * (JOX_TURN / PRISM_SIDES);
         float x = float(r * jox_cos(angle)), y = float(r * jox_sin(angle));
@@ -131,7 +131,7 @@ void add_tetrahedron(Solid *s, const btVector3 &a, const btVector3 &b, const btV
                 (p[0][i] * p[0][j] + p[1][i] * p[1][j] + p[2][i] * p[2][j] + sum[i] * sum[j]);
 }
 
-void hull_solid(const btConvexHullComputer &hull, Solid *solid) {
+void integrate_hull(const btConvexHullComputer &hull, Solid *solid) {
     for (int f = 0; f < hull.faces.size(); f++) {
         const btConvexHullComputer::Edge *first = &hull.edges[hull.faces[f]];
         const btConvexHullComputer::Edge *e = first->getNextEdgeOfFace();
@@ -157,18 +157,18 @@ void hull_solid(const btConvexHullComputer &hull, Solid *solid) {
             solid->second[i][j] -= solid->volume * solid->centre[i] * solid->centre[j];
 }
 
-/* NULL where the points span no volume. */
-btCollisionShape *make_hull(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
+/* Makes a convex hull; NULL if the points span no volume. */
+btCollisionShape *make_hull_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     btConvexHullComputer hull;
     hull.compute(shape->points, 3 * sizeof(double), int(shape->point_count), 0, 0);
     if (hull.vertices.size() < 4)
         return nullptr;
-    hull_solid(hull, solid);
+    integrate_hull(hull, solid);
     if (!(solid->volume > 1e-9))
         return nullptr;
-    JOX_ASSERT(hull.edges.size() % 2 == 0); /* each one forth and back */
+    JOX_ASSERT(hull.edges.size() % 2 == 0); /* each edge is listed in both directions */
     uint32_t edges = 0;
-    corners_of(part, uint32_t(hull.vertices.size()), uint32_t(hull.edges.size()) / 2 + 1);
+    allocate_corners(part, uint32_t(hull.vertices.size()), uint32_t(hull.edges.size()) / 2 + 1);
     for (int i = 0; i < hull.vertices.size(); i++)
         part->corners[i] = jox_v3(hull.vertices[i]);
     for (int i = 0; i < hull.edges.size(); i++) {
@@ -182,74 +182,75 @@ btCollisionShape *make_hull(const JoxShape *shape, JoxConvexPart *part, Solid *s
     }
     part->edge_count = edges;
     btConvexHullShape *made = new btConvexHullShape();
-    made->setMargin(0.002f); /* before its box is measured, which includes the margin */
+    made->setMargin(0.002f); /* before recalcLocalAabb, whose box includes the margin */
     for (int i = 0; i < hull.vertices.size(); i++)
         made->addPoint(hull.vertices[i], false);
     made->recalcLocalAabb();
     return made;
 }
 
-bool check_shape(const JoxShape *shape, JoxText *error) {
+bool check_shape_sizes(const JoxShape *shape, JoxText *error) {
     static const int sizes[] = {3, 1, 2, 0, 0, 3};
     if (int(shape->kind) < 0 || shape->kind > JOX_SHAPE_BLOCKS)
-        return fail(error, "a body's shape is a box, sphere, cylinder, hull, compound or blocks");
+        return refuse_shape(error,
+                            "a body's shape is a box, sphere, cylinder, hull, compound or blocks");
     for (int i = 0; i < sizes[shape->kind]; i++)
-        if (!good(shape->size[i], LEAST_SIZE, MOST_SIZE))
-            return fail(error, "a body's sizes must lie between 0.001 and 1000 m");
+        if (!is_in_range(shape->size[i], LEAST_SIZE, MOST_SIZE))
+            return refuse_shape(error, "a body's sizes must lie between 0.001 and 1000 m");
     if (shape->kind != JOX_SHAPE_HULL)
         return true;
     if (!shape->points || shape->point_count < 4 || shape->point_count > 256)
-        return fail(error, "a hull needs 4 to 256 points");
+        return refuse_shape(error, "a hull needs 4 to 256 points");
     for (uint32_t i = 0; i < 3 * shape->point_count; i++)
-        if (!good(shape->points[i], -MOST_SIZE, MOST_SIZE))
-            return fail(error, "a hull's points must lie within 1000 m");
+        if (!is_in_range(shape->points[i], -MOST_SIZE, MOST_SIZE))
+            return refuse_shape(error, "a hull's points must lie within 1000 m");
     return true;
 }
 
 btCollisionShape *make_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid,
                             JoxText *error) {
-    if (!check_shape(shape, error))
+    if (!check_shape_sizes(shape, error))
         return nullptr;
     part->kind = shape->kind;
     switch (shape->kind) {
     case JOX_SHAPE_BOX:
-        return make_box(shape, part, solid);
+        return make_box_part(shape, part, solid);
     case JOX_SHAPE_SPHERE:
-        return make_sphere(shape, part, solid);
+        return make_sphere_part(shape, part, solid);
     case JOX_SHAPE_CYLINDER:
-        return make_cylinder(shape, part, solid);
+        return make_cylinder_part(shape, part, solid);
     case JOX_SHAPE_HULL: {
-        btCollisionShape *made = make_hull(shape, part, solid);
+        btCollisionShape *made = make_hull_part(shape, part, solid);
         if (!made)
-            fail(error, "the points of a hull must span a volume");
+            refuse_shape(error, "the points of a hull must span a volume");
         return made;
     }
     default:
-        fail(error, "a compound cannot hold a compound or bonded blocks");
+        refuse_shape(error, "a compound cannot hold a compound or bonded blocks");
         return nullptr;
     }
 }
 
-/* A part's mass, 0 with false where it is not valid. */
-bool mass_of(double mass, double density, double volume, double *out, JoxText *error) {
-    if (!good(mass, 0, MOST_MASS))
-        return fail(error, "a body's mass must lie between 0 and 1e9 kg");
-    if (!good(density, 0, 1e6))
-        return fail(error, "a body's density must lie between 0 and 1e6 kg/m3");
+/* Computes a part's mass, kg; false with a sentence in `error` if it is not valid. */
+bool compute_part_mass(double mass, double density, double volume, double *out, JoxText *error) {
+    if (!is_in_range(mass, 0, MOST_MASS))
+        return refuse_shape(error, "a body's mass must lie between 0 and 1e9 kg");
+    if (!is_in_range(density, 0, 1e6))
+        return refuse_shape(error, "a body's density must lie between 0 and 1e6 kg/m3");
     *out = mass > 0 ? mass : density * volume;
-    if (!good(*out, 0, MOST_MASS))
-        return fail(error, "a body's mass must lie between 0 and 1e9 kg");
+    if (!is_in_range(*out, 0, MOST_MASS))
+        return refuse_shape(error, "a body's mass must lie between 0 and 1e9 kg");
     if (*out > 0 && *out < LEAST_MASS)
-        return fail(error, "a body's mass is 0, or 1e-9 kg and more");
+        return refuse_shape(error, "a body's mass is 0, or 1e-9 kg and more");
     return true;
 }
 
-/* Mass, first and second moments of all parts in the shape's own frame. */
+/* Sums over all parts of mass, first and second moments, in the shape's own frame. */
 struct Total {
     double mass, first[3], second[3][3];
 };
 
-void add_part(Total *total, const Solid &solid, const btTransform &frame, double mass) {
+void add_part_moments(Total *total, const Solid &solid, const btTransform &frame, double mass) {
     JOX_ASSERT(solid.volume > 0 && mass > 0);
     double scale = mass / solid.volume, at[3];
     const btMatrix3x3 &r = frame.getBasis();
@@ -269,8 +270,8 @@ void add_part(Total *total, const Solid &solid, const btTransform &frame, double
     }
 }
 
-/* Centre of mass, principal axes and moments. */
-void principal(const Total &total, JoxBodyShape *out) {
+/* Computes centre of mass, principal axes and moments. */
+void compute_principal_axes(const Total &total, JoxBodyShape *out) {
     double c[3], s[3][3], trace = 0, off = 0;
     for (int i = 0; i < 3; i++)
         c[i] = total.first[i] / total.mass;
@@ -286,7 +287,7 @@ void principal(const Total &total, JoxBodyShape *out) {
             if (i != j)
                 off += fabs(s[i][j]);
         }
-    /* A body that is symmetric already keeps its own axes. */
+    /* Keep the axes of a body that is symmetric about them. */
     if (off > 1e-6 * trace)
         tensor.diagonalize(axes, 1e-6f, 40);
     out->inertia = btVector3(tensor[0][0], tensor[1][1], tensor[2][2]);
@@ -294,8 +295,9 @@ void principal(const Total &total, JoxBodyShape *out) {
     out->mass = float(total.mass);
 }
 
-/* Of a needle the least moment is lost beside the others. */
-bool has_moments(const btVector3 &inertia) {
+/* Whether the moments are those of a solid. For a needle rounding loses the smallest one beside
+   the others. */
+bool are_moments_valid(const btVector3 &inertia) {
     bool good = true;
     for (int i = 0; i < 3; i++)
         good = good && inertia[i] > 0 &&
@@ -303,8 +305,9 @@ bool has_moments(const btVector3 &inertia) {
     return good;
 }
 
-/* Corners into the body's frame, and how far the body reaches from its centre of mass. */
-void settle_parts(JoxBodyShape *out) {
+/* Transforms the parts into the frame of centre of mass and principal axes, and computes the
+   bounding radius and smallest half extent. */
+void transform_parts(JoxBodyShape *out) {
     btTransform back = out->frame.inverse();
     out->bound = 0;
     out->inner = INFINITY;
@@ -315,7 +318,7 @@ void settle_parts(JoxBodyShape *out) {
         out->children[p]->getAabb(btTransform::getIdentity(), low, high);
         btVector3 half = (high - low) * 0.5f;
         float least = half[half.minAxis()];
-        if (part->kind == JOX_SHAPE_HULL) /* its box has the margin twice */
+        if (part->kind == JOX_SHAPE_HULL) /* the box of a hull includes the margin twice */
             least -= 2 * out->children[p]->getMargin();
         out->inner = least < out->inner ? least : out->inner;
         for (uint32_t i = 0; i < part->corner_count; i++) {
@@ -331,8 +334,9 @@ void settle_parts(JoxBodyShape *out) {
     }
 }
 
-/* One part whose frame is that of the mass needs no compound around it. */
-void join_parts(JoxBodyShape *out) {
+/* Makes Bullet's shape of the body: a compound of the parts, or the only part itself if its
+   frame is that of the mass. */
+void make_collision_shape(JoxBodyShape *out) {
     const btTransform &only = out->parts[0].frame;
     if (out->part_count == 1 && only.getOrigin().length2() < 1e-14f &&
         fabsf(only.getRotation().w()) > 0.9999999f) {
@@ -345,8 +349,8 @@ void join_parts(JoxBodyShape *out) {
     out->collision = compound;
 }
 
-/* Keeps what a part is made of. */
-void keep_source(const JoxBodyPart *part, JoxBodyShape *out) {
+/* Stores a part's definition, from which a saved body is made again. */
+void store_part_source(const JoxBodyPart *part, JoxBodyShape *out) {
     JoxBodyPartRecord *to = &out->source[out->part_count];
     const bool hull = part->shape.kind == JOX_SHAPE_HULL;
     to->kind = uint32_t(part->shape.kind);
@@ -369,13 +373,13 @@ bool build_part(const JoxBodyPart *part, bool still, JoxBodyShape *out, Total *t
     Solid solid = {};
     btQuaternion turn;
     for (int i = 0; i < 3; i++)
-        if (!good(part->position[i], -MOST_SIZE, MOST_SIZE))
-            return fail(error, "a part must lie within 1000 m of its body");
-    if (!quaternion(part->turn, &turn))
-        return fail(error, "a part's turn must be a finite quaternion");
+        if (!is_in_range(part->position[i], -MOST_SIZE, MOST_SIZE))
+            return refuse_shape(error, "a part must lie within 1000 m of its body");
+    if (!make_unit_quaternion(part->turn, &turn))
+        return refuse_shape(error, "a part's turn must be a finite quaternion");
     btCollisionShape *shape = make_part(&part->shape, made, &solid, error);
     if (shape)
-        keep_source(part, out);
+        store_part_source(part, out);
     out->part_count++;
     if (!shape)
         return false;
@@ -384,12 +388,12 @@ bool build_part(const JoxBodyPart *part, bool still, JoxBodyShape *out, Total *t
                                               float(part->position[2])));
     double mass = solid.volume;
     if (!still) {
-        if (!mass_of(part->mass, part->density, solid.volume, &mass, error))
+        if (!compute_part_mass(part->mass, part->density, solid.volume, &mass, error))
             return false;
         if (!(mass > 0))
-            return fail(error, "every part of a moving compound needs a mass or a density");
+            return refuse_shape(error, "every part of a moving compound needs a mass or a density");
     }
-    add_part(total, solid, made->frame, mass);
+    add_part_moments(total, solid, made->frame, mass);
     return true;
 }
 
@@ -407,7 +411,7 @@ bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, J
         parts = def->shape.parts;
         count = def->shape.part_count;
         if (!parts || count < 1 || count > 4096)
-            return fail(error, "a compound needs 1 to 4096 parts");
+            return refuse_shape(error, "a compound needs 1 to 4096 parts");
     }
     out->parts = static_cast<JoxConvexPart *>(jox_alloc(count, sizeof(JoxConvexPart)));
     out->children = static_cast<btCollisionShape **>(jox_alloc(count, sizeof(btCollisionShape *)));
@@ -419,13 +423,13 @@ bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, J
             jox_body_shape_free(out);
             return false;
         }
-    principal(total, out);
-    if (!still && !has_moments(out->inertia)) {
+    compute_principal_axes(total, out);
+    if (!still && !are_moments_valid(out->inertia)) {
         jox_body_shape_free(out);
-        return fail(error, "a body is too thin for its length: make it thicker, or static");
+        return refuse_shape(error, "a body is too thin for its length: make it thicker, or static");
     }
-    settle_parts(out);
-    join_parts(out);
+    transform_parts(out);
+    make_collision_shape(out);
     if (still) {
         out->mass = 0;
         out->inertia = btVector3(0, 0, 0);
@@ -452,7 +456,7 @@ void jox_body_shape_free(JoxBodyShape *shape) {
 
 /* ---- blocks ---- */
 
-JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error) {
+JoxBondGraph *jox_row_make_bonds(const JoxBodyDef *def, JoxText *error) {
     const JoxShape *shape = &def->shape;
     double blocks = double(shape->count[0]) * shape->count[1] * shape->count[2], volume = blocks;
     bool good = blocks >= 1 && blocks <= JOX_BONDS_MOST_BLOCKS;
@@ -461,7 +465,7 @@ JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error) {
         volume *= size;
     }
     double mass = def->mass > 0 ? def->mass : def->density * volume;
-    /* A body that never moves has no mass, and needs none. */
+    /* A static body needs no mass. */
     double each = mass > 0 && mass <= 1e9 ? mass / blocks : 1.0;
     JoxBondGraph *bonds =
         good ? jox_bonds_create(shape->count, shape->size, each, shape->bond) : nullptr;

@@ -1,9 +1,10 @@
-/* A step in substeps, with the sweep of fast bodies against people; and what agents see. */
+/* Advances the bodies by a step in substeps, sweeps fast bodies against people, and writes the
+   objects that agents see. */
 #include <cstring>
 
 #include "body/bullet.h"
 
-bool jox_row_fast(const JoxRow *r, float dt) {
+bool jox_row_is_fast(const JoxRow *r, float dt) {
     const float way2 = r->body->getLinearVelocity().length2() * dt * dt;
     return way2 > 0.0099f && !r->held && r->shape.mass > 0 && r->shape.bound <= 0.75f &&
            r->body->getLinearVelocity().length() * dt > 0.1f;
@@ -12,17 +13,17 @@ bool jox_row_fast(const JoxRow *r, float dt) {
 bool jox_bodies_any_fast(const JoxBodies *b, float dt) {
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];
-        if (r->swept || jox_row_fast(r, dt))
+        if (r->swept || jox_row_is_fast(r, dt))
             return true;
     }
     return false;
 }
 
-static uint32_t substeps(const JoxBodies *b, float dt) {
+static uint32_t compute_substep_count(const JoxBodies *b, float dt) {
     float need = ceilf(dt * 60.0f - 1e-4f);
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];
-        if (!jox_row_fast(r, dt))
+        if (!jox_row_is_fast(r, dt))
             continue;
         float n = ceilf(r->body->getLinearVelocity().length() * dt / r->shape.inner);
         const float most = ceilf(dt * 480.0f - 1e-4f);
@@ -32,8 +33,8 @@ static uint32_t substeps(const JoxBodies *b, float dt) {
     return need < 1 ? 1 : uint32_t(need);
 }
 
-static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSweep *sweep,
-                       const JoxSweepHit *hit) {
+static void apply_person_hit(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSweep *sweep,
+                             const JoxSweepHit *hit) {
     JoxRow *r = &b->rows[row];
     JoxDisc *d = &discs[hit->disc];
     btVector3 n = jox_bt(hit->normal), arm = n * -sweep->radius;
@@ -71,10 +72,10 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
         JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
 }
 
-static void sweep_all(JoxBodies *b, JoxDisc *discs, float begin, float span, float dt) {
+static void sweep_fast_bodies(JoxBodies *b, JoxDisc *discs, float begin, float span, float dt) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
-        if (!r->swept && !jox_row_fast(r, dt))
+        if (!r->swept && !jox_row_is_fast(r, dt))
             continue;
         float radius = r->shape.parts[0].kind == JOX_SHAPE_SPHERE && r->shape.part_count == 1
                            ? r->shape.parts[0].radius
@@ -88,7 +89,7 @@ static void sweep_all(JoxBodies *b, JoxDisc *discs, float begin, float span, flo
                           float(b->def.person_height)};
         JoxSweepHit hit;
         if (jox_sweep(&b->grid, discs, &sweep, &hit))
-            hit_person(b, b->order[k], discs, &sweep, &hit);
+            apply_person_hit(b, b->order[k], discs, &sweep, &hit);
     }
 }
 
@@ -113,8 +114,9 @@ static void mark_grounded(JoxBodies *b) {
     }
 }
 
-/* Forces, and of the lasting impulses the share of one of n substeps. */
-static void push_on(JoxBodies *b, uint32_t n, bool last) {
+/* Applies the pending forces, and one of n equal shares of the lasting impulses; `last` clears
+   both. */
+static void apply_pending_forces(JoxBodies *b, uint32_t n, bool last) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
         if (jox_bt(r->lasting).length2() > 0) {
@@ -158,25 +160,25 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     }
     if (driven)
         jox_bodies_begin_drive(b);
-    uint32_t n = substeps(b, dt);
+    uint32_t n = compute_substep_count(b, dt);
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
-        jox_bodies_guard_begin(b);
+        jox_bodies_store_poses(b);
         if (driven)
             jox_bodies_drive(b, h);
         if (people)
-            sweep_all(b, discs, h * float(s), h, dt);
-        push_on(b, n, s + 1 == n);
+            sweep_fast_bodies(b, discs, h * float(s), h, dt);
+        apply_pending_forces(b, n, s + 1 == n);
         const double begun = b->timed ? jox_clock_wall() : 0;
         b->world->stepSimulation(h, 0);
         report.bullet_s += b->timed ? jox_clock_wall() - begun : 0;
         if (b->bonded)
             jox_bodies_gather_contacts(b);
-        jox_bodies_guard(b);
+        jox_bodies_handle_lost(b);
         mark_grounded(b);
     }
     if (driven)
-        jox_bodies_driven(b);
+        jox_bodies_end_drive(b);
     jox_bodies_keep_carried(b);
     if (b->bonded)
         jox_bodies_break(b, dt);
@@ -194,7 +196,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     return report;
 }
 
-/* A sphere alone is round at any height: no ring of corners is made for it. */
+/* Writes the footprint of a body that is one sphere: a circle, without a ring of corners. */
 static void write_sphere(const JoxRow *r, JoxObject *o) {
     const JoxConvexPart *sphere = &r->shape.parts[0];
     btVector3 centre = r->body->getWorldTransform() * sphere->frame.getOrigin();
@@ -210,10 +212,10 @@ static void write_sphere(const JoxRow *r, JoxObject *o) {
     o->in_band = o->high > o->low && o->round > 0.0f;
 }
 
-/* Gathers a part's corners, and how far from the body's centre they reach, m2: in the plane, and in
-   space. */
-static void add_part(JoxBodies *b, const JoxConvexPart *part, const btTransform &at, JoxV3 centre,
-                     float *reach2, float *sphere2) {
+/* Adds a part's corners to the footprint, and updates the squared reach from the body's centre,
+   m2: in the plane, and in space. */
+static void add_part_corners(JoxBodies *b, const JoxConvexPart *part, const btTransform &at,
+                             JoxV3 centre, float *reach2, float *sphere2) {
     jox_reserve(b->corners, b->corner_capacity, part->corner_count);
     for (uint32_t i = 0; i < part->corner_count; i++) {
         b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
@@ -233,7 +235,7 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     for (uint32_t p = 0; p < r->shape.part_count; p++) {
         const JoxConvexPart *part = &r->shape.parts[p];
         if (part->kind != JOX_SHAPE_SPHERE) {
-            add_part(b, part, at, o->position, &reach2, &sphere2);
+            add_part_corners(b, part, at, o->position, &reach2, &sphere2);
             continue;
         }
         btVector3 c = at * part->frame.getOrigin();
@@ -250,15 +252,15 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     jox_footprint_end(&b->footprint, o);
     o->round = o->disc;
     if (r->shape.part_count == 1 && first->kind == JOX_SHAPE_CYLINDER &&
-        fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f) { /* it stands upright */
+        fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f) { /* upright */
         o->footprint_count = 0;
         o->round = first->radius;
     }
 }
 
-/* Whether a body lies where it lay when its object was written last, to the bit. Bodies at rest
-   sleep, and many scenes are full of them. */
-static bool is_shown(JoxRow *r) {
+/* Whether a body has exactly the pose at which its object was last written; stores the present
+   pose. This saves work in scenes full of sleeping bodies. */
+static bool is_pose_unchanged(JoxRow *r) {
     const btTransform &at = r->body->getWorldTransform();
     float now[12];
     for (int i = 0; i < 3; i++) {
@@ -272,8 +274,8 @@ static bool is_shown(JoxRow *r) {
     return same;
 }
 
-/* What follows from where the body lies. */
-static void write_shape(JoxBodies *b, const JoxRow *r, JoxObject *o) {
+/* Writes the members of an object that depend on the body's pose. */
+static void write_object_pose(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     *o = JoxObject();
     o->id = r->id;
     o->live = true;
@@ -292,12 +294,12 @@ static void write_shape(JoxBodies *b, const JoxRow *r, JoxObject *o) {
 }
 
 static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
-    if (!is_shown(r)) {
-        write_shape(b, r, o);
+    if (!is_pose_unchanged(r)) {
+        write_object_pose(b, r, o);
         r->shown_in_band = o->in_band;
     }
     o->grounded = r->grounded;
-    r->swept = jox_row_fast(r, b->last_dt);
+    r->swept = jox_row_is_fast(r, b->last_dt);
     o->swept = r->swept;
     o->tags = r->tags;
     const btVector3 &velocity = r->body->getLinearVelocity(), &spin = r->body->getAngularVelocity();
@@ -309,7 +311,7 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     o->force_limit = r->force_limit;
     o->held = r->held;
     o->holder = r->holder;
-    o->in_band = r->shown_in_band && !r->held; /* who carries it is not pushed by it */
+    o->in_band = r->shown_in_band && !r->held; /* a carried body does not push its carrier */
 }
 
 void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {

@@ -1,4 +1,4 @@
-/* The ground and the walls, which never move. */
+/* Static bodies in Bullet's world: the ground and the walls. */
 #include "body/bullet.h"
 
 #include <numeric>
@@ -29,9 +29,10 @@ void jox_bodies_drop_walls(JoxBodies *b) {
     jox_wall_grid_free(&b->wall_grid);
 }
 
-/* Bullet's tree of boxes is not balanced: one next to the other, each would hang below the last,
-   and every further one would go down all of them. Many are put in from all over the plan. */
-static void add_walls(JoxBodies *b) {
+/* Adds the walls to Bullet's world. Its tree of boxes is not balanced: boxes added in spatial
+   order would each hang below the last one, and every further box would pass all of them. Large
+   numbers are added in an order that jumps across the plan. */
+static void add_walls_to_world(JoxBodies *b) {
     const uint32_t n = b->wall_count;
     uint64_t step = n > FEW_WALLS ? uint64_t(n * 0.618034) | 1u : 1;
     while (std::gcd(step, uint64_t(n)) > 1)
@@ -40,7 +41,8 @@ static void add_walls(JoxBodies *b) {
         b->world->addRigidBody(b->walls[k * step % n]);
 }
 
-/* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
+/* Makes a box 4 cm thick for each edge; a thin wall, whose edges run along it and back, gets one
+   box per pair. */
 void jox_bodies_raise_walls(JoxBodies *b) {
     const JoxWalls *walls = &b->standing;
     b->walls_raised = true;
@@ -64,5 +66,5 @@ void jox_bodies_raise_walls(JoxBodies *b) {
                 jox_static_make(new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
         }
     }
-    add_walls(b);
+    add_walls_to_world(b);
 }

@@ -1,8 +1,8 @@
-/* What Bullet's world does differently: the same to the bit of bodies that move. */
+/* Overrides of Bullet's world that skip work; moving bodies get the same results, bit for bit. */
 #include "body/bullet.h"
 
-/* Bullet would take the velocities of kinematic bodies from how they were moved; here they have
-   velocities, and move by these, before contacts are looked for. */
+/* Moves kinematic bodies by their velocities before contacts are found; Bullet would derive
+   velocities from how the bodies were moved. */
 void JoxBulletWorld::saveKinematicState(btScalar dt) {
     btTransform to;
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
@@ -14,32 +14,33 @@ void JoxBulletWorld::saveKinematicState(btScalar dt) {
     }
 }
 
-/* Whether Bullet moves a body on by its velocity. */
-static bool is_moved(const btRigidBody *body) {
+/* Whether Bullet moves a body by its velocity. */
+static bool is_integrated(const btRigidBody *body) {
     return body->isActive() && !body->isKinematicObject();
 }
 
-/* Bullet damps and predicts bodies that sleep, too: velocities of 0, and where they lie. */
+/* Predicts motion of bodies that are awake. Bullet would also damp and predict sleeping ones,
+   whose velocities are 0. */
 void JoxBulletWorld::predictUnconstraintMotion(btScalar dt) {
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
         btRigidBody *body = m_nonStaticRigidBodies[i];
-        if (!is_moved(body))
+        if (!is_integrated(body))
             continue;
         body->applyDamping(dt);
         body->predictIntegratedTransform(dt, body->getInterpolationWorldTransform());
     }
 }
 
-/* Whether Bullet may find that a body moves by more than its threshold of continuous collision. */
-static bool is_fast(const btRigidBody *body, btScalar dt) {
+/* Whether a body may exceed Bullet's threshold of motion for continuous collision detection. */
+static bool may_exceed_ccd_threshold(const btRigidBody *body, btScalar dt) {
     const btScalar way2 = body->getLinearVelocity().length2() * dt * dt;
-    return is_moved(body) && !(way2 < 0.99f * body->getCcdSquareMotionThreshold());
+    return is_integrated(body) && !(way2 < 0.99f * body->getCcdSquareMotionThreshold());
 }
 
 void JoxBulletWorld::createPredictiveContacts(btScalar dt) {
     releasePredictiveContacts();
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++)
-        if (is_fast(m_nonStaticRigidBodies[i], dt))
+        if (may_exceed_ccd_threshold(m_nonStaticRigidBodies[i], dt))
             createPredictiveContactsInternal(&m_nonStaticRigidBodies[i], 1, dt);
 }
 
@@ -47,9 +48,9 @@ void JoxBulletWorld::integrateTransforms(btScalar dt) {
     btTransform to;
     for (int i = 0; i < m_nonStaticRigidBodies.size(); i++) {
         btRigidBody *body = m_nonStaticRigidBodies[i];
-        if (!is_moved(body))
+        if (!is_integrated(body))
             continue;
-        if (is_fast(body, dt)) {
+        if (may_exceed_ccd_threshold(body, dt)) {
             integrateTransformsInternal(&m_nonStaticRigidBodies[i], 1, dt);
             continue;
         }
@@ -58,8 +59,8 @@ void JoxBulletWorld::integrateTransforms(btScalar dt) {
     }
 }
 
-/* Bullet sorts the pairs in each substep, so that their order is that of the bodies and not one
-   that follows from how they came about; a single one has no order. */
+/* Sorts the pairs in each substep, so that their order is that of the bodies and does not depend
+   on the past; a single pair needs no sorting. */
 void JoxBulletWorld::performDiscreteCollisionDetection() {
     updateAabbs();
     computeOverlappingPairs();

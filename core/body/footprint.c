@@ -13,18 +13,18 @@ void jox_footprint_begin(JoxFootprint *footprint) {
     footprint->high = -INFINITY;
 }
 
-static void put(JoxFootprint *f, float x, float y) {
+static void add_footprint_point(JoxFootprint *f, float x, float y) {
     JOX_RESERVE(f->points, f->capacity, f->count + 1);
     f->points[f->count++] = jox_v2(x, y);
 }
 
-/* Where the edge a-b passes a height. */
-static void cut(JoxFootprint *f, JoxV3 a, JoxV3 b, float height) {
+/* Adds the point at which the edge a-b crosses a height, m. */
+static void add_edge_cut(JoxFootprint *f, JoxV3 a, JoxV3 b, float height) {
     if ((a.z < height) == (b.z < height))
         return;
     float t = (height - a.z) / (b.z - a.z);
     JOX_ASSERT(t >= 0.0f && t <= 1.0f);
-    put(f, a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
+    add_footprint_point(f, a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
 }
 
 void jox_footprint_add(JoxFootprint *footprint, const JoxV3 *corners, uint32_t corner_count,
@@ -35,19 +35,19 @@ void jox_footprint_add(JoxFootprint *footprint, const JoxV3 *corners, uint32_t c
         low = jox_minf(low, p.z);
         high = jox_maxf(high, p.z);
         if (p.z >= JOX_BAND_LOW && p.z <= JOX_BAND_HIGH)
-            put(footprint, p.x, p.y);
+            add_footprint_point(footprint, p.x, p.y);
     }
     footprint->low = jox_minf(footprint->low, low);
     footprint->high = jox_maxf(footprint->high, high);
-    /* Most of what stands on the ground ends below the upper height. */
+    /* Most bodies on the ground end below the upper height. */
     const bool passes_low = low < JOX_BAND_LOW && high >= JOX_BAND_LOW;
     const bool passes_high = low < JOX_BAND_HIGH && high >= JOX_BAND_HIGH;
     for (uint32_t e = 0; (passes_low || passes_high) && e < edge_count; e++) {
         JoxV3 a = corners[edges[2 * e]], b = corners[edges[2 * e + 1]];
         if (passes_low)
-            cut(footprint, a, b, JOX_BAND_LOW);
+            add_edge_cut(footprint, a, b, JOX_BAND_LOW);
         if (passes_high)
-            cut(footprint, a, b, JOX_BAND_HIGH);
+            add_edge_cut(footprint, a, b, JOX_BAND_HIGH);
     }
 }
 
@@ -58,7 +58,7 @@ float jox_footprint_sphere(float z, float radius) {
     return away < radius ? sqrtf(radius * radius - away * away) : 0.0f;
 }
 
-static void lay_circle(JoxFootprint *footprint) {
+static void fill_unit_circle(JoxFootprint *footprint) {
     for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++) {
         double angle = i * (JOX_TURN / JOX_FOOTPRINT_POINTS);
         footprint->circle[i] = jox_v2((float)jox_cos(angle), (float)jox_sin(angle));
@@ -73,56 +73,58 @@ void jox_footprint_add_sphere(JoxFootprint *footprint, JoxV3 centre, float radiu
     if (round <= 0.0f)
         return;
     if (!footprint->has_circle)
-        lay_circle(footprint);
+        fill_unit_circle(footprint);
     for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++)
-        put(footprint, centre.x + round * footprint->circle[i].x,
-            centre.y + round * footprint->circle[i].y);
+        add_footprint_point(footprint, centre.x + round * footprint->circle[i].x,
+                            centre.y + round * footprint->circle[i].y);
 }
 
-/* By x, then y. */
-static inline bool comes_after(JoxV2 p, JoxV2 q) {
+/* Whether p comes after q in the order of x, then y. */
+static inline bool is_point_after(JoxV2 p, JoxV2 q) {
     return p.x != q.x ? p.x > q.x : p.y > q.y;
 }
 
-static void insert_points(JoxV2 *points, uint32_t count) {
+static void insertion_sort_points(JoxV2 *points, uint32_t count) {
     for (uint32_t k = 1; k < count; k++) {
         const JoxV2 point = points[k];
         uint32_t at = k;
-        for (; at > 0 && comes_after(points[at - 1], point); at--)
+        for (; at > 0 && is_point_after(points[at - 1], point); at--)
             points[at] = points[at - 1];
         points[at] = point;
     }
 }
 
-/* Merges halves, as jox_sort does, whose calls for each comparison would cost more than all else
-   here. `spare` has room for half of the points. */
-static void sort_points(JoxV2 *points, uint32_t count, JoxV2 *spare) {
+/* Sorts points by merging halves. jox_sort does the same, but its calls for each comparison
+   would dominate the cost here. `spare` has room for half of the points. */
+static void merge_sort_points(JoxV2 *points, uint32_t count, JoxV2 *spare) {
     enum { FEW = 16 };
     const uint32_t half = count / 2;
     if (count <= FEW) {
-        insert_points(points, count);
+        insertion_sort_points(points, count);
         return;
     }
-    sort_points(points, half, spare);
-    sort_points(points + half, count - half, spare);
+    merge_sort_points(points, half, spare);
+    merge_sort_points(points + half, count - half, spare);
     memcpy(spare, points, half * sizeof *spare);
     for (uint32_t left = 0, right = half, to = 0; left < half; to++)
-        points[to] = right == count || !comes_after(spare[left], points[right]) ? spare[left++]
-                                                                                : points[right++];
+        points[to] = right == count || !is_point_after(spare[left], points[right])
+                         ? spare[left++]
+                         : points[right++];
 }
 
-static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {
+static float compute_turn_area(JoxV2 a, JoxV2 b, JoxV2 c) {
     return jox_det(jox_sub(b, a), jox_sub(c, a));
 }
 
-/* Whether a, b, c turn left, exactly: with a tolerance, two points that all but coincide would hide
-   a corner between which they lie in the order of x. */
+/* Whether a, b, c turn left, computed exactly: with a tolerance, two almost equal points would
+   hide a corner between them in the order of x. */
 static bool turns_left(JoxV2 a, JoxV2 b, JoxV2 c) {
     return ((double)b.x - a.x) * ((double)c.y - a.y) > ((double)b.y - a.y) * ((double)c.x - a.x);
 }
 
-/* Monotone chains. `ring` has room for count + 1 points. */
-static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
+/* Builds the convex hull by monotone chains; returns its number of corners. `ring` has room for
+   count + 1 points. */
+static uint32_t build_hull_ring(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
         while (n >= 2 && !turns_left(ring[n - 2], ring[n - 1], points[i]))
@@ -138,14 +140,15 @@ static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     return n > 1 ? n - 1 : n;
 }
 
-/* The corner that spans least with those beside it, and what it spans, m2. */
-static uint32_t find_least(const JoxV2 *ring, uint32_t n, float *least_area) {
+/* Returns the corner whose triangle with its two neighbours has the least area, and twice that
+   area, m2. */
+static uint32_t find_least_corner(const JoxV2 *ring, uint32_t n, float *least_area) {
     uint32_t least = 0;
     JoxV2 before = ring[n - 1], at = ring[0];
     *least_area = INFINITY;
     for (uint32_t i = 0; i < n; i++) {
         const JoxV2 after = ring[i + 1 < n ? i + 1 : 0];
-        const float area = turn(before, at, after);
+        const float area = compute_turn_area(before, at, after);
         if (area < *least_area) {
             *least_area = area;
             least = i;
@@ -156,11 +159,12 @@ static uint32_t find_least(const JoxV2 *ring, uint32_t n, float *least_area) {
     return least;
 }
 
-/* Takes out the corners that span least: those over the limit, and those that rounding made. */
-static uint32_t thin(JoxV2 *ring, uint32_t n) {
+/* Removes the corners that span the least area: those beyond the limit of points, and artefacts
+   of rounding. Returns how many are left. */
+static uint32_t remove_least_corners(JoxV2 *ring, uint32_t n) {
     while (n > 3) {
         float least_area;
-        const uint32_t least = find_least(ring, n, &least_area);
+        const uint32_t least = find_least_corner(ring, n, &least_area);
         if (n <= JOX_FOOTPRINT_POINTS && least_area > 1e-6f)
             break;
         for (uint32_t i = least; i + 1 < n; i++)
@@ -179,10 +183,10 @@ void jox_footprint_end(JoxFootprint *footprint, JoxObject *object) {
     if (!object->in_band)
         return;
     JOX_RESERVE(footprint->points, footprint->capacity, 2 * n + 2);
-    JoxV2 *ring = footprint->points + n; /* spare room, then the hull */
-    sort_points(footprint->points, n, ring);
-    uint32_t corners = thin(ring, hull(footprint->points, n, ring));
-    /* A sliver without area cannot be touched. */
+    JoxV2 *ring = footprint->points + n; /* spare memory of the sort, then the hull */
+    merge_sort_points(footprint->points, n, ring);
+    uint32_t corners = remove_least_corners(ring, build_hull_ring(footprint->points, n, ring));
+    /* A footprint without area cannot be touched. */
     object->in_band = corners >= 3;
     object->footprint_count = corners >= 3 ? corners : 0;
     for (uint32_t i = 0; i < object->footprint_count; i++)

@@ -90,28 +90,29 @@ JoxBondGraph *jox_bodies_image_bonds(const JoxBodiesImage *image, const JoxBodyR
     return graph;
 }
 
-/* ---- what can be rebuilt ---- */
+/* ---- validity ---- */
 
-static bool all_finite(const float *values, uint32_t count) {
+static bool are_floats_finite(const float *values, uint32_t count) {
     bool finite = true;
     for (uint32_t i = 0; i < count; i++)
         finite &= isfinite(values[i]) != 0;
     return finite;
 }
 
-static bool all_finite_doubles(const double *values, uint32_t count) {
+static bool are_doubles_finite(const double *values, uint32_t count) {
     bool finite = true;
     for (uint32_t i = 0; i < count; i++)
         finite &= isfinite(values[i]) != 0;
     return finite;
 }
 
-/* Blocks in cells of their own within the range; bonds between two of them. */
+/* Whether a record's blocks lie in distinct cells within the range, and its bonds join two of
+   them. */
 static bool graph_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r,
                            uint32_t first_block, uint32_t first_bond) {
     uint64_t cells = 1;
     bool sound = r->block_count <= JOX_BONDS_MOST_BLOCKS && r->bond_count <= 3 * r->block_count &&
-                 r->block_mass > 0.0 && isfinite(r->block_mass) && all_finite_doubles(r->origin, 3);
+                 r->block_mass > 0.0 && isfinite(r->block_mass) && are_doubles_finite(r->origin, 3);
     for (int i = 0; i < 3; i++) {
         sound = sound && r->block_size[i] > 0.0 && isfinite(r->block_size[i]) && r->range[i] > 0 &&
                 r->range[i] <= JOX_BONDS_MOST_BLOCKS && r->low[i] <= JOX_BONDS_MOST_BLOCKS;
@@ -127,8 +128,8 @@ static bool graph_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r,
             sound = block->cell[i] >= r->low[i] && block->cell[i] - r->low[i] < r->range[i];
             at = at * r->range[i] + block->cell[i] - r->low[i];
         }
-        sound = sound && !filled[at] && all_finite_doubles(block->impulse, 3) &&
-                all_finite_doubles(block->load, 3) && all_finite_doubles(block->displacement, 3);
+        sound = sound && !filled[at] && are_doubles_finite(block->impulse, 3) &&
+                are_doubles_finite(block->load, 3) && are_doubles_finite(block->displacement, 3);
         if (sound)
             filled[at] = 1;
     }
@@ -141,12 +142,12 @@ static bool graph_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r,
     return sound;
 }
 
-/* Sums of what the bodies have, to be compared with the lengths of the arrays. */
+/* Numbers of items of all bodies, which must equal the lengths of the arrays. */
 typedef struct Totals {
     uint64_t names, parts, points, blocks, bonds, paths;
 } Totals;
 
-/* A record whose path begins at this number. */
+/* Whether a record whose path points start at index `first` has a valid path. */
 static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, uint64_t first) {
     if (first + 3 * (uint64_t)r->path_count > image->path_point_count)
         return false;
@@ -158,21 +159,22 @@ static bool path_is_sound(const JoxBodiesImage *image, const JoxBodyRecord *r, u
                               r->path_wait,
                               (r->drive & JOX_DRIVE_REOPENS) != 0};
     return r->path_count <= JOX_PATH_POINTS && r->still == JOX_BODY_KINEMATIC &&
-           !jox_path_wrong(&path) && r->path_time >= 0.0 && isfinite(r->path_time) &&
+           !jox_path_find_fault(&path) && r->path_time >= 0.0 && isfinite(r->path_time) &&
            r->path_back <= 1;
 }
 
-static bool all_within(const float *values, uint32_t count, float most) {
+static bool are_floats_within(const float *values, uint32_t count, float most) {
     bool within = true;
     for (uint32_t i = 0; i < count; i++)
         within &= fabsf(values[i]) <= most;
     return within;
 }
 
-/* Bullet looks for contacts where such a body has moved to, before anything else sees it there. */
-static bool moves_soundly(const JoxBodyRecord *r) {
-    return r->still != JOX_BODY_KINEMATIC ||
-           (all_within(r->motion + 9, 3, 1e4f) && all_within(r->motion + 24, 6, 500.0f));
+/* Whether the position and velocity of a kinematic body are within bounds: Bullet finds contacts
+   at its new position before the guard sees it there. */
+static bool motion_is_sound(const JoxBodyRecord *r) {
+    return r->still != JOX_BODY_KINEMATIC || (are_floats_within(r->motion + 9, 3, 1e4f) &&
+                                              are_floats_within(r->motion + 24, 6, 500.0f));
 }
 
 static bool drive_is_sound(const JoxBodyRecord *r) {
@@ -193,9 +195,10 @@ static bool record_is_sound(const JoxBodiesImage *image, uint32_t n, uint8_t *ta
     return r->still <= JOX_BODY_KINEMATIC && r->held <= 1 && r->grounded <= 1 && r->swept <= 1 &&
            !(r->still && (r->held || r->block_count)) && r->activation >= 1 &&
            r->activation <= LAST_ACTIVATION && r->part_count >= 1 && r->part_count <= 4096 &&
-           (r->bond_count == 0) == (r->block_count == 0) && moves_soundly(r) && drive_is_sound(r) &&
-           all_finite(r->motion, JOX_BODY_MOTION) && all_finite(&r->deactivation_time, 1) &&
-           all_finite(r->material, 4) && all_finite(r->force, 3);
+           (r->bond_count == 0) == (r->block_count == 0) && motion_is_sound(r) &&
+           drive_is_sound(r) && are_floats_finite(r->motion, JOX_BODY_MOTION) &&
+           are_floats_finite(&r->deactivation_time, 1) && are_floats_finite(r->material, 4) &&
+           are_floats_finite(r->force, 3);
 }
 
 static bool bodies_are_sound(const JoxBodiesImage *image) {
@@ -231,8 +234,8 @@ static bool bodies_are_sound(const JoxBodiesImage *image) {
 static bool contacts_are_sound(const JoxBodiesImage *image) {
     for (uint32_t n = 0; n < image->contact_count; n++) {
         const JoxContactRecord *c = &image->contacts[n];
-        if (!all_finite(c->points[0], 3) || !all_finite(c->points[1], 3) ||
-            !all_finite(c->normal, 3) || !all_finite(c->impulse, 3))
+        if (!are_floats_finite(c->points[0], 3) || !are_floats_finite(c->points[1], 3) ||
+            !are_floats_finite(c->normal, 3) || !are_floats_finite(c->impulse, 3))
             return false;
     }
     return true;
@@ -241,7 +244,7 @@ static bool contacts_are_sound(const JoxBodiesImage *image) {
 bool jox_bodies_image_check(const JoxBodiesImage *image, JoxText *error) {
     const uint64_t rows = image->counters.row_count;
     bool sound = image->body_count <= rows && rows <= image->counters.next_id &&
-                 /* rows of bodies that are gone take room */
+                 /* bounds the memory for rows of removed bodies */
                  rows <= SPARE_ROWS + (uint64_t)SPARE_EACH * image->body_count &&
                  isfinite(image->counters.last_dt) && contacts_are_sound(image) &&
                  bodies_are_sound(image);

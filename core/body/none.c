@@ -1,4 +1,5 @@
-/* A build without Bullet: bodies cannot be made, and there is nothing to do with none. */
+/* Stand-in for bullet*.cc in a build without Bullet: adding a body fails, and all other calls do
+   nothing. */
 #include "base/mem.h"
 #include "body/image.h"
 
@@ -140,7 +141,7 @@ void jox_bodies_sections(JoxBodies *bodies, JoxSections *sections) {
 }
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
     JoxSections sections = jox_sections_hash();
-    jox_bodies_sections((JoxBodies *)bodies, &sections); /* which a hash does not change */
+    jox_bodies_sections((JoxBodies *)bodies, &sections); /* hashing does not change them */
     const uint64_t sum = jox_hash_end(&sections.hash);
     jox_hash_add(hash, &sum, sizeof sum);
 }

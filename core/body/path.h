@@ -1,4 +1,5 @@
-/* Where a body that follows a path is at a time. */
+/* Path of a kinematic body: position and velocity at a given time. bullet_drive.cc calls it at
+   each substep. */
 #ifndef JOX_BODY_PATH_H
 #define JOX_BODY_PATH_H
 
@@ -9,28 +10,29 @@
 
 enum { JOX_PATH_POINTS = 256 };
 
-/* Straight from point to point, at one speed. Without points it is none. */
+/* Straight legs from point to point, at one speed. No points: no path. */
 typedef struct JoxBodyPath {
-    double *points; /* x, y, z, m; the first is where it begins. Owned by whoever has the path. */
+    double *points; /* x, y, z, m; the first is the start. Owned by the owner of the path. */
     uint32_t count; /* 0, or 2 to JOX_PATH_POINTS */
     uint32_t end;   /* JoPathEnd */
     double speed;   /* m/s */
-    double after;   /* s until it starts */
-    double wait;    /* s at each point that it comes to */
-    bool reopens;   /* goes back to where the leg began where it would press harder than its limit;
-                       else it stands */
+    double after;   /* s: delay before the start */
+    double wait;    /* s: stop at each point */
+    /* at its force limit the body goes back to the start of the leg; else it stands */
+    bool reopens;
 } JoxBodyPath;
 
 typedef struct JoxPathSpot {
-    double at[3], velocity[3]; /* m, m/s: as it goes on from there */
+    double at[3], velocity[3]; /* position, m; velocity with which it goes on, m/s */
 } JoxPathSpot;
 
-/* NULL, or what is wrong with a path that has points. */
-const char *jox_path_wrong(const JoxBodyPath *path);
-/* `time`: s since the body was made. */
+/* Returns NULL, or a sentence that says what is wrong with a path that has points. */
+const char *jox_path_find_fault(const JoxBodyPath *path);
+/* Returns the position and velocity at a time, s since the body was made. */
 JoxPathSpot jox_path_spot(const JoxBodyPath *path, double time);
 
-/* The time at which the leg that it is on, or that it came to the end of last, began, s. */
+/* Returns the start time, s, of the present leg, or, while the body stops at a point, of the leg
+   that led there. */
 double jox_path_leg_began(const JoxBodyPath *path, double time);
 
 #endif

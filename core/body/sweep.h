@@ -1,13 +1,15 @@
-/* Where a fast body, taken as a sphere, first meets a person, taken as an upright cylinder. */
+/* Sweep of a fast body, taken as a sphere, against people, taken as upright cylinders: finds the
+   first hit and its impulse. bullet_step.cc calls it in each substep. */
 #ifndef JOX_BODY_SWEEP_H
 #define JOX_BODY_SWEEP_H
 
 #include "body/body.h"
 
-/* Discs by square cells of their place halfway through the step. Zero-initialise. */
+/* Grid of discs, sorted into square cells by their position halfway through the step. Zero-
+   initialise. */
 typedef struct JoxDiscGrid {
     float cell, low_x, low_y;
-    float reach; /* greatest radius plus half a way, m */
+    float reach; /* greatest sum of radius and half the displacement, m */
     uint32_t columns, rows;
     uint32_t *starts, *items;
     uint32_t start_capacity, item_capacity;
@@ -16,8 +18,8 @@ typedef struct JoxDiscGrid {
 void jox_disc_grid_build(JoxDiscGrid *grid, const JoxDisc *discs, uint32_t count);
 void jox_disc_grid_free(JoxDiscGrid *grid);
 
-/* One substep of a ball: from `from` with `velocity`, during seconds `begin` to `begin + span` of a
-   step of dt seconds; people are `height` tall. */
+/* One substep of a ball: it moves from `from` with `velocity` from time `begin` to `begin +
+   span` within a step of dt seconds; people are `height` tall. m, m/s, s. */
 typedef struct JoxSweep {
     JoxV3 from, velocity;
     float radius, begin, span, dt, height;
@@ -26,21 +28,23 @@ typedef struct JoxSweep {
 typedef struct JoxSweepHit {
     uint32_t disc;
     float time;   /* s after `begin` */
-    JoxV3 normal; /* unit, from the person to the ball; vertical upon a head */
+    JoxV3 normal; /* unit vector from the person to the ball; vertical for a hit from above */
 } JoxSweepHit;
 
-/* The earliest hit of a ball that approaches; ties go to the lower id. */
+/* Finds the earliest hit of an approaching ball; of hits at the same time that on the lower id.
+   False if there is none. */
 bool jox_sweep(const JoxDiscGrid *grid, const JoxDisc *discs, const JoxSweep *sweep,
                JoxSweepHit *hit);
 
-/* The impulse along `normal` on the body (N s) that turns the approach of body and person at the
-   contact into `restitution` times its opposite; 0 where they part. `arm` from the centre of mass.
-   A person takes nothing vertical: the ground does. */
+/* Returns the impulse on the body along `normal`, N s, that reverses the velocity of approach at
+   the contact and scales it by `restitution`; 0 if body and person separate. `arm` is the
+   contact point relative to the centre of mass, m. A person takes no vertical impulse: the
+   ground does. */
 float jox_sweep_impulse(JoxV3 velocity, JoxV3 spin, float inverse_mass,
                         const float inverse_inertia[9], JoxV3 arm, JoxV3 normal,
                         const JoxDisc *person, float restitution);
 
-/* body_checks.c: a grid that was just built; a hit that was just found. */
+/* Assertions, in body_checks.c: on a new grid; on a hit. */
 void jox_disc_grid_check(const JoxDiscGrid *grid, const JoxDisc *discs, uint32_t count);
 void jox_sweep_hit_check(const JoxSweep *sweep, const JoxSweepHit *hit);
 
