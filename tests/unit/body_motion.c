@@ -1,4 +1,4 @@
-/* Bodies in motion: falling, standing, hitting people, and what is refused. */
+/* Dynamic bodies: they fall, stand and hit people; invalid ones are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "body/body.h"
 
-static JoxBodyDef ball(void) {
+static JoxBodyDef make_test_ball(void) {
     JoxBodyDef d = jox_body_def();
     d.shape.kind = JOX_SHAPE_SPHERE;
     d.shape.size[0] = 0.11;
@@ -18,13 +18,13 @@ static JoxBodyDef ball(void) {
     return d;
 }
 
-static void falls(void **state) {
+static void falling_ball_accelerates_by_gravity(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
     JoxBodiesDef def = jox_bodies_def();
     JoxBodies *b = jox_bodies_create(&def);
-    JoxBodyDef d = ball();
+    JoxBodyDef d = make_test_ball();
     d.position[2] = 100;
     uint32_t row = jox_bodies_add(b, &d, NULL);
     for (int i = 0; i < 20; i++)
@@ -54,7 +54,7 @@ static void stack_stands(void **state) {
     for (uint32_t i = 0; i < 4; i++)
         assert_float_equal(o.rows[i].position.z, 0.5f + (float)i, 0.03);
     assert_true(o.rows[0].grounded);
-    /* A tilt of a hair gives two corners where there was one: all lie by the square's own. */
+    /* A tiny tilt may split a corner in two: all lie near the corners of the square. */
     assert_in_range(o.rows[0].footprint_count, 4, 8);
     for (uint32_t i = 0; i < o.rows[0].footprint_count; i++) {
         assert_float_equal(fabsf(o.rows[0].footprint[i].x), 0.5, 5e-3);
@@ -70,7 +70,7 @@ static void ball_hits_person(void **state) {
     JoxBodiesDef def = jox_bodies_def();
     def.gravity = 0;
     JoxBodies *b = jox_bodies_create(&def);
-    JoxBodyDef d = ball();
+    JoxBodyDef d = make_test_ball();
     d.velocity[0] = 30;
     uint32_t row = jox_bodies_add(b, &d, NULL);
     JoxDisc disc = {.x = 0.8f, .radius = 0.2f, .mass = 70};
@@ -83,8 +83,9 @@ static void ball_hits_person(void **state) {
     jox_bodies_free(b);
 }
 
-/* Momentum is the same whether an impulse comes at the beginning or lasts; the way is not. */
-static void an_impulse_may_last(void **state) {
+/* An impulse at the start of the step and one spread over it give the same momentum, but
+   different displacements. */
+static void lasting_impulse_gives_the_same_momentum(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -108,14 +109,14 @@ static void an_impulse_may_last(void **state) {
         assert_float_equal(p.velocity.x, 2, 1e-4);
         assert_float_equal(p.position.x, lasting ? 0.2 * 7 / 12 : 0.2, 1e-4);
         assert_float_equal(p.spin.z, -10 / (10 / 6.0), 0.05);
-        jox_bodies_step(b, 0.1f, NULL, 0); /* nothing is left */
+        jox_bodies_step(b, 0.1f, NULL, 0); /* no impulse is left */
         assert_true(jox_bodies_pose(b, row, &p));
         assert_float_equal(p.velocity.x, 2, 1e-4);
         jox_bodies_free(b);
     }
 }
 
-/* 200 kg with friction 0.6 on the ground stand against 600 N at their upper edge. */
+/* A body of 200 kg with friction 0.6 stands against 600 N at its upper edge. */
 static void friction_holds_without_creep(void **state) {
     (void)state;
     if (!jox_bodies_available())
@@ -140,19 +141,19 @@ static void friction_holds_without_creep(void **state) {
     jox_bodies_free(b);
 }
 
-static void refuses(void **state) {
+static void invalid_balls_are_refused(void **state) {
     (void)state;
     JoxBodiesDef def = jox_bodies_def();
     JoxBodies *b = jox_bodies_create(&def);
     JoxText error = {0};
-    JoxBodyDef d = ball();
+    JoxBodyDef d = make_test_ball();
     d.mass = -1;
     assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
     assert_non_null(error.data);
-    d = ball();
+    d = make_test_ball();
     d.position[0] = 1e300;
     assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
-    d = ball();
+    d = make_test_ball();
     d.shape.size[0] = NAN;
     assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
     assert_int_equal(jox_bodies_count(b), 0);
@@ -160,9 +161,9 @@ static void refuses(void **state) {
     jox_bodies_free(b);
 }
 
-/* Walls are there for bodies: without any a plan of a hundred thousand corners costs next to
-   nothing, and the first one, whenever it comes, rolls against them. */
-static void walls_wait_for_bodies(void **state) {
+/* Walls are put into Bullet's world with the first body: without bodies a plan of 100,000
+   corners costs next to nothing, and the first body, whenever it comes, collides with them. */
+static void walls_enter_bullet_with_the_first_body(void **state) {
     (void)state;
     enum { CORNERS = 100000 };
     static JoxV2 ring[CORNERS];
@@ -179,10 +180,10 @@ static void walls_wait_for_bodies(void **state) {
     jox_walls_add_polyline(&few, wall, 2, false, 3);
     const double begin = jox_clock_thread();
     jox_bodies_set_walls(b, &many, 3);
-    assert_true(jox_clock_thread() - begin < 3.0); /* in Bullet they take half a minute */
+    assert_true(jox_clock_thread() - begin < 3.0); /* Bullet needs half a minute for them */
     jox_bodies_set_walls(b, &few, 3);
-    for (int again = 0; again < 2; again++) { /* and after all were gone */
-        JoxBodyDef d = ball();
+    for (int again = 0; again < 2; again++) { /* also after all bodies were removed */
+        JoxBodyDef d = make_test_ball();
         d.position[2] = 0.11;
         d.velocity[0] = 3;
         const uint32_t row = jox_bodies_add(b, &d, NULL);
@@ -200,12 +201,12 @@ static void walls_wait_for_bodies(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(falls),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(falling_ball_accelerates_by_gravity),
                                        cmocka_unit_test(stack_stands),
                                        cmocka_unit_test(ball_hits_person),
-                                       cmocka_unit_test(an_impulse_may_last),
+                                       cmocka_unit_test(lasting_impulse_gives_the_same_momentum),
                                        cmocka_unit_test(friction_holds_without_creep),
-                                       cmocka_unit_test(refuses),
-                                       cmocka_unit_test(walls_wait_for_bodies)};
+                                       cmocka_unit_test(invalid_balls_are_refused),
+                                       cmocka_unit_test(walls_enter_bullet_with_the_first_body)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
