@@ -1,4 +1,5 @@
-/* The files of a script: reading them within limits. */
+/* Reads the files of a script within the limits. The loader calls it for the script itself,
+   `require` and mods for further files. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,7 @@
 #include "base/overlay.h"
 #include "lua/vm/vm.h"
 
-/* Whether a text in quotes has an escape for a zero byte; where is in *offset. */
+/* Returns whether a quoted string has an escape for a zero byte; its place is in *offset. */
 static bool has_zero_escape(const JoxToken *t, uint32_t *offset) {
     for (uint32_t k = 0; k + 1 < t->length; k++) {
         if (t->text[k] != '\\')
@@ -38,8 +39,8 @@ static bool has_zero_escape(const JoxToken *t, uint32_t *offset) {
     return false;
 }
 
-/* Refuses texts with a zero byte, at which C would cut them: with string.char and string.format,
-   which make none, no text of a behaviour has one. */
+/* Refuses strings with a zero byte, at which C would cut them. No string of a behaviour has one, as
+   string.char and string.format make none. */
 static bool refuse_zeros(const JoxSource *source, JoxDiagnostics *diagnostics) {
     uint32_t offset;
     for (size_t i = 0; i < source->token_count; i++) {
@@ -56,7 +57,7 @@ static bool refuse_zeros(const JoxSource *source, JoxDiagnostics *diagnostics) {
     return false;
 }
 
-/* Refuses a file that names _ENV: assigning it would change what every other name means. */
+/* Refuses a file that names _ENV: assigning it would redefine every other name. */
 static bool refuse_env(const JoxSource *source, JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < source->token_count; i++) {
         const JoxToken *t = &source->tokens[i];

@@ -1,17 +1,19 @@
-/* Tables that nothing can change once a file is loaded. The contents move to a table of their own,
-   behind a metatable that reads there and refuses to write. */
+/* Freezes tables once a file is loaded. The contents of a frozen table move to a second table
+   behind a metatable, which reads there and refuses writes. */
 #include "base/assert.h"
 #include "lua/vm/vm.h"
 
-/* The metatable of a frozen table holds its contents under this key's address. */
+/* Key, by its address, under which the metatable of a frozen table holds the contents. */
 static const char CONTENTS;
 
+/* __newindex of a frozen table. */
 static int refuse_write(lua_State *L) {
     return luaL_error(L, "tables are frozen once the file is loaded; what an agent remembers "
                          "belongs in memory");
 }
 
-static int frozen_length(lua_State *L) {
+/* __len of a frozen table. */
+static int get_frozen_length(lua_State *L) {
     lua_pushinteger(L, (lua_Integer)lua_rawlen(L, lua_upvalueindex(1)));
     return 1;
 }
@@ -35,16 +37,16 @@ void jox_frozen_check_writable(lua_State *L, int index) {
     luaL_error(L, "this table belongs to the library and cannot be changed");
 }
 
-/* Where the walk stands: two tables on the stack, and how many are still to be looked at. */
+/* State of the traversal from one value to all that it reaches. */
 typedef struct Walk {
     lua_State *L;
-    int seen, work; /* stack indices: the set of values met, and the list of those still to visit */
+    int seen, work; /* stack indices: the set of values met, and the list of values to visit */
     lua_Integer count;
 } Walk;
 
-/* Adds the value on top of the stack, which stays, to the values to visit, unless it was met
- * before. */
-static void reach(Walk *w) {
+/* Adds the value on top of the stack to the values to visit, unless it was met before. Leaves the
+   stack as it was. */
+static void enqueue_value(Walk *w) {
     JOX_ASSERT(lua_gettop(w->L) >= w->work);
     int type = lua_type(w->L, -1);
     if (type != LUA_TTABLE && type != LUA_TFUNCTION)
@@ -60,8 +62,8 @@ static void reach(Walk *w) {
     lua_pop(w->L, 1);
 }
 
-/* Visits the contents of a table that is frozen already; tables of the engine are left alone. */
-static void walk_frozen(Walk *w) {
+/* Adds the contents of a table that is already frozen; skips tables of the engine. */
+static void enqueue_frozen_contents(Walk *w) {
     lua_State *L = w->L;
     const int table = lua_gettop(L);
     jox_frozen_contents(L, table);
@@ -69,29 +71,29 @@ static void walk_frozen(Walk *w) {
         return;
     for (lua_pushnil(L); lua_next(L, table + 1);) {
         jox_vm_charge(L, 4);
-        reach(w);
+        enqueue_value(w);
         lua_pop(L, 1);
-        reach(w); /* the key, which stays */
+        enqueue_value(w); /* the key, which stays on the stack for lua_next */
     }
 }
 
-/* Freezes the table on top of the stack, which stays. */
+/* Freezes the table on top of the stack. Leaves the stack as it was. */
 static void freeze_table(Walk *w) {
     JOX_ASSERT(lua_istable(w->L, -1));
     lua_State *L = w->L;
     const int table = lua_gettop(L), shadow = table + 1;
-    if (lua_getmetatable(L, table)) { /* frozen already, or the engine's */
+    if (lua_getmetatable(L, table)) { /* already frozen, or the engine's */
         lua_pop(L, 1);
-        walk_frozen(w);
+        enqueue_frozen_contents(w);
         lua_settop(L, table);
         return;
     }
     lua_createtable(L, (int)lua_rawlen(L, table), 0);
     for (lua_pushnil(L); lua_next(L, table);) { /* key, value */
         jox_vm_charge(L, 4);
-        reach(w);
+        enqueue_value(w);
         lua_pushvalue(L, -2);
-        reach(w);
+        enqueue_value(w);
         lua_insert(L, -2); /* key, key, value */
         lua_rawset(L, shadow);
         lua_pushvalue(L, -1);
@@ -104,7 +106,7 @@ static void freeze_table(Walk *w) {
     lua_pushcfunction(L, refuse_write);
     lua_setfield(L, -2, "__newindex");
     lua_pushvalue(L, shadow);
-    lua_pushcclosure(L, frozen_length, 1);
+    lua_pushcclosure(L, get_frozen_length, 1);
     lua_setfield(L, -2, "__len");
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
@@ -114,13 +116,13 @@ static void freeze_table(Walk *w) {
     lua_settop(L, table);
 }
 
-/* Visits the upvalues of the function on top of the stack, which stays. */
-static void walk_function(Walk *w, JoxFreezeFunction *function, void *context) {
+/* Adds the upvalues of the function on top of the stack. Leaves the stack as it was. */
+static void visit_function(Walk *w, JoxFreezeFunction *function, void *context) {
     JOX_ASSERT(lua_isfunction(w->L, -1));
     lua_State *L = w->L;
     const int at = lua_gettop(L);
     for (int i = 1; lua_getupvalue(L, at, i); i++) {
-        reach(w);
+        enqueue_value(w);
         lua_pop(L, 1);
     }
     if (function && !lua_iscfunction(L, at))
@@ -136,7 +138,7 @@ void jox_freeze(lua_State *L, int index, JoxFreezeFunction *function, void *cont
     lua_newtable(L);
     Walk walk = {L, top + 1, top + 2, 0};
     lua_pushvalue(L, top);
-    reach(&walk);
+    enqueue_value(&walk);
     lua_settop(L, walk.work);
     while (walk.count > 0) {
         jox_vm_charge(L, 10);
@@ -146,7 +148,7 @@ void jox_freeze(lua_State *L, int index, JoxFreezeFunction *function, void *cont
         if (lua_type(L, -1) == LUA_TTABLE)
             freeze_table(&walk);
         else
-            walk_function(&walk, function, context);
+            visit_function(&walk, function, context);
         lua_settop(L, walk.work);
     }
     lua_settop(L, top - 1);

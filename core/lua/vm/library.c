@@ -1,4 +1,5 @@
-/* The base functions of behaviours. Everything that loops in C is charged. */
+/* Base functions of behaviours, such as pairs, print and pcall. Every loop in C is charged to the
+   script's budget. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +11,7 @@ enum { MOST_KEYS = 65536, LONGEST_LINE = 400, LOAD_LINES = 5 /* times the limit 
 
 /* ---- pairs in a fixed order: numbers, then strings ---- */
 
-/* A key of a table that is being put in order; text stays alive as the table of keys holds it. */
+/* A key of a table that is sorted. Its text stays alive as the table of keys holds it. */
 typedef struct Key {
     union {
         lua_Integer integer;
@@ -21,7 +22,8 @@ typedef struct Key {
     enum { KEY_INTEGER, KEY_FLOAT, KEY_TEXT } kind;
 } Key;
 
-/* Whether integer i < a number that is none: exact, where a cast of i would round. */
+/* Returns whether an integer is below a non-integral number; exact, while a cast of the integer
+   would round. */
 static bool integer_before(lua_Integer i, double f) {
     if (f >= 9223372036854775808.0)
         return true;
@@ -52,7 +54,7 @@ static Key read_key(lua_State *L, int index) {
     } else if (lua_type(L, index) == LUA_TSTRING) {
         size_t length;
         key.as.text = lua_tolstring(L, index, &length);
-        key.length = (uint32_t)length; /* under a block */
+        key.length = (uint32_t)length; /* fits, as an allocation is limited */
         key.kind = KEY_TEXT;
     } else {
         luaL_error(L, "pairs and next visit tables whose keys are numbers and texts");
@@ -69,7 +71,8 @@ static void push_key(lua_State *L, const Key *key) {
         lua_pushlstring(L, key->as.text, key->length);
 }
 
-/* Merges runs, so that no order of the input is slow. `spare` has room for as many. */
+/* Sorts keys by merging, which is as fast for any order of the input. `spare` has room for `count`
+   keys. */
 static void sort_keys(Key *keys, Key *spare, size_t count) {
     Key *from = keys, *to = spare;
     for (size_t width = 1; width < count; width *= 2) {
@@ -89,7 +92,7 @@ static void sort_keys(Key *keys, Key *spare, size_t count) {
         memcpy(keys, from, count * sizeof *keys);
 }
 
-/* Pushes a table with the keys of the table on top of the stack, in order. */
+/* Pushes a table with the sorted keys of the table on top of the stack. */
 static void push_sorted(lua_State *L) {
     JOX_ASSERT(lua_istable(L, -1));
     size_t count = 0, bytes = 0, at = 0;
@@ -121,7 +124,8 @@ static void push_sorted(lua_State *L) {
     lua_settop(L, table + 1);
 }
 
-/* Upvalues: the table, its keys in order, how many were visited, the call that it belongs to. */
+/* Iterator of pairs. Upvalues: the table, its sorted keys, the number visited, the number of the
+   call that made it. */
 static int next_pair(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     if (lua_tointeger(L, lua_upvalueindex(4)) != (lua_Integer)vm->run)
@@ -134,7 +138,7 @@ static int next_pair(lua_State *L) {
         if (lua_rawgeti(L, lua_upvalueindex(2), ++at) == LUA_TNIL)
             return 1;
         lua_pushvalue(L, -1);
-        if (lua_rawget(L, 1) != LUA_TNIL) /* a key that was removed since is left out */
+        if (lua_rawget(L, 1) != LUA_TNIL) /* skips a key that was removed since */
             break;
         lua_settop(L, 1);
     }
@@ -158,7 +162,7 @@ static int base_pairs(lua_State *L) {
     return 3;
 }
 
-/* The key that follows another in the order; each call looks at all keys. */
+/* Returns the key after another in the fixed order; each call looks at all keys. */
 static int base_next(lua_State *L) {
     luaL_checktype(L, 1, LUA_TTABLE);
     lua_settop(L, 2);
@@ -202,7 +206,7 @@ static int base_ipairs(lua_State *L) {
     return 3;
 }
 
-/* ---- kinds and text of values ---- */
+/* ---- types and text of values ---- */
 
 static int base_type(lua_State *L) {
     luaL_checkany(L, 1);
@@ -278,7 +282,9 @@ static int base_error(lua_State *L) {
     if (lua_type(L, 1) != LUA_TSTRING)
         return luaL_error(L, "error needs a text");
     lua_settop(L, 1);
-    luaL_where(L, level == 0 ? 0 : level == 2 ? 2 : 1); /* of level 0, a C function: none */
+    luaL_where(L, level == 0   ? 0
+                  : level == 2 ? 2
+                               : 1); /* level 0 is a C function and has no place */
     lua_insert(L, 1);
     lua_concat(L, 2);
     return lua_error(L);
@@ -295,7 +301,7 @@ static int base_assert(lua_State *L) {
     return lua_error(L);
 }
 
-/* pcall does not catch a spent budget or exhausted memory: those end the script. */
+/* pcall does not catch a spent budget or a lack of memory: those end the script. */
 static int base_pcall(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     luaL_checkany(L, 1);
@@ -315,7 +321,8 @@ static int base_pcall(lua_State *L) {
 
 /* ---- print ---- */
 
-/* Whether one more line may be printed in this second; *last: it only says that no more follow. */
+/* Counts a printed line; whether it may be printed in this second of simulated time. *last: print
+   instead that no more lines follow. */
 static bool may_print(JoxVm *vm, bool *last) {
     uint32_t most = vm->group->limits.print_lines;
     const uint32_t second = vm->loading ? 0 : vm->second;
@@ -361,8 +368,7 @@ static int base_print(lua_State *L) {
     line[at] = 0;
     jox_text_clean(line);
     memcpy(line + at, "\n", 2);
-    if (vm->loading) /* it may be on a thread of its own: the text is passed on when the file is
-                        adopted */
+    if (vm->loading) /* may be on another thread: the text is printed when the file is adopted */
         jox_text_add(&vm->printed_text, line);
     else
         vm->group->say(vm->group->say_context, line);

@@ -1,19 +1,20 @@
-/* math.*, for behaviours: the same bits everywhere, so functions of our own. */
+/* math.* of behaviours. Uses our own elementary functions, which give the same bits on every
+   machine. */
 #include <math.h>
 
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
 #include "lua/vm/library.h"
 
-static int call_1(lua_State *L, double (*f)(double)) {
+static int push_function_value(lua_State *L, double (*f)(double)) {
     lua_pushnumber(L, f(luaL_checknumber(L, 1)));
     return 1;
 }
 static int math_sin(lua_State *L) {
-    return call_1(L, jox_sin);
+    return push_function_value(L, jox_sin);
 }
 static int math_cos(lua_State *L) {
-    return call_1(L, jox_cos);
+    return push_function_value(L, jox_cos);
 }
 static int math_tan(lua_State *L) {
     double x = luaL_checknumber(L, 1);
@@ -35,7 +36,7 @@ static int math_atan(lua_State *L) {
     return 1;
 }
 static int math_exp(lua_State *L) {
-    return call_1(L, jox_exp);
+    return push_function_value(L, jox_exp);
 }
 static int math_log(lua_State *L) {
     double x = jox_log(luaL_checknumber(L, 1));
@@ -43,7 +44,7 @@ static int math_log(lua_State *L) {
     return 1;
 }
 static int math_sqrt(lua_State *L) {
-    return call_1(L, sqrt);
+    return push_function_value(L, sqrt);
 }
 static int math_deg(lua_State *L) {
     lua_pushnumber(L, luaL_checknumber(L, 1) * (180.0 / JOX_PI));
@@ -59,10 +60,10 @@ static int math_abs(lua_State *L) {
         lua_pushinteger(L, lua_tointeger(L, 1) < 0 ? (lua_Integer)(0u - n) : (lua_Integer)n);
         return 1;
     }
-    return call_1(L, fabs);
+    return push_function_value(L, fabs);
 }
 
-/* A whole number as an integer where it fits, else as it is. */
+/* Pushes a whole number as a Lua integer if it fits, else as a float. */
 static int push_whole(lua_State *L, double x) {
     if (x >= -9223372036854775808.0 && x < 9223372036854775808.0)
         lua_pushinteger(L, (lua_Integer)x);
@@ -96,7 +97,8 @@ static int math_fmod(lua_State *L) {
     lua_pushnumber(L, fmod(luaL_checknumber(L, 1), luaL_checknumber(L, 2)));
     return 1;
 }
-static int extreme(lua_State *L, bool greatest) {
+/* Pushes the greatest or least of the arguments. */
+static int push_extreme(lua_State *L, bool greatest) {
     int best = 1, count = lua_gettop(L);
     luaL_checknumber(L, 1);
     for (int i = 1; i <= count; i++)
@@ -109,10 +111,10 @@ static int extreme(lua_State *L, bool greatest) {
     return 1;
 }
 static int math_max(lua_State *L) {
-    return extreme(L, true);
+    return push_extreme(L, true);
 }
 static int math_min(lua_State *L) {
-    return extreme(L, false);
+    return push_extreme(L, false);
 }
 static int math_tointeger(lua_State *L) {
     int good = 0;

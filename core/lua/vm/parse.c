@@ -1,4 +1,5 @@
-/* The parser's tokens, trees and variables. */
+/* Helpers of the parser: passing tokens, adding tree nodes, resolving names to variables. Called by
+   syntax.c and parse_expression.c. */
 #include "lua/vm/parse.h"
 
 #include <string.h>

@@ -1,10 +1,8 @@
-/* The parser's expressions, by precedence. */
+/* Parses expressions by precedence climbing. Called by the statements in syntax.c. */
 #include "base/mem.h"
 #include "lua/vm/parse.h"
 
 enum { UNARY_LIMIT = 12 };
-
-/* ---- expressions ---- */
 
 int32_t jox_parse_list(JoxParser *p, int32_t *last) {
     int32_t first = JOX_NO_TREE;
@@ -32,7 +30,7 @@ int32_t jox_parse_function(JoxParser *p, uint32_t at, bool method) {
     const int32_t number = (int32_t)s->function_count++;
     s->functions[number] = (JoxTreeFunction){line, line, outer, false};
     jox_parse_tree(p, tree)->variable = p->function = number;
-    count += method; /* its name is no token of the file: uses of `self` count as a global's */
+    count += method; /* `self` has no token: uses of it resolve to a global */
     jox_parse_expect(p, "(");
     while (jox_parse_is_name(p)) {
         jox_parse_show(p, jox_parse_declare(p, jox_parse_name(p), count++));
@@ -51,7 +49,7 @@ int32_t jox_parse_function(JoxParser *p, uint32_t at, bool method) {
     return tree;
 }
 
-static int32_t read_field(JoxParser *p) {
+static int32_t parse_table_field(JoxParser *p) {
     int32_t key = JOX_NO_TREE;
     uint32_t at = (uint32_t)p->at;
     bool named = false;
@@ -73,13 +71,13 @@ static int32_t read_field(JoxParser *p) {
     return field;
 }
 
-/* A table; its fields come before it in the list of trees. */
-static int32_t read_table(JoxParser *p) {
+/* Parses a table constructor; its fields come before it in the list of nodes. */
+static int32_t parse_table(JoxParser *p) {
     const uint32_t at = (uint32_t)p->at;
     int32_t first = JOX_NO_TREE, last = JOX_NO_TREE;
     jox_parse_expect(p, "{");
     while (!p->failed && !jox_parse_is(p, "}")) {
-        int32_t field = read_field(p);
+        int32_t field = parse_table_field(p);
         if (first < 0)
             first = field;
         else
@@ -94,8 +92,9 @@ static int32_t read_table(JoxParser *p) {
     return table;
 }
 
-/* The arguments of a call, as a list; *call is whether there are any brackets, text or table. */
-static int32_t read_arguments(JoxParser *p, bool *call) {
+/* Parses the arguments of a call into a list; *call tells whether there is a parenthesis, string or
+   table at all. */
+static int32_t parse_arguments(JoxParser *p, bool *call) {
     int32_t last;
     *call = true;
     if (jox_parse_accept(p, "(")) {
@@ -104,7 +103,7 @@ static int32_t read_arguments(JoxParser *p, bool *call) {
         return first;
     }
     if (jox_parse_is(p, "{"))
-        return read_table(p);
+        return parse_table(p);
     if (p->at < p->count && p->tokens[p->at].kind == JOX_TOKEN_STRING)
         return jox_parse_add(p, JOX_TREE_CONSTANT, (uint32_t)p->at++);
     *call = false;
@@ -137,11 +136,11 @@ int32_t jox_parse_suffixed(JoxParser *p) {
         } else if (jox_parse_accept(p, ":")) {
             kind = JOX_TREE_METHOD;
             where = jox_parse_name(p);
-            items = read_arguments(p, &call);
+            items = parse_arguments(p, &call);
             p->failed |= !call;
         } else {
             kind = JOX_TREE_CALL;
-            items = read_arguments(p, &call);
+            items = parse_arguments(p, &call);
             if (!call)
                 break;
         }
@@ -158,7 +157,7 @@ int32_t jox_parse_suffixed(JoxParser *p) {
     return left;
 }
 
-static int32_t read_simple(JoxParser *p) {
+static int32_t parse_simple(JoxParser *p) {
     if (p->at >= p->count) {
         p->failed = true;
         return JOX_NO_TREE;
@@ -166,7 +165,7 @@ static int32_t read_simple(JoxParser *p) {
     const JoxToken *t = &p->tokens[p->at];
     const uint32_t at = (uint32_t)p->at;
     if (jox_parse_is(p, "{"))
-        return read_table(p);
+        return parse_table(p);
     if (jox_parse_accept(p, "function"))
         return jox_parse_function(p, at, false);
     if (jox_parse_accept(p, "nil") || jox_parse_accept(p, "false"))
@@ -180,8 +179,9 @@ static int32_t read_simple(JoxParser *p) {
     return jox_parse_suffixed(p);
 }
 
-/* How tightly a binary operator binds its left and its right side; 0 for any other token. */
-static int binding_power(const JoxToken *t, int *right) {
+/* Returns how tightly a binary operator binds on its left side, and in *right on its right; 0 for
+   any other token. */
+static int get_binding_power(const JoxToken *t, int *right) {
     static const struct {
         const char *sign;
         int left, right;
@@ -211,10 +211,10 @@ int32_t jox_parse_expression(JoxParser *p, int limit) {
         left = jox_parse_add(p, JOX_TREE_UNARY, at);
         jox_parse_tree(p, left)->a = operand;
     } else {
-        left = p->failed ? JOX_NO_TREE : read_simple(p);
+        left = p->failed ? JOX_NO_TREE : parse_simple(p);
     }
     while (!p->failed && p->at < p->count &&
-           (power = binding_power(&p->tokens[p->at], &right)) > limit) {
+           (power = get_binding_power(&p->tokens[p->at], &right)) > limit) {
         const uint32_t at = (uint32_t)p->at++;
         const int32_t other = jox_parse_expression(p, right);
         const int32_t whole = jox_parse_add(p, JOX_TREE_BINARY, at);

@@ -1,5 +1,5 @@
-/* What a script can reach: its environment, a whitelist. Nothing of Lua's own libraries is opened:
-   no files, clocks, addresses, coroutines, metatables, code from strings. */
+/* Makes the environment of scripts, a whitelist of functions. Lua's own libraries are never opened:
+   scripts have no files, clocks, addresses, coroutines, metatables or code from strings. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -24,7 +24,7 @@ static void set_library(lua_State *L, const char *name, const luaL_Reg *function
         lua_pushinteger(L, LUA_MININTEGER);
         lua_setfield(L, -2, "mininteger");
     }
-    if (functions == jox_library_string) { /* ("x"):upper() */
+    if (functions == jox_library_string) { /* allows ("x"):upper() */
         lua_pushliteral(L, "");
         lua_newtable(L);
         lua_pushvalue(L, -3);
@@ -46,9 +46,9 @@ static void set_library(lua_State *L, const char *name, const luaL_Reg *function
 void jox_sandbox_open(lua_State *L, const JoxSandbox *extra) {
     JOX_ASSERT(extra->missing && extra->assign);
     const int top = lua_gettop(L);
-    lua_newtable(L); /* the environment, empty: every access goes through `missing` */
+    lua_newtable(L); /* the environment, always empty, so that every access calls `missing` */
     lua_newtable(L);
-    lua_newtable(L); /* what is known, an upvalue of `missing` */
+    lua_newtable(L); /* the table of known names, an upvalue of `missing` */
     luaL_setfuncs(L, jox_library_base, 0);
     if (extra->base)
         luaL_setfuncs(L, extra->base, 0);

@@ -1,5 +1,5 @@
-/* The text of a Lua file and its tokens: Lua tells lines only, columns come from a scan of our own.
- */
+/* The text of a Lua file and its tokens. Lua reports lines only; the tokens give the columns of
+   messages. */
 #ifndef JOX_LUA_VM_SOURCE_H
 #define JOX_LUA_VM_SOURCE_H
 
@@ -12,10 +12,10 @@
 typedef enum { JOX_TOKEN_NAME, JOX_TOKEN_STRING, JOX_TOKEN_NUMBER, JOX_TOKEN_SYMBOL } JoxTokenKind;
 typedef struct JoxToken {
     JoxTokenKind kind;
-    const char *text; /* in the source; a string's without its quotes */
+    const char *text; /* points into the source; of a string, without its quotes */
     uint32_t length;
-    int line, column, end_column; /* from 1; end_column: after the last character */
-    bool used;                    /* a word of this name was already read here */
+    int line, column, end_column; /* from 1; end_column is after the last character */
+    bool used; /* jox_source_find has returned it: the next search on its line takes the next one */
 } JoxToken;
 
 typedef struct JoxSource {
@@ -24,24 +24,24 @@ typedef struct JoxSource {
     size_t length;
     JoxToken *tokens;
     size_t token_count, token_capacity;
-    void *outline; /* of the language above, which frees it; NULL: none */
+    void *outline; /* JoxOutline of lua/language, which frees it; NULL: none */
 } JoxSource;
 
-/* Splits the source's text into tokens; never fails, for Lua's own parser reports what is
- * malformed.
- */
+/* Splits the source's text into tokens. Never fails, as Lua's own parser reports syntax errors. */
 void jox_source_scan(JoxSource *source);
-/* Frees what the source holds, but for the outline. */
+/* Frees the text and tokens, but not the outline. */
 void jox_source_free(JoxSource *source);
-/* The first unused token of this name on a line, marked used; else any of them; else NULL. */
+/* Returns the first token of this name on a line that is not used, and marks it used; if all are
+   used, one of them; NULL if there is none. */
 JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
 
-/* Whether a name or a string has this text. */
+/* Returns whether a name or a string has this text. */
 static inline bool jox_token_says(const JoxToken *token, const char *text) {
     size_t n = token->length;
     return __builtin_strlen(text) == n && __builtin_memcmp(token->text, text, n) == 0;
 }
 
+/* Returns whether a token other than a string has this text. */
 static inline bool jox_token_is(const JoxToken *token, const char *text) {
     return token->kind != JOX_TOKEN_STRING && jox_token_says(token, text);
 }

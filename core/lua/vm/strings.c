@@ -1,4 +1,4 @@
-/* string.*, for behaviours: no patterns, nothing over 1 MB, the same text in every locale. */
+/* string.* of behaviours: without patterns, at most 1 MB, the same text in every locale. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,15 +6,13 @@
 
 enum { LONGEST_STRING = 1 << 20, MOST_BYTES = 200, WIDEST = 99 };
 
-/* ---- parts ---- */
-
 static int string_len(lua_State *L) {
     size_t n;
     luaL_checklstring(L, 1, &n);
     lua_pushinteger(L, (lua_Integer)n);
     return 1;
 }
-/* Arguments i and j of a string of length n as a range from 1 to n; empty where i > j. */
+/* Reads arguments i and j of a string of length n as a range from 1 to n; empty if i > j. */
 static void read_range(lua_State *L, size_t n, lua_Integer i_else, lua_Integer *i, lua_Integer *j,
                        bool j_is_i) {
     lua_Integer length = (lua_Integer)n;
@@ -75,7 +73,8 @@ static int string_rep(lua_State *L) {
     jox_scratch_push(&out);
     return 1;
 }
-static int fold(lua_State *L, char low, char high, int by) {
+/* Pushes the string with letters from `low` to `high` moved by `by`: changes their case. */
+static int push_shifted_letters(lua_State *L, char low, char high, int by) {
     size_t n;
     const char *s = luaL_checklstring(L, 1, &n);
     char *p = lua_newuserdatauv(L, n + 1, 0);
@@ -86,10 +85,10 @@ static int fold(lua_State *L, char low, char high, int by) {
     return 1;
 }
 static int string_upper(lua_State *L) {
-    return fold(L, 'a', 'z', 'A' - 'a');
+    return push_shifted_letters(L, 'a', 'z', 'A' - 'a');
 }
 static int string_lower(lua_State *L) {
-    return fold(L, 'A', 'Z', 'a' - 'A');
+    return push_shifted_letters(L, 'A', 'Z', 'a' - 'A');
 }
 static int string_reverse(lua_State *L) {
     size_t n;
@@ -104,7 +103,8 @@ static int string_reverse(lua_State *L) {
 
 /* ---- search ---- */
 
-/* find(text, what [, from [, true]]): what is plain; where it looks like a pattern one is told. */
+/* find(text, what [, from [, true]]): finds plain text; a `what` that looks like a pattern is
+   refused. */
 static int string_find(lua_State *L) {
     size_t n, m;
     const char *s = luaL_checklstring(L, 1, &n), *what = luaL_checklstring(L, 2, &m);
@@ -138,11 +138,11 @@ static int string_pattern(lua_State *L) {
 
 typedef struct Spec {
     char flags[6];
-    int width, precision; /* -1 where not given */
+    int width, precision; /* -1: not given */
     char kind;
 } Spec;
 
-/* Reads the one after a '%'; returns what follows. */
+/* Reads a conversion after its '%'; returns the character after it. */
 static const char *read_spec(lua_State *L, const char *c, const char *end, Spec *spec) {
     size_t flags = 0;
     *spec = (Spec){.width = -1, .precision = -1};
@@ -169,7 +169,8 @@ static const char *read_spec(lua_State *L, const char *c, const char *end, Spec 
     return c + 1;
 }
 
-static void pad(JoxScratch *out, const Spec *spec, const char *text, size_t length) {
+/* Adds a text, padded with blanks to the width of the conversion. */
+static void add_padded(JoxScratch *out, const Spec *spec, const char *text, size_t length) {
     size_t width = spec->width > 0 ? (size_t)spec->width : 0;
     size_t blanks = width > length ? width - length : 0;
     static const char SPACES[WIDEST + 1] =
@@ -228,13 +229,13 @@ static int string_format(lua_State *L) {
             const char *text = jox_library_text(L, argument, &length);
             if (spec.precision >= 0 && (size_t)spec.precision < length)
                 length = (size_t)spec.precision;
-            pad(&out, &spec, text, length);
+            add_padded(&out, &spec, text, length);
             lua_pop(L, 1);
         } else if (spec.kind == 'c') {
             lua_Integer code = luaL_checkinteger(L, argument);
             luaL_argcheck(L, code >= 1 && code <= 255, argument,
                           "a byte of a text is from 1 to 255");
-            pad(&out, &spec, &(char){(char)code}, 1);
+            add_padded(&out, &spec, &(char){(char)code}, 1);
         } else {
             format_number(&out, &spec, argument);
         }

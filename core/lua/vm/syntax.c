@@ -1,19 +1,16 @@
-/* A parser of Lua over the tokens of a file, by recursive descent: its statements. Lua has accepted
-   the file before, so that what is malformed need not be reported; where the two differ the parser
-   stops. */
+/* Parses Lua's statements by recursive descent over the tokens of a file. Lua has compiled the file
+   before, so syntax errors need no report; at anything unexpected the parser stops. */
 #include "lua/vm/syntax.h"
 #include "base/mem.h"
 #include "lua/vm/parse.h"
 
-static void read_block(JoxParser *p);
+static void parse_block(JoxParser *p);
 
-/* ---- statements ---- */
-
-/* Binds a list of targets to a list of values, as Lua deals them out. */
-static void bind_all(JoxParser *p, const int32_t *targets, size_t count, int32_t first,
-                     bool declares) {
+/* Binds a list of targets to a list of values as Lua's multiple assignment does. */
+static void bind_targets(JoxParser *p, const int32_t *targets, size_t count, int32_t first,
+                         bool declares) {
     int32_t value = first;
-    bool many = false; /* the last value may give several */
+    bool many = false; /* the last value is a call or `...`, which may give several */
     for (size_t i = 0; i < count; i++) {
         if (value >= 0) {
             JoxTreeKind kind = jox_parse_tree(p, value)->kind;
@@ -29,7 +26,7 @@ static void bind_all(JoxParser *p, const int32_t *targets, size_t count, int32_t
 
 enum { MOST_TARGETS = 256 };
 
-static void read_local(JoxParser *p) {
+static void parse_local(JoxParser *p) {
     int32_t names[MOST_TARGETS], last, values = JOX_NO_TREE;
     size_t count = 0;
     if (jox_parse_accept(p, "function")) {
@@ -57,10 +54,10 @@ static void read_local(JoxParser *p) {
         jox_parse_show(p, names[i]);
         names[i] = jox_parse_declared(p, names[i]);
     }
-    bind_all(p, names, count, values, true);
+    bind_targets(p, names, count, values, true);
 }
 
-static void read_for(JoxParser *p) {
+static void parse_for(JoxParser *p) {
     const size_t visible = p->visible_count;
     int32_t names[MOST_TARGETS], last, values;
     size_t count = 0;
@@ -83,12 +80,12 @@ static void read_for(JoxParser *p) {
                                 : JOX_BIND_REST,
                        jox_parse_declared(p, names[i]), values, true);
     }
-    read_block(p);
+    parse_block(p);
     jox_parse_expect(p, "end");
     p->visible_count = visible;
 }
 
-/* Marks what a test looks at: through parentheses, and, or, not. */
+/* Marks the nodes that a condition's truth depends on: through parentheses, and, or, not. */
 static void mark_tested(JoxParser *p, int32_t tree) {
     while (tree >= 0) {
         JoxTree *t = jox_parse_tree(p, tree);
@@ -103,7 +100,7 @@ static void mark_tested(JoxParser *p, int32_t tree) {
     }
 }
 
-static void read_test(JoxParser *p, uint32_t at) {
+static void parse_test(JoxParser *p, uint32_t at) {
     JoxSyntax *s = p->tree;
     const int32_t value = jox_parse_expression(p, 0);
     if (p->failed)
@@ -113,29 +110,29 @@ static void read_test(JoxParser *p, uint32_t at) {
     s->tests[s->test_count++] = (JoxTreeTest){at, value};
 }
 
-static void read_if(JoxParser *p, uint32_t at) {
+static void parse_if(JoxParser *p, uint32_t at) {
     do {
-        read_test(p, at);
+        parse_test(p, at);
         jox_parse_expect(p, "then");
-        read_block(p);
+        parse_block(p);
         at = (uint32_t)p->at;
     } while (jox_parse_accept(p, "elseif"));
     if (jox_parse_accept(p, "else"))
-        read_block(p);
+        parse_block(p);
     jox_parse_expect(p, "end");
 }
 
-static void read_repeat(JoxParser *p) {
+static void parse_repeat(JoxParser *p) {
     const size_t visible = p->visible_count;
-    /* The test sees the variables of the block, which read_block hides: they are shown again. */
-    read_block(p);
+    /* The condition of `until` sees the block's variables, which parse_block leaves in scope. */
+    parse_block(p);
     const uint32_t at = (uint32_t)p->at;
     jox_parse_expect(p, "until");
-    read_test(p, at);
+    parse_test(p, at);
     p->visible_count = visible;
 }
 
-static void read_return(JoxParser *p) {
+static void parse_return(JoxParser *p) {
     JoxSyntax *s = p->tree;
     int32_t value = JOX_NO_TREE, last;
     if (!jox_parse_is(p, "end") && !jox_parse_is(p, "else") && !jox_parse_is(p, "elseif") &&
@@ -147,8 +144,8 @@ static void read_return(JoxParser *p) {
     s->returns[s->return_count++] = (JoxTreeReturn){p->function, value};
 }
 
-/* function a.b:c(...) ... end */
-static void read_named_function(JoxParser *p, uint32_t at) {
+/* Parses function a.b:c(...) ... end. */
+static void parse_named_function(JoxParser *p, uint32_t at) {
     bool method = false;
     int32_t target = jox_parse_used(p, jox_parse_name(p));
     while (!p->failed && !method && (jox_parse_is(p, ".") || jox_parse_is(p, ":"))) {
@@ -164,8 +161,8 @@ static void read_named_function(JoxParser *p, uint32_t at) {
         jox_parse_bind(p, JOX_BIND_VALUE, target, jox_parse_function(p, at, method), false);
 }
 
-/* An assignment or a call. */
-static void read_assignment(JoxParser *p) {
+/* Parses an assignment or a call. */
+static void parse_assignment(JoxParser *p) {
     int32_t targets[MOST_TARGETS], last;
     size_t count = 0;
     do
@@ -174,11 +171,11 @@ static void read_assignment(JoxParser *p) {
     if (jox_parse_accept(p, "=")) {
         int32_t values = jox_parse_list(p, &last);
         if (!p->failed)
-            bind_all(p, targets, count, values, false);
+            bind_targets(p, targets, count, values, false);
     }
 }
 
-static void read_statement(JoxParser *p) {
+static void parse_statement(JoxParser *p) {
     const uint32_t at = (uint32_t)p->at;
     if (jox_parse_accept(p, ";") || jox_parse_accept(p, "break"))
         return;
@@ -189,50 +186,51 @@ static void read_statement(JoxParser *p) {
                p->tokens[at + 1].kind == JOX_TOKEN_NAME) {
         p->at += 2;
     } else if (jox_parse_accept(p, "if")) {
-        read_if(p, at);
+        parse_if(p, at);
     } else if (jox_parse_accept(p, "while")) {
-        read_test(p, at);
+        parse_test(p, at);
         jox_parse_expect(p, "do");
-        read_block(p);
+        parse_block(p);
         jox_parse_expect(p, "end");
     } else if (jox_parse_accept(p, "do")) {
-        read_block(p);
+        parse_block(p);
         jox_parse_expect(p, "end");
     } else if (jox_parse_accept(p, "for")) {
-        read_for(p);
+        parse_for(p);
     } else if (jox_parse_accept(p, "repeat")) {
-        read_repeat(p);
+        parse_repeat(p);
     } else if (jox_parse_accept(p, "function")) {
-        read_named_function(p, at);
+        parse_named_function(p, at);
     } else if (jox_parse_accept(p, "local")) {
-        read_local(p);
+        parse_local(p);
     } else if (jox_parse_accept(p, "return")) {
-        read_return(p);
+        parse_return(p);
     } else {
-        read_assignment(p);
+        parse_assignment(p);
     }
 }
 
-static void read_block(JoxParser *p) {
+static void parse_block(JoxParser *p) {
     const size_t visible = p->visible_count;
     if (++p->level > JOX_PARSE_LEVELS)
         p->failed = true;
     while (!p->failed && p->at < p->count && !jox_parse_is(p, "end") && !jox_parse_is(p, "else") &&
            !jox_parse_is(p, "elseif") && !jox_parse_is(p, "until"))
-        read_statement(p);
+        parse_statement(p);
     p->level--;
-    if (!jox_parse_is(p, "until")) /* whose test sees them; read_repeat hides them */
+    if (!jox_parse_is(
+            p, "until")) /* the condition sees the block's variables; parse_repeat removes them */
         p->visible_count = visible;
 }
 
 JoxSyntax *jox_syntax_read(const JoxSource *source) {
     JoxSyntax *s = jox_alloc(1, sizeof *s);
     JoxParser p = {
-        .tree = s, .tokens = source->tokens, .count = source->token_count, .block = read_block};
+        .tree = s, .tokens = source->tokens, .count = source->token_count, .block = parse_block};
     s->source = source;
     JOX_RESERVE(s->functions, s->function_capacity, 1);
     s->functions[s->function_count++] = (JoxTreeFunction){.parent = JOX_NO_TREE};
-    read_block(&p);
+    parse_block(&p);
     s->whole = !p.failed && p.at == p.count;
     jox_free(p.visible);
     return s;

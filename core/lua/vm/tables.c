@@ -1,11 +1,12 @@
-/* table.*, for behaviours: raw access, frozen tables are read but never written, all is charged. */
+/* table.* of behaviours, with raw access. Frozen tables can be read but not written; all work is
+   charged to the script's budget. */
 #include <string.h>
 
 #include "lua/vm/library.h"
 
 enum { MOST_UNPACKED = 200, MOST_MOVED = 100000 };
 
-static lua_Integer length_of(lua_State *L, int index) {
+static lua_Integer get_table_length(lua_State *L, int index) {
     jox_frozen_contents(L, index);
     lua_Integer n = (lua_Integer)lua_rawlen(L, -1);
     lua_pop(L, 1);
@@ -55,7 +56,7 @@ static int table_concat(lua_State *L) {
     luaL_checktype(L, 1, LUA_TTABLE);
     size_t gap;
     const char *separator = luaL_optlstring(L, 2, "", &gap);
-    lua_Integer from = luaL_optinteger(L, 3, 1), to = luaL_optinteger(L, 4, length_of(L, 1));
+    lua_Integer from = luaL_optinteger(L, 3, 1), to = luaL_optinteger(L, 4, get_table_length(L, 1));
     JoxScratch out;
     jox_frozen_contents(L, 1);
     int table = lua_gettop(L);
@@ -70,7 +71,7 @@ static int table_concat(lua_State *L) {
         jox_scratch_add(&out, text, length);
         lua_pop(L, 1);
         if (i == to)
-            break; /* it may be the greatest integer */
+            break; /* as it may be the greatest integer */
         jox_scratch_add(&out, separator, gap);
     }
     jox_scratch_push(&out);
@@ -91,7 +92,7 @@ static int table_pack(lua_State *L) {
 
 static int table_unpack(lua_State *L) {
     luaL_checktype(L, 1, LUA_TTABLE);
-    lua_Integer from = luaL_optinteger(L, 2, 1), to = luaL_optinteger(L, 3, length_of(L, 1));
+    lua_Integer from = luaL_optinteger(L, 2, 1), to = luaL_optinteger(L, 3, get_table_length(L, 1));
     if (from > to)
         return 0;
     luaL_argcheck(L, (lua_Unsigned)to - (lua_Unsigned)from < MOST_UNPACKED, 1,
@@ -132,11 +133,11 @@ static int table_move(lua_State *L) {
     return 1;
 }
 
-/* ---- sort: stable; whatever the comparator answers, it ends and loses nothing ---- */
+/* ---- sort: stable; ends and keeps every item whatever the comparator returns ---- */
 
-enum { TABLE = 1, LESS, ITEMS }; /* places on the stack */
+enum { TABLE = 1, LESS, ITEMS }; /* stack indices */
 
-static bool before(lua_State *L, uint32_t a, uint32_t b) {
+static bool is_item_before(lua_State *L, uint32_t a, uint32_t b) {
     jox_vm_charge(L, 2);
     if (!lua_isnil(L, LESS))
         lua_pushvalue(L, LESS);
@@ -165,7 +166,8 @@ static bool before(lua_State *L, uint32_t a, uint32_t b) {
     return result;
 }
 
-/* Merges runs of indices; `order` has room for twice the count. Returns where the result is. */
+/* Sorts indices by merging; `order` has room for twice the count. Returns the half that holds the
+   result. */
 static uint32_t *sort_indices(lua_State *L, uint32_t *order, uint32_t count) {
     uint32_t *from = order, *to = order + count;
     for (uint32_t i = 0; i < count; i++)
@@ -175,7 +177,7 @@ static uint32_t *sort_indices(lua_State *L, uint32_t *order, uint32_t count) {
             uint32_t middle = low + width < count ? low + width : count;
             uint32_t high = low + 2 * width < count ? low + 2 * width : count;
             for (uint32_t k = low, a = low, b = middle; k < high; k++) {
-                bool right = b < high && (a >= middle || before(L, from[b], from[a]));
+                bool right = b < high && (a >= middle || is_item_before(L, from[b], from[a]));
                 to[k] = right ? from[b++] : from[a++];
             }
         }
@@ -196,7 +198,7 @@ static int table_sort(lua_State *L) {
     luaL_argcheck(L, count <= MOST_MOVED, TABLE, "at most 100,000 items are sorted at once");
     jox_vm_charge(L, count);
     luaL_checkstack(L, 8, "sort");
-    lua_createtable(L, (int)count, 0); /* the items as they were: an error changes nothing */
+    lua_createtable(L, (int)count, 0); /* a copy of the items, so that an error changes nothing */
     for (lua_Unsigned i = 1; i <= count; i++) {
         lua_rawgeti(L, TABLE, (lua_Integer)i);
         lua_rawseti(L, ITEMS, (lua_Integer)i);

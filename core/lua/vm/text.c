@@ -1,4 +1,4 @@
-/* Text of values, and text that is put together in C. */
+/* Text of Lua values, and the growing text that library functions build. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -10,7 +10,7 @@ const char *jox_library_kind(lua_State *L, int index) {
     const int top = lua_gettop(L);
     if (lua_type(L, index) == LUA_TUSERDATA &&
         luaL_getmetafield(L, index, "__kind") == LUA_TSTRING) {
-        const char *kind = lua_tostring(L, -1); /* the metatable holds it */
+        const char *kind = lua_tostring(L, -1); /* valid while the metatable lives */
         lua_settop(L, top);
         return kind;
     }
@@ -21,13 +21,13 @@ const char *jox_library_kind(lua_State *L, int index) {
 const char *jox_library_text(lua_State *L, int index, size_t *length) {
     int type = lua_type(L, index);
     if (type == LUA_TNUMBER && lua_tonumber(L, index) != lua_tonumber(L, index))
-        lua_pushliteral(L, "nan"); /* its sign means nothing */
+        lua_pushliteral(L, "nan"); /* without the sign, which means nothing */
     else if (type == LUA_TNUMBER || type == LUA_TSTRING)
         lua_pushvalue(L, index);
     else if (type == LUA_TBOOLEAN)
         lua_pushstring(L, lua_toboolean(L, index) ? "true" : "false");
     else
-        lua_pushstring(L, jox_library_kind(L, index)); /* no addresses */
+        lua_pushstring(L, jox_library_kind(L, index)); /* instead of its address */
     return lua_tolstring(L, -1, length);
 }
 

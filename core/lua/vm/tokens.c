@@ -1,4 +1,4 @@
-/* Places in the source: Lua tells lines only, so that columns come from a scan of our own. */
+/* Splits Lua source into tokens, to know columns, as Lua reports lines only. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,20 +23,21 @@ static void add_token(Scan *s, JoxTokenKind kind, const char *text, size_t lengt
         (JoxToken){kind, text, (uint32_t)length, line, column, column + (int)(s->at - from), false};
 }
 
-static void newline(Scan *s) {
+static void count_newline(Scan *s) {
     s->line++;
     s->line_start = s->at;
 }
 
-/* At "[": the number of "=" of a long bracket, or -1. */
-static int long_bracket(const Scan *s) {
+/* At "[": returns the number of "=" of a long bracket, or -1 if it is none. */
+static int get_bracket_level(const Scan *s) {
     const char *p = s->at + 1;
     while (p < s->end && *p == '=')
         p++;
     return p < s->end && *p == '[' ? (int)(p - s->at) - 1 : -1;
 }
 
-/* Skips a long bracket with `level` signs; returns the length of what is inside. */
+/* Skips a long bracket with `level` equal signs; returns the length of its contents and their
+   start. */
 static size_t skip_long(Scan *s, int level, const char **inside) {
     s->at += level + 2;
     *inside = s->at;
@@ -52,14 +53,14 @@ static size_t skip_long(Scan *s, int level, const char **inside) {
             }
         }
         if (*s->at++ == '\n')
-            newline(s);
+            count_newline(s);
     }
     return (size_t)(s->at - *inside);
 }
 
 static void skip_comment(Scan *s) {
     s->at += 2;
-    int level = s->at < s->end && *s->at == '[' ? long_bracket(s) : -1;
+    int level = s->at < s->end && *s->at == '[' ? get_bracket_level(s) : -1;
     const char *inside;
     if (level >= 0)
         skip_long(s, level, &inside);
@@ -68,19 +69,20 @@ static void skip_comment(Scan *s) {
             s->at++;
 }
 
-/* Skips a backslash and what it escapes: a character, the end of a line, or with `\z` all space. */
+/* Skips a backslash and what it escapes: a character, the end of a line, or with `\z` all white
+   space. */
 static void skip_escape(Scan *s) {
     s->at++;
     if (s->at < s->end && *s->at == 'z') {
         for (s->at++; s->at < s->end && isspace((unsigned char)*s->at);)
             if (*s->at++ == '\n')
-                newline(s);
+                count_newline(s);
         return;
     }
     if (s->at + 1 < s->end && s->at[0] == '\r' && s->at[1] == '\n')
         s->at++;
     if (s->at < s->end && *s->at++ == '\n')
-        newline(s);
+        count_newline(s);
 }
 
 static void scan_string(Scan *s) {
@@ -122,7 +124,7 @@ static void scan_one(Scan *s) {
         add_token(s, JOX_TOKEN_NUMBER, from, (size_t)(s->at - from), from, line, line_start);
     } else if (c == '"' || c == '\'') {
         scan_string(s);
-    } else if (c == '[' && (level = long_bracket(s)) >= 0) {
+    } else if (c == '[' && (level = get_bracket_level(s)) >= 0) {
         size_t length = skip_long(s, level, &inside);
         add_token(s, JOX_TOKEN_STRING, inside, length, from, line, line_start);
     } else {
@@ -144,7 +146,7 @@ void jox_source_scan(JoxSource *source) {
     while (s.at < s.end) {
         if (*s.at == '\n') {
             s.at++;
-            newline(&s);
+            count_newline(&s);
         } else if (isspace((unsigned char)*s.at)) {
             s.at++;
         } else if (*s.at == '-' && s.at + 1 < s.end && s.at[1] == '-') {
@@ -176,7 +178,8 @@ JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
         JoxToken *t = &source->tokens[low];
         if (t->length != length || memcmp(t->text, name, length) != 0)
             continue;
-        bool key = low + 1 < source->token_count && jox_token_is(t + 1, "="); /* not a use */
+        bool key = low + 1 < source->token_count &&
+                   jox_token_is(t + 1, "="); /* a key of a table, not a use of the word */
         if (!t->used && !key) {
             t->used = true;
             return t;

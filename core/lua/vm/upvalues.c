@@ -1,6 +1,6 @@
-/* Variables that functions share with the code around them (Lua's upvalues). They are constants
-   once a file is loaded: what a function changed there is found after its call, through Lua's debug
-   interface, and taken back. */
+/* Records the upvalues of functions when a file is loaded and sets them back after each call,
+   through Lua's debug interface. They are constants once a file is loaded, as state belongs in
+   memory. */
 #include "lua/vm/vm.h"
 
 #include <string.h>
@@ -8,11 +8,12 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-/* The variables of a state stand in one list in its registry, under this address: function, value,
- * function, value. */
+/* Key, by its address, of the registry's list that keeps all recorded values alive: function,
+   value, function, value. */
 static const char LIST;
 
-static void push_list(lua_State *L) {
+/* Pushes the list of recorded values, made on first use. */
+static void push_value_list(lua_State *L) {
     if (lua_rawgetp(L, LUA_REGISTRYINDEX, &LIST) == LUA_TTABLE)
         return;
     lua_pop(L, 1);
@@ -21,7 +22,8 @@ static void push_list(lua_State *L) {
     lua_rawsetp(L, LUA_REGISTRYINDEX, &LIST);
 }
 
-static void note_value(lua_State *L, int index, JoxUpvalue *u) {
+/* Records type and value at a stack index. */
+static void record_value(lua_State *L, int index, JoxUpvalue *u) {
     u->type = lua_type(L, index);
     u->is_integer = lua_isinteger(L, index);
     if (u->type == LUA_TBOOLEAN)
@@ -49,9 +51,9 @@ void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first)
         if (!known) {
             JOX_RESERVE(all->items, all->capacity, all->count + 1);
             all->items[all->count++] = (JoxUpvalue){.id = id, .number = u, .next = added};
-            note_value(L, lua_gettop(L), &all->items[all->count - 1]);
+            record_value(L, lua_gettop(L), &all->items[all->count - 1]);
             added = true;
-            push_list(L);
+            push_value_list(L);
             lua_pushvalue(L, index);
             lua_rawseti(L, -2, 2 * (lua_Integer)all->count - 1);
             lua_pushvalue(L, -2);
@@ -62,9 +64,9 @@ void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first)
     }
 }
 
-/* Whether the value at `index` is the one that was noted, which stands at place `k` of the list:
-   also 1 and 1.0 differ, and nan is nan. */
-static bool is_same(lua_State *L, int index, const JoxUpvalue *u, int list, lua_Integer k) {
+/* Returns whether the value at `index` is the recorded one, which is item `k` of the list. 1
+   and 1.0 differ; nan equals itself. */
+static bool is_same_value(lua_State *L, int index, const JoxUpvalue *u, int list, lua_Integer k) {
     if (lua_type(L, index) != u->type)
         return false;
     if (u->type == LUA_TNIL)
@@ -81,7 +83,7 @@ static bool is_same(lua_State *L, int index, const JoxUpvalue *u, int list, lua_
         return true;
     if (u->type != LUA_TSTRING)
         return false;
-    lua_rawgeti(L, list, k); /* an equal text may stand elsewhere */
+    lua_rawgeti(L, list, k); /* equal strings may differ in address */
     const bool equal = lua_rawequal(L, index, -1);
     lua_pop(L, 1);
     return equal;
@@ -93,10 +95,10 @@ bool jox_upvalues_restore(lua_State *L, const JoxUpvalues *all, uint32_t first, 
     bool changed = false;
     if (count == 0)
         return false;
-    enum { LEFT = 12 }; /* values that are left on the stack until it is cleared */
+    enum { LEFT = 12 }; /* values that stay on the stack until it is cleared */
     const int list = lua_gettop(L) + 1, function = list + 1;
     int now = function;
-    push_list(L);
+    push_value_list(L);
     for (uint32_t k = first; k < first + count; k++) {
         const JoxUpvalue *u = &all->items[k];
         if (k == first || !u->next || now == function + LEFT) {
@@ -107,10 +109,10 @@ bool jox_upvalues_restore(lua_State *L, const JoxUpvalues *all, uint32_t first, 
         const char *called = lua_getupvalue(L, function, u->number);
         now++;
         JOX_ASSERT(called && lua_gettop(L) == now);
-        if (is_same(L, now, u, list, 2 * (lua_Integer)k + 2))
+        if (is_same_value(L, now, u, list, 2 * (lua_Integer)k + 2))
             continue;
         lua_rawgeti(L, list, 2 * (lua_Integer)k + 2);
-        lua_setupvalue(L, function, u->number); /* pops it */
+        lua_setupvalue(L, function, u->number); /* pops the value */
         if (!changed) {
             changed = true;
             strncpy(name, called, 63);

@@ -1,4 +1,6 @@
-/* Lua states: the cap on memory, the budget of instructions, the one protected call. */
+/* Lua states: the limit of memory, the budget of instructions, the protected call. Counts of
+   instructions decide what a function may do, so that runs are equal on all machines; the clock
+   ends only a load, or a run that counts cannot explain. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,10 +20,11 @@ enum {
     LEAST_BUDGET = 1000,
     SAID = 20
 };
-/* Seconds of processor time: of a load with the default budget; of functions beyond what their
-   instructions account for; what an instruction may take, ten times the usual. */
+/* Limits in seconds of processor time: of a load with the default budget; of all calls beyond what
+   their instructions explain; of one instruction, ten times the usual. */
 static const double LOAD_SECONDS = 0.35, STALL_SECONDS = 0.5, STEP_SECONDS = 150e-9;
-/* What a call costs besides, with the reading of clocks, on a cold cache and a busy machine. */
+/* Time of one call besides its instructions, s: with reading the clock, a cold cache and a busy
+   machine. */
 static const double CALL_SECONDS = 20e-6;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
 static const double SLOWER = 4.0;
@@ -33,30 +36,34 @@ JoxLuaLimits jox_lua_default_limits(void) {
     return (JoxLuaLimits){20000000, 100000, 20000000, 32u << 20, 2u << 20, 256u << 10, 20};
 }
 
-static void hook(lua_State *L, lua_Debug *debug);
+/* The debug hook of Lua: checks the budget, or calls the watcher of calls. */
+static void run_debug_hook(lua_State *L, lua_Debug *debug);
 
-/* Has the hook run at each so many instructions, and at calls where somebody watches them. */
+/* Installs the debug hook to run every so many instructions and, while loading with a watcher, at
+   calls and returns. */
 static void set_hook(JoxVm *vm, uint32_t every) {
     const int calls = vm->loading && vm->watch ? LUA_MASKCALL | LUA_MASKRET : 0;
-    lua_sethook(vm->L, hook, LUA_MASKCOUNT | calls, (int)every);
+    lua_sethook(vm->L, run_debug_hook, LUA_MASKCOUNT | calls, (int)every);
 }
 
-/* Makes the count hook run at the very next instruction, instead of within the next thousand. */
+/* Makes the debug hook run at the very next instruction instead of within the next thousand. */
 static void stop_soon(JoxVm *vm) {
     vm->left = 0;
     if (vm->running)
         set_hook(vm, 1);
 }
 
-/* Whether a block is that of a table's keys: so many slots, a power of two. Where keys collide, its
-   growth is one instruction that takes the square of their number, so fewer are allowed. */
+/* Returns whether a new block holds the keys of a table: a power of two of slots. Growing it is one
+   instruction that takes time quadratic in colliding keys, so such blocks are limited to half the
+   size. */
 static bool is_hash_part(size_t old, size_t size) {
     enum { SLOT = 24 };
     size_t count = size / SLOT;
     return old == 0 && size % SLOT == 0 && (count & (count - 1)) == 0;
 }
 
-static void *allocate(void *context, void *memory, size_t old, size_t size) {
+/* lua_Alloc within the limit of memory; large blocks are charged to the budget. */
+static void *allocate_block(void *context, void *memory, size_t old, size_t size) {
     JoxVm *vm = context;
     if (!memory)
         old = 0; /* Lua then passes a type here */
@@ -68,14 +75,14 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     }
     const JoxLuaLimits *limits = &vm->group->limits;
     const size_t most = is_hash_part(old, size) ? limits->block / 2 : limits->block;
-    uint64_t cost = size > old ? (size - old) >> 2 : 0; /* a few instructions can copy megabytes */
+    uint64_t cost = size > old ? (size - old) >> 2 : 0; /* one instruction can copy megabytes */
     void *result = NULL;
     if (size <= old || (size <= most && vm->used - old + size <= limits->memory))
         vm->no_memory = !(result = jox_try_realloc(memory, size));
     if (result)
         vm->used = vm->used - old + size;
     else
-        cost += vm->used >> 4; /* Lua now looks through all of it for what can be freed */
+        cost += vm->used >> 4; /* Lua now collects garbage in the whole state */
     if (vm->left > cost)
         vm->left -= cost;
     else if (cost > 0)
@@ -83,15 +90,16 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     return result;
 }
 
-static double load_seconds(const JoxVm *vm) {
+/* Returns the limit of a load, s, in proportion to its budget of instructions. */
+static double get_load_limit(const JoxVm *vm) {
     double share = (double)vm->group->limits.load_instructions / 20e6;
     return LOAD_SECONDS * SLOWER * (share > 1.0 ? share : 1.0);
 }
 
-/* Some instructions have no bound on their time: a look-up among keys that collide, the comparison
-   of long texts. Counts decide what a function may do, so that runs are equal; but where functions
-   together take a second more than their counts explain, the run has to end. */
-static void watch(JoxVm *vm, double weight, double most) {
+/* Adds up the time by which calls exceed what their instructions explain, times `weight` and at
+   most `most`, s. Some instructions take unbounded time, as a look-up among colliding keys or a
+   comparison of long strings; past the limit the run has to end. */
+static void check_time(JoxVm *vm, double weight, double most) {
     if (vm->untimed)
         return;
     double now = jox_clock_thread();
@@ -105,20 +113,21 @@ static void watch(JoxVm *vm, double weight, double most) {
         snprintf(vm->group->stalled, sizeof vm->group->stalled, "%s", vm->sources[0]->path);
 }
 
-static void begin_load(JoxVm *vm) {
+/* Starts the time of a load with its first call. */
+static void start_load_time(JoxVm *vm) {
     if (vm->deadline <= 0.0)
-        vm->deadline = jox_clock_thread() + load_seconds(vm);
+        vm->deadline = jox_clock_thread() + get_load_limit(vm);
 }
 
-/* What is left of a source to be compiled. */
+/* Rest of a source to be compiled. */
 typedef struct Piece {
     JoxVm *vm;
     const char *text;
     size_t length;
 } Piece;
 
-/* Gives the compiler the source in small pieces, so that the time can be checked between them:
-   names in deeply nested functions make it slow. */
+/* lua_Reader: gives the compiler the source in small pieces and checks the time between them, as
+   names in deeply nested functions compile slowly. */
 static const char *next_piece(lua_State *L, void *context, size_t *size) {
     enum { PIECE = 512 };
     Piece *p = context;
@@ -135,7 +144,7 @@ bool jox_vm_compile(JoxVm *vm, size_t number) {
     JOX_ASSERT(number < vm->source_count);
     char chunk[24];
     snprintf(chunk, sizeof chunk, "=b%zu", number);
-    begin_load(vm);
+    start_load_time(vm);
     Piece piece = {vm, vm->sources[number]->text, vm->sources[number]->length};
     return lua_load(vm->L, next_piece, &piece, chunk, "t") == LUA_OK;
 }
@@ -160,15 +169,17 @@ int jox_vm_stop(lua_State *L) {
     return lua_error(L);
 }
 
-static int stop_long(lua_State *L, int level) {
+/* Raises the error of a spent budget, at the script's line of `level`. */
+static int raise_over_budget(lua_State *L, int level) {
     luaL_where(L, level);
     lua_pushliteral(L, "it ran for too long (over its budget of instructions) and was stopped");
     lua_concat(L, 2);
     return jox_vm_stop(L);
 }
 
-/* Counts instructions. Once over, every instruction trips, so that nothing can swallow it. */
-static void count(JoxVm *vm) {
+/* Takes the instructions since the last check from the budget. Once it is spent the hook fails at
+   every instruction, so that pcall cannot go on. */
+static void count_instructions(JoxVm *vm) {
     lua_State *L = vm->L;
     bool good = !vm->over && !vm->starved && vm->left > vm->interval;
     if (good)
@@ -176,24 +187,24 @@ static void count(JoxVm *vm) {
     if (vm->loading) {
         good = good && jox_clock_thread() < vm->deadline;
     } else if (vm->interval == CHECK_EVERY) {
-        watch(vm, 1.0, 1e9);
+        check_time(vm, 1.0, 1e9);
         good = good && !vm->group->stalled[0];
     } else if (good) {
         vm->watch_from = jox_clock_thread();
         vm->watch_left = vm->left;
     }
     if (!good)
-        stop_long(L, 0);
+        raise_over_budget(L, 0);
     if (vm->interval != CHECK_EVERY) {
         vm->interval = CHECK_EVERY;
         set_hook(vm, CHECK_EVERY);
     }
 }
 
-static void hook(lua_State *L, lua_Debug *debug) {
+static void run_debug_hook(lua_State *L, lua_Debug *debug) {
     JoxVm *vm = jox_vm_of(L);
     if (debug->event == LUA_HOOKCOUNT)
-        count(vm);
+        count_instructions(vm);
     else if (!vm->over && vm->running)
         vm->watch(L, debug);
 }
@@ -202,11 +213,12 @@ void jox_vm_charge(lua_State *L, uint64_t steps) {
     JoxVm *vm = jox_vm_of(L);
     JOX_ASSERT(vm->L == L);
     if (!vm->running)
-        return; /* the engine's own */
-    bool late = vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&
-                jox_clock_thread() > vm->deadline; /* counts do not see keys that collide */
+        return; /* called by the engine, outside of a script */
+    bool late =
+        vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&
+        jox_clock_thread() > vm->deadline; /* colliding keys cost time that counts do not see */
     if (vm->over || vm->starved || late || vm->left <= steps)
-        stop_long(L, 1);
+        raise_over_budget(L, 1);
     vm->left -= steps;
 }
 
@@ -214,14 +226,15 @@ JoxVm *jox_vm_of(lua_State *L) {
     return *(JoxVm **)lua_getextraspace(L);
 }
 
-/* Of a heap that has failed: what finalizers would end is half done, or gone. They see no VM. */
+/* Closes the state after the heap has failed. Finalizers must not see the VM, which may be half
+   freed. */
 static void release_state(void *state) {
     *(JoxVm **)lua_getextraspace((lua_State *)state) = NULL;
     lua_close(state);
 }
 
-/* An error outside of any protected call: only memory can run out there. */
-static int panic(lua_State *L) {
+/* Called at an error outside of a protected call, where only memory can run out. */
+static int abort_state(lua_State *L) {
     (void)L;
     jox_out_of_memory(0);
 }
@@ -229,11 +242,11 @@ static int panic(lua_State *L) {
 bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open) {
     JOX_ASSERT(!vm->L && !vm->group);
     vm->group = group;
-    vm->L = lua_newstate(allocate, vm);
+    vm->L = lua_newstate(allocate_block, vm);
     if (!vm->L)
         jox_out_of_memory(0);
     jox_hold(vm->L, release_state);
-    lua_atpanic(vm->L, panic);
+    lua_atpanic(vm->L, abort_state);
     *(JoxVm **)lua_getextraspace(vm->L) = vm;
     lua_pushcfunction(vm->L, open);
     bool good = lua_pcall(vm->L, 0, 0, 0) == LUA_OK;
@@ -307,7 +320,8 @@ const char *jox_vm_split(const JoxVm *vm, const char *message, int *line, size_t
     return message;
 }
 
-/* Where a failure came from, in the behaviour's own files: the innermost first. */
+/* Message handler of lua_pcall: keeps the stack of a failure, frames in script files only,
+   innermost first. */
 static int keep_traceback(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     size_t used = 0;
@@ -319,7 +333,7 @@ static int keep_traceback(lua_State *L) {
         int number = debug.currentline < 1 ? -1 : jox_vm_source(vm, debug.short_src);
         if (number < 0)
             continue;
-        char name[48]; /* it may be any text: t["..."]() */
+        char name[48]; /* may be any text: t["..."]() */
         snprintf(name, sizeof name, "%.40s", debug.name ? debug.name : "");
         jox_text_clean(name);
         used += (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
@@ -330,7 +344,7 @@ static int keep_traceback(lua_State *L) {
         if (used >= sizeof vm->traceback)
             break;
     }
-    if (shown < 2) /* the message names the only place */
+    if (shown < 2) /* the message already names the only frame */
         vm->traceback[0] = 0;
     return 1;
 }
@@ -344,8 +358,9 @@ bool jox_vm_may_say(JoxVm *vm, uint32_t second) {
     return vm->complaints <= SAID;
 }
 
-/* What a hook may use: less where those before it in this step have used up what all may. */
-static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
+/* Returns the budget of a call: reduced if earlier calls of this step have used up what they share.
+ */
+static uint64_t get_call_budget(JoxVm *vm, uint64_t instructions) {
     if (vm->calls == 0 || vm->step != vm->budget_step) {
         vm->budget_step = vm->step;
         vm->step_left = vm->group->limits.step_instructions;
@@ -362,9 +377,9 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     vm->failed_source = 0;
     vm->traceback[0] = 0;
     if (vm->loading)
-        begin_load(vm);
+        start_load_time(vm);
     else if (!vm->untimed)
-        instructions = step_budget(vm, instructions);
+        instructions = get_call_budget(vm, instructions);
     vm->left = instructions;
     const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
@@ -385,9 +400,9 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         vm->step_left -=
             instructions - vm->left < vm->step_left ? instructions - vm->left : vm->step_left;
     if (!vm->loading && vm->interval == CHECK_EVERY)
-        watch(vm, 1.0, 1e9);
-    else if (sampled) /* a short one stands for others */
-        watch(vm, SAMPLED, 0.1);
+        check_time(vm, 1.0, 1e9);
+    else if (sampled) /* a short call stands for SAMPLED others */
+        check_time(vm, SAMPLED, 0.1);
     jox_numeric_use(before);
     if (status == LUA_OK) {
         lua_remove(vm->L, handler);
@@ -398,7 +413,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     static _Thread_local char text[512];
     *line = 0;
     *why = text;
-    /* A foreign error object is never asked for its text: that would run foreign code. */
+    /* An error object that is no string is not converted, as that would run the script's code. */
     if (status == LUA_ERRMEM || vm->starved)
         snprintf(text, sizeof text, "it asked for too much memory and was stopped");
     else if (lua_type(vm->L, -1) == LUA_TSTRING)
