@@ -1,9 +1,10 @@
-/* Which variables the functions of a source assign though they were declared outside of them. The
-   syntax tree tells, with the column. What it does not see, upvalues.c catches when the function
-   runs. */
+/* Finds assignments, in the functions of a file, of variables declared outside of the function,
+   with their column. The loader refuses them; what the syntax tree does not show, vm/upvalues.c
+   finds after a call. */
 #include "lua/language/script.h"
 
-/* Whether the name at a tree is a variable from outside of function `f`, used within it. */
+/* Returns whether a node in function `f` is a variable of this name that is declared outside of
+   `f`. */
 static bool is_shared(const JoxSyntax *s, int32_t tree, int32_t f, const char *name) {
     const JoxTree *t = &s->trees[tree];
     return t->kind == JOX_TREE_NAME && t->variable != JOX_NO_TREE &&
@@ -11,7 +12,7 @@ static bool is_shared(const JoxSyntax *s, int32_t tree, int32_t f, const char *n
            !jox_syntax_within(s, s->variables[t->variable].function, f);
 }
 
-/* The first assignment in function `f` of a variable of that name from outside of it. */
+/* Returns the first assignment in function `f` of such a variable; NULL if there is none. */
 static const JoxToken *find_assignment(const JoxSyntax *s, int32_t f, const char *name) {
     const JoxToken *first = NULL;
     for (size_t b = 0; b < s->binding_count; b++) {
@@ -25,6 +26,7 @@ static const JoxToken *find_assignment(const JoxSyntax *s, int32_t f, const char
     return first;
 }
 
+/* Returns whether function `f` uses such a variable at all. */
 static bool uses_shared(const JoxSyntax *s, int32_t f, const char *name) {
     for (size_t t = 0; t < s->tree_count; t++)
         if (is_shared(s, (int32_t)t, f, name))
@@ -43,7 +45,7 @@ const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, in
             if (s->functions[f].first_line != first_line || s->functions[f].last_line != last_line)
                 continue;
             const JoxToken *here = find_assignment(s, (int32_t)f, names[n]);
-            /* else it may be this one, which only reads */
+            /* a function on the same lines that only reads it may be the one that is meant */
             sure = sure && (here || !uses_shared(s, (int32_t)f, names[n]));
             found = found ? found : here;
         }

@@ -1,12 +1,11 @@
-/* Tags and teams that a script names. A scene need not have them: a state may give them to its
-   agents. Whether any does is known once all machines are loaded, so that those that are asked for
-   are checked then. */
+/* Tags and teams that a script names. The scene need not have them, as a state may give them to its
+   agents; whether any state does is checked once all machines are loaded. */
 #include <string.h>
 
 #include "base/mem.h"
 #include "lua/language/script.h"
 
-/* Number of a team that the scene has, or 0. */
+/* Returns the number of a team that the scene has, or -1. */
 static int32_t find_team(const JoxScope *scope, const char *name) {
     for (uint32_t g = 0; g < scope->group_count; g++)
         if (scope->groups[g].team && strcmp(scope->groups[g].team, name) == 0)
@@ -17,6 +16,7 @@ static int32_t find_team(const JoxScope *scope, const char *name) {
     return -1;
 }
 
+/* Returns the bit of a tag that the scene has, or -1. */
 static int32_t find_tag(const JoxScope *scope, const char *name) {
     for (uint32_t t = 0; t < scope->tag_count; t++)
         if (strcmp(scope->tags[t], name) == 0)
@@ -24,7 +24,7 @@ static int32_t find_tag(const JoxScope *scope, const char *name) {
     return -1;
 }
 
-/* The first number that neither the scene nor the script has given yet; -1: there is none. */
+/* Returns the first number that neither the scene nor the script uses; -1: there is none. */
 static int32_t next_number(const JoxScript *script, bool is_team) {
     const JoxScope *scope = script->scope;
     int32_t next =

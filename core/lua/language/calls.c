@@ -1,5 +1,5 @@
-/* What functions are given and return while a file loads, seen by a hook of Lua's at each call:
-   whether an operand in a library function is a condition depends on who calls it. */
+/* Records the kinds of arguments and results of functions while a file loads, by Lua's debug hook.
+   kinds.c asks, as only the calls show whether a parameter of a library function is a condition. */
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
@@ -39,9 +39,9 @@ JoxCallFact *jox_calls_find(const JoxScript *script, uint32_t source, int first_
     return NULL;
 }
 
-/* The facts of the function that a hook is told of; NULL where it is none of a file, or too many
-   are known. */
-static JoxCallFact *fact_of(JoxScript *script, lua_State *L, lua_Debug *about) {
+/* Returns the record of the running function, made on first use; NULL for a function of C or of the
+   file itself, or if there are too many. */
+static JoxCallFact *find_or_add_fact(JoxScript *script, lua_State *L, lua_Debug *about) {
     lua_getinfo(L, "S", about);
     const int number = jox_vm_source(&script->vm, about->short_src);
     if (number < 0 || about->linedefined == 0)
@@ -56,7 +56,7 @@ static JoxCallFact *fact_of(JoxScript *script, lua_State *L, lua_Debug *about) {
     return fact;
 }
 
-/* Adds the kind of the local, or returned value, with this number. */
+/* Adds the kind of a local variable or returned value with this number. */
 static void add_kind(lua_State *L, const lua_Debug *about, int number, uint8_t *kinds) {
     if (lua_getlocal(L, about, number)) {
         *kinds |= jox_kind_of(L, -1);
@@ -67,7 +67,7 @@ static void add_kind(lua_State *L, const lua_Debug *about, int number, uint8_t *
 void jox_calls_watch(lua_State *L, lua_Debug *about) {
     JoxScript *script = jox_script_of(L);
     JOX_ASSERT(script->vm.loading);
-    JoxCallFact *fact = fact_of(script, L, about);
+    JoxCallFact *fact = find_or_add_fact(script, L, about);
     if (!fact)
         return;
     if (about->event == LUA_HOOKRET) {

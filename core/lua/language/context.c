@@ -1,5 +1,5 @@
-/* Which part of the machine's table an error is in: "machine tawaf > state ToStone > transition 2
- * (to Circle)". */
+/* Names the part of the machine's table that an error is in: "machine tawaf > state ToStone >
+   transition 2 (to Circle)". */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,8 +7,8 @@
 #include "base/mem.h"
 #include "lua/language/script.h"
 
-/* The text of a string value at a path, or "?". */
-static void value_at(const JoxSource *source, const char *path, char out[64]) {
+/* Copies the string value at a path, or "?". */
+static void copy_string_at(const JoxSource *source, const char *path, char out[64]) {
     const JoxPath *found = jox_outline_find(source, path);
     const JoxToken *t =
         found && found->first < source->token_count ? &source->tokens[found->first] : NULL;
@@ -17,21 +17,21 @@ static void value_at(const JoxSource *source, const char *path, char out[64]) {
              text ? t->text : "?");
 }
 
-static bool is_before(const JoxToken *t, int line, int column) {
+static bool is_at_or_before(const JoxToken *t, int line, int column) {
     return t->line < line || (t->line == line && t->column <= column);
 }
 
-/* The longest path whose value stands about a place. */
-static const JoxPath *path_about(const JoxSource *source, int line, int column) {
+/* Returns the longest path whose key and value enclose a position. */
+static const JoxPath *find_enclosing_path(const JoxSource *source, int line, int column) {
     const JoxPath *best = NULL;
     const JoxOutline *outline = jox_outline_of(source);
     for (size_t p = 0; p < outline->path_count; p++) {
         const JoxPath *path = &outline->paths[p];
         if (path->key >= source->token_count ||
-            !is_before(&source->tokens[path->key], line, column))
+            !is_at_or_before(&source->tokens[path->key], line, column))
             continue;
         if (path->last < source->token_count &&
-            is_before(&source->tokens[path->last], line, column))
+            is_at_or_before(&source->tokens[path->last], line, column))
             continue;
         if (!best || strlen(path->path) > strlen(best->path))
             best = path;
@@ -39,12 +39,12 @@ static const JoxPath *path_about(const JoxSource *source, int line, int column) 
     return best;
 }
 
-static char *describe(const JoxSource *source, const JoxPath *path) {
+static char *describe_table_path(const JoxSource *source, const JoxPath *path) {
     JOX_ASSERT(path->path && *path->path);
     char name[64], state[64], to[64], full[256];
     JoxText out = {0};
     const JoxToken *patches = jox_outline_of(source)->patches;
-    value_at(source, "name", name);
+    copy_string_at(source, "name", name);
     if (patches)
         jox_text_printf(&out, "patch of %.*s", (int)patches->length, patches->text);
     else
@@ -58,7 +58,7 @@ static char *describe(const JoxSource *source, const JoxPath *path) {
     unsigned number;
     if (sscanf(rest, ".%u", &number) == 1) {
         snprintf(full, sizeof full, "states.%s.%u.to", state, number);
-        value_at(source, full, to);
+        copy_string_at(source, full, to);
         jox_text_printf(&out, " > transition %u (to %s)", number, to);
     }
     return out.data;
@@ -69,8 +69,9 @@ void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics) 
         JoxDiagnostic *item = &diagnostics->items[d];
         if (item->context || item->line < 1 || !item->file || strcmp(item->file, source->path) != 0)
             continue;
-        const JoxPath *path = path_about(source, item->line, item->column > 0 ? item->column : 1);
+        const JoxPath *path =
+            find_enclosing_path(source, item->line, item->column > 0 ? item->column : 1);
         if (path)
-            item->context = describe(source, path);
+            item->context = describe_table_path(source, path);
     }
 }

@@ -1,5 +1,5 @@
-/* What a script can name besides Lua's own functions: the words, `require`, random numbers of the
-   agent. Says of any other name what was meant. */
+/* Names that scripts can use besides Lua's own functions: words, `require`, random numbers of the
+   agent. For any other name it suggests the one that was meant. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "base/assert.h"
 #include "lua/language/script.h"
 
-/* Why a name of Lua's own libraries is missing; NULL for any other. */
-static const char *absent(const char *name) {
+/* Returns why a name of Lua's own libraries is missing; NULL for any other name. */
+static const char *explain_absent_name(const char *name) {
     static const struct {
         const char *name, *why;
     } ABSENT[] = {
@@ -37,8 +37,8 @@ static const char *absent(const char *name) {
     return NULL;
 }
 
-/* Whether something of the scene has the name. */
-static bool is_named(const JoxScope *scope, const char *name) {
+/* Returns whether a place or tag of the scene has the name. */
+static bool is_name_in_scene(const JoxScope *scope, const char *name) {
     for (uint32_t p = 0; p < scope->place_count; p++)
         if (strcmp(scope->places[p].name, name) == 0)
             return true;
@@ -48,6 +48,7 @@ static bool is_named(const JoxScope *scope, const char *name) {
     return false;
 }
 
+/* __index of the environment: a name that is no local variable. */
 static int env_index(lua_State *L) {
     JOX_ASSERT(lua_istable(L, lua_upvalueindex(1)));
     JoxScript *script = jox_script_of(L);
@@ -57,7 +58,7 @@ static int env_index(lua_State *L) {
         return 1;
     if (jox_word_lookup(L, name)) {
         if (script->vm.loading)
-            jox_word_position(L, name); /* marks this occurrence as read */
+            jox_word_position(L, name); /* marks this occurrence as used */
         return 1;
     }
     if (!script->vm.loading)
@@ -71,9 +72,9 @@ static int env_index(lua_State *L) {
                  "As a value write own.%s (what was drawn) or now.NAME (what is "
                  "measured)",
                  name);
-    else if (absent(name))
-        snprintf(hint, sizeof hint, "%s", absent(name));
-    else if (!near && is_named(script->scope, name))
+    else if (explain_absent_name(name))
+        snprintf(hint, sizeof hint, "%s", explain_absent_name(name));
+    else if (!near && is_name_in_scene(script->scope, name))
         snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
                  name);
     else if (!near)
@@ -84,6 +85,7 @@ static int env_index(lua_State *L) {
     return jox_word_error(L, name, "unknown-word", hint, "unknown word '%s'", name);
 }
 
+/* __newindex of the environment: an assignment to a global. */
 static int env_newindex(lua_State *L) {
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     if (!jox_vm_of(L)->loading)
@@ -96,7 +98,7 @@ static int env_newindex(lua_State *L) {
     return 0;
 }
 
-/* From the agent's own stream: a function of seed, agent and tick. */
+/* Draws from the random stream of the agent, a function of seed, agent and tick. */
 static int math_random(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     if (script->vm.loading || !script->owner->machines)

@@ -1,6 +1,6 @@
-/* `me`, the agent whose function runs, and views of its neighbours. `me` reads the agent and writes
-   its memory, own values and goal; a view shows another as it was before the step, and what is
-   written to its memory arrives after it. Both are worth nothing once the call is over. */
+/* `me`, the agent that a function runs for, and views of its neighbours. `me` reads the agent and
+   writes its memory, own values and goal. A view shows a neighbour as it was before the step;
+   writes to its memory take effect after the step. Neither is valid once the call has ended. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,12 +15,12 @@ typedef struct View {
     uint32_t run, index;
 } View;
 
-static double length(float x, float y) {
+static double get_vector_length(float x, float y) {
     return sqrt((double)x * x + (double)y * y);
 }
 
-/* Which number of the agent a name of one or two letters is. */
-static const float *short_name(const JoxAgents *a, uint32_t i, const char *name) {
+/* Returns the value of a name of one or two letters, x, y, vx or vy; NULL for any other name. */
+static const float *find_coordinate(const JoxAgents *a, uint32_t i, const char *name) {
     bool v = name[0] == 'v';
     const char letter = v ? name[1] : name[0];
     if ((letter != 'x' && letter != 'y') || name[v ? 2 : 1])
@@ -28,11 +28,11 @@ static const float *short_name(const JoxAgents *a, uint32_t i, const char *name)
     return v ? (letter == 'x' ? &a->vx[i] : &a->vy[i]) : letter == 'x' ? &a->x[i] : &a->y[i];
 }
 
-/* Pushes a number of the agent by name; false where it has none of that name. */
+/* Pushes a number of the agent by name; false if there is none of that name. */
 static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i, const char *name) {
     JOX_ASSERT(i < machines->agents->count);
     const JoxAgents *a = machines->agents;
-    const float *at = short_name(a, i, name);
+    const float *at = find_coordinate(a, i, name);
     if (at)
         return lua_pushnumber(L, *at), true;
     if (strcmp(name, "id") == 0)
@@ -44,7 +44,7 @@ static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i,
     if (strcmp(name, "density") == 0)
         return lua_pushnumber(L, a->density[i]), true;
     if (strcmp(name, "pushed") == 0)
-        return lua_pushnumber(L, length(a->force_x[i], a->force_y[i])), true;
+        return lua_pushnumber(L, get_vector_length(a->force_x[i], a->force_y[i])), true;
     if (strcmp(name, "compression") == 0)
         return lua_pushnumber(L, a->compression[i]), true;
     if (strcmp(name, "load") == 0)
@@ -63,7 +63,7 @@ static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i,
     return true;
 }
 
-/* Pushes a value of memory. */
+/* Pushes a value of memory, as a boolean or a number. */
 static void push_memory(lua_State *L, const JoxMemorySlot *slot, double value) {
     if (slot->kind == JOX_MEMORY_BOOLEAN)
         lua_pushboolean(L, value != 0.0);
@@ -71,7 +71,8 @@ static void push_memory(lua_State *L, const JoxMemorySlot *slot, double value) {
         lua_pushnumber(L, value);
 }
 
-/* The value at the stack's `index` as memory of that kind; raises an error where it is not. */
+/* Returns the value at a stack index as memory of the slot's kind; raises an error if it has
+   another. */
 static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
     if (slot->kind == JOX_MEMORY_BOOLEAN) {
         if (lua_type(L, index) != LUA_TBOOLEAN)
@@ -83,8 +84,10 @@ static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
     return lua_tonumber(L, index);
 }
 
-/* ---- others ---- */
+/* ---- views of neighbours ---- */
 
+/* Returns the index of the agent that a view shows; raises an error if it was kept from an earlier
+   call. */
 static uint32_t check_view(lua_State *L, JoxScript *script) {
     const View *view = luaL_checkudata(L, 1, VIEW);
     if (script->vm.loading || view->run != script->vm.run)
@@ -92,6 +95,7 @@ static uint32_t check_view(lua_State *L, JoxScript *script) {
     return view->index;
 }
 
+/* __index of a view. */
 static int view_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxLua *lua = script->owner;
@@ -125,6 +129,7 @@ static int view_index(lua_State *L) {
     return luaL_error(L, "a neighbour has no '%s'", name);
 }
 
+/* Returns whether the present call has read this memory of a neighbour: its last 16 reads count. */
 static bool has_read(const JoxScript *script, uint32_t agent, uint32_t slot) {
     const uint32_t most = sizeof script->read / sizeof *script->read;
     const uint32_t count = script->read_count < most ? script->read_count : most;
@@ -134,6 +139,7 @@ static bool has_read(const JoxScript *script, uint32_t agent, uint32_t slot) {
     return false;
 }
 
+/* __newindex of a view: queues a write of a neighbour's memory. */
 static int view_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxLua *lua = script->owner;
@@ -161,10 +167,11 @@ static int view_newindex(lua_State *L) {
     return 0;
 }
 
+/* Pushes the list of views of the agent's neighbours. */
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
     JOX_ASSERT(script->machine);
     uint32_t seen[JOX_SMALL_CROWD];
-    if (!script->machine->views) /* nothing was kept of the others before the step */
+    if (!script->machine->views) /* the state before the step was not kept */
         return luaL_error(L, "write me.neighbours as such, not by a name that is put together");
     const uint32_t count = jox_machines_seen(script->owner->machines, i, seen);
     jox_vm_charge(L, 20 * (count + 1));
@@ -180,7 +187,7 @@ static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
 
 /* ---- me ---- */
 
-/* The agent that `me` stands for; raises an error where it was kept from an earlier call. */
+/* Returns the agent that `me` stands for; raises an error if it was kept from an earlier call. */
 static uint32_t check_me(lua_State *L, JoxScript *script) {
     const uint32_t *run = luaL_checkudata(L, 1, ME);
     if (script->vm.loading || *run != script->vm.run)
@@ -188,7 +195,7 @@ static uint32_t check_me(lua_State *L, JoxScript *script) {
     return script->agent;
 }
 
-/* me.signal("name"), and me:signal("name") */
+/* me.signal("name") and me:signal("name"): heard in the next step. */
 static int me_signal(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     int at = lua_type(L, 1) == LUA_TUSERDATA ? 2 : 1;
@@ -218,6 +225,7 @@ static int me_signal(lua_State *L) {
     return 0;
 }
 
+/* __index of `me`. */
 static int me_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
@@ -245,7 +253,7 @@ static int me_index(lua_State *L) {
         return luaL_error(L, "me.%s is called me.%s now", name, now);
     const char *names[96];
     size_t count = 0;
-    jox_vm_charge(L, 2000); /* a suggestion compares with all of them */
+    jox_vm_charge(L, 2000); /* a suggestion compares with all names */
     for (size_t k = 0; k < jox_me_key_count; k++)
         names[count++] = jox_me_keys[k].name;
     for (uint32_t s = 0; s < m->memory_count && count < 96; s++)
@@ -255,9 +263,9 @@ static int me_index(lua_State *L) {
                 : luaL_error(L, "me has no '%s'", name);
 }
 
-/* Notes where a function writes a value of an agent that somebody looks at. */
-static void note_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool is_memory,
-                       int32_t index) {
+/* Records where a function writes a value that a trace watches. */
+static void record_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool is_memory,
+                         int32_t index) {
     if (!machines->watched_count)
         return;
     const JoxPosition at = jox_vm_place(L);
@@ -269,6 +277,7 @@ static void note_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool i
     jox_machines_wrote(machines, i, &wrote);
 }
 
+/* __newindex of `me`. */
 static int me_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
@@ -280,15 +289,15 @@ static int me_newindex(lua_State *L) {
         const JoxAgents *a = machines->agents;
         double value = check_memory(L, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
-        note_write(L, machines, i, true, slot);
-    } else if (parameter >= 0) { /* the own slots begin with the parameters */
+        record_write(L, machines, i, true, slot);
+    } else if (parameter >= 0) { /* the own values begin with the parameters */
         const JoxParameterInfo *info = &jox_parameters[parameter];
         double value = lua_type(L, 3) == LUA_TNUMBER ? lua_tonumber(L, 3) : NAN;
         if (!(value >= info->least && value <= info->greatest))
             return luaL_error(L, "%s must be a number from %f to %f %s", name, info->least,
                               info->greatest, info->unit);
         jox_machines_set_own(machines, i, (uint32_t)parameter, value);
-        note_write(L, machines, i, false, parameter);
+        record_write(L, machines, i, false, parameter);
     } else if (strcmp(name, "goal") == 0) {
         int32_t place =
             lua_type(L, 3) == LUA_TSTRING
@@ -322,5 +331,5 @@ void jox_me_open(JoxScript *script) {
     uint32_t *run = lua_newuserdatauv(L, sizeof *run, 0);
     *run = 0;
     luaL_setmetatable(L, ME);
-    script->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is handed out */
+    script->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is passed to functions */
 }

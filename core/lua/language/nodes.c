@@ -1,4 +1,5 @@
-/* Nodes: what an expression of the language is to Lua, a userdata of one type. */
+/* Nodes: expressions of the language as Lua sees them, a userdata of one type that points to a
+   JoxNode. The script owns the nodes. */
 #include <assert.h>
 #include <string.h>
 
@@ -49,7 +50,7 @@ JoxNode *jox_node_constant(lua_State *L, double value) {
     JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
     node->op = JOX_OP_CONST;
     node->number = value;
-    lua_pop(L, 1); /* the VM keeps it */
+    lua_pop(L, 1); /* the script keeps it */
     return node;
 }
 
@@ -91,7 +92,7 @@ void jox_nodes_open(lua_State *L, const luaL_Reg *operators) {
     luaL_setfuncs(L, operators, 0);
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
-    lua_pushliteral(L, "value"); /* what type() says */
+    lua_pushliteral(L, "value"); /* as type() names it */
     lua_setfield(L, -2, "__kind");
     lua_pop(L, 1);
 }

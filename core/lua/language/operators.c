@@ -1,5 +1,5 @@
-/* The operators of expressions: arithmetic, & | ~, and comparisons by method. Each operator that
-   Lua would silently get wrong is refused with the right spelling. */
+/* Operators and methods of expressions: arithmetic, & | ~, comparisons, and filters of targets.
+   Operators that Lua would evaluate wrongly are refused with the right spelling. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,8 @@
 #include "base/mem.h"
 #include "lua/language/script.h"
 
-static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
+/* Pushes an operation on one or two nodes (`b` NULL: one). */
+static JoxNode *push_operation(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
     JOX_ASSERT(a && (kind == JOX_NODE_NUMBER || kind == JOX_NODE_CONDITION));
     JoxNode *node = jox_node_push(L, kind);
     node->op = op;
@@ -18,53 +19,55 @@ static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNo
 
 enum { MOST_SUMMANDS = 64 };
 
-static int summands(const JoxNode *steer) {
+/* Returns the number of terms of a steering sum, at most MOST_SUMMANDS + 1. */
+static int count_summands(const JoxNode *steer) {
     int n = 0;
     for (; steer && n <= MOST_SUMMANDS; steer = steer->next)
         n++;
     return n;
 }
 
-/* A copy of a steering sum with every weight multiplied. */
-static JoxNode *scaled(lua_State *L, JoxNode *steer, JoxNode *by) {
+/* Pushes a copy of a steering sum with every weight multiplied. */
+static JoxNode *push_scaled_steer(lua_State *L, JoxNode *steer, JoxNode *by) {
     JOX_ASSERT(steer->kind == JOX_NODE_STEER && by);
     JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
     JoxPosition position = node->position;
     *node = *steer;
     node->position = position;
     if (steer->weight) {
-        node->weight = binary(L, JOX_NODE_NUMBER, JOX_OP_MUL, steer->weight, by);
+        node->weight = push_operation(L, JOX_NODE_NUMBER, JOX_OP_MUL, steer->weight, by);
         lua_pop(L, 1);
     } else {
         node->weight = by;
     }
     if (steer->next) {
-        node->next = scaled(L, steer->next, by);
+        node->next = push_scaled_steer(L, steer->next, by);
         lua_pop(L, 1);
     }
     return node;
 }
 
-static int arithmetic(lua_State *L, int op, const char *sign) {
+/* Computes a number, or a sum or product of steerings, from the operands; pushes one value. */
+static int apply_arithmetic(lua_State *L, int op, const char *sign) {
     if (jox_node_is_error(L, 1) || jox_node_is_error(L, 2))
         return jox_node_push_error(L);
     JoxNode *a = jox_node_number(L, 1), *b = jox_node_number(L, 2);
     if (a && b) {
-        binary(L, JOX_NODE_NUMBER, op, a, b);
+        push_operation(L, JOX_NODE_NUMBER, op, a, b);
         return 1;
     }
     JoxNode *left = jox_node_get(L, 1), *right = jox_node_get(L, 2);
-    int terms = (left && left->kind == JOX_NODE_STEER ? summands(left) : 0) +
-                (right && right->kind == JOX_NODE_STEER ? summands(right) : 0);
+    int terms = (left && left->kind == JOX_NODE_STEER ? count_summands(left) : 0) +
+                (right && right->kind == JOX_NODE_STEER ? count_summands(right) : 0);
     if (terms > MOST_SUMMANDS)
         return luaL_error(L, "a steering of so many terms");
     luaL_checkstack(L, 3 * MOST_SUMMANDS, NULL);
     if (op == JOX_OP_MUL && a && right && right->kind == JOX_NODE_STEER) {
-        scaled(L, right, a);
+        push_scaled_steer(L, right, a);
         return 1;
     }
     if (op == JOX_OP_MUL && b && left && left->kind == JOX_NODE_STEER) {
-        scaled(L, left, b);
+        push_scaled_steer(L, left, b);
         return 1;
     }
     if (op == JOX_OP_ADD && left && right && left->kind == JOX_NODE_STEER &&
@@ -73,7 +76,7 @@ static int arithmetic(lua_State *L, int op, const char *sign) {
         JoxPosition position = sum->position;
         *sum = *left;
         sum->position = position;
-        while (last->next) { /* terms are copied: a value never changes */
+        while (last->next) { /* copied, as a value never changes */
             JoxNode *copy = jox_node_push(L, JOX_NODE_STEER);
             *copy = *last->next;
             last->next = copy;
@@ -92,16 +95,16 @@ static int arithmetic(lua_State *L, int op, const char *sign) {
 }
 
 static int meta_add(lua_State *L) {
-    return arithmetic(L, JOX_OP_ADD, "+");
+    return apply_arithmetic(L, JOX_OP_ADD, "+");
 }
 static int meta_sub(lua_State *L) {
-    return arithmetic(L, JOX_OP_SUB, "-");
+    return apply_arithmetic(L, JOX_OP_SUB, "-");
 }
 static int meta_mul(lua_State *L) {
-    return arithmetic(L, JOX_OP_MUL, "*");
+    return apply_arithmetic(L, JOX_OP_MUL, "*");
 }
 static int meta_div(lua_State *L) {
-    return arithmetic(L, JOX_OP_DIV, "/");
+    return apply_arithmetic(L, JOX_OP_DIV, "/");
 }
 
 static int meta_unm(lua_State *L) {
@@ -111,50 +114,52 @@ static int meta_unm(lua_State *L) {
     if (!a)
         return jox_word_error(L, "-", "bad-operand", NULL, "'-' needs a number, not %s",
                               jox_node_kind(L, 1));
-    binary(L, JOX_NODE_NUMBER, JOX_OP_NEG, a, NULL);
+    push_operation(L, JOX_NODE_NUMBER, JOX_OP_NEG, a, NULL);
     return 1;
 }
 
-static JoxNode *condition(lua_State *L, int index) {
+/* Returns the condition at a stack index; NULL if it is something else. */
+static JoxNode *get_condition(lua_State *L, int index) {
     JoxNode *node = jox_node_get(L, index);
     return node && node->kind == JOX_NODE_CONDITION ? node : NULL;
 }
 
-static int logic(lua_State *L, int op, const char *sign) {
+/* Joins two conditions; pushes one value. */
+static int apply_logic(lua_State *L, int op, const char *sign) {
     if (jox_node_is_error(L, 1) || jox_node_is_error(L, 2))
         return jox_node_push_error(L);
-    JoxNode *a = condition(L, 1), *b = condition(L, 2);
+    JoxNode *a = get_condition(L, 1), *b = get_condition(L, 2);
     if (!a || !b)
         return jox_word_error(L, sign, "bad-operand",
                               "A number becomes a condition by :above, :below, :at_least, :at_most "
                               "or :is",
                               "'%s' joins conditions, not %s", sign, jox_node_kind(L, a ? 2 : 1));
-    binary(L, JOX_NODE_CONDITION, op, a, b);
+    push_operation(L, JOX_NODE_CONDITION, op, a, b);
     return 1;
 }
 
 static int meta_and(lua_State *L) {
-    return logic(L, JOX_OP_AND, "&");
+    return apply_logic(L, JOX_OP_AND, "&");
 }
 static int meta_or(lua_State *L) {
-    return logic(L, JOX_OP_OR, "|");
+    return apply_logic(L, JOX_OP_OR, "|");
 }
 
 static int meta_not(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
-    JoxNode *a = condition(L, 1);
+    JoxNode *a = get_condition(L, 1);
     if (!a)
         return jox_word_error(L, "~", "bad-operand",
                               "A number becomes a condition by :above, :below, :at_least, :at_most "
                               "or :is",
                               "'~' negates a condition, not %s", jox_node_kind(L, 1));
-    binary(L, JOX_NODE_CONDITION, JOX_OP_NOT, a, NULL);
+    push_operation(L, JOX_NODE_CONDITION, JOX_OP_NOT, a, NULL);
     return 1;
 }
 
-/* Operators that Lua would accept and get wrong. */
-static int refuse(lua_State *L, const char *sign, const char *hint) {
+/* Reports an operator that Lua would accept and evaluate wrongly. */
+static int refuse_operator(lua_State *L, const char *sign, const char *hint) {
     bool poison = jox_node_is_error(L, 1) || jox_node_is_error(L, 2);
     if (poison)
         return jox_node_push_error(L);
@@ -162,34 +167,34 @@ static int refuse(lua_State *L, const char *sign, const char *hint) {
                           "'%s' does not work on values of behaviours", sign);
 }
 static int meta_lt(lua_State *L) {
-    return refuse(L, "<", "Write :below(n) or :above(n)");
+    return refuse_operator(L, "<", "Write :below(n) or :above(n)");
 }
 static int meta_le(lua_State *L) {
-    return refuse(L, "<=", "Write :at_most(n) or :at_least(n)");
+    return refuse_operator(L, "<=", "Write :at_most(n) or :at_least(n)");
 }
 static int meta_eq(lua_State *L) {
-    return refuse(L, "==", "Write :is(n)");
+    return refuse_operator(L, "==", "Write :is(n)");
 }
 static int meta_concat(lua_State *L) {
-    return refuse(L, "..", "Use & between conditions");
+    return refuse_operator(L, "..", "Use & between conditions");
 }
 static int meta_len(lua_State *L) {
-    return refuse(L, "#", "Use count(place)");
+    return refuse_operator(L, "#", "Use count(place)");
 }
 static int meta_pow(lua_State *L) {
-    return refuse(L, "^", "Multiply: x * x");
+    return refuse_operator(L, "^", "Multiply: x * x");
 }
 static int meta_mod(lua_State *L) {
-    return refuse(L, "%", "There is no remainder");
+    return refuse_operator(L, "%", "There is no remainder");
 }
 static int meta_idiv(lua_State *L) {
-    return refuse(L, "//", "Use /");
+    return refuse_operator(L, "//", "Use /");
 }
 static int meta_bxor(lua_State *L) {
-    return refuse(L, "~", "Use & and | with ~ before a condition");
+    return refuse_operator(L, "~", "Use & and | with ~ before a condition");
 }
 static int meta_newindex(lua_State *L) {
-    return refuse(L, ".", "Values cannot be changed");
+    return refuse_operator(L, ".", "Values cannot be changed");
 }
 
 static int meta_call(lua_State *L) {
@@ -200,11 +205,13 @@ static int meta_call(lua_State *L) {
                           "%s cannot be called", jox_node_kind(L, 1));
 }
 
-static int compare(lua_State *L, int op, const char *name) {
+/* Compares two numbers; pushes a condition. */
+static int push_comparison(lua_State *L, int op, const char *name) {
     if (jox_node_is_error(L, 1) || jox_node_is_error(L, 2))
         return jox_node_push_error(L);
     JoxNode *a = jox_node_number(L, 1), *b = jox_node_number(L, 2);
-    if (lua_type(L, 2) == LUA_TBOOLEAN && a) { /* mine.flag:is(true) never gets here: see below */
+    if (lua_type(L, 2) == LUA_TBOOLEAN &&
+        a) { /* mine.flag:is(true) never gets here, as a condition is no number */
         return jox_word_error(L, name, "bad-argument", NULL, ":%s wants a number", name);
     }
     if (!a || !b)
@@ -212,30 +219,30 @@ static int compare(lua_State *L, int op, const char *name) {
                               ":%s compares a number with a number, not %s with %s", name,
                               jox_node_kind(L, 1),
                               lua_gettop(L) < 2 ? "nothing" : jox_node_kind(L, 2));
-    binary(L, JOX_NODE_CONDITION, op, a, b);
+    push_operation(L, JOX_NODE_CONDITION, op, a, b);
     return 1;
 }
 static int method_above(lua_State *L) {
-    return compare(L, JOX_OP_GT, "above");
+    return push_comparison(L, JOX_OP_GT, "above");
 }
 static int method_below(lua_State *L) {
-    return compare(L, JOX_OP_LT, "below");
+    return push_comparison(L, JOX_OP_LT, "below");
 }
 static int method_at_least(lua_State *L) {
-    return compare(L, JOX_OP_GE, "at_least");
+    return push_comparison(L, JOX_OP_GE, "at_least");
 }
 static int method_at_most(lua_State *L) {
-    return compare(L, JOX_OP_LE, "at_most");
+    return push_comparison(L, JOX_OP_LE, "at_most");
 }
 static int method_is(lua_State *L) {
-    return compare(L, JOX_OP_EQ, "is");
+    return push_comparison(L, JOX_OP_EQ, "is");
 }
 
-/* ---- which of those that nearest and neighbours mean ---- */
+/* ---- filters of targets: in_state, of_machine, of_group, where ---- */
 
-/* The target whose copy a method changes, within a copy of the value that it is called on, which is
-   pushed; NULL with an error pushed. */
-static JoxNodeWhose *narrowed(lua_State *L, const char *method) {
+/* Pushes a copy of the value that a method is called on, `nearest` or `neighbours`, and returns the
+   filter of the copy, for the method to change; NULL with an error pushed. */
+static JoxNodeWhose *push_filtered_target(lua_State *L, const char *method) {
     const JoxNode *of = jox_node_get(L, 1);
     const bool counts = of && of->kind == JOX_NODE_NUMBER && of->op == JOX_OP_NEIGHBOURS;
     const JoxNode *target = counts ? of->target : of;
@@ -260,7 +267,7 @@ static JoxNodeWhose *narrowed(lua_State *L, const char *method) {
 }
 
 static int method_in_state(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "in_state");
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "in_state");
     if (whose) {
         whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
         whose->state_at = jox_word_written(L, whose->state);
@@ -269,7 +276,7 @@ static int method_in_state(lua_State *L) {
 }
 
 static int method_of_machine(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "of_machine");
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_machine");
     if (whose)
         whose->machine = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
     return 1;
@@ -277,13 +284,13 @@ static int method_of_machine(lua_State *L) {
 
 static int method_of_group(lua_State *L) {
     const JoxScope *scope = jox_script_of(L)->scope;
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "of_group");
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_group");
     if (!whose)
         return 1;
     const char *name = lua_tostring(L, 2), *names[256];
     size_t count = 0;
     whose->grouped = true;
-    whose->group = -2; /* of a scene that is not known: nobody's */
+    whose->group = -2; /* the scene is not known: matches no group */
     for (uint32_t g = 0; g < scope->group_count; g++) {
         if (count < 256)
             names[count++] = scope->groups[g].name;
@@ -298,7 +305,7 @@ static int method_of_group(lua_State *L) {
 }
 
 static int method_where(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : narrowed(L, "where");
+    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "where");
     const int given = lua_isnumber(L, 4) ? 4 : lua_isnumber(L, 3) ? 3 : 2;
     if (!whose)
         return 1;

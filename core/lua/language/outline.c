@@ -1,4 +1,5 @@
-/* What a file writes out: the keys of the table that it returns, and where each stands. */
+/* The outline of a file: the keys of the table constructor that it ends with, and where each one
+   stands. Positions of errors, patches and settings are looked up here. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,8 +7,8 @@
 #include "base/mem.h"
 #include "lua/language/script.h"
 
-/* Deeper or shallower by what a token opens or closes. */
-static int depth_change(const JoxToken *t) {
+/* Returns by how much a token changes the depth of nesting. */
+static int get_depth_change(const JoxToken *t) {
     static const char *const OPEN[] = {"{", "(", "[", "function", "if", "do", "repeat"};
     static const char *const CLOSE[] = {"}", ")", "]", "end", "until"};
     for (size_t i = 0; i < sizeof OPEN / sizeof *OPEN; i++)
@@ -26,8 +27,8 @@ static void add_path(JoxOutline *outline, const char *path, size_t key, size_t f
         (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};
 }
 
-/* Reads the table constructor that opens at token `at`; returns the token after it. */
-static size_t read_table(const JoxSource *source, size_t at, const char *prefix, int level) {
+/* Adds the keys of the table constructor that opens at token `at`; returns the token after it. */
+static size_t outline_table(const JoxSource *source, size_t at, const char *prefix, int level) {
     JoxOutline *outline = source->outline;
     const JoxToken *t = source->tokens;
     size_t count = source->token_count;
@@ -53,18 +54,18 @@ static size_t read_table(const JoxSource *source, size_t at, const char *prefix,
             if (depth == 0 && (jox_token_is(&t[end], ",") || jox_token_is(&t[end], ";") ||
                                jox_token_is(&t[end], "}")))
                 break;
-            depth += depth_change(&t[end]);
+            depth += get_depth_change(&t[end]);
         }
-        if (key < end) /* else nothing stands between two commas, which Lua refuses */
+        if (key < end) /* else nothing stands between two commas, a syntax error */
             add_path(outline, path, key, value, end);
         if (value < count && jox_token_is(&t[value], "{") && level < 6)
-            read_table(source, value, path, level + 1);
+            outline_table(source, value, path, level + 1);
         at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;
     }
     return at + 1;
 }
 
-/* patch "NAME" { or replace "NAME" { */
+/* Returns whether patch "NAME" { or replace "NAME" { begins at token i. */
 static bool begins_patch(const JoxSource *source, size_t i) {
     const JoxToken *t = &source->tokens[i];
     return i + 3 < source->token_count &&
@@ -75,12 +76,12 @@ static bool begins_patch(const JoxSource *source, size_t i) {
 void jox_outline_read(JoxSource *source) {
     JOX_ASSERT(!source->outline);
     JoxOutline *outline = source->outline = jox_alloc(1, sizeof *outline);
-    for (size_t i = source->token_count; i-- > 0;) /* the one that the file ends with */
+    for (size_t i = source->token_count; i-- > 0;) /* backwards, as the file ends with it */
         if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
                                              jox_token_is(&source->tokens[i + 1], "{")) ||
                                             begins_patch(source, i))) {
             outline->patches = begins_patch(source, i) ? &source->tokens[i + 1] : NULL;
-            read_table(source, i + (outline->patches ? 2 : 1), "", 0);
+            outline_table(source, i + (outline->patches ? 2 : 1), "", 0);
             break;
         }
 }
@@ -132,7 +133,7 @@ JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text
                            JoxPosition from) {
     const size_t before = script->vm.source_count;
     JoxSource *source = jox_vm_read(&script->vm, path, text, length, from, script->diagnostics);
-    for (size_t s = before; s < script->vm.source_count; s++) /* also one that was refused */
+    for (size_t s = before; s < script->vm.source_count; s++) /* also of a file that was refused */
         jox_outline_read(script->vm.sources[s]);
     return source;
 }

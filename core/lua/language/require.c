@@ -1,4 +1,5 @@
-/* require: a file beside the one that asks, beside the script, or of the library. */
+/* require: runs a file beside the one that requires it, beside the behaviour, of a mod, or of the
+   library. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -10,8 +11,8 @@
 
 enum { MOST_FILES = 64, MOST_REQUIRED = 1000 };
 
-/* Only plain names below the behaviour's folder or the library's: no "..", no absolute paths. */
-static bool plain_name(const char *name) {
+/* Returns whether a name stays within the folder it is looked up in: no "..", no absolute path. */
+static bool is_safe_name(const char *name) {
     if (!*name || *name == '/' || *name == '.' || strlen(name) > 100 || strstr(name, ".."))
         return false;
     for (const char *c = name; *c; c++)
@@ -21,7 +22,8 @@ static bool plain_name(const char *name) {
     return true;
 }
 
-/* Whether a module's file is there, in a folder that it may be in. Links are refused later. */
+/* Returns whether a module's file exists within its folder, with its path. Symbolic links are
+   refused when it is read. */
 static bool is_module(JoxScript *script, const char *folder, const char *name, char path[1024]) {
     struct stat info;
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
@@ -30,8 +32,8 @@ static bool is_module(JoxScript *script, const char *folder, const char *name, c
            (lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder)));
 }
 
-/* The file of a module: "mod:name" of a mod; else beside the file that requires it, beside the
-   behaviour, or of the library. */
+/* Finds the file of a module: "mod:name" in a mod; else beside the file that requires it, beside
+   the behaviour, or in the library. */
 static bool find_module(lua_State *L, const char *name, char path[1024]) {
     JoxScript *script = jox_script_of(L);
     JoxPosition from = jox_vm_place(L);
@@ -64,17 +66,18 @@ static bool find_module(lua_State *L, const char *name, char path[1024]) {
     return is_module(script, folder, name, path);
 }
 
-static uint32_t source_at(const JoxScript *script, const char *path) {
+static uint32_t find_source_number(const JoxScript *script, const char *path) {
     uint32_t number = 0;
     while (number < script->vm.source_count && strcmp(script->vm.sources[number]->path, path) != 0)
         number++;
     return number;
 }
 
-/* Keeps which file a name means in the file that asks. */
-static void keep_required(JoxScript *script, const char *asking, const char *name,
-                          const char *path) {
-    const uint32_t from = asking ? source_at(script, asking) : 0, given = source_at(script, path);
+/* Records which file a name refers to in the file that requires it. */
+static void record_required(JoxScript *script, const char *asking, const char *name,
+                            const char *path) {
+    const uint32_t from = asking ? find_source_number(script, asking) : 0,
+                   given = find_source_number(script, path);
     if (given == script->vm.source_count || script->required_count == MOST_REQUIRED)
         return;
     JOX_RESERVE(script->required, script->required_capacity, script->required_count + 1);
@@ -86,10 +89,10 @@ int jox_require(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     const char *name = luaL_checkstring(L, 1);
     char path[1024];
-    jox_vm_charge(L, 500); /* the system is asked for files */
+    jox_vm_charge(L, 500); /* for looking up files in the file system */
     if (!script->vm.loading)
         return luaL_error(L, "require works at the top of a file, not in functions");
-    if (!plain_name(name))
+    if (!is_safe_name(name))
         return jox_word_error(L, name, "bad-require", "Names are relative to this file's folder",
                               "cannot require '%s': not a plain name", name);
     if (!find_module(L, name, path) || script->vm.source_count >= MOST_FILES)
@@ -104,7 +107,7 @@ int jox_require(lua_State *L) {
                               "cannot require '%s': it is being loaded, and leads back to itself",
                               name);
     if (!lua_isnil(L, -1)) {
-        keep_required(script, jox_vm_place(L).file, name, path);
+        record_required(script, jox_vm_place(L).file, name, path);
         return 1;
     }
     JoxPosition from = jox_word_position(L, name);
@@ -120,6 +123,6 @@ int jox_require(lua_State *L) {
     lua_call(L, 0, 1);
     lua_pushvalue(L, -1);
     lua_setfield(L, 2, path);
-    keep_required(script, jox_vm_place(L).file, name, path);
+    record_required(script, jox_vm_place(L).file, name, path);
     return 1;
 }

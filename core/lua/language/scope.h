@@ -1,4 +1,4 @@
-/* The owner of all behaviours, and what a behaviour may name of the scene that it is loaded for. */
+/* The owner of all scripts of a run, and the names of the scene that a behaviour may use. */
 #ifndef JOX_LUA_LANGUAGE_SCOPE_H
 #define JOX_LUA_LANGUAGE_SCOPE_H
 
@@ -7,30 +7,30 @@
 #include "geom/walls.h"
 #include "lua/vm/limits.h"
 
-/* All behaviours of a run, and the limits they work within (NULL: the defaults). */
+/* All scripts of a run with their limits (NULL: the defaults), which are copied. Freeing it frees
+   the scripts and so the functions of all machines, but not the machines. */
 typedef struct JoxLua JoxLua;
 JoxLua *jox_lua_create(const JoxLuaLimits *limits);
 void jox_lua_free(JoxLua *lua);
 
-/* Names that a behaviour may use. Not complete: any name is accepted (checking a behaviour without
-   a scene); places then stay unresolved, with index -1. */
+/* Names of the scene that a behaviour may use; the caller owns them while a behaviour loads. If not
+   `complete`, as in a check without a scene, any name is accepted and places have index -1. */
 typedef struct JoxScopeGroup {
-    const char *name, *team; /* team: NULL none; the first group of a team gives its number */
+    const char *name, *team; /* team: NULL: none; team number is 1 + that of its first group */
 } JoxScopeGroup;
 
 typedef struct JoxScope {
     const JoxPlace *places;
     uint32_t place_count;
-    const char *const *tags; /* the index is the bit */
+    const char *const *tags; /* the index is the tag's bit */
     uint32_t tag_count;
     const JoxScopeGroup *groups; /* the index is the group's number */
     uint32_t group_count;
-    const char *const
-        *set_teams; /* that no group has, and states set, in the order of their numbers */
+    const char *const *set_teams; /* teams that states set and no group has, by number */
     uint32_t set_team_count;
-    const JoxWalls *walls; /* those with names are gates */
+    const JoxWalls *walls; /* named walls are gates */
     bool complete;
-    const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */
+    const JoxMod *mods; /* in order of loading; their patches are applied to the behaviour */
     uint32_t mod_count;
 } JoxScope;
 

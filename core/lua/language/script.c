@@ -1,8 +1,9 @@
-/* Scripts: a Lua state with the language of behaviours in it, and the owner of all of a run. */
+/* Scripts: Lua states with the language of behaviours, and JoxLua, which owns those of a run. */
 #include "lua/language/script.h"
 #include "base/assert.h"
 #include "base/mem.h"
 
+/* Opens the language in a new state; called by jox_vm_open. */
 static int open_language(lua_State *L) {
     jox_nodes_open(L, jox_operators);
     lua_newtable(L);

@@ -1,4 +1,7 @@
-/* A script: a Lua state with the language of behaviours in it, and what was read of its files. */
+/* A script: one Lua state with the language of behaviours, and all that was read of its files.
+   Shared by the files of lua/ and lua/language/; others include lua/loader.h. A script is created
+   when a file loads, and lives until its machine is released, as the machine's functions run in it.
+ */
 #ifndef JOX_LUA_LANGUAGE_SCRIPT_H
 #define JOX_LUA_LANGUAGE_SCRIPT_H
 
@@ -12,44 +15,46 @@
 #include "lua/vm/vm.h"
 #include "machine/run.h"
 
-/* ---- what a file writes out: the keys of its table ---- */
+/* ---- the outline of a file: the keys of its table ---- */
 
-/* A key or item of the machine's table: "states.Circle.2.when", and where it stands. */
+/* A key or item of the machine's table, as "states.Circle.2.when", and where it stands. */
 typedef struct JoxPath {
     char *path;
-    uint32_t key, first, last; /* tokens: of the key (or the value), of the value */
+    uint32_t key, first, last; /* tokens: key (of an item, its value); value, last exclusive */
 } JoxPath;
 
 typedef struct JoxOutline {
     JoxPath *paths;
     size_t path_count, path_capacity;
-    const JoxToken *patches; /* of a mod's file: the name of what it changes */
-    JoxSyntax *syntax;       /* NULL until asked for */
+    const JoxToken *patches; /* in a mod's file: the name of the behaviour it changes */
+    JoxSyntax *syntax;       /* NULL until jox_outline_syntax makes it */
 } JoxOutline;
 
-/* Of a source that jox_script_read has read. */
+/* Returns the outline of a source that jox_script_read has read. */
 static inline JoxOutline *jox_outline_of(const JoxSource *source) {
     JOX_ASSERT(source->outline);
     return source->outline;
 }
-/* Makes the outline of a source from its tokens, and frees it. */
+/* Makes the outline of a source from its tokens; jox_outline_free frees it. */
 void jox_outline_read(JoxSource *source);
 void jox_outline_free(JoxSource *source);
-/* Position of a path's key, or of the nearest enclosing one that is written out. */
+/* Returns the position of a path's key, or of the nearest enclosing key that the file writes out.
+ */
 JoxPosition jox_outline_at(const JoxSource *source, const char *path);
+/* Returns the entry of a path, or NULL. */
 const JoxPath *jox_outline_find(const JoxSource *source, const char *path);
-/* Says of each diagnostic in the source which part of the machine's table it is in. */
+/* Names, in each diagnostic of the source, the part of the machine's table that it is in. */
 void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
-/* The first place where a function with these lines (or one in it) assigns one of the named
-   variables, which was declared outside of it; NULL where none is seen. */
+/* Returns the first token where a function on these lines, or one nested in it, assigns one of the
+   named variables of the code around it; NULL if none is found. */
 const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, int last_line,
                                      const char *const *names, size_t name_count);
-/* The syntax tree of a source that Lua has compiled. */
+/* Returns the syntax tree of a source that Lua has compiled; made on first use. */
 const JoxSyntax *jox_outline_syntax(const JoxSource *source);
 
 /* ---- expression values ---- */
 
-enum { JOX_UNKNOWN_TAG = 63 }; /* bit of tags of a scene that is not known */
+enum { JOX_UNKNOWN_TAG = 63 }; /* bit for any tag when the scene is not known */
 
 typedef enum {
     JOX_NODE_NUMBER = 1,
@@ -60,19 +65,19 @@ typedef enum {
     JOX_NODE_DIST,
     JOX_NODE_CIRCUITS,
     JOX_NODE_MACHINE,
-    JOX_NODE_PATCH,   /* of a mod: a table that changes another file's machine */
-    JOX_NODE_REPLACE, /* of a mod: a table that takes its place */
-    JOX_NODE_NONE,    /* in a patch: takes a key away */
-    JOX_NODE_ERROR    /* stands for something already reported */
+    JOX_NODE_PATCH,   /* in a mod: a table that changes another file's machine */
+    JOX_NODE_REPLACE, /* in a mod: a table that replaces another file's machine */
+    JOX_NODE_NONE,    /* in a patch: removes a key */
+    JOX_NODE_ERROR    /* stands for a value whose error is already reported */
 } JoxNodeKind;
 
-/* Where a name was written, and the number of that source. */
+/* Position of a name, with the number of its source. */
 typedef struct JoxNamePlace {
     JoxPosition at;
     uint32_t source;
 } JoxNamePlace;
 
-/* As JoxWhose, by names; NULL: any. */
+/* Filter of a target by names, from which JoxWhose is compiled; NULL: any. */
 typedef struct JoxNodeWhose {
     const char *state, *machine, *memory;
     JoxNamePlace state_at, memory_at;
@@ -84,33 +89,33 @@ typedef struct JoxNodeWhose {
 typedef struct JoxNode JoxNode;
 struct JoxNode {
     JoxNodeKind kind;
-    int op;  /* JoxOp of numbers and conditions */
-    int arg; /* JoxNow */
+    int op;  /* JoxOp of a number or condition */
+    int arg; /* JoxNow of a `now` value */
     double number;
-    const char *name; /* own, memory or target name; interned with the VM */
+    const char *name; /* name of an own value, memory or target; interned */
     JoxTargetKind target_kind;
     int32_t target_arg;
-    JoxNode *a, *b, *c; /* inputs */
+    JoxNode *a, *b, *c; /* operands */
     JoxNode *target, *place;
     union {
-        JoxDist dist;       /* of a distribution */
-        JoxSteerTerm term;  /* of a steering: one term; its target and weight are nodes here */
-        JoxNodeWhose whose; /* of a target: whom of those it means */
+        JoxDist dist;       /* JOX_NODE_DIST */
+        JoxSteerTerm term;  /* JOX_NODE_STEER: one term, with its target and weight in nodes here */
+        JoxNodeWhose whose; /* JOX_NODE_TARGET: which agents it selects */
     };
     JoxNode *weight;
-    JoxNode *next;    /* further terms of a sum */
-    int32_t compiled; /* expression of the machine that it was compiled to, plus 1; 0: not yet */
-    int hook;         /* registry reference of a function or table, or LUA_NOREF */
+    JoxNode *next;    /* next term of a sum of steerings */
+    int32_t compiled; /* 1 + index of the expression that it was compiled to; 0: not yet */
+    int hook;         /* registry reference of the function or table it holds, or LUA_NOREF */
     JoxPosition position;
-    JoxNamePlace written; /* of own values, and of names of what others have */
+    JoxNamePlace written; /* where the name of an own value, state or memory is written */
 };
 
-/* ---- what functions are given while a file loads ---- */
+/* ---- kinds of values, and calls while a file loads ---- */
 
-/* What a value is, for the search of misuse; bits, as a variable may hold several. */
+/* Kinds of values that a variable or expression may hold, as bits; used to find misuse. */
 enum {
     JOX_KIND_FALSE = 1, /* nil or false */
-    JOX_KIND_PLAIN = 2, /* any other value of Lua's own that is no table and no function */
+    JOX_KIND_PLAIN = 2, /* any other plain Lua value: true, a number, a string */
     JOX_KIND_CONDITION = 4,
     JOX_KIND_VALUE = 8, /* any other value of the language: a number, a target, ... */
     JOX_KIND_TABLE = 16,
@@ -120,54 +125,55 @@ enum {
 
 enum { JOX_FACT_PARAMETERS = 8 };
 
-/* Kinds that a function was called with while the file loaded, and returned first. */
+/* Kinds of the arguments and of the first result of a function, over its calls while the file
+   loaded. */
 typedef struct JoxCallFact {
     uint32_t source;
     int first_line, last_line;
     uint8_t given[JOX_FACT_PARAMETERS], returned;
 } JoxCallFact;
 
-/* A place where Lua decides by a value of the language, which it always takes for true. */
+/* An operator or test of Lua's own on a value of the language, which Lua always takes for true. */
 typedef struct JoxMisuse {
-    uint32_t source, at; /* token */
-    bool certain;        /* false: it may be one, and is where a condition was meant */
+    uint32_t source, at; /* number of the source and of the token */
+    bool certain;        /* surely wrong; if false, reported only where a condition was expected */
     bool reported;
 } JoxMisuse;
 
-/* Which file a `require` gave. */
+/* Result of a `require`: which file a name refers to. */
 typedef struct JoxRequired {
-    uint32_t asking, given; /* sources */
+    uint32_t asking, given; /* numbers of the sources: with the `require`, and the file found */
     const char *name;       /* interned */
 } JoxRequired;
 
-/* ---- one Lua state with its load ---- */
+/* ---- scripts ---- */
 
-/* A plain function of the behaviour. */
+/* A plain function of the behaviour, run for one agent at a time while the crowd runs. */
 typedef struct JoxHook {
-    int ref;                               /* in the registry */
+    int ref;                               /* registry reference */
     char *where;                           /* "state Circle > transition 2 (to Exit) > on_take" */
-    uint32_t first_upvalue, upvalue_count; /* that it could change */
+    uint32_t first_upvalue, upvalue_count; /* items of JoxScript.upvalues that it could change */
     uint64_t calls, failures, timed;
-    double first;             /* s, of the first calls, all of which are timed */
-    double seconds;           /* of later ones that were timed */
-    uint32_t second;          /* simulated, of the failures that follow */
-    uint32_t second_failures; /* in that second */
-    uint64_t repeated;        /* failures like the last that were not said */
-    char *complaint;          /* the last one that was said in full */
+    double first;             /* s, sum over the first calls, which are all timed */
+    double seconds;           /* s, sum over the later calls that were timed, `timed` in number */
+    uint32_t second;          /* second of simulated time that the next two members count in */
+    uint32_t second_failures; /* failures in that second */
+    uint64_t repeated;        /* failures in that second that were not reported in full */
+    char *complaint;          /* message of the last failure that was reported in full */
     bool suspended;
 } JoxHook;
 
-/* One Lua state and what was read of its script: a behaviour with the files that it requires. */
+/* One Lua state, with what was read of a behaviour and the files that it requires. */
 typedef struct JoxScript {
-    JoxVm vm; /* first: jox_script_of relies on it */
+    JoxVm vm; /* first, as jox_script_of casts */
     JoxLua *owner;
     JoxNode **nodes;
     size_t node_count, node_capacity, node_bytes;
-    const JoxScope *scope;       /* while loading */
-    JoxDiagnostics *diagnostics; /* while loading */
-    const JoxMod *mod;           /* whose file is running; NULL: the script's own */
-    JoxPatchChanges changes;     /* that mods made */
-    JoxBelonging *belongings;    /* tags and teams that were named; go to the machine */
+    const JoxScope *scope;       /* while loading; not owned */
+    JoxDiagnostics *diagnostics; /* while loading; not owned */
+    const JoxMod *mod;        /* mod of the file that is running; NULL: the behaviour's own files */
+    JoxPatchChanges changes;  /* changes of the machine's table by mods */
+    JoxBelonging *belongings; /* tags and teams that the script names; moved to the machine */
     uint32_t belonging_count;
     size_t belonging_capacity;
     JoxCallFact *facts;
@@ -179,32 +185,33 @@ typedef struct JoxScript {
     JoxRequired *required;
     uint32_t required_count;
     size_t required_capacity;
-    JoxUpvalues upvalues; /* those of each hook in one piece */
+    JoxUpvalues upvalues; /* upvalues of all functions, one function after the other */
     JoxHook *hooks;
     uint32_t hook_count;
-    uint32_t hook_walked; /* while loading: whose upvalues are looked at */
+    uint32_t hook_walked; /* while loading: function whose upvalues are being recorded */
     size_t hook_capacity;
     JoxMemorySlot *memory; /* declared by memory{} */
     uint32_t memory_count;
     size_t memory_capacity;
-    JoxMachine *built;         /* under construction, so that a failure can free it */
-    const JoxMachine *machine; /* whose hook runs */
-    int me;                    /* registry reference of the object that hooks are given */
+    JoxMachine *built;         /* under construction, kept here so that a failure can free it */
+    const JoxMachine *machine; /* machine of the running function */
+    int me;                    /* registry reference of `me`, which functions are passed */
     struct {
         uint32_t agent, slot;
-    } read[16];          /* memory of others that the present hook has read: the last ones */
-    uint32_t read_count; /* all of them */
-    uint32_t draws;      /* math.random calls of the present hook */
-    uint32_t agent;      /* whose hook runs */
+    } read[16];          /* latest reads of neighbours' memory by the running function, as a ring */
+    uint32_t read_count; /* number of all such reads */
+    uint32_t draws;      /* random numbers drawn by the running function */
+    uint32_t agent;      /* index of the agent that the function runs for */
 } JoxScript;
 static_assert(offsetof(JoxScript, vm) == 0, "jox_script_of casts");
 
-/* What a hook wrote into another agent's memory. */
+/* A write of a function into a neighbour's memory, applied after the step. */
 typedef struct JoxWrite {
     uint32_t agent_id, slot;
-    uint16_t machine; /* whose slot it is: the agent may become another in the same step */
-    bool depends;     /* on what the hook had read there */
-    const char *file; /* where it is written */
+    uint16_t machine; /* at the time of the write, as the agent may change its machine in the same
+                         step */
+    bool depends;     /* the function had read that memory before */
+    const char *file; /* file and line of the write */
     int line;
     double value;
 } JoxWrite;
@@ -215,81 +222,92 @@ struct JoxLua {
     uint32_t script_count;
     size_t script_capacity;
     JoxMachineRun *machines;
-    double arriving; /* s of calls as people come in, outside of steps; estimated */
-    /* Agents as they were before the step, for hooks that look at others. */
+    double arriving; /* estimated time of functions as agents arrive, outside of steps, s */
+    /* Columns of all agents before the step, which views of neighbours read. */
     uint16_t *before_state, *before_machine;
     double *before_memory;
     size_t before_capacity, before_machine_capacity, before_memory_capacity;
     JoxWrite *writes;
     uint32_t write_count;
     size_t write_capacity;
-    uint64_t lost_writes; /* that were not said; `lost_second`: of the last that was, plus 1 */
+    uint64_t lost_writes; /* lost writes since the last report */
     uint32_t lost_second;
 };
 
-/* A state with the language in it; NULL where memory lacks. */
+/* Creates a Lua state with the language in it; NULL if memory runs out. */
 JoxScript *jox_script_create(JoxLua *lua);
+/* Frees the script with everything that was read of its files. */
 void jox_script_free(JoxScript *script);
 static inline JoxScript *jox_script_of(lua_State *L) {
     return (JoxScript *)jox_vm_of(L);
 }
-/* Takes the script of a machine out of its owner. */
+/* Removes the script of a machine from `lua` and returns it, for the caller to free; NULL if there
+   is none. */
 JoxScript *jox_script_detach(JoxLua *lua, const JoxMachine *machine);
-/* The script behind a machine, or NULL. */
+/* Returns the script of a machine, or NULL. */
 const JoxScript *jox_lua_script(const JoxLua *lua, const JoxMachine *machine);
-/* As jox_vm_read, with the script's diagnostics, and makes the outline. */
+/* Reads a file as jox_vm_read does, reports to the script's diagnostics, and makes the outline. */
 JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text, size_t length,
                            JoxPosition from);
-/* Puts the table on top of the stack, popped, in the place of the words that a file can use. */
+/* Makes the table on top of the stack that of the words that scripts can name; pops it. */
 void jox_script_set_words(lua_State *L);
 
-/* Number of a tag (its bit) or team that is set or asked for, written at a place: the scene's, or
-   where it has none of the name a new one. -1 where there are too many, or the scene is not known.
- */
+/* Returns the bit of a tag or the number of a team that a script sets (`is_set`) or asks for: the
+   scene's, or a new one if the scene has none of that name. -1 if there are too many, or the scene
+   is not known. */
 int32_t jox_script_belonging(JoxScript *script, const char *name, bool is_team, bool is_set,
                              JoxPosition at);
 
+/* Returns the kind of the value at a stack index, JOX_KIND_... */
 uint8_t jox_kind_of(lua_State *L, int index);
-/* Keeps what a call that is told of, or its return, says of its function. */
+/* Debug hook of Lua for calls and returns while a file loads: records kinds of arguments and
+   results. */
 void jox_calls_watch(lua_State *L, lua_Debug *about);
-/* What is known of the function with these lines; NULL where it was not called. */
+/* Returns the record of the function on these lines; NULL if it was not called. */
 JoxCallFact *jox_calls_find(const JoxScript *script, uint32_t source, int first_line,
                             int last_line);
 
-/* Reports an error at a word's place in the running chunk and pushes an error value; returns 1. */
+/* Reports an error at the word's position in the running line and pushes an error value; returns 1.
+   In a function of the running crowd it raises the error instead. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
+/* Returns the position of a word in the innermost running line of a script, and marks that
+   occurrence as used. */
 JoxPosition jox_word_position(lua_State *L, const char *word);
+/* Does the same, with the number of the source. */
 JoxNamePlace jox_word_written(lua_State *L, const char *word);
 
-JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* new, also on the stack */
-JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if it is no node */
-/* A number, a number node or own value as a node of numbers; NULL if it is something else. */
+JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* creates a node and pushes it */
+JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if the value is no node */
+/* Returns a number, number node or own value as a node; NULL for anything else. */
 JoxNode *jox_node_number(lua_State *L, int index);
-/* Pushes the value of a node once more. */
+/* Pushes a node again. */
 void jox_node_repush(lua_State *L, JoxNode *node);
+/* Returns a node for a number; nothing is pushed. */
 JoxNode *jox_node_constant(lua_State *L, double value);
-/* What a value is, in words: "a condition". */
+/* Returns what a value is, for messages: "a condition". */
 const char *jox_node_kind(lua_State *L, int index);
 bool jox_node_is_error(lua_State *L, int index);
 int jox_node_push_error(lua_State *L); /* returns 1 */
-/* Makes the type of nodes known, with the operators as its metamethods. */
+/* Registers the metatable of nodes, with the operators. */
 void jox_nodes_open(lua_State *L, const luaL_Reg *operators);
 extern const luaL_Reg jox_operators[];
-/* Adds the words of words.c, and of values.c, to the table on top of the stack. */
+/* Add the words of words.c and of values.c to the table on top of the stack. */
 void jox_words_add(lua_State *L);
 void jox_values_add(lua_State *L);
 /* Makes the environment of scripts. */
 void jox_environment_open(lua_State *L);
-/* require "name" */
+/* The function `require` of scripts. */
 int jox_require(lua_State *L);
-/* Names of the vocabulary, up to `capacity`; returns how many. */
+/* Writes the words' names to `names`, up to `capacity`; returns how many. */
 size_t jox_word_names(const char **names, size_t capacity);
-/* Reads argument `index` of a word as its letter of the vocabulary asks; NULL with an error, or a
-   error value, pushed. */
+/* Reads argument `index` of a word as the letter of the vocabulary says. NULL with an error value
+   pushed if it does not fit. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
-bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
+/* Pushes the value of a word; false with nothing pushed if there is none of that name. */
+bool jox_word_lookup(lua_State *L, const char *name);
 
+/* Registers `me` and the views of neighbours. */
 void jox_me_open(JoxScript *script);
 
 #endif

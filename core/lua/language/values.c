@@ -1,6 +1,5 @@
-/* Words with a syntax of their own: distributions, orbits, memory, now, own, and the machine's
- * table itself.
- */
+/* Words with a syntax of their own: distributions, orbits, memory, now, own, settings, the
+   machine's table and the patches of mods. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -83,7 +82,7 @@ static const JoxMemorySlot *find_memory(const JoxScript *script, const char *nam
     return NULL;
 }
 
-/* memory { laps = 0, touched = false }: what each agent remembers. */
+/* memory { laps = 0, touched = false }: declares what each agent remembers. */
 static int make_memory(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     if (!script->vm.loading || lua_type(L, 1) != LUA_TTABLE)
@@ -102,7 +101,7 @@ static int make_memory(lua_State *L) {
         const JoxMemorySlot *known = find_memory(script, name);
         if (known && known->initial == value &&
             (known->kind == JOX_MEMORY_NUMBER) == (type == LUA_TNUMBER)) {
-            lua_pop(L, 1); /* another file has it too */
+            lua_pop(L, 1); /* another file declares it too */
             continue;
         }
         if (known)
@@ -115,7 +114,8 @@ static int make_memory(lua_State *L) {
         JoxMemorySlot slot = {.name = jox_strdup(name),
                               .kind = type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN,
                               .initial = value};
-        uint32_t at = script->memory_count++; /* sorted, for tables have no order */
+        uint32_t at =
+            script->memory_count++; /* inserted in order of names, as tables have no order */
         for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
             script->memory[at] = script->memory[at - 1];
         script->memory[at] = slot;
@@ -128,6 +128,7 @@ static int make_memory(lua_State *L) {
     return 1;
 }
 
+/* __index of what memory{} returns: the expression of a name. */
 static int memory_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
@@ -148,6 +149,7 @@ static int memory_index(lua_State *L) {
                           "memory has no '%s'", name);
 }
 
+/* __index of `now`. */
 static int now_index(lua_State *L) {
     static const char *const NAMES[] = {
 #define X(name, ...) #name,
@@ -168,6 +170,7 @@ static int now_index(lua_State *L) {
                           "nothing called '%s' is measured now", name);
 }
 
+/* __index of `own`. */
 static int own_index(lua_State *L) {
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     JoxNode *node = jox_node_push(L, JOX_NODE_OWN);
@@ -178,7 +181,7 @@ static int own_index(lua_State *L) {
     return 1;
 }
 
-/* machine { ... }, and the verbs of mods: patch "name" { ... }, replace "name" { ... }. */
+/* Makes machine { ... } and the changes of mods: patch "name" { ... }, replace "name" { ... }. */
 static int make_change(lua_State *L) {
     JoxNodeKind kind = (JoxNodeKind)lua_tointeger(L, lua_upvalueindex(1));
     const char *verb = kind == JOX_NODE_PATCH ? "patch" : "replace";
@@ -193,6 +196,7 @@ static int make_change(lua_State *L) {
     return 1;
 }
 
+/* patch "name" and replace "name": returns the function that takes the table. */
 static int make_verb(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxNodeKind kind = (JoxNodeKind)lua_tointeger(L, lua_upvalueindex(1));
@@ -210,6 +214,7 @@ static int make_verb(lua_State *L) {
     return 1;
 }
 
+/* __index of `settings`: a number of the mod. */
 static int settings_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?", *names[64];
@@ -228,6 +233,7 @@ static int settings_index(lua_State *L) {
                           "mod %s has no setting '%s'", script->mod->name, name);
 }
 
+/* Registers a type with `index` as its __index; adds an object of it under `name`, if given. */
 static void add_object(lua_State *L, const char *name, const char *type, lua_CFunction index) {
     luaL_newmetatable(L, type);
     lua_pushcfunction(L, index);

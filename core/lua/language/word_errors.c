@@ -1,4 +1,4 @@
-/* Errors at words: each is reported where the word stands in its file. */
+/* Reports errors at the position of a word in its file. */
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -15,7 +15,7 @@ JoxPosition jox_word_position(lua_State *L, const char *word) {
             continue;
         JoxSource *source = script->vm.sources[number];
         const JoxToken *t = jox_source_find(source, debug.currentline, word);
-        if (!t && word[0] == '<') /* Lua turns a > b into b < a */
+        if (!t && word[0] == '<') /* as Lua turns a > b into b < a */
             t = jox_source_find(source, debug.currentline, word[1] ? ">=" : ">");
         return t ? (JoxPosition){source->path, t->line, t->column, t->end_column}
                  : (JoxPosition){source->path, debug.currentline, 0, 0};
@@ -43,8 +43,7 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     JoxScript *script = jox_script_of(L);
     jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     if (!script->vm.loading)
-        return luaL_error(
-            L, "%s", text); /* in a hook: there is no load whose diagnostics could take the error */
+        return luaL_error(L, "%s", text); /* there are diagnostics only while loading */
     JoxPosition position = jox_word_position(L, word);
     jox_diag_error(script->diagnostics, position, code, hint, "%s", text);
     jox_node_push(L, JOX_NODE_ERROR);

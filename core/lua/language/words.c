@@ -1,4 +1,4 @@
-/* Words that are called: their arguments are read as the vocabulary says, and become a value. */
+/* Words that are called: reads their arguments as the vocabulary says and makes a value. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
-static const char WORDS[] = "jostle words"; /* in the registry: what a file can name */
+static const char WORDS[] = "jostle words"; /* registry key of the table of words */
 
 size_t jox_word_names(const char **names, size_t capacity) {
     size_t n = 0;
@@ -19,8 +19,8 @@ size_t jox_word_names(const char **names, size_t capacity) {
 
 /* ---- arguments ---- */
 
-/* The place that a string names, as a target; NULL with an error pushed. */
-static JoxNode *place_by_name(lua_State *L, const char *name) {
+/* Pushes and returns the place that a string names, as a target; NULL with an error pushed. */
+static JoxNode *read_place_name(lua_State *L, const char *name) {
     JoxScript *script = jox_script_of(L);
     int32_t index = -1;
     if (script->scope->places)
@@ -42,14 +42,15 @@ static JoxNode *place_by_name(lua_State *L, const char *name) {
     return node;
 }
 
-/* Whether a target may stand for a place. */
-static bool is_place(const JoxNode *node) {
+/* Returns whether a value may stand for a place. */
+static bool can_be_place(const JoxNode *node) {
     return node->kind == JOX_NODE_OWN ||
            (node->kind == JOX_NODE_TARGET && node->target_kind < JOX_TARGET_NEAREST);
 }
 
-/* What a tag, or the name of a relation, stands for: a target of that kind with the tag's bit. */
-static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
+/* Pushes and returns the target for a tag, or for "opponents", "teammates" or "anyone"; NULL with
+   an error pushed. */
+static JoxNode *read_tag_argument(lua_State *L, const char *word, int index) {
     static const struct {
         const char *name;
         JoxTargetKind kind;
@@ -66,7 +67,7 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     }
     const char *name = lua_tostring(L, index);
     JoxTargetKind kind = JOX_TARGET_NEAREST;
-    int32_t arg = JOX_UNKNOWN_TAG; /* of a scene that is not known: nothing bears it */
+    int32_t arg = JOX_UNKNOWN_TAG; /* the scene is not known: no agent has it */
     for (size_t r = 0; r < sizeof RELATIONS / sizeof *RELATIONS; r++)
         if (strcmp(RELATIONS[r].name, name) == 0) {
             kind = RELATIONS[r].kind;
@@ -88,8 +89,8 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     return node;
 }
 
-/* Whether the scene has walls of the name; false with an error pushed. */
-static bool gate_exists(lua_State *L, int index) {
+/* Returns whether the scene has walls of the name; false with an error pushed. */
+static bool check_gate_name(lua_State *L, int index) {
     const JoxScope *scope = jox_script_of(L)->scope;
     const char *name = lua_tostring(L, index), *names[256];
     size_t count = 0;
@@ -114,8 +115,6 @@ static const JoxWord *find_word(const char *name) {
     return NULL;
 }
 
-/* Reads argument `index` of a word as the kind that its letter stands for; NULL with an error value
- * pushed. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter) {
     JOX_ASSERT(index >= 1 && letter);
     static const struct {
@@ -135,8 +134,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     }
     JoxNode *result = NULL;
     if ((letter == 'p' || letter == 't') && lua_type(L, index) == LUA_TSTRING)
-        return place_by_name(L, lua_tostring(L, index));
-    if (letter == 'p' && node && is_place(node))
+        return read_place_name(L, lua_tostring(L, index));
+    if (letter == 'p' && node && can_be_place(node))
         result = node;
     if (letter == 't' && node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN))
         result = node;
@@ -145,12 +144,12 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     if (letter == 'd' && lua_type(L, index) == LUA_TNUMBER && isfinite(lua_tonumber(L, index)))
         result = jox_node_number(L, index);
     if (letter == 'g')
-        return tag_argument(L, word, index);
-    if (letter == 'w' && lua_type(L, index) == LUA_TSTRING && !gate_exists(L, index))
+        return read_tag_argument(L, word, index);
+    if (letter == 'w' && lua_type(L, index) == LUA_TSTRING && !check_gate_name(L, index))
         return NULL;
     if ((letter == 's' || letter == 'w') && lua_type(L, index) == LUA_TSTRING &&
         lua_rawlen(L, index) <= 60) {
-        result = jox_node_push(L, JOX_NODE_TARGET); /* carries the name alone */
+        result = jox_node_push(L, JOX_NODE_TARGET); /* only carries the name */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
         result->written = jox_word_written(L, result->name);
     }
@@ -172,9 +171,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     return NULL;
 }
 
-/* Whether the n-th number of a word, if it is plain, is in its range; false with an error pushed.
- */
-static bool in_range(lua_State *L, const JoxWord *word, uint32_t n, double value) {
+/* Returns whether the n-th number of a word is in its range; false with an error pushed. */
+static bool check_word_range(lua_State *L, const JoxWord *word, uint32_t n, double value) {
     const JoxWordNumber *number = jox_word_number(word->name, n);
     if (!number || (value >= number->least && value <= number->greatest))
         return true;
@@ -184,7 +182,8 @@ static bool in_range(lua_State *L, const JoxWord *word, uint32_t n, double value
     return false;
 }
 
-static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
+/* Reports more arguments than a word takes. */
+static bool report_extra_arguments(lua_State *L, const JoxWord *word, int given, int most) {
     if (given <= most)
         return false;
     char arguments[JOX_NOUN];
@@ -193,8 +192,8 @@ static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
     return true;
 }
 
-/* Puts the arguments of a condition or number where the compiled expression looks for them. */
-static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *arguments,
+/* Stores arguments of a condition or number in the members that compile.c reads. */
+static void store_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *arguments,
                             int count) {
     JOX_ASSERT(count >= 0 && count <= 3);
     const char *letter = word->takes;
@@ -218,15 +217,18 @@ static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
     }
 }
 
-/* The value that a word makes of its arguments; NULL where they do not fit together. */
-static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *arguments, int count) {
+/* Pushes and returns the value that a word makes of its arguments; NULL with an error pushed if
+   they do not fit together. */
+static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *const *arguments,
+                                 int count) {
     JoxNode *node = jox_node_push(L, word->makes);
     node->op = word->op;
     node->arg = word->arg;
     switch (word->makes) {
     case JOX_NODE_TARGET: /* nearest, one_of */
         if (word->op == JOX_TARGET_ONE_OF && arguments[0]->kind == JOX_NODE_OWN) {
-            node->target_kind = JOX_TARGET_ONE_OF_OWN; /* a set that the scene's group names */
+            node->target_kind =
+                JOX_TARGET_ONE_OF_OWN; /* a set that the scene names for the group */
             node->name = arguments[0]->name;
             node->position = arguments[0]->position;
             node->written = arguments[0]->written;
@@ -260,15 +262,15 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
         node->target = arguments[0];
         break;
     default:
-        place_arguments(node, word, arguments, count);
-        if (word->op == JOX_OP_INSIDE && count == 1) { /* inside(place): of the agent itself */
+        store_arguments(node, word, arguments, count);
+        if (word->op == JOX_OP_INSIDE && count == 1) { /* inside(place) is about the agent itself */
             node->place = arguments[0];
             node->target = NULL;
         }
         if (word->op == JOX_OP_HEARD && count == 1)
             node->a = jox_node_constant(L, INFINITY);
         if (word->makes == JOX_NODE_CONDITION && word->op == JOX_OP_INSIDE &&
-            !is_place(node->place)) {
+            !can_be_place(node->place)) {
             jox_word_error(L, "inside", "bad-argument", "Example: inside(ball, own.court)",
                            "inside needs a place");
             return NULL;
@@ -277,6 +279,7 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
     return node;
 }
 
+/* Called as a word: reads its arguments and pushes its value. */
 static int make_word(lua_State *L) {
     const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
     JOX_ASSERT(word && word->takes);
@@ -287,7 +290,7 @@ static int make_word(lua_State *L) {
     JoxNode *arguments[3] = {NULL, NULL, NULL};
     int count = 0;
     const int given = lua_gettop(L);
-    lua_settop(L, given < 3 ? 3 : given); /* reading pushes behind what is missing, which is nil */
+    lua_settop(L, given < 3 ? 3 : given); /* missing arguments are nil; reading pushes more */
     uint32_t numbers = 0;
     for (const char *t = word->takes; *t; t++) {
         bool optional = *t == '?';
@@ -298,15 +301,15 @@ static int make_word(lua_State *L) {
             return 1;
         const bool plain = *t == 'd' || (arguments[count]->kind == JOX_NODE_NUMBER &&
                                          arguments[count]->op == JOX_OP_CONST && *t == 'n');
-        if (plain && !in_range(L, word, numbers, arguments[count]->number))
+        if (plain && !check_word_range(L, word, numbers, arguments[count]->number))
             return 1;
         numbers += *t == 'd' || *t == 'n';
         count++;
     }
     int most = (int)strlen(word->takes) - (strchr(word->takes, '?') != NULL);
-    if (too_many(L, word, given, most))
+    if (report_extra_arguments(L, word, given, most))
         return 1;
-    JoxNode *node = assemble(L, word, arguments, count);
+    JoxNode *node = build_word_value(L, word, arguments, count);
     if (!node)
         return 1;
     luaL_checkstack(L, 1, NULL);
@@ -325,8 +328,8 @@ bool jox_word_lookup(lua_State *L, const char *name) {
     return false;
 }
 
-/* A word that is a value by itself. */
-static void push_value(lua_State *L, const JoxWord *word) {
+/* Pushes the value of a word that is not called. */
+static void push_word_value(lua_State *L, const JoxWord *word) {
     JOX_ASSERT(!word->takes && word->makes);
     JoxNode *node = jox_node_push(L, word->makes);
     node->op = word->op;
@@ -343,12 +346,12 @@ void jox_words_add(lua_State *L) {
     for (size_t i = 0; i < jox_word_count; i++) {
         const JoxWord *word = &jox_words[i];
         if (word->makes == 0 || (word->takes && *word->takes == '*'))
-            continue; /* of values.c */
+            continue; /* values.c adds these */
         if (word->takes) {
             lua_pushlightuserdata(L, (void *)word);
             lua_pushcclosure(L, make_word, 1);
         } else {
-            push_value(L, word);
+            push_word_value(L, word);
         }
         lua_setfield(L, -2, word->name);
     }
