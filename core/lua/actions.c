@@ -1,5 +1,6 @@
-/* What agents do besides walking: set memory, call out, kick, take and throw bodies, become another
-   machine; and what their memory counts by itself. */
+/* Reads the actions of states and transitions: setting memory, signals, kicking, taking and
+   throwing bodies, becoming another machine; and `counts`, memory that counts by itself. Called by
+   state.c and build.c. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 
-/* Reads the value that a name of memory is set to; pops it. */
+/* Reads the value that a slot of memory is set to; pops it. */
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
     static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
@@ -41,7 +42,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
     }
 }
 
-/* Number of a team, which the scene need not have; 0 with an error. */
+/* Returns the number of a team, which the scene need not have; 0 with an error. */
 static uint16_t read_team(JoxBuild *b, const char *path, const char *name) {
     const int32_t number =
         strlen(name) > 60 ? -1
@@ -54,7 +55,7 @@ static uint16_t read_team(JoxBuild *b, const char *path, const char *name) {
     return number < 0 ? 0 : (uint16_t)number;
 }
 
-/* set = { team = ..., tags = ... }, unless these are names of memory. */
+/* Reads `team` and `tags` of a `set`, unless memory has these names. */
 static void read_belonging(JoxBuild *b, int table, const char *path, JoxActions *actions) {
     lua_State *L = b->script->vm.L;
     char part[256];
@@ -75,7 +76,8 @@ static void read_belonging(JoxBuild *b, int table, const char *path, JoxActions 
     actions->tags = jox_read_tags(b, table, path, "tags", true);
 }
 
-static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
+/* Reads `set`: the memory, team and tags that are set. */
+static void read_set_action(JoxBuild *b, int index, const char *path, JoxActions *actions) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && !actions->set);
     char full[256], part[256];
@@ -107,7 +109,7 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
     lua_settop(L, table - 1);
 }
 
-/* signal = "name", or { "name", every = seconds } where `every` is wanted. */
+/* Reads signal = "name", or { "name", every = seconds } if `every` is not NULL. */
 static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *actions,
                         double *every) {
     static const char *const KEYS[] = {"every"};
@@ -142,11 +144,12 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
 
 void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *actions,
                       double *every) {
-    read_set(b, index, path, actions);
+    read_set_action(b, index, path, actions);
     read_signal(b, index, path, actions, every);
 }
 
-/* { body, at = target, VALUE = number }: kick and throw. */
+/* Reads a kick or throw: { body, at = target, VALUE = number }; returns the target of the body or
+   -1. */
 static int16_t read_body_action(JoxBuild *b, int index, const char *path, const char *action,
                                 const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
     lua_State *L = b->script->vm.L;
@@ -185,6 +188,7 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
     return what;
 }
 
+/* Reads `become` of a state: the name of another behaviour. */
 static void read_become(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && !state->become);
@@ -205,6 +209,7 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
     lua_pop(L, 1);
 }
 
+/* Reads `grip` of a state, N, which `grasp` requires. */
 static void read_grip(JoxBuild *b, int index, const char *path, JoxState *state) {
     const JoxParameterInfo grip = jox_table_key_number("state", "grip");
     char full[256];
@@ -239,10 +244,10 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
     read_become(b, index, path, state);
 }
 
-/* ---- what counts by itself ---- */
+/* ---- counts ---- */
 
-/* A hidden slot of the counter that counts in a slot of memory. */
-static int32_t build_hidden(JoxBuild *b, const char *role, uint32_t of) {
+/* Returns a hidden slot of memory for the counter of slot `of`; `role` says what it holds. */
+static int32_t add_hidden_slot(JoxBuild *b, const char *role, uint32_t of) {
     JoxText identity = {0};
     jox_text_printf(&identity, "%s%s", role, b->machine->memory[of].name);
     const int32_t slot = jox_build_memory(b, "");
@@ -250,8 +255,8 @@ static int32_t build_hidden(JoxBuild *b, const char *role, uint32_t of) {
     return slot;
 }
 
-/* Reads one entry of `counts`: the memory slot and what is counted into it; pops nothing. */
-static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
+/* Reads the value on top of the stack as what is counted into a slot of memory; pops nothing. */
+static void add_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
     JOX_ASSERT(slot < b->machine->memory_count);
     JoxMachine *m = b->machine;
     JoxNode *node = jox_node_get(b->script->vm.L, -1);
@@ -259,8 +264,8 @@ static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t s
         JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
         JoxCounter counter = {
             .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
-        counter.angle = build_hidden(b, JOX_IDENTITY_ANGLE, slot);
-        counter.begun = build_hidden(b, JOX_IDENTITY_BEGUN, slot);
+        counter.angle = add_hidden_slot(b, JOX_IDENTITY_ANGLE, slot);
+        counter.begun = add_hidden_slot(b, JOX_IDENTITY_BEGUN, slot);
         m->counters[m->counter_count++] = counter;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
         jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",
@@ -281,10 +286,10 @@ void jox_read_counts(JoxBuild *b, int index, const char *prefix, int32_t state) 
         return;
     }
     for (uint32_t slot = 0; slot < b->script->memory_count;
-         slot++) { /* in the order of the memory */
+         slot++) { /* by slot, as tables have no order */
         if (jox_read_field(L, table, m->memory[slot].name) != LUA_TNIL) {
             jox_read_join(full, path, m->memory[slot].name);
-            read_counter(b, full, slot, state);
+            add_counter(b, full, slot, state);
         }
         lua_settop(L, table);
     }

@@ -1,4 +1,5 @@
-/* The returned table becomes a JoxMachine. Everything wrong is reported, not only the first. */
+/* Builds a JoxMachine from the table that a behaviour returns. Every error is reported, not only
+   the first. The loader calls jox_build once the file has run and mods have changed the table. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +11,8 @@
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 
-/* Every parameter has a slot of its own name, so that a scene's group can set any of them. */
+/* Reads `defaults`. Every parameter gets an own value of its name, so that a group of the scene can
+   set it. */
 static void read_defaults(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && b->machine->own_count == 0);
@@ -51,26 +53,26 @@ static void read_defaults(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* Whether the text at a stack index can be a name, of a state or a machine. */
-static bool is_name(lua_State *L, int index) {
+/* Returns whether the value at a stack index can name a state or machine. */
+static bool is_valid_name_at(lua_State *L, int index) {
     if (lua_type(L, index) != LUA_TSTRING)
         return false;
     const char *text = lua_tostring(L, index);
     return strlen(text) == lua_rawlen(L, index) && jox_name_is_plain(text);
 }
 
-/* The states' names, ascending: tables have no order of their own. */
-static void name_states(JoxBuild *b, int table) {
+/* Adds a blank state for each name in the table, in ascending order, as tables have no order. */
+static void add_blank_states(JoxBuild *b, int table) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, table) && b->machine->state_count == 0);
     JoxMachine *m = b->machine;
     lua_pushnil(L);
     while (lua_next(L, table)) {
-        bool good = is_name(L, -2) && lua_type(L, -1) == LUA_TTABLE;
+        bool good = is_valid_name_at(L, -2) && lua_type(L, -1) == LUA_TTABLE;
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         char path[256];
         jox_read_join(path, "states", name);
-        if (lua_type(L, -2) == LUA_TSTRING && !is_name(L, -2))
+        if (lua_type(L, -2) == LUA_TSTRING && !is_valid_name_at(L, -2))
             jox_build_error(b, jox_read_at(b, path), "bad-name", JOX_NAME_RULE,
                             "'%.60s' is no name for a state", name);
         else if (!good || m->state_count >= 1000)
@@ -88,6 +90,7 @@ static void name_states(JoxBuild *b, int table) {
     }
 }
 
+/* Reads `states` in ascending order of names. */
 static void read_states(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JoxMachine *m = b->machine;
@@ -98,7 +101,7 @@ static void read_states(JoxBuild *b, int index) {
         return;
     }
     int table = lua_gettop(L);
-    name_states(b, table);
+    add_blank_states(b, table);
     for (uint32_t s = 0; s < m->state_count; s++) {
         jox_read_field(L, table, m->states[s].name);
         jox_read_state(b, lua_gettop(L), &m->states[s], (int32_t)s);
@@ -110,7 +113,7 @@ static void read_states(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* The author's number of the file, which messages give. */
+/* Reads `version`, the author's number of the file, which messages show. */
 static void read_version(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     const int type = jox_read_field(L, index, "version");
@@ -123,7 +126,8 @@ static void read_version(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-static void read_start(JoxBuild *b, int index) {
+/* Reads `start`, the state that agents begin in. */
+static void read_start_state(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(b->machine->start == 0);
     JoxMachine *m = b->machine;
@@ -139,6 +143,7 @@ static void read_start(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
+/* Reads `renamed`: old names of states, own values and memory. */
 static void read_renamed(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JoxMachine *m = b->machine;
@@ -162,8 +167,8 @@ static void read_renamed(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* Where a state or an own value is written, or first asked for. */
-static JoxPosition part_at(JoxBuild *b, JoxPart part, const char *name) {
+/* Returns where a state or own value is written, or first used. */
+static JoxPosition locate_part(JoxBuild *b, JoxPart part, const char *name) {
     const JoxMachine *m = b->machine;
     char path[256];
     for (uint32_t o = 0; part == JOX_PART_OWN && o < m->own_count; o++) {
@@ -176,24 +181,26 @@ static JoxPosition part_at(JoxBuild *b, JoxPart part, const char *name) {
     return jox_read_at(b, path);
 }
 
-/* A mod may use the name that a part of the machine had; its author may use it again. */
-static void check_part(JoxBuild *b, JoxPart part, const struct JoxRenamed *renamed) {
+/* Reports an old name of a renamed part that a mod's file uses; the behaviour's author may use it
+   again. */
+static void check_part_name(JoxBuild *b, JoxPart part, const struct JoxRenamed *renamed) {
     const JoxMachine *m = b->machine;
     if (!jox_machine_has(m, part, renamed->to) || !jox_machine_has(m, part, renamed->from))
         return;
-    const JoxPosition at = part_at(b, part, renamed->from);
+    const JoxPosition at = locate_part(b, part, renamed->from);
     if (at.file && strcmp(at.file, m->path) != 0)
         jox_diag_renamed(b->script->diagnostics, at, renamed->from, renamed->to);
 }
 
-/* Once all parts are read: what old names stand for, and that no mod uses one. */
-static void check_renamed(JoxBuild *b) {
+/* Checks renamed names once all parts are read: that the new name exists and no mod uses the old
+   one. */
+static void check_renamed_names(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     for (uint32_t r = 0; r < m->renamed_count; r++) {
         const char *from = m->renamed[r].from, *to = m->renamed[r].to;
         char path[256];
-        check_part(b, JOX_PART_STATE, &m->renamed[r]);
-        check_part(b, JOX_PART_OWN, &m->renamed[r]);
+        check_part_name(b, JOX_PART_STATE, &m->renamed[r]);
+        check_part_name(b, JOX_PART_OWN, &m->renamed[r]);
         jox_read_join(path, "renamed", from);
         if (!jox_machine_has(m, JOX_PART_STATE, to) && !jox_machine_has(m, JOX_PART_OWN, to) &&
             !jox_machine_has(m, JOX_PART_MEMORY, to))
@@ -203,6 +210,7 @@ static void check_renamed(JoxBuild *b) {
     }
 }
 
+/* Builds the machine of the value on top of the stack; may raise errors of the VM. */
 static void build_machine(JoxBuild *build) {
     JoxScript *script = build->script;
     const JoxSource *source = build->source;
@@ -234,16 +242,16 @@ static void build_machine(JoxBuild *build) {
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
     }
-    read_renamed(build, table); /* first: what follows may be an old name */
+    read_renamed(build, table); /* first, as later keys may use old names */
     const char *known[16];
     jox_read_check(build, table, "", known, jox_table_key_names("machine", false, known, 16),
                    false);
     jox_read_field(L, table, "name");
-    m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
-    if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))
+    m->name = jox_strdup(is_valid_name_at(L, -1) ? lua_tostring(L, -1) : "machine");
+    if (lua_type(L, -1) == LUA_TSTRING && !is_valid_name_at(L, -1))
         jox_build_error(build, jox_read_at(build, "name"), "bad-name", JOX_NAME_RULE,
                         "'%.60s' is no name for a machine", lua_tostring(L, -1));
-    else if (!is_name(L, -1))
+    else if (!is_valid_name_at(L, -1))
         jox_build_error(build, jox_read_at(build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);
@@ -251,10 +259,10 @@ static void build_machine(JoxBuild *build) {
     read_defaults(build, table);
     jox_read_own(build, table);
     read_states(build, table);
-    read_start(build, table);
+    read_start_state(build, table);
     jox_read_counts(build, table, "", -1);
     jox_read_public(build, table);
-    check_renamed(build);
+    check_renamed_names(build);
     m->belongings = script->belongings;
     m->belonging_count = script->belonging_count;
     script->belongings = NULL;

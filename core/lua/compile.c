@@ -1,5 +1,6 @@
-/* Compiles expressions to code of a register machine: the inputs of an operation are computed
-   into its own register and those after it. */
+/* Adds targets, names, own values, memory and expressions to the machine. Compiles expressions for
+   a register machine: operand n of an operation is computed into register `to` + n, its result into
+   `to`. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -33,7 +34,7 @@ int32_t jox_build_own(JoxBuild *build, const char *name) {
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node) {
     int32_t slot = jox_build_own(build, node->name);
     JoxOwnSlot *own = &build->machine->own[slot];
-    if (own->line == 0) { /* where it was first asked for */
+    if (own->line == 0) { /* keeps the first place that uses it */
         own->line = node->written.at.line;
         own->column = node->written.at.column;
         own->end_column = node->written.at.end_column;
@@ -66,9 +67,9 @@ int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
     return (int16_t)m->name_count++;
 }
 
-/* Adds a name with its place in the text. */
-static int16_t build_written(JoxBuild *build, const char *text, JoxNameUse use,
-                             const JoxNamePlace *written) {
+/* Returns the number of a name, added on first use, and keeps the first place that uses it. */
+static int16_t add_name_at(JoxBuild *build, const char *text, JoxNameUse use,
+                           const JoxNamePlace *written) {
     const int16_t number = jox_build_name(build, text, use);
     JoxName *name = &build->machine->names[number];
     if (name->line == 0) {
@@ -80,13 +81,14 @@ static int16_t build_written(JoxBuild *build, const char *text, JoxNameUse use,
     return number;
 }
 
-/* The memory that holds an agent's own post, hidden by a name that no script can write. */
-static void build_home(JoxBuild *build) {
+/* Adds the memory of an agent's home; no script can use its name, which has a blank. */
+static void add_home_memory(JoxBuild *build) {
     build->machine->home = (uint32_t)jox_build_memory(build, "home x") + 1;
     jox_build_memory(build, "home y");
 }
 
-static JoxWhose build_whose(JoxBuild *build, const JoxNodeWhose *whose) {
+/* Compiles the filter of a target. */
+static JoxWhose build_target_filter(JoxBuild *build, const JoxNodeWhose *whose) {
     JoxWhose made = {.some = whose->state || whose->machine || whose->memory || whose->grouped,
                      .state = -1,
                      .machine = -1,
@@ -95,15 +97,15 @@ static JoxWhose build_whose(JoxBuild *build, const JoxNodeWhose *whose) {
                      .least = whose->least,
                      .greatest = whose->greatest};
     if (whose->state)
-        made.state = build_written(build, whose->state, JOX_NAME_STATE, &whose->state_at);
+        made.state = add_name_at(build, whose->state, JOX_NAME_STATE, &whose->state_at);
     if (whose->machine)
         made.machine = jox_build_name(build, whose->machine, JOX_NAME_MACHINE);
     if (whose->memory)
-        made.memory = build_written(build, whose->memory, JOX_NAME_MEMORY, &whose->memory_at);
+        made.memory = add_name_at(build, whose->memory, JOX_NAME_MEMORY, &whose->memory_at);
     return made;
 }
 
-static bool same_whose(const JoxWhose *a, const JoxWhose *b) {
+static bool is_same_filter(const JoxWhose *a, const JoxWhose *b) {
     return a->some == b->some && a->state == b->state && a->machine == b->machine &&
            a->memory == b->memory && a->group == b->group && a->least == b->least &&
            a->greatest == b->greatest;
@@ -114,10 +116,11 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     if (!node || node->kind == JOX_NODE_ERROR)
         return -1;
     static const JoxNodeWhose ANY;
-    JoxTarget target = {node->target_kind, node->target_arg, NULL,
-                        build_whose(build, node->kind == JOX_NODE_TARGET ? &node->whose : &ANY)};
+    JoxTarget target = {
+        node->target_kind, node->target_arg, NULL,
+        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->whose : &ANY)};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
-        build_home(build);
+        add_home_memory(build);
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
     if (node->kind == JOX_NODE_OWN || own_set) {
         int32_t slot = jox_build_own_at(build, node);
@@ -125,7 +128,7 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
             jox_build_error(build, node->position, "bad-value",
                             "Name a place in the machine's `own`",
                             "own.%.60s is a number, and a place is wanted here", node->name);
-        if (!m->own[slot].declared) /* none until the scene's group names one */
+        if (!m->own[slot].declared) /* no place unless the scene's group names one */
             m->own[slot].dist = jox_dist_constant(-1.0);
         m->own[slot].is_place = true;
         target.kind = own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE;
@@ -134,7 +137,7 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
             strcmp(m->targets[i].name, node->name) == 0 &&
-            same_whose(&m->targets[i].whose, &target.whose))
+            is_same_filter(&m->targets[i].whose, &target.whose))
             return (int16_t)i;
     JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
     target.name = jox_strdup(node->name);
@@ -151,7 +154,8 @@ typedef struct Code {
 
 enum { LONGEST = 1000, DEEPEST = 200 };
 
-static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
+/* Appends the code of an expression, with its result in register `to`. */
+static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     JOX_ASSERT(node->kind >= JOX_NODE_NUMBER && node->kind <= JOX_NODE_ERROR);
     if (to + 3 >= JOX_MOST_REGISTERS || code->count >= LONGEST || depth > DEEPEST) {
         code->too_deep = true;
@@ -159,9 +163,9 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     }
     const JoxNode *inputs[3] = {node->a, node->b, node->c};
     uint32_t used = 0;
-    size_t first_input = 0; /* where its result is written */
+    size_t first_input = 0; /* instruction that computes the first operand */
     for (; used < 3 && inputs[used] && !code->too_deep; used++) {
-        emit(code, inputs[used], to + used, depth + 1);
+        emit_expression(code, inputs[used], to + used, depth + 1);
         first_input = used == 0 ? code->count - 1 : first_input;
     }
     JoxInstruction in = {.op = (uint8_t)(node->kind == JOX_NODE_OWN ? JOX_OP_OWN : node->op),
@@ -179,11 +183,11 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
     else if (node->op == JOX_OP_THEIRS)
-        in.name = build_written(code->build, node->name, JOX_NAME_MEMORY, &node->written);
+        in.name = add_name_at(code->build, node->name, JOX_NAME_MEMORY, &node->written);
     else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_OPEN)
-        in.name = build_written(code->build, node->name,
-                                node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE,
-                                &node->written);
+        in.name =
+            add_name_at(code->build, node->name,
+                        node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE, &node->written);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)
@@ -198,10 +202,10 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->compiled > 0) /* the value is used in several places: it is compiled once */
+    if (node->compiled > 0) /* used in several places, compiled once */
         return node->compiled - 1;
     Code code = {.build = build};
-    emit(&code, node, 0, 0);
+    emit_expression(&code, node, 0, 0);
     if (code.too_deep) {
         jox_build_error(build, position, "too-complex", "Split it over several states",
                         "this expression is too deep or too long");

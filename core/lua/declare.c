@@ -1,13 +1,14 @@
-/* What a machine declares of its agents: own values besides the parameters, and what of their
-   memory others may read. */
+/* Reads `own`, own values besides the parameters, and `public`, the memory that others may read, of
+   a machine's table. Called by build.c. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "lua/read.h"
 
-/* The place that a text names, as a distribution; places of a scene that is not known are -1. */
-static JoxDist read_place(JoxBuild *b, const char *path) {
+/* Returns the place that a string names, as a constant distribution; -1 if the scene is not known.
+ */
+static JoxDist read_own_place(JoxBuild *b, const char *path) {
     lua_State *L = b->script->vm.L;
     const JoxScope *scope = b->script->scope;
     const char *name = lua_tostring(L, -1);
@@ -19,8 +20,8 @@ static JoxDist read_place(JoxBuild *b, const char *path) {
     return jox_dist_constant(place);
 }
 
-/* One own value, on top of the stack; popped. */
-static void read_own(JoxBuild *b, const char *path, const char *name) {
+/* Reads the own value on top of the stack; pops it. */
+static void read_own_value(JoxBuild *b, const char *path, const char *name) {
     static const JoxParameterInfo ANY = {"an own value", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
     const int32_t slot = jox_build_own(b, name);
@@ -28,7 +29,7 @@ static void read_own(JoxBuild *b, const char *path, const char *name) {
     own->declared = true;
     if (lua_type(L, -1) == LUA_TSTRING) {
         own->is_place = true;
-        own->dist = read_place(b, path);
+        own->dist = read_own_place(b, path);
         lua_pop(L, 1);
         return;
     }
@@ -48,9 +49,9 @@ static void read_own(JoxBuild *b, const char *path, const char *name) {
                         "an own value is drawn once: a number, a distribution or a place");
 }
 
-/* The names in a table, ascending: tables have no order of their own; returns how many. */
+/* Writes the names in a table to `names`, ascending, as tables have no order; returns how many. */
 enum { MOST_NAMES = 64 };
-static uint32_t names_of(JoxBuild *b, int table, const char *path, const char **names) {
+static uint32_t list_sorted_names(JoxBuild *b, int table, const char *path, const char **names) {
     lua_State *L = b->script->vm.L;
     uint32_t count = 0;
     lua_pushnil(L);
@@ -77,7 +78,7 @@ void jox_read_own(JoxBuild *b, int index) {
     const char *names[MOST_NAMES];
     uint32_t count = 0;
     if (type == LUA_TTABLE)
-        count = names_of(b, table, "own", names);
+        count = list_sorted_names(b, table, "own", names);
     else if (type != LUA_TNIL)
         jox_build_error(b, jox_read_at(b, "own"), "bad-value", "own = { courage = uniform(0, 1) }",
                         "own must be a table");
@@ -90,13 +91,13 @@ void jox_read_own(JoxBuild *b, int index) {
             continue;
         }
         jox_read_field(L, table, names[n]);
-        read_own(b, path, names[n]);
+        read_own_value(b, path, names[n]);
     }
     lua_settop(L, table - 1);
 }
 
-/* Makes the memory public whose name is on top of the stack; popped. */
-static void publish(JoxBuild *b) {
+/* Makes the memory public whose name is on top of the stack; pops the name. */
+static void make_memory_public(JoxBuild *b) {
     lua_State *L = b->script->vm.L;
     JoxMachine *m = b->machine;
     const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL, *names[64];
@@ -125,10 +126,10 @@ void jox_read_public(JoxBuild *b, int index) {
     const int type = jox_read_field(L, index, "public"), table = lua_gettop(L);
     if (type == LUA_TSTRING) {
         lua_pushvalue(L, table);
-        publish(b);
+        make_memory_public(b);
     } else if (type == LUA_TTABLE) {
         for (lua_Integer n = 1; lua_rawgeti(L, table, n) != LUA_TNIL && n <= MOST_NAMES; n++)
-            publish(b);
+            make_memory_public(b);
     } else if (type != LUA_TNIL) {
         jox_build_error(b, jox_read_at(b, "public"), "bad-value", "public = { \"infected\" }",
                         "public lists names of memory");

@@ -1,5 +1,5 @@
-/* What a file that others require gives them: its names, what each is, and the comment before it.
- */
+/* Lists what a file returns to files that require it: each name with its kind and the comment
+   before it. For `jostle` commands that document libraries. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,9 +18,9 @@ typedef struct Exports {
 
 /* ---- comments ---- */
 
-/* The text of a line, from 1, without its blanks in front; its length in *length. NULL: there is no
-   such line. */
-static const char *line_of(const JoxSource *source, int line, size_t *length) {
+/* Returns a line, from 1, without its leading blanks, with its length; NULL if there is no such
+   line. */
+static const char *get_source_line(const JoxSource *source, int line, size_t *length) {
     const char *at = source->text;
     for (int n = 1; n < line && at; n++)
         at = (at = strchr(at, '\n')) ? at + 1 : NULL;
@@ -31,18 +31,19 @@ static const char *line_of(const JoxSource *source, int line, size_t *length) {
     return at;
 }
 
-static bool is_comment(const JoxSource *source, int line) {
+/* Returns whether a line, from 1, is a comment. */
+static bool is_comment_line(const JoxSource *source, int line) {
     size_t length;
-    const char *text = line_of(source, line, &length);
+    const char *text = get_source_line(source, line, &length);
     return text && length > 1 && text[0] == '-' && text[1] == '-';
 }
 
-/* The comment of the lines from `first` to `last`, joined; NULL where they are none. */
-static char *comment(const JoxSource *source, int first, int last) {
+/* Returns the comment on lines `first` to `last`, joined; NULL if they are blank. */
+static char *join_comment_lines(const JoxSource *source, int first, int last) {
     JoxText doc = {0};
     for (int line = first; line <= last && doc.length < LONGEST_DOC; line++) {
         size_t length, skip;
-        const char *text = line_of(source, line, &length);
+        const char *text = get_source_line(source, line, &length);
         skip = strspn(text, "- ");
         if (skip < length) {
             jox_text_add(&doc, doc.length ? " " : "");
@@ -54,24 +55,25 @@ static char *comment(const JoxSource *source, int first, int last) {
     return doc.data;
 }
 
-static char *comment_before(const JoxSource *source, int line) {
+static char *read_comment_before(const JoxSource *source, int line) {
     int first = line;
-    while (is_comment(source, first - 1))
+    while (is_comment_line(source, first - 1))
         first--;
-    return first < line ? comment(source, first, line - 1) : NULL;
+    return first < line ? join_comment_lines(source, first, line - 1) : NULL;
 }
 
-static char *comment_of_file(const JoxSource *source) {
+static char *read_leading_comment(const JoxSource *source) {
     int last = 0;
-    while (is_comment(source, last + 1))
+    while (is_comment_line(source, last + 1))
         last++;
-    return last ? comment(source, 1, last) : NULL;
+    return last ? join_comment_lines(source, 1, last) : NULL;
 }
 
 /* ---- names ---- */
 
-/* The line where a field is given: `x.NAME =`, `NAME =` in a table, or `function x.NAME(`; 0. */
-static int line_where(const JoxSource *source, const char *name) {
+/* Returns the line where a field is set, as `x.NAME =`, `NAME =` in a table or `function x.NAME(`;
+   0 if none. */
+static int find_field_line(const JoxSource *source, const char *name) {
     for (size_t t = 1; t + 1 < source->token_count; t++) {
         const JoxToken *tokens = source->tokens;
         const bool given = jox_token_is(&tokens[t + 1], "=") || jox_token_is(&tokens[t + 1], "(");
@@ -83,8 +85,8 @@ static int line_where(const JoxSource *source, const char *name) {
     return 0;
 }
 
-/* "name(a, b)" of the function on top of the stack. */
-static void add_signature(lua_State *L, const char *name, JoxText *out) {
+/* Prints "name(a, b)" for the function on top of the stack. */
+static void print_signature(lua_State *L, const char *name, JoxText *out) {
     jox_text_printf(out, "%s(", name);
     const char *parameter;
     for (int n = 1; (lua_pushvalue(L, -1), parameter = lua_getlocal(L, NULL, n)); n++)
@@ -92,19 +94,19 @@ static void add_signature(lua_State *L, const char *name, JoxText *out) {
     jox_text_add(out, ")");
 }
 
-/* Adds the value on top of the stack under a name. */
-static void add(Exports *all, const char *name) {
+/* Adds an export for the value on top of the stack. */
+static void add_export(Exports *all, const char *name) {
     lua_State *L = all->script->vm.L;
     const JoxSource *source = all->script->vm.sources[0];
     JoxText text = {0};
     if (all->count == MOST_EXPORTS)
         return;
     JoxLuaExport *item = &all->items[all->count++];
-    item->line = line_where(source, name);
+    item->line = find_field_line(source, name);
     if (lua_isfunction(L, -1)) {
         lua_Debug debug;
         const int top = lua_gettop(L);
-        add_signature(L, name, &text);
+        print_signature(L, name, &text);
         lua_settop(L, top);
         lua_pushvalue(L, -1);
         lua_getinfo(L, ">S", &debug);
@@ -114,35 +116,36 @@ static void add(Exports *all, const char *name) {
     }
     item->name = text.data;
     snprintf(item->kind, sizeof item->kind, "%s", jox_node_kind(L, -1));
-    item->doc = comment_before(source, item->line);
+    item->doc = read_comment_before(source, item->line);
 }
 
-/* The value that the file returned is the argument; reading it may fail for want of memory. */
+/* Lists the exports of the value that the file returned, as a protected call, as reading it may run
+   out of memory. */
 static int list_protected(lua_State *L) {
     Exports *all = lua_touserdata(L, 2);
     lua_settop(L, 1);
     if (!lua_istable(L, 1)) {
-        add(all, "");
-        jox_free(all->items[all->count - 1].doc); /* the file's own comment says it */
+        add_export(all, "");
+        jox_free(all->items[all->count - 1].doc); /* it is the file's own comment, in *about */
         all->items[all->count - 1].doc = NULL;
         return 0;
     }
     lua_pushnil(L);
     while (lua_next(L, 1)) {
         if (lua_type(L, -2) == LUA_TSTRING)
-            add(all, lua_tostring(L, -2));
+            add_export(all, lua_tostring(L, -2));
         lua_pop(L, 1);
     }
     return 0;
 }
 
-static int by_line(const void *left, const void *right) {
+static int compare_export_lines(const void *left, const void *right) {
     const JoxLuaExport *a = left, *b = right;
     return a->line != b->line ? (a->line < b->line ? -1 : 1) : strcmp(a->name, b->name);
 }
 
-/* Runs the file; false with a diagnostic. */
-static bool list(JoxScript *script, const char *path, Exports *all) {
+/* Runs the file and lists its exports; false with a diagnostic. */
+static bool list_exports(JoxScript *script, const char *path, Exports *all) {
     const char *why = NULL;
     int line = 0;
     lua_State *L = script->vm.L;
@@ -176,9 +179,9 @@ JoxLuaExport *jox_lua_exports(JoxLua *lua, const char *path, const JoxScope *sco
     script->diagnostics = diagnostics;
     script->vm.loading = true;
     Exports all = {script, jox_alloc(MOST_EXPORTS, sizeof *all.items), 0};
-    if (list(script, path, &all))
-        *about = comment_of_file(script->vm.sources[0]);
-    qsort(all.items, all.count, sizeof *all.items, by_line);
+    if (list_exports(script, path, &all))
+        *about = read_leading_comment(script->vm.sources[0]);
+    qsort(all.items, all.count, sizeof *all.items, compare_export_lines);
     jox_script_free(script);
     *count = all.count;
     return all.items;

@@ -1,5 +1,6 @@
-/* Plain functions of behaviours, called for one agent at a time on the stepping thread: the call,
-   what it costs, and what is said where it fails. */
+/* Calls plain functions of behaviours, for one agent at a time on the stepping thread; measures
+   their time and reports their failures. The machines of a run call it through JoxMachineRun.call.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,11 +11,10 @@
 #include "lua/language/script.h"
 #include "lua/loader.h"
 
-enum { TIMED = 16 }; /* first calls that are timed; of later ones, one in as many is */
+enum { TIMED = 16 }; /* number of first calls that are timed; of later ones, one in as many is */
 
-/* One number in 16, by Fibonacci hashing: evenly many of the numbers that leave any one remainder,
-   as those of one person's calls do where as many people are in a state as one in so many is timed.
- */
+/* Fibonacci hashing times one number in 16, spread evenly over every remainder. Timing each 16th
+   call would always hit the same agent if 16 agents are in a state. */
 bool jox_lua_is_timed(uint64_t call) {
     return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> 60 == 0;
 }
@@ -43,9 +43,9 @@ void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) 
     }
 }
 
-/* Reports text that a script may have written: control characters, which a terminal would obey, are
-   removed from each line. */
-static void say(JoxLua *lua, char *text) {
+/* Reports text that may quote a script; removes control characters, which a terminal would obey,
+   from each line. */
+static void report_lines(JoxLua *lua, char *text) {
     for (char *line = text; *line;) {
         char *end = strchr(line, '\n');
         if (end)
@@ -60,29 +60,31 @@ static void say(JoxLua *lua, char *text) {
         lua->group.say(lua->group.say_context, text);
 }
 
-/* A new simulated second begins for a hook: failures of the last one that were only counted are
-   reported as a number. */
-static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint32_t second) {
+/* Begins a second of simulated time for a function: reports how many failures of the last one were
+   only counted. */
+static void begin_failure_second(JoxLua *lua, const JoxScript *script, JoxHook *hook,
+                                 uint32_t second) {
     char text[1024];
     if (hook->repeated > 0) {
         snprintf(text, sizeof text, "%.200s: %.200s: %llu times more in a second\n",
                  script->machine->path, hook->where, (unsigned long long)hook->repeated);
-        say(lua, text);
+        report_lines(lua, text);
     }
     hook->second = second;
     hook->second_failures = 0;
     hook->repeated = 0;
 }
 
-/* Reports a new failure in full. One with the same message as the last is only counted, and the
-   count is reported once a simulated second. */
-static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
+/* Reports a failure in full if its message is new; else counts it for a report once a second of
+   simulated time. Suspends the function at JOX_MOST_FAILURES in a second. */
+static void report_hook_failure(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why,
+                                int line) {
     JOX_ASSERT(why && line >= 0);
     const JoxMachineRun *machines = lua->machines;
     char text[2600];
     uint32_t second = (uint32_t)(machines->tick * machines->dt);
     if (second != hook->second)
-        new_second(lua, script, hook, second);
+        begin_failure_second(lua, script, hook, second);
     lua->machines->state->hook_failures++;
     hook->failures++;
     if (++hook->second_failures == JOX_MOST_FAILURES) {
@@ -92,7 +94,7 @@ static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *wh
             "%.200s: %.200s: it failed %d times within a second and is suspended until the file "
             "is reloaded; agents stay in their states\n",
             script->machine->path, hook->where, JOX_MOST_FAILURES);
-        say(lua, text);
+        report_lines(lua, text);
         return;
     }
     if ((hook->complaint && strcmp(hook->complaint, why) == 0) ||
@@ -107,10 +109,10 @@ static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *wh
              script->vm.sources[script->vm.failed_source]->path, line, why, script->vm.traceback,
              script->machine->name, hook->where, machines->agents->id[script->agent],
              machines->tick, (unsigned long long)machines->seed);
-    say(lua, text);
+    report_lines(lua, text);
 }
 
-/* Reads what `when` or `steer` returned; NULL or what is wrong with it. */
+/* Reads the result of `when` or `steer`; returns NULL, or what is wrong with it. */
 static const char *read_result(lua_State *L, JoxHookKind kind, double result[2]) {
     if (kind == JOX_HOOK_WHEN) {
         if (lua_type(L, -2) != LUA_TBOOLEAN && lua_type(L, -2) != LUA_TNIL)
@@ -127,8 +129,8 @@ static const char *read_result(lua_State *L, JoxHookKind kind, double result[2])
     return NULL;
 }
 
-/* The line of a function that failed as a whole, and not at one of its lines. */
-static int blame_function(JoxScript *script, const lua_Debug *where) {
+/* Returns the line of a function that failed as a whole, not at one of its lines. */
+static int find_function_line(JoxScript *script, const lua_Debug *where) {
     const int source = jox_vm_source(&script->vm, where->short_src);
     script->vm.failed_source = source > 0 ? (size_t)source : 0;
     script->vm.traceback[0] = 0;
@@ -164,13 +166,13 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         if (why) {
             lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
             lua_getinfo(L, ">S", &where);
-            line = blame_function(script, &where);
+            line = find_function_line(script, &where);
         }
         lua_settop(L, 0);
     }
     if (jox_upvalues_restore(L, &script->upvalues, hook->first_upvalue, hook->upvalue_count, name,
                              &where)) {
-        line = blame_function(script, &where);
+        line = find_function_line(script, &where);
         snprintf(
             changed, sizeof changed,
             "a function changed '%s', a variable from outside of it, and it was set back: what "
@@ -186,15 +188,15 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED) * took : 0.0;
     }
     if (!good)
-        report(lua, script, hook, why, line);
+        report_hook_failure(lua, script, hook, why, line);
     return good;
 }
 
-/* ---- what others read and write ---- */
+/* ---- neighbours' memory ---- */
 
-/* Where memory that was written is now: in a machine that the agent became meanwhile, memory of the
-   same name and kind goes along. -1: nowhere. */
-static int32_t slot_now(const JoxMachineRun *machines, uint32_t i, const JoxWrite *write) {
+/* Returns the present slot of memory that was written: if the agent has changed its machine, memory
+   of the same name and kind; -1 if there is none. */
+static int32_t find_present_slot(const JoxMachineRun *machines, uint32_t i, const JoxWrite *write) {
     const uint16_t machine = machines->agents->machine[i];
     if (machine == write->machine)
         return (int32_t)write->slot;
@@ -207,9 +209,9 @@ static int32_t slot_now(const JoxMachineRun *machines, uint32_t i, const JoxWrit
     return -1;
 }
 
-/* Whether something else has changed the memory in this step that a function worked out anew from
-   what it was before the step: the change is lost. Who agree that it is true lose nothing. */
-static bool is_stale(const JoxLua *lua, uint32_t i, uint32_t slot, const JoxWrite *write) {
+/* Returns whether a write overwrites another change of this step that it could not know of: it
+   depends on the value before the step. Equal values of a condition lose nothing. */
+static bool loses_change(const JoxLua *lua, uint32_t i, uint32_t slot, const JoxWrite *write) {
     const JoxAgents *a = lua->machines->agents;
     const size_t at = (size_t)i * a->memory_stride + slot;
     if (!write->depends || a->machine[i] != write->machine ||
@@ -219,8 +221,8 @@ static bool is_stale(const JoxLua *lua, uint32_t i, uint32_t slot, const JoxWrit
     return m->memory[slot].kind == JOX_MEMORY_NUMBER || a->memory[at] != write->value;
 }
 
-/* Tells once in a simulated second that changes of others' memory are lost. */
-static void tell_lost(JoxLua *lua, const JoxWrite *write) {
+/* Reports once in a second of simulated time that changes of neighbours' memory were lost. */
+static void report_lost_change(JoxLua *lua, const JoxWrite *write) {
     const JoxMachineRun *machines = lua->machines;
     const uint32_t second = (uint32_t)(machines->tick * machines->dt) + 1;
     char text[700], more[60] = "";
@@ -242,7 +244,7 @@ static void tell_lost(JoxLua *lua, const JoxWrite *write) {
         machines->tick, more);
     lua->lost_second = second;
     lua->lost_writes = 0;
-    say(lua, text);
+    report_lines(lua, text);
 }
 
 void jox_lua_bracket(void *context, bool begins) {
@@ -265,11 +267,11 @@ void jox_lua_bracket(void *context, bool begins) {
     for (uint32_t w = 0; w < lua->write_count; w++) {
         const JoxWrite *write = &lua->writes[w];
         const uint32_t i = jox_agents_find(a, write->agent_id);
-        const int32_t slot = i == JOX_NO_INDEX ? -1 : slot_now(lua->machines, i, write);
+        const int32_t slot = i == JOX_NO_INDEX ? -1 : find_present_slot(lua->machines, i, write);
         if (slot < 0)
             continue;
-        if (is_stale(lua, i, (uint32_t)slot, write))
-            tell_lost(lua, write);
+        if (loses_change(lua, i, (uint32_t)slot, write))
+            report_lost_change(lua, write);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
         const JoxWrote wrote = {
             .is_memory = true, .index = (uint16_t)slot, .by = JOX_WROTE_FUNCTION};
@@ -280,8 +282,9 @@ void jox_lua_bracket(void *context, bool begins) {
 
 /* ---- costs ---- */
 
-/* s, of all its calls; those that were not timed take what those that were take. */
-static double estimate(const JoxHook *hook) {
+/* Returns the time of all calls, s: untimed calls are taken to last as long as timed ones on
+   average. */
+static double estimate_hook_time(const JoxHook *hook) {
     return hook->first + (hook->timed
                               ? hook->seconds / (double)hook->timed * (double)(hook->calls - TIMED)
                               : 0.0);
@@ -294,7 +297,7 @@ double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *c
     for (uint32_t h = 0; script && h < script->hook_count; h++) {
         const JoxHook *hook = &script->hooks[h];
         *calls += hook->calls;
-        seconds += estimate(hook);
+        seconds += estimate_hook_time(hook);
     }
     return seconds;
 }
@@ -324,7 +327,7 @@ bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLu
                         .where = hook->where,
                         .calls = hook->calls,
                         .failures = hook->failures,
-                        .seconds = estimate(hook),
+                        .seconds = estimate_hook_time(hook),
                         .suspended = hook->suspended};
     return true;
 }

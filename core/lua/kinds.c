@@ -1,6 +1,6 @@
-/* Finds what each expression of a script may be, in passes over the syntax trees of all its files
-   until nothing changes. What variables hold is the union of all that is assigned to them, whatever
-   the order; what parameters hold, what they were given while the file loaded. */
+/* Infers the kind of each expression of a script, by passes over the syntax trees of all its files
+   until nothing changes. A variable holds the union of all values assigned to it, in any order; a
+   parameter those it was passed while the file loaded. */
 #include "lua/kinds.h"
 
 #include <string.h>
@@ -18,11 +18,12 @@ static const JoxKind NOTHING = {0}, UNKNOWN = {.bits = JOX_KIND_UNKNOWN},
                      TRUTH = {.bits = JOX_KIND_FALSE | JOX_KIND_PLAIN},
                      PLAIN_ONE = {JOX_KIND_FALSE | JOX_KIND_PLAIN, JOX_SITE_PLAIN, 0, 0};
 
-static const JoxSyntax *syntax_of(const JoxKinds *k, uint32_t source) {
+static const JoxSyntax *get_syntax(const JoxKinds *k, uint32_t source) {
     return jox_outline_of(k->script->vm.sources[source])->syntax;
 }
 
-static JoxKind join(JoxKind a, JoxKind b) {
+/* Returns the union of two kinds. */
+static JoxKind join_kinds(JoxKind a, JoxKind b) {
     if (b.site == JOX_SITE_NONE || a.site == JOX_SITE_MANY) {
         a.bits |= b.bits;
         return a;
@@ -32,9 +33,9 @@ static JoxKind join(JoxKind a, JoxKind b) {
     return (JoxKind){a.bits | b.bits, site, b.source, b.tree};
 }
 
-/* Adds to what was found before; notes whether that changed. */
-static void widen(JoxKinds *k, JoxKind *kept, JoxKind more) {
-    const JoxKind wide = join(*kept, more);
+/* Adds a kind to one found before; records whether that changed it. */
+static void widen_kind(JoxKinds *k, JoxKind *kept, JoxKind more) {
+    const JoxKind wide = join_kinds(*kept, more);
     k->changed |= wide.bits != kept->bits || wide.site != kept->site || wide.tree != kept->tree ||
                   wide.source != kept->source;
     *kept = wide;
@@ -46,9 +47,10 @@ static bool is_call(const JoxTree *t) {
     return t->kind == JOX_TREE_CALL || t->kind == JOX_TREE_METHOD;
 }
 
-/* The facts of a function; NULL where none are known, or another stands on the same lines. */
-static const JoxCallFact *fact_of(const JoxKinds *k, uint32_t source, int32_t function) {
-    const JoxSyntax *s = syntax_of(k, source);
+/* Returns the recorded calls of a function; NULL if there are none, or another function is on the
+   same lines. */
+static const JoxCallFact *find_call_fact(const JoxKinds *k, uint32_t source, int32_t function) {
+    const JoxSyntax *s = get_syntax(k, source);
     const JoxTreeFunction *f = &s->functions[function];
     for (size_t o = 1; o < s->function_count; o++)
         if ((int32_t)o != function && s->functions[o].first_line == f->first_line &&
@@ -57,12 +59,13 @@ static const JoxCallFact *fact_of(const JoxKinds *k, uint32_t source, int32_t fu
     return jox_calls_find(k->script, source, f->first_line, f->last_line);
 }
 
-/* What a function returns: what it was seen to return, and what the calls that it returns give. */
-static JoxKind returned(JoxKinds *k, uint32_t source, int32_t function) {
-    const JoxSyntax *s = syntax_of(k, source);
-    const JoxCallFact *fact = function > 0 ? fact_of(k, source, function) : NULL;
+/* Returns the kind of a function's results: those recorded, and those of the calls that it returns.
+ */
+static JoxKind infer_result(JoxKinds *k, uint32_t source, int32_t function) {
+    const JoxSyntax *s = get_syntax(k, source);
+    const JoxCallFact *fact = function > 0 ? find_call_fact(k, source, function) : NULL;
     JoxKind all = {0};
-    if (function > 0) /* it may end without a `return` */
+    if (function > 0) /* it may end without `return` */
         all.bits = fact ? fact->returned : JOX_KIND_FALSE;
     for (size_t r = 0; r < s->return_count; r++) {
         const JoxTreeReturn *given = &s->returns[r];
@@ -71,48 +74,51 @@ static JoxKind returned(JoxKinds *k, uint32_t source, int32_t function) {
             continue;
         const JoxKind kind = given->value < 0 ? FALSE : k->trees[source][given->value];
         if (fact && fact->returned && !(given->value >= 0 && is_call(&s->trees[given->value])))
-            all = join(all, (JoxKind){0, kind.site, kind.source, kind.tree});
+            all = join_kinds(all, (JoxKind){0, kind.site, kind.source, kind.tree});
         else
-            all = join(all, kind);
+            all = join_kinds(all, kind);
     }
     return all;
 }
 
-static JoxKind required(JoxKinds *k, uint32_t source, int32_t argument) {
-    const JoxSyntax *s = syntax_of(k, source);
+/* Returns the kind of what a `require` returns. */
+static JoxKind infer_required(JoxKinds *k, uint32_t source, int32_t argument) {
+    const JoxSyntax *s = get_syntax(k, source);
     if (argument < 0 || jox_syntax_token(s, argument)->kind != JOX_TOKEN_STRING)
         return UNKNOWN;
     for (uint32_t r = 0; r < k->script->required_count; r++) {
         const JoxRequired *file = &k->script->required[r];
         if (file->asking == source && jox_token_says(jox_syntax_token(s, argument), file->name))
-            return k->trees[file->given] ? returned(k, file->given, 0) : UNKNOWN;
+            return k->trees[file->given] ? infer_result(k, file->given, 0) : UNKNOWN;
     }
     return UNKNOWN;
 }
 
-static JoxKind made_by_word(JoxKinds *k, uint32_t source, const JoxTree *call, int32_t word) {
+/* Returns the kind of what a word of the vocabulary returns. */
+static JoxKind infer_word_result(JoxKinds *k, uint32_t source, const JoxTree *call, int32_t word) {
     const JoxWord *w = &jox_words[word];
     if (w->makes != 0)
         return w->makes == JOX_NODE_CONDITION ? CONDITION : VALUE;
     if (strcmp(w->name, "require") == 0)
-        return required(k, source, call->items);
+        return infer_required(k, source, call->items);
     if (strcmp(w->name, "memory") == 0)
         return (JoxKind){JOX_KIND_TABLE, JOX_SITE_MEMORY, source, call->items};
     return UNKNOWN;
 }
 
-static JoxKind kind_of_call(JoxKinds *k, uint32_t source, const JoxTree *call) {
+static JoxKind infer_call(JoxKinds *k, uint32_t source, const JoxTree *call) {
     const JoxKind callee = k->trees[source][call->a];
     if (callee.bits == JOX_KIND_FUNCTION && callee.site == JOX_SITE_WORD)
-        return made_by_word(k, source, call, callee.tree);
+        return infer_word_result(k, source, call, callee.tree);
     if (callee.bits == JOX_KIND_FUNCTION && callee.site == JOX_SITE_TREE)
-        return returned(k, callee.source, syntax_of(k, callee.source)->trees[callee.tree].variable);
+        return infer_result(k, callee.source,
+                            get_syntax(k, callee.source)->trees[callee.tree].variable);
     if (callee.site == JOX_SITE_PLAIN)
         return TRUTH;
     return callee.bits == 0 ? NOTHING : UNKNOWN;
 }
 
-static JoxKind kind_of_method(const JoxSyntax *s, int32_t tree) {
+static JoxKind infer_method(const JoxSyntax *s, int32_t tree) {
     static const char *const COMPARES[] = {"above", "below", "at_least", "at_most", "is"},
                              *const NARROWS[] = {"in_state", "of_machine", "of_group", "where"};
     const JoxToken *name = jox_syntax_token(s, tree);
@@ -127,32 +133,34 @@ static JoxKind kind_of_method(const JoxSyntax *s, int32_t tree) {
 
 /* ---- names and fields ---- */
 
-static bool same_text(const JoxToken *a, const JoxToken *b) {
+static bool is_same_token_text(const JoxToken *a, const JoxToken *b) {
     return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
 }
 
-/* Whether a key may be a name: it is written as one or as a text in brackets, or is computed; one
-   of an item of a list is not. */
-static bool may_be_named(const JoxSyntax *s, const JoxTree *t, int32_t in_brackets,
-                         const JoxToken *name) {
+/* Returns whether a table key may equal `name`: written as a name, as a string in brackets, or
+   computed in brackets. Keys of list items never do. */
+static bool may_equal_key(const JoxSyntax *s, const JoxTree *t, int32_t in_brackets,
+                          const JoxToken *name) {
     if (t->named)
-        return same_text(&s->source->tokens[t->at], name);
-    return in_brackets != JOX_NO_TREE && (s->trees[in_brackets].kind != JOX_TREE_CONSTANT ||
-                                          same_text(jox_syntax_token(s, in_brackets), name));
+        return is_same_token_text(&s->source->tokens[t->at], name);
+    return in_brackets != JOX_NO_TREE &&
+           (s->trees[in_brackets].kind != JOX_TREE_CONSTANT ||
+            is_same_token_text(jox_syntax_token(s, in_brackets), name));
 }
 
-/* What a table that is written out has by a name; by any, where `name` is NULL. */
-static JoxKind field_of(JoxKinds *k, JoxKind table, const JoxToken *name) {
-    const JoxSyntax *s = syntax_of(k, table.source);
+/* Returns the kind of a field of a table constructor, with all assignments to it; `name` NULL: of
+   all fields. */
+static JoxKind infer_field(JoxKinds *k, JoxKind table, const JoxToken *name) {
+    const JoxSyntax *s = get_syntax(k, table.source);
     JoxKind all = {0};
     for (int32_t f = s->trees[table.tree].items; f >= 0; f = s->trees[f].next) {
         const JoxTree *field = &s->trees[f];
         k->looks++;
-        if (!name || may_be_named(s, field, field->a, name))
-            all = join(all, k->trees[table.source][field->b]);
+        if (!name || may_equal_key(s, field, field->a, name))
+            all = join_kinds(all, k->trees[table.source][field->b]);
     }
     for (uint32_t o = 0; o < k->source_count; o++) {
-        const JoxSyntax *other = k->trees[o] ? syntax_of(k, o) : NULL;
+        const JoxSyntax *other = k->trees[o] ? get_syntax(k, o) : NULL;
         for (size_t b = 0; other && b < other->binding_count; b++) {
             const JoxTreeBinding *bound = &other->bindings[b];
             const JoxTree *target = &other->trees[bound->target];
@@ -161,22 +169,22 @@ static JoxKind field_of(JoxKinds *k, JoxKind table, const JoxToken *name) {
                 continue;
             const JoxKind to = k->trees[o][target->a];
             if (to.site == JOX_SITE_TREE && to.source == table.source && to.tree == table.tree &&
-                (!name || may_be_named(other, target, target->b, name)))
-                all = join(all, k->trees[o][bound->value]);
+                (!name || may_equal_key(other, target, target->b, name)))
+                all = join_kinds(all, k->trees[o][bound->value]);
         }
     }
     return all.bits ? all : UNKNOWN;
 }
 
-/* Booleans of memory are conditions, its numbers values. */
-static JoxKind remembered(const JoxKinds *k, const JoxToken *name) {
+/* Returns the kind of memory: a boolean is a condition, a number a value. */
+static JoxKind infer_memory(const JoxKinds *k, const JoxToken *name) {
     for (uint32_t m = 0; m < k->script->memory_count; m++)
         if (jox_token_is(name, k->script->memory[m].name))
             return k->script->memory[m].kind == JOX_MEMORY_BOOLEAN ? CONDITION : VALUE;
     return UNKNOWN;
 }
 
-static JoxKind kind_of_index(JoxKinds *k, uint32_t source, const JoxTree *t) {
+static JoxKind infer_index(JoxKinds *k, uint32_t source, const JoxTree *t) {
     const JoxKind base = k->trees[source][t->a];
     const JoxToken *name = t->named ? &k->script->vm.sources[source]->tokens[t->at] : NULL;
     if (base.bits == 0)
@@ -186,16 +194,16 @@ static JoxKind kind_of_index(JoxKinds *k, uint32_t source, const JoxTree *t) {
     if (base.site == JOX_SITE_PLAIN)
         return base;
     if (base.site == JOX_SITE_MEMORY)
-        return name ? remembered(k, name) : UNKNOWN;
+        return name ? infer_memory(k, name) : UNKNOWN;
     if (base.site != JOX_SITE_TREE || !(base.bits & JOX_KIND_TABLE))
         return UNKNOWN;
-    JoxKind found = field_of(k, base, name);
+    JoxKind found = infer_field(k, base, name);
     if (!name)
-        found.bits |= JOX_KIND_FALSE; /* behind the last */
+        found.bits |= JOX_KIND_FALSE; /* past the last item */
     return found;
 }
 
-static JoxKind kind_of_global(const JoxToken *t) {
+static JoxKind infer_global(const JoxToken *t) {
     static const char *const PLAIN_ONES[] = {"type", "tostring", "tonumber", "math", "string"};
     for (size_t w = 0; w < jox_word_count; w++) {
         const JoxWord *word = &jox_words[w];
@@ -217,17 +225,17 @@ static JoxKind kind_of_global(const JoxToken *t) {
 
 /* ---- operators ---- */
 
-static JoxKind kind_of_binary(const JoxToken *sign, JoxKind a, JoxKind b) {
+static JoxKind infer_binary(const JoxToken *sign, JoxKind a, JoxKind b) {
     static const char *const COMPARES[] = {"==", "~=", "<", ">", "<=", ">="},
                              *const PLAIN_ONES[] = {"..", "^", "%", "//", "<<", ">>"};
-    if (jox_token_is(sign, "and")) /* the first where it is false, else the second */
+    if (jox_token_is(sign, "and")) /* the first operand if false, else the second */
         return jox_kind_is_value(a)
                    ? b
-                   : join(b, (JoxKind){.bits = a.bits & (JOX_KIND_FALSE | JOX_KIND_UNKNOWN)});
+                   : join_kinds(b, (JoxKind){.bits = a.bits & (JOX_KIND_FALSE | JOX_KIND_UNKNOWN)});
     if (jox_token_is(sign, "or")) {
         JoxKind left = a;
         left.bits &= (uint8_t)~JOX_KIND_FALSE;
-        return jox_kind_is_value(a) ? a : join(left, b);
+        return jox_kind_is_value(a) ? a : join_kinds(left, b);
     }
     for (size_t i = 0; i < sizeof COMPARES / sizeof *COMPARES; i++)
         if (jox_token_is(sign, COMPARES[i]))
@@ -243,14 +251,14 @@ static JoxKind kind_of_binary(const JoxToken *sign, JoxKind a, JoxKind b) {
     return bits & JOX_KIND_UNKNOWN ? UNKNOWN : (JoxKind){.bits = bits};
 }
 
-static JoxKind kind_of_unary(const JoxToken *sign, JoxKind a) {
+static JoxKind infer_unary(const JoxToken *sign, JoxKind a) {
     if (jox_token_is(sign, "not"))
         return TRUTH;
     return jox_token_is(sign, "#") ? PLAIN : a;
 }
 
-static JoxKind kind_of_tree(JoxKinds *k, uint32_t source, int32_t tree) {
-    const JoxSyntax *s = syntax_of(k, source);
+static JoxKind infer_tree(JoxKinds *k, uint32_t source, int32_t tree) {
+    const JoxSyntax *s = get_syntax(k, source);
     const JoxTree *t = &s->trees[tree];
     const JoxKind *known = k->trees[source];
     k->looks++;
@@ -262,14 +270,14 @@ static JoxKind kind_of_tree(JoxKinds *k, uint32_t source, int32_t tree) {
     case JOX_TREE_REST:
         return UNKNOWN;
     case JOX_TREE_NAME:
-        return t->variable == JOX_NO_TREE ? kind_of_global(jox_syntax_token(s, tree))
+        return t->variable == JOX_NO_TREE ? infer_global(jox_syntax_token(s, tree))
                                           : k->variables[source][t->variable];
     case JOX_TREE_INDEX:
-        return kind_of_index(k, source, t);
+        return infer_index(k, source, t);
     case JOX_TREE_CALL:
-        return kind_of_call(k, source, t);
+        return infer_call(k, source, t);
     case JOX_TREE_METHOD:
-        return kind_of_method(s, tree);
+        return infer_method(s, tree);
     case JOX_TREE_FUNCTION:
         return (JoxKind){JOX_KIND_FUNCTION, JOX_SITE_TREE, source, tree};
     case JOX_TREE_TABLE:
@@ -277,9 +285,9 @@ static JoxKind kind_of_tree(JoxKinds *k, uint32_t source, int32_t tree) {
     case JOX_TREE_FIELD:
         return known[t->b];
     case JOX_TREE_BINARY:
-        return kind_of_binary(jox_syntax_token(s, tree), known[t->a], known[t->b]);
+        return infer_binary(jox_syntax_token(s, tree), known[t->a], known[t->b]);
     case JOX_TREE_UNARY:
-        return kind_of_unary(jox_syntax_token(s, tree), known[t->a]);
+        return infer_unary(jox_syntax_token(s, tree), known[t->a]);
     case JOX_TREE_PAREN:
         return known[t->a];
     }
@@ -288,9 +296,9 @@ static JoxKind kind_of_tree(JoxKinds *k, uint32_t source, int32_t tree) {
 
 /* ---- variables ---- */
 
-/* What a loop over a table that is written out, by pairs or ipairs, gives. */
-static JoxKind looped(JoxKinds *k, uint32_t source, int32_t over) {
-    const JoxSyntax *s = syntax_of(k, source);
+/* Returns the kind of the items in a loop by pairs or ipairs over a table constructor. */
+static JoxKind infer_loop_item(JoxKinds *k, uint32_t source, int32_t over) {
+    const JoxSyntax *s = get_syntax(k, source);
     const JoxTree *call = &s->trees[over];
     if (call->kind != JOX_TREE_CALL || call->items < 0)
         return UNKNOWN;
@@ -299,18 +307,19 @@ static JoxKind looped(JoxKinds *k, uint32_t source, int32_t over) {
     const bool pairs = s->trees[call->a].kind == JOX_TREE_NAME &&
                        (jox_token_is(name, "pairs") || jox_token_is(name, "ipairs"));
     if (pairs && table.bits == JOX_KIND_TABLE && table.site == JOX_SITE_TREE)
-        return field_of(k, table, NULL);
+        return infer_field(k, table, NULL);
     return table.bits == 0 ? NOTHING : UNKNOWN;
 }
 
-static void read_parameters(JoxKinds *k, uint32_t source) {
-    const JoxSyntax *s = syntax_of(k, source);
+/* Sets the kinds of parameters from the recorded calls. */
+static void set_parameter_kinds(JoxKinds *k, uint32_t source) {
+    const JoxSyntax *s = get_syntax(k, source);
     for (size_t v = 0; v < s->variable_count; v++) {
         const JoxTreeVariable *variable = &s->variables[v];
         if (variable->parameter == JOX_NO_TREE)
             continue;
         const JoxCallFact *fact = variable->parameter < JOX_FACT_PARAMETERS
-                                      ? fact_of(k, source, variable->function)
+                                      ? find_call_fact(k, source, variable->function)
                                       : NULL;
         const uint8_t given = fact ? fact->given[variable->parameter] : 0;
         k->looks += s->function_count + k->script->fact_count;
@@ -320,8 +329,9 @@ static void read_parameters(JoxKinds *k, uint32_t source) {
     }
 }
 
-static void read_bindings(JoxKinds *k, uint32_t source) {
-    const JoxSyntax *s = syntax_of(k, source);
+/* Adds the kinds of assigned values to those of variables. */
+static void widen_variables(JoxKinds *k, uint32_t source) {
+    const JoxSyntax *s = get_syntax(k, source);
     for (size_t b = 0; b < s->binding_count; b++) {
         const JoxTreeBinding *bound = &s->bindings[b];
         const JoxTree *target = &s->trees[bound->target];
@@ -335,8 +345,8 @@ static void read_bindings(JoxKinds *k, uint32_t source) {
         else if (bound->kind == JOX_BIND_NUMBER)
             kind = PLAIN;
         else if (bound->kind == JOX_BIND_ITEM)
-            kind = looped(k, source, bound->value);
-        widen(k, &k->variables[source][target->variable], kind);
+            kind = infer_loop_item(k, source, bound->value);
+        widen_kind(k, &k->variables[source][target->variable], kind);
     }
 }
 
@@ -352,17 +362,17 @@ JoxKinds *jox_kinds_read(const JoxScript *script) {
             continue;
         k->trees[n] = jox_alloc(s->tree_count + 1, sizeof **k->trees);
         k->variables[n] = jox_alloc(s->variable_count + 1, sizeof **k->variables);
-        read_parameters(k, n);
+        set_parameter_kinds(k, n);
     }
     for (int pass = 0; pass < MOST_PASSES && k->looks < MOST_LOOKS && !k->settled; pass++) {
         k->changed = false;
         for (uint32_t n = 0; n < k->source_count; n++) {
             if (!k->trees[n])
                 continue;
-            const size_t count = syntax_of(k, n)->tree_count;
+            const size_t count = get_syntax(k, n)->tree_count;
             for (size_t t = 0; t < count && k->looks < MOST_LOOKS; t++)
-                widen(k, &k->trees[n][t], kind_of_tree(k, n, (int32_t)t));
-            read_bindings(k, n);
+                widen_kind(k, &k->trees[n][t], infer_tree(k, n, (int32_t)t));
+            widen_variables(k, n);
         }
         k->settled = !k->changed && k->looks < MOST_LOOKS;
     }

@@ -1,21 +1,22 @@
-/* What of a machine can be known to be of no use: states that nobody gets to or out of, transitions
-   that never fire, targets farther than is seen. Warnings: the machine runs. */
+/* Warns of parts of a machine that have no effect: states that cannot be reached or left,
+   transitions that never fire, distances beyond perception. The machine runs all the same. Called
+   by build.c. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "lua/read.h"
 
-static void warn(JoxBuild *b, const char *path, const char *code, const char *hint,
-                 const char *text) {
+static void add_warning(JoxBuild *b, const char *path, const char *code, const char *hint,
+                        const char *text) {
     jox_diag_add(b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), code, hint,
                  NULL, NULL, "%s", text);
 }
 
 /* ---- states ---- */
 
-/* Marks what transitions lead to from a state on. */
-static void reach(const JoxMachine *m, uint32_t from, bool *reached) {
+/* Marks the states that can be reached by transitions from a state. */
+static void mark_reachable(const JoxMachine *m, uint32_t from, bool *reached) {
     uint32_t open[1000], count = 0;
     JOX_ASSERT(m->state_count <= 1000);
     reached[from] = true;
@@ -30,11 +31,12 @@ static void reach(const JoxMachine *m, uint32_t from, bool *reached) {
     }
 }
 
-/* States that nothing leads to: a warning, in a patch an error, for there it is a misspelt name. */
-static void judge_states(JoxBuild *b) {
+/* Warns of states that cannot be reached. In a patch that is an error if the name looks misspelt.
+ */
+static void check_reachable(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     bool reached[1000] = {false};
-    reach(m, m->start, reached);
+    mark_reachable(m, m->start, reached);
     for (uint32_t s = 0; s < m->state_count; s++) {
         if (reached[s])
             continue;
@@ -55,7 +57,7 @@ static void judge_states(JoxBuild *b) {
 }
 
 /* Warns of states that no transition leaves: agents would stay in them for ever. */
-static void judge_ends(JoxBuild *b) {
+static void check_exits(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     for (uint32_t s = 0; s < m->state_count && m->state_count > 1; s++) {
         const JoxState *state = &m->states[s];
@@ -73,12 +75,13 @@ static void judge_ends(JoxBuild *b) {
 
 /* ---- transitions ---- */
 
-static bool is_certain(const JoxTransition *t) {
+/* Returns whether a transition is taken in any case. */
+static bool is_unconditional(const JoxTransition *t) {
     return t->when < 0 && t->when_hook < 0 && t->chance.kind == JOX_VALUE_UNSET;
 }
 
-/* Whether a condition can hold only where `op` does: it is joined to the rest by & alone. */
-static bool needs(const JoxMachine *m, int32_t expression, JoxOp op) {
+/* Returns whether a condition requires operation `op`: it is joined to the rest by & alone. */
+static bool requires_operation(const JoxMachine *m, int32_t expression, JoxOp op) {
     bool found = false;
     if (expression < 0)
         return false;
@@ -91,49 +94,49 @@ static bool needs(const JoxMachine *m, int32_t expression, JoxOp op) {
     return found;
 }
 
-static void judge_transitions(JoxBuild *b, const JoxState *state, const char *path) {
+/* Warns of transitions that never fire. */
+static void check_firing(JoxBuild *b, const JoxState *state, const char *path) {
     const JoxMachine *m = b->machine;
     char full[256], item[160];
     for (uint32_t t = 0; t < state->transition_count; t++) {
         const JoxTransition *taken = &state->transitions[t];
         snprintf(item, sizeof item, "%u", t + 1);
         jox_read_join(full, path, item);
-        if (t > 0 && is_certain(&state->transitions[t - 1])) {
-            warn(b, full, "never-fires", "Put it before that one",
-                 "this transition never fires: the one before it is always taken");
+        if (t > 0 && is_unconditional(&state->transitions[t - 1])) {
+            add_warning(b, full, "never-fires", "Put it before that one",
+                        "this transition never fires: the one before it is always taken");
             return;
         }
         if (!state->has_lasts && state->lasts_expression < 0 &&
-            needs(m, taken->when, JOX_OP_LASTED))
-            warn(b, full, "never-fires", "Give the state one: lasts = 5, or write after(5)",
-                 "this transition never fires: the state has no `lasts`");
+            requires_operation(m, taken->when, JOX_OP_LASTED))
+            add_warning(b, full, "never-fires", "Give the state one: lasts = 5, or write after(5)",
+                        "this transition never fires: the state has no `lasts`");
         for (uint32_t o = 0; o < t; o++)
             if (state->transitions[o].when == taken->when && taken->when >= 0 &&
                 state->transitions[o].chance.kind == JOX_VALUE_UNSET) {
-                warn(b, full, "never-fires", NULL,
-                     "this transition never fires: one before it has the same condition");
+                add_warning(b, full, "never-fires", NULL,
+                            "this transition never fires: one before it has the same condition");
                 break;
             }
     }
 }
 
-/* Two states that lead to each other at once: nobody is in either for longer than a step. */
-static void judge_cycle(JoxBuild *b, const JoxState *state, const char *path) {
+/* Warns of two states that lead to each other in every step. */
+static void check_cycle(JoxBuild *b, const JoxState *state, const char *path) {
     const JoxMachine *m = b->machine;
-    if (state->transition_count == 0 || !is_certain(&state->transitions[0]))
+    if (state->transition_count == 0 || !is_unconditional(&state->transitions[0]))
         return;
     const JoxState *next = &m->states[state->transitions[0].to];
-    if (next != state && next->transition_count && is_certain(&next->transitions[0]) &&
+    if (next != state && next->transition_count && is_unconditional(&next->transitions[0]) &&
         &m->states[next->transitions[0].to] == state && next > state)
-        warn(b, path, "no-time", "Give one of them a condition, as after(1)",
-             "two states lead to each other in every step, as neither waits for anything");
+        add_warning(b, path, "no-time", "Give one of them a condition, as after(1)",
+                    "two states lead to each other in every step, as neither waits for anything");
 }
 
 /* ---- distances ---- */
 
-/* How far people in a state see, m, where it is the same for all by the behaviour; else infinite.
- */
-static double sight(const JoxMachine *m, const JoxState *state) {
+/* Returns the perception of agents in a state, m, if the behaviour fixes one; else infinity. */
+static double get_perception(const JoxMachine *m, const JoxState *state) {
     const JoxValue *value = &state->param[JOX_PARAM_perception];
     if (value->kind == JOX_VALUE_UNSET)
         value = &m->defaults[JOX_PARAM_perception];
@@ -143,10 +146,10 @@ static double sight(const JoxMachine *m, const JoxState *state) {
     return dist && dist->kind == JOX_DIST_CONSTANT ? dist->a : JOX_MOST_WEIGHT;
 }
 
-/* Whether a condition asks whether somebody is nearer than people see: true of all who are seen. */
-static void judge_sight(JoxBuild *b, const JoxState *state, const char *path) {
+/* Warns of a condition on a distance beyond perception, which holds for everything that is seen. */
+static void check_distances(JoxBuild *b, const JoxState *state, const char *path) {
     const JoxMachine *m = b->machine;
-    const double most = sight(m, state);
+    const double most = get_perception(m, state);
     char full[256], item[160], text[160];
     for (uint32_t t = 0; t < state->transition_count; t++) {
         if (state->transitions[t].when < 0)
@@ -165,20 +168,21 @@ static void judge_sight(JoxBuild *b, const JoxState *state, const char *path) {
             snprintf(text, sizeof text,
                      "nobody is seen or heard as far as %g m: perception is %g m", asked->number,
                      most);
-            warn(b, full, "out-of-sight", "Raise perception in this state, or ask for less", text);
+            add_warning(b, full, "out-of-sight", "Raise perception in this state, or ask for less",
+                        text);
         }
     }
 }
 
 void jox_lint(JoxBuild *b) {
-    judge_states(b);
-    judge_ends(b);
+    check_reachable(b);
+    check_exits(b);
     for (uint32_t s = 0; s < b->machine->state_count; s++) {
         const JoxState *state = &b->machine->states[s];
         char path[256];
         jox_read_join(path, "states", state->name);
-        judge_transitions(b, state, path);
-        judge_cycle(b, state, path);
-        judge_sight(b, state, path);
+        check_firing(b, state, path);
+        check_cycle(b, state, path);
+        check_distances(b, state, path);
     }
 }

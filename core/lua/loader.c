@@ -1,4 +1,5 @@
-/* Loading: a fresh Lua state per behaviour, kept as long as its hooks may be called. */
+/* Loads behaviours: runs the file in a new Lua state, lets mods change its table, builds the
+   machine, and keeps the state while the machine's functions may be called. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +8,8 @@
 #include "lua/loader.h"
 #include "lua/read.h"
 
-/* Finds the token of a line at which Lua's parser stopped; NULL where too many are alike. */
+/* Returns the token of this text on a line at which Lua's parser stopped; NULL if none or too many
+   have the text. */
 static const JoxToken *find_stop(JoxScript *script, int line, const char *name) {
     enum { MOST_ALIKE = 16 };
     const JoxSource *source = script->vm.sources[script->vm.failed_source];
@@ -29,7 +31,8 @@ static const JoxToken *find_stop(JoxScript *script, int line, const char *name) 
     return count > 0 ? alike[count - 1] : NULL;
 }
 
-/* Where Lua's parser stopped: it names the line and, mostly, the token "near" it. */
+/* Reports a failure of the file. Lua's parser gives the line and mostly the token "near" which it
+   stopped. */
 static void report_failure(JoxScript *script, const char *why, int line) {
     JoxSource *source = script->vm.sources[script->vm.failed_source];
     JoxPosition position = {source->path, line, 0, 0};
@@ -50,8 +53,9 @@ static void report_failure(JoxScript *script, const char *why, int line) {
     jox_diag_error(script->diagnostics, position, "lua-error", hint, "%s", why);
 }
 
-/* What a function remembers outside memory would be lost at a reload, and run apart at a resume.
-   What the source does not show of it is found when the function runs. */
+/* JoxFreezeFunction: records the upvalues of a function and refuses assignments to them, which
+   would be lost at a reload and differ after a resume. Assignments that the source does not show
+   are found after a call. */
 static void check_upvalues(lua_State *L, int index, void *context) {
     JOX_ASSERT(lua_type(L, index) == LUA_TFUNCTION && !lua_iscfunction(L, index));
     enum { MOST_UPVALUES = 256 };
@@ -79,13 +83,13 @@ static void check_upvalues(lua_State *L, int index, void *context) {
             (int)t->length, t->text);
 }
 
+/* Builds the machine, as a protected call. */
 static int build_protected(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     if (!jox_patch_behaviour(script))
         return 0;
     jox_build(script, script->vm.sources[0]);
-    for (uint32_t h = 0; h < script->hook_count;
-         h++) { /* and nothing it reaches changes any more */
+    for (uint32_t h = 0; h < script->hook_count; h++) { /* and freezes everything that they reach */
         script->hook_walked = h;
         script->hooks[h].first_upvalue = script->upvalues.count;
         lua_rawgeti(L, LUA_REGISTRYINDEX, script->hooks[h].ref);
@@ -96,7 +100,8 @@ static int build_protected(lua_State *L) {
     return 0;
 }
 
-static JoxMachine *run(JoxScript *script) {
+/* Runs the script and builds its machine; NULL with diagnostics. */
+static JoxMachine *run_script(JoxScript *script) {
     const char *why = NULL;
     int line = 0;
     lua_State *L = script->vm.L;
@@ -110,12 +115,12 @@ static JoxMachine *run(JoxScript *script) {
     }
     if (!jox_vm_call(&script->vm, 0, 1, script->owner->group.limits.load_instructions, &why,
                      &line)) {
-        /* A failure after an error that is already reported is a consequence of it. */
+        /* A failure after a reported error follows from it. */
         if (script->diagnostics->errors == errors)
             report_failure(script, why, line);
         return NULL;
     }
-    /* Building reads and pushes, which may fail for want of memory: it too runs protected. */
+    /* Building reads and pushes values and may run out of memory, so it is a protected call too. */
     lua_pushcfunction(L, build_protected);
     lua_insert(L, 1);
     if (!jox_vm_call(&script->vm, 1, 0, script->owner->group.limits.load_instructions, &why,
@@ -133,8 +138,8 @@ static JoxMachine *run(JoxScript *script) {
 }
 
 struct JoxLoaded {
-    JoxMachine *machine; /* NULL where it failed */
-    JoxScript *script;   /* kept where it failed too: it lists the files that were looked for */
+    JoxMachine *machine; /* NULL if the load failed */
+    JoxScript *script;   /* kept after a failure too, as it lists the files that were looked for */
 };
 
 JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size_t length,
@@ -152,7 +157,7 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     script->vm.loading = true;
     jox_vm_tried(&script->vm, path);
     JoxSource *source = jox_script_read(script, path, text, length, (JoxPosition){0});
-    JoxMachine *machine = loaded->machine = source ? run(script) : NULL;
+    JoxMachine *machine = loaded->machine = source ? run_script(script) : NULL;
     for (size_t i = 0; i < script->vm.source_count; i++)
         jox_outline_contexts(script->vm.sources[i], diagnostics);
     for (size_t i = 0; i < script->vm.source_count; i++)
@@ -162,7 +167,7 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     script->scope = NULL;
     script->diagnostics = NULL;
     for (size_t s = 0; machine && s < script->vm.source_count;
-         s++) /* some function may look at others */
+         s++) /* "neighbours" in the text: a function may look at others */
         machine->views |= script->hook_count && strstr(script->vm.sources[s]->text, "neighbours");
     return loaded;
 }
@@ -187,20 +192,20 @@ const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count) {
     return loaded->script ? loaded->script->vm.files : NULL;
 }
 
-/* A file and its source have the same index. */
-static const char *text_of(const JoxScript *script, uint32_t file, size_t *length) {
+/* Returns the text of a file, which has the same index as its source. */
+static const char *get_source_text(const JoxScript *script, uint32_t file, size_t *length) {
     JOX_ASSERT(!script || script->vm.source_count == script->vm.file_count);
     *length = script && file < script->vm.source_count ? script->vm.sources[file]->length : 0;
     return *length ? script->vm.sources[file]->text : "";
 }
 
 const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length) {
-    return text_of(loaded->script, file, length);
+    return get_source_text(loaded->script, file, length);
 }
 
 const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t file,
                          size_t *length) {
-    return text_of(jox_lua_script(lua, machine), file, length);
+    return get_source_text(jox_lua_script(lua, machine), file, length);
 }
 
 const char *jox_loaded_said(const JoxLoaded *loaded) {
@@ -273,9 +278,9 @@ const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, ui
     return script ? script->vm.files : NULL;
 }
 
-/* Whether the token `signal` begins a call that may give this one: me.signal("NAME"), or of a name
-   that is worked out. As a key of a table it is known to the machine. */
-static bool may_give(const JoxSource *source, size_t at, const char *name) {
+/* Returns whether the token `signal` at `at` may begin a call that gives this signal:
+   me.signal("NAME"), or with a computed name. As a key of a table the machine knows it. */
+static bool may_give_signal(const JoxSource *source, size_t at, const char *name) {
     size_t next = at + 1;
     if (next < source->token_count && jox_token_is(&source->tokens[next], "="))
         return false;
@@ -289,7 +294,7 @@ bool jox_lua_may_signal(const JoxLua *lua, const JoxMachine *machine, const char
     for (size_t s = 0; script && s < script->vm.source_count; s++)
         for (size_t t = 0; t < script->vm.sources[s]->token_count; t++)
             if (jox_token_is(&script->vm.sources[s]->tokens[t], "signal") &&
-                may_give(script->vm.sources[s], t, name))
+                may_give_signal(script->vm.sources[s], t, name))
                 return true;
     return false;
 }

@@ -1,4 +1,7 @@
-/* Loads behaviours: a Lua file becomes a JoxMachine, and its plain functions become hooks. */
+/* Loads behaviours: a Lua file becomes a JoxMachine, and its plain functions become hooks that run
+   in the Lua state kept behind the machine. In a run: jox_lua_create, jox_lua_load for each
+   behaviour, jox_lua_attach, then the machines call jox_lua_call; jox_lua_free at the end. Machines
+   belong to the caller, Lua states to the JoxLua. */
 #ifndef JOX_LUA_LOADER_H
 #define JOX_LUA_LOADER_H
 
@@ -8,121 +11,133 @@
 #include "lua/vm/limits.h"
 #include "machine/run.h"
 
-/* Failures of a function in a simulated second, with which it is suspended; and the share of its
-   calls, one in so many, from which on failures are a trouble of the run (jox_lua_is_failing). */
+/* JOX_MOST_FAILURES: failures of a function in a second of simulated time at which it is suspended.
+   JOX_FAILING_SHARE: jox_lua_is_failing holds if at least one call in so many fails. */
 enum { JOX_MOST_FAILURES = 100, JOX_FAILING_SHARE = 10 };
 
-/* NULL if anything is wrong; every error (up to 20) is then in `diagnostics`, and nothing changed.
-   The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
+/* Loads a behaviour with the scope's mods applied. NULL on errors, up to 20 of which are in
+   `diagnostics`; then nothing has changed. The caller owns the machine; its functions can be called
+   until jox_lua_release, or until `lua` is freed. */
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics);
-/* Who set a path of the machine ("Circle.push", "defaults.speed", "Circle.Exit.chance"), the first
-   first; false if nobody did. */
+/* Visits every place that sets a value of the machine, from the earliest to the last:
+   "Circle.push", "defaults.speed", "Circle.Exit.chance". False if none does. */
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
                  const JoxScope *scope, JoSetVisit *visit, void *context);
-/* What set a canonical path of the machine last: "defaults.speed", "states.Circle.push",
+/* The place that sets a value of the machine last. Paths: "defaults.speed", "states.Circle.push",
    "states.Circle.@Exit.when" (a transition by its id). */
 typedef struct JoxWritten {
-    JoxText text;     /* the value as written, on one line; the caller frees */
-    const char *file; /* of the machine's files, valid as long as it */
+    JoxText text;     /* value as written, on one line; free with jox_text_free */
+    const char *file; /* one of the machine's files, valid as long as the machine */
     int line, column;
-    const char *mod; /* name, or NULL: the behaviour itself */
+    const char *mod; /* name of the mod, or NULL for the behaviour itself */
 } JoxWritten;
+/* Gives the place that sets a path last; false if none does. */
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
                      const JoxScope *scope, JoxWritten *out);
-/* Where the machine's memory of a name is declared: `memory { hits = 0 }`; its text, too. */
+/* Finds where memory is declared, as `memory { hits = 0 }`; the value as written is in out->text.
+ */
 bool jox_lua_memory(const JoxLua *lua, const JoxMachine *machine, const char *name,
                     JoxWritten *out);
-/* What a file returns to who requires it: a name of its table (of a function with its parameters),
-   or
-   "" for a value that is no table. */
+/* An export of a library file: a field of the table that it returns. */
 typedef struct JoxLuaExport {
     char *name;
-    char *doc;     /* the comment before it, on one line, or NULL */
+    char *doc;     /* comment before it, on one line, or NULL */
     char kind[24]; /* "function", "a condition", "a steering", "number" */
-    int line;      /* 0 unknown */
+    int line;      /* 0: unknown */
 } JoxLuaExport;
-/* In the order of their lines; *about: the comment that the file begins with, or NULL. The file
-   runs in a state of its own; what is wrong with it goes to `diagnostics`. Free the list, and
-   *about. */
+/* Runs a file in a Lua state of its own and lists its exports by line; NULL with diagnostics.
+     about is the comment at the head of the file, or NULL. Free the list with jox_lua_exports_free,
+   and *about with jox_free. */
 JoxLuaExport *jox_lua_exports(JoxLua *lua, const char *path, const JoxScope *scope, uint32_t *count,
                               char **about, JoxDiagnostics *diagnostics);
 void jox_lua_exports_free(JoxLuaExport *exports, uint32_t count);
-/* Name of the behaviour that a mod's Lua file changes, and whether it replaces it: copied into
-   target; false where it names none. */
+/* Finds, in the text of a mod's file, the name of the behaviour that it changes, and whether it
+   replaces it. False if it names none. */
 bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,
                           int *line, int *column);
-/* The same from memory; `path` names it and is where `require` starts. */
+/* Loads a behaviour as jox_lua_load does, from memory (NULL: from the disk); `path` names it, and
+   `require` looks beside it. */
 JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
                               const JoxScope *scope, JoxDiagnostics *diagnostics);
-/* Closes the Lua state behind a machine that is no longer used. */
+/* Frees the Lua state behind a machine; the machine's functions must not be called any more. */
 void jox_lua_release(JoxLua *lua, const JoxMachine *machine);
 
-/* Loading in two halves, for a thread that reloads: jox_lua_prepare (text NULL: read the file) may
-   run beside the stepping thread, as long as the scope's names stay; jox_lua_adopt belongs to the
-   stepping thread. The machine is NULL where it failed; files that were looked for are known in any
-   case. */
+/* Loads in two halves, so that a reload can happen beside the run. jox_lua_prepare (text NULL: from
+   the disk) may run on any thread while the scope's names stay; the machine is NULL if it failed.
+   jox_lua_adopt must run on the stepping thread. Files that were looked for are listed in both
+   cases. */
 typedef struct JoxLoaded JoxLoaded;
 JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size_t length,
                            const JoxScope *scope, JoxDiagnostics *diagnostics);
+/* Returns the machine, or NULL if it failed. */
 JoxMachine *jox_loaded_machine(const JoxLoaded *loaded);
+/* Returns the paths that were looked for. */
 char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count);
-/* What was printed while loading; "" for nothing. */
+/* Returns what was printed while loading, or "". */
 const char *jox_loaded_said(const JoxLoaded *loaded);
-/* As jox_lua_files, before it is adopted. */
+/* Returns the files as jox_lua_files does, before the machine is adopted. */
 const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count);
-/* The machine's functions can be called from here on; the machine is the caller's. */
+/* Moves the Lua state into `lua`, so that the machine's functions can be called. The caller owns
+   the machine from then on, and frees `loaded`. */
 void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded);
-/* The reverse: machine and Lua state, in one piece, to be freed on any thread. */
+/* Moves machine and Lua state out of `lua`, to be freed on any thread by jox_loaded_free. */
 JoxLoaded *jox_lua_retire(JoxLua *lua, JoxMachine *machine);
+/* Frees the machine and Lua state, if they are still there, and `loaded`. */
 void jox_loaded_free(JoxLoaded *loaded);
 
-/* Files that a machine was made of, its own first. */
+/* Returns the files that a machine was made of, its own first. */
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
-/* The text of one of them as it was read (a byte order mark made blank). */
+/* Returns the text of a file as it was read; a byte order mark is replaced by blanks. */
 const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t file,
                          size_t *length);
 const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length);
 
-/* Whether a function of the machine may give the signal, as far as its files tell. */
+/* Returns whether a function of the machine may give the signal, as far as the text of its files
+   tells. */
 bool jox_lua_may_signal(const JoxLua *lua, const JoxMachine *machine, const char *name);
 
-/* All files that were looked for when a machine was loaded. */
+/* Returns the paths that were looked for when a machine was loaded, found or not. */
 char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
-/* Ready for JoxMachineRun.call, with the JoxLua as context. `jox_lua_attach` says whose columns
-   hooks read and write, and where their errors go: each place and message in full once, then
-   counted. */
+/* Sets whose columns functions read and write, and where their failures are reported: each place
+   and message in full once, then counted. */
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context);
+/* Calls function `hook` of a machine for an agent, as JoxMachineRun.call with the JoxLua as
+   context; writes what `when` or `steer` returned to `result`. False if it failed. */
 bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
                   uint32_t agent, double result[2]);
-/* Ready for JoxMachineRun.bracket. */
+/* Called before and after the functions of a step, as JoxMachineRun.bracket: keeps the columns
+   before the step, and applies writes into neighbours' memory after it. */
 void jox_lua_bracket(void *lua, bool begins);
-/* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, how often they
-   have failed in the present second and, outside of the hash, were called and failed in all. */
+/* Lists the state of a machine's functions, as JoxMachineRun.hook_sections: suspended or not,
+   failures in the present second; and, not hashed, all calls and failures. */
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
-/* Whether a function's call of that number, from 0, is timed. */
+/* Returns whether the time of a function's call number `call`, from 0, is measured. */
 bool jox_lua_is_timed(uint64_t call);
-/* Processor time that a machine's functions took, s, estimated from the first 16 calls of each and
-   one in 16 of the others, and how many there were. */
+/* Returns the processor time of a machine's functions, s, estimated from the first 16 calls of each
+   function and one in 16 of the others; *calls is the number of calls. */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
-/* Cost of all plain functions. Their time is estimated; where it would pass that of the steps, that
-   of each is multiplied by `cut`, which is 1 else. */
+/* Cost of all functions of a run. The time is estimated; if it exceeds that of the steps it is cut
+   to that, and `cut` is the factor by which each function's time must be multiplied, else 1. */
 typedef struct JoxLuaTotal {
     uint64_t calls;
-    double seconds, stepping, cut; /* s; s, of the steps with the calls as people come in; share */
+    double seconds, stepping, cut; /* s; s, of the steps and of calls as agents arrive; factor */
 } JoxLuaTotal;
-/* stepped: s, that the steps took. */
+/* Returns the cost of all functions; `stepped` is the time of all steps, s. */
 JoxLuaTotal jox_lua_total(const JoxLua *lua, double stepped);
-/* What its n-th function cost, with texts of the machine; false behind the last. */
+/* Gives the cost of the machine's n-th function; the strings belong to the machine. False past the
+   last function. */
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);
-/* Whether so many of its calls failed that the run did not go as its behaviour says. */
+/* Returns whether so large a share of its calls failed that the run did not go as the behaviour
+   says. */
 static inline bool jox_lua_is_failing(const JoLuaCost *cost) {
     return cost->failures > 0 && cost->failures * JOX_FAILING_SHARE >= cost->calls;
 }
-/* Path of the behaviour whose functions take so much longer than their instructions explain that
-   the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
+/* Returns the path of a behaviour whose functions take so much longer than their instructions
+   explain that the run should end, or NULL. Counting instructions does not find it, and a clock
+   must not decide anything within a run. */
 const char *jox_lua_stalled(const JoxLua *lua);
 
 #endif

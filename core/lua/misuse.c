@@ -1,9 +1,8 @@
-/* Misuse that Lua would pass over in silence: `and`, `or`, `not`, `==`, `~=` and tests decide at
-   once, by whether there is a value, and a condition always is one. Reported are places where a
-   value of the language, and nothing else, gets there, in functions too; a name's kind is that of
-   the variable it means. Nothing is reported where the code's own look says that the value may be
-   absent: an argument, a field of a table of options, the result of a function that may return
-   nothing. */
+/* Finds Lua operators and tests on values of the language: `and`, `or`, `not`, `==`, `~=`, `if` and
+   `while` decide at once by whether there is a value, and a condition always is one. Reports only
+   expressions that kinds.c shows to be a value of the language and nothing else, in functions too.
+   Nothing is reported if the code shows that the value may be absent: a parameter, a field of a
+   table of options, the result of a function that may return nothing. Called by build.c. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,16 +11,16 @@
 #include "lua/kinds.h"
 #include "lua/read.h"
 
-/* The trees of one source under search. */
+/* A search through one source. */
 typedef struct Search {
     JoxScript *script;
     const JoxKinds *all;
     const JoxSyntax *s;
-    const JoxKind *kinds; /* of its trees */
+    const JoxKind *kinds; /* by node of `s` */
     uint32_t source;
-    int32_t *fields; /* by tree: the table field that has it as its value, or JOX_NO_TREE */
-    bool *hooks;     /* by function: it runs with the crowd */
-    uint32_t *looks; /* made by may_lack in all sources */
+    int32_t *fields; /* by node: the table field whose value it is, or JOX_NO_TREE */
+    bool *hooks;     /* by function: it is called while the crowd runs */
+    uint32_t *looks; /* steps of may_be_nil, counted over all sources */
 } Search;
 
 static void add_misuse(const Search *f, uint32_t at, bool certain) {
@@ -30,40 +29,42 @@ static void add_misuse(const Search *f, uint32_t at, bool certain) {
     script->misuses[script->misuse_count++] = (JoxMisuse){f->source, at, certain, false};
 }
 
-static const JoxTree *bare(const Search *f, int32_t tree) {
+static const JoxTree *get_bare_tree(const Search *f, int32_t tree) {
     return &f->s->trees[jox_syntax_bare(f->s, tree)];
 }
 
-/* Whether a tree is a parameter of a function by itself: others may call it with nothing. */
+/* Returns whether a node is a parameter of a function by itself, which may be called without it. */
 static bool is_parameter(const Search *f, int32_t tree) {
-    const JoxTree *t = bare(f, tree);
+    const JoxTree *t = get_bare_tree(f, tree);
     return t->kind == JOX_TREE_NAME && t->variable != JOX_NO_TREE &&
            f->s->variables[t->variable].parameter != JOX_NO_TREE;
 }
 
-/* The variable that a name, or a field of a field of it, begins with. */
-static int32_t root_of(const Search *f, int32_t tree) {
-    const JoxTree *t = bare(f, tree);
+/* Returns the variable at the root of a name or of `a.b.c`; JOX_NO_TREE if there is none. */
+static int32_t find_root_variable(const Search *f, int32_t tree) {
+    const JoxTree *t = get_bare_tree(f, tree);
     while (t->kind == JOX_TREE_INDEX)
-        t = bare(f, t->a);
+        t = get_bare_tree(f, t->a);
     return t->kind == JOX_TREE_NAME ? t->variable : JOX_NO_TREE;
 }
 
-/* Whether the right operand uses the left one, so that it is not dropped: `x and near(x, 2)`. */
+/* Returns whether the right operand uses the variable of the left one, as `x and near(x, 2)` does.
+ */
 static bool uses_left(const Search *f, const JoxTree *t) {
-    const int32_t root = root_of(f, t->a);
+    const int32_t root = find_root_variable(f, t->a);
     for (int32_t part = t->a + 1; root != JOX_NO_TREE && part <= t->b; part++)
         if (f->s->trees[part].kind == JOX_TREE_NAME && f->s->trees[part].variable == root)
             return true;
     return false;
 }
 
-static bool has_text(const JoxToken *a, const JoxToken *b) {
+static bool is_equal_text(const JoxToken *a, const JoxToken *b) {
     return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
 }
 
-/* The name or field to which the value of a tree is assigned, or NULL: `x = ...`, `{ x = ... }`. */
-static const JoxToken *find_target(const Search *f, int32_t tree) {
+/* Returns the name or field that a value is assigned to, `x = ...` or `{ x = ... }`; NULL if there
+   is none. */
+static const JoxToken *find_assigned_name(const Search *f, int32_t tree) {
     const int32_t field = f->fields[tree];
     if (field != JOX_NO_TREE)
         return f->s->trees[field].named ? jox_syntax_token(f->s, field) : NULL;
@@ -73,26 +74,27 @@ static const JoxToken *find_target(const Search *f, int32_t tree) {
     return NULL;
 }
 
-/* Whether `a or b` gives the name or field `a` a default: what it is assigned to has its name. */
+/* Returns whether `a or b` sets a default: the result is assigned to the name or field `a`. */
 static bool is_default(const Search *f, int32_t tree) {
-    const JoxTree *left = bare(f, f->s->trees[tree].a);
-    const JoxToken *target = find_target(f, tree);
+    const JoxTree *left = get_bare_tree(f, f->s->trees[tree].a);
+    const JoxToken *target = find_assigned_name(f, tree);
     const bool name = left->kind == JOX_TREE_NAME || (left->kind == JOX_TREE_INDEX && left->named);
-    return target && name && has_text(target, &f->s->source->tokens[left->at]);
+    return target && name && is_equal_text(target, &f->s->source->tokens[left->at]);
 }
 
-static bool is_joining(const Search *f, const JoxTree *t, const char *sign) {
+/* Returns whether a node is the binary operator `sign`. */
+static bool is_binary(const Search *f, const JoxTree *t, const char *sign) {
     return t->kind == JOX_TREE_BINARY && jox_token_is(&f->s->source->tokens[t->at], sign);
 }
 
-/* ---- what may be absent ---- */
+/* ---- values that may be absent ---- */
 
 enum { DEEPEST = 8, MOST_LOOKS = 5000000 };
 
-static bool may_lack(const Search *f, int32_t tree, bool tested, int depth);
+static bool may_be_nil(const Search *f, int32_t tree, bool tested, int depth);
 
-/* Whether a function may return nothing: it ends without a `return`, or one returns what may be
-   absent. */
+/* Returns whether a function may return nothing: it ends without a `return`, or returns a value
+   that may be absent. */
 static bool may_return_nothing(const Search *f, JoxKind callee, int depth) {
     const Search other = {.script = f->script,
                           .all = f->all,
@@ -107,13 +109,13 @@ static bool may_return_nothing(const Search *f, JoxKind callee, int depth) {
         const JoxTreeReturn *given = &other.s->returns[r];
         lacks = given->function == function &&
                 (given->value == JOX_NO_TREE || (other.kinds[given->value].bits & JOX_KIND_FALSE) ||
-                 may_lack(&other, given->value, false, depth));
+                 may_be_nil(&other, given->value, false, depth));
     }
     return lacks;
 }
 
-/* Whether a variable may hold nothing by what is assigned to it. In a test it also may where it is
-   assigned more than once. */
+/* Returns whether a variable may be nil by its assignments. In a test also if it is assigned more
+   than once. */
 static bool may_hold_nothing(const Search *f, int32_t variable, bool tested, int depth) {
     int count = 0;
     bool lacks = f->s->variables[variable].parameter != JOX_NO_TREE;
@@ -125,16 +127,16 @@ static bool may_hold_nothing(const Search *f, int32_t variable, bool tested, int
             continue;
         count++;
         lacks = bound->kind != JOX_BIND_VALUE || (tested && count > 1) ||
-                may_lack(f, bound->value, tested, depth);
+                may_be_nil(f, bound->value, tested, depth);
     }
     return lacks;
 }
 
-/* Whether a value may be absent by the look of its expression, so that asking for it makes sense: a
-   field of a table that is written out, a parameter, the result of a function, `a or b`. Values of
-   `own`, `now` and memory never are. */
-static bool may_lack(const Search *f, int32_t tree, bool tested, int depth) {
-    const JoxTree *t = bare(f, tree);
+/* Returns whether the form of an expression shows that its value may be absent, so that testing it
+   makes sense: a field of a table constructor, a parameter, a call, `a or b`. Values of `own`,
+   `now` and memory are never absent. True if the search is too deep. */
+static bool may_be_nil(const Search *f, int32_t tree, bool tested, int depth) {
+    const JoxTree *t = get_bare_tree(f, tree);
     if (depth <= 0 || *f->looks > MOST_LOOKS)
         return true;
     switch (t->kind) {
@@ -149,14 +151,15 @@ static bool may_lack(const Search *f, int32_t tree, bool tested, int depth) {
         return callee.site == JOX_SITE_TREE && may_return_nothing(f, callee, depth - 1);
     }
     case JOX_TREE_BINARY:
-        return is_joining(f, t, "and") ||
-               (is_joining(f, t, "or") && (tested || may_lack(f, t->b, tested, depth - 1)));
+        return is_binary(f, t, "and") ||
+               (is_binary(f, t, "or") && (tested || may_be_nil(f, t->b, tested, depth - 1)));
     default:
         return false;
     }
 }
 
-/* Whether a tree stands in a function that runs with the crowd, where nothing is built any more. */
+/* Returns whether a node is in a function that is called while the crowd runs, where no values of
+   the language are made. */
 static bool is_in_hook(const Search *f, const JoxTree *t) {
     int32_t function = t->function;
     while (function != JOX_NO_TREE && !f->hooks[function])
@@ -164,23 +167,25 @@ static bool is_in_hook(const Search *f, const JoxTree *t) {
     return function != JOX_NO_TREE;
 }
 
+/* Returns whether a value may be absent where it is used. */
 static bool may_be_absent(const Search *f, int32_t tree, bool tested) {
-    return !is_in_hook(f, &f->s->trees[tree]) && may_lack(f, tree, tested, DEEPEST);
+    return !is_in_hook(f, &f->s->trees[tree]) && may_be_nil(f, tree, tested, DEEPEST);
 }
 
 /* ---- operators and tests ---- */
 
-/* Whether `a or b` where `a` may be absent is a default. In a table it is one under its own name:
-   `{ when = opts.when or after(3) }`; `{ when = opts.busy or after(3) }` means `|`. */
+/* Returns whether `a or b` gives a value that may be absent a default. In a table the field must
+   have the same name: `{ when = opts.when or after(3) }`; in `{ when = opts.busy or after(3) }` `|`
+   is meant. */
 static bool is_alternative(const Search *f, int32_t tree) {
     const JoxTree *t = &f->s->trees[tree];
-    return is_default(f, tree) || bare(f, t->a)->kind == JOX_TREE_CALL ||
+    return is_default(f, tree) || get_bare_tree(f, t->a)->kind == JOX_TREE_CALL ||
            f->fields[tree] == JOX_NO_TREE || f->kinds[t->a].bits == JOX_KIND_VALUE;
 }
 
-/* `a and b`, `a or b` */
-static void judge_joining(const Search *f, int32_t tree, bool is_or) {
-    const JoxTree *t = &f->s->trees[tree], *left = bare(f, t->a);
+/* Checks `a and b`, `a or b`. */
+static void check_joining(const Search *f, int32_t tree, bool is_or) {
+    const JoxTree *t = &f->s->trees[tree], *left = get_bare_tree(f, t->a);
     const JoxKind a = f->kinds[t->a], b = f->kinds[t->b];
     if (!jox_kind_is_value(a)) {
         if ((a.bits & JOX_KIND_UNKNOWN) && (jox_kind_is_value(b) || (b.bits & JOX_KIND_UNKNOWN)))
@@ -194,17 +199,18 @@ static void judge_joining(const Search *f, int32_t tree, bool is_or) {
         optional = t->tested || left->kind == JOX_TREE_CALL || (is_or && is_alternative(f, tree));
     else if (!parameter && is_or && left->kind == JOX_TREE_NAME)
         optional = is_default(f, tree);
-    /* Of `a and b or c` the first operator is told of, or is none. */
-    const bool chosen = is_or && is_joining(f, left, "and") && jox_kind_is_value(f->kinds[left->a]);
+    /* In `a and b or c` only the first operator is reported, if any. */
+    const bool chosen = is_or && is_binary(f, left, "and") && jox_kind_is_value(f->kinds[left->a]);
     if (!optional && !chosen && (is_or || !uses_left(f, t)))
         add_misuse(f, t->at, true);
 }
 
-/* `a == b`, `a ~= b`: fine with nil, and where a function tells names from values. */
-static void judge_comparison(const Search *f, const JoxTree *t) {
+/* Checks `a == b`, `a ~= b`. Comparing with nil is fine, and a parameter with a string, which tells
+   names from values. */
+static void check_comparison(const Search *f, const JoxTree *t) {
     const int32_t sides[] = {t->a, t->b};
     for (int i = 0; i < 2; i++) {
-        const JoxTree *other = bare(f, sides[1 - i]);
+        const JoxTree *other = get_bare_tree(f, sides[1 - i]);
         const bool text = other->kind == JOX_TREE_CONSTANT &&
                           f->s->source->tokens[other->at].kind == JOX_TOKEN_STRING;
         if (!jox_kind_is_value(f->kinds[sides[i]]) || other->kind == JOX_TREE_FALSE ||
@@ -215,7 +221,8 @@ static void judge_comparison(const Search *f, const JoxTree *t) {
     }
 }
 
-static void judge_tree(const Search *f, int32_t tree) {
+/* Checks an operator. */
+static void check_operator(const Search *f, int32_t tree) {
     const JoxTree *t = &f->s->trees[tree];
     if (t->kind == JOX_TREE_UNARY && jox_token_is(&f->s->source->tokens[t->at], "not")) {
         const JoxKind kind = f->kinds[t->a];
@@ -224,19 +231,20 @@ static void judge_tree(const Search *f, int32_t tree) {
             add_misuse(f, t->at, true);
         else if ((kind.bits & JOX_KIND_UNKNOWN) || (jox_kind_is_value(kind) && !t->tested))
             add_misuse(f, t->at, false);
-    } else if (is_joining(f, t, "and") || is_joining(f, t, "or")) {
-        judge_joining(f, tree, is_joining(f, t, "or"));
-    } else if (is_joining(f, t, "==") || is_joining(f, t, "~=")) {
-        judge_comparison(f, t);
+    } else if (is_binary(f, t, "and") || is_binary(f, t, "or")) {
+        check_joining(f, tree, is_binary(f, t, "or"));
+    } else if (is_binary(f, t, "==") || is_binary(f, t, "~=")) {
+        check_comparison(f, t);
     }
 }
 
-/* A test of a value that is always there. In a function that runs with the crowd it was meant to
-   ask what the crowd does; while a file loads it may be a switch that is on. */
-static void judge_test(const Search *f, const JoxTreeTest *test) {
-    const JoxTree *t = bare(f, test->value);
+/* Checks a test of a value that is always there. In a function that is called while the crowd runs
+   it is an error: a condition was meant. While a file loads it may be a constant switch, so it is
+   noted only. */
+static void check_test(const Search *f, const JoxTreeTest *test) {
+    const JoxTree *t = get_bare_tree(f, test->value);
     if (!jox_kind_is_value(f->kinds[test->value]) || is_parameter(f, test->value) ||
-        is_joining(f, t, "and") || is_joining(f, t, "or") || may_be_absent(f, test->value, true))
+        is_binary(f, t, "and") || is_binary(f, t, "or") || may_be_absent(f, test->value, true))
         return;
     if (is_in_hook(f, t)) {
         add_misuse(f, test->at, true);
@@ -250,8 +258,8 @@ static void judge_test(const Search *f, const JoxTreeTest *test) {
                   "asked in a `when`");
 }
 
-/* The token that writes out the key of a field, a name or a text in brackets; NULL of any other. */
-static const JoxToken *key_of(const JoxSyntax *s, const JoxTree *field) {
+/* Returns the token of a field's key, a name or a string in brackets; NULL for any other. */
+static const JoxToken *find_key_token(const JoxSyntax *s, const JoxTree *field) {
     if (field->named)
         return &s->source->tokens[field->at];
     if (field->a == JOX_NO_TREE || s->trees[field->a].kind != JOX_TREE_CONSTANT)
@@ -260,16 +268,16 @@ static const JoxToken *key_of(const JoxSyntax *s, const JoxTree *field) {
     return t->kind == JOX_TOKEN_STRING ? t : NULL;
 }
 
-/* Reports keys that a table writes out twice: Lua takes the last, and what the first had is lost.
+/* Reports keys that a table constructor has twice: Lua takes the last, and the first value is lost.
  */
-static void report_doubled(JoxBuild *b, const JoxSyntax *s, const JoxTree *table) {
+static void report_doubled_keys(JoxBuild *b, const JoxSyntax *s, const JoxTree *table) {
     enum { MOST_KEYS = 2000 };
     int looked = 0;
     for (int32_t f = table->items; f >= 0; f = s->trees[f].next) {
-        const JoxToken *key = key_of(s, &s->trees[f]);
+        const JoxToken *key = find_key_token(s, &s->trees[f]);
         for (int32_t o = table->items; key && o != f && looked++ < MOST_KEYS;
              o = s->trees[o].next) {
-            const JoxToken *other = key_of(s, &s->trees[o]);
+            const JoxToken *other = find_key_token(s, &s->trees[o]);
             if (!other || other->length != key->length ||
                 memcmp(other->text, key->text, key->length) != 0)
                 continue;
@@ -283,7 +291,8 @@ static void report_doubled(JoxBuild *b, const JoxSyntax *s, const JoxTree *table
     }
 }
 
-static void report(JoxBuild *b, JoxMisuse *misuse) {
+/* Reports a misuse with the operator that was meant. */
+static void report_misuse(JoxBuild *b, JoxMisuse *misuse) {
     static const struct {
         const char *sign, *instead;
     } MISUSED[] = {{"and", "Use & between conditions"},
@@ -307,8 +316,8 @@ static void report(JoxBuild *b, JoxMisuse *misuse) {
                     "'%s' decides by whether there is a value, not by what the crowd does", sign);
 }
 
-/* Notes which functions run with the crowd: values of keys that take one. */
-static void find_hooks(const JoxKinds *kinds, Search *searches) {
+/* Marks the functions that are called while the crowd runs: values of keys that take a function. */
+static void mark_hooks(const JoxKinds *kinds, Search *searches) {
     static const char *const KEYS[] = {"when", "steer", "on_enter", "on_exit", "on_take"};
     for (uint32_t n = 0; n < kinds->source_count; n++) {
         const Search *f = &searches[n];
@@ -328,7 +337,8 @@ static void find_hooks(const JoxKinds *kinds, Search *searches) {
     }
 }
 
-static Search begin_search(JoxScript *script, const JoxKinds *kinds, uint32_t source) {
+/* Prepares the search through source number `n`. */
+static Search start_search(JoxScript *script, const JoxKinds *kinds, uint32_t source) {
     Search f = {.script = script,
                 .all = kinds,
                 .s = jox_outline_syntax(script->vm.sources[source]),
@@ -344,8 +354,8 @@ static Search begin_search(JoxScript *script, const JoxKinds *kinds, uint32_t so
     return f;
 }
 
-/* Warns that a file was not searched: it asks for more work than the search may do. */
-static void warn_of_size(JoxScript *script, const JoxSource *source) {
+/* Warns that a file was not searched, as the search would take too long. */
+static void warn_too_large(JoxScript *script, const JoxSource *source) {
     jox_diag_warn(script->diagnostics, ((JoxPosition){source->path, 0, 0, 0}), "too-large",
                   "Write less in one file, or fewer calls from one file to another",
                   "it is too large to be searched for `and`, `or`, `not`, `==` and `~=` between "
@@ -359,16 +369,16 @@ void jox_misuse_find(JoxBuild *b) {
     Search *searches = jox_alloc(kinds->source_count + 1, sizeof *searches);
     uint32_t looks = 0;
     for (uint32_t n = 0; n < kinds->source_count; n++) {
-        searches[n] = begin_search(script, kinds, n);
+        searches[n] = start_search(script, kinds, n);
         searches[n].looks = &looks;
     }
-    find_hooks(kinds, searches);
+    mark_hooks(kinds, searches);
     for (uint32_t n = 0; n < kinds->source_count; n++) {
         const Search *f = &searches[n];
         for (size_t t = 0; kinds->settled && f->kinds && t < f->s->tree_count; t++)
-            judge_tree(f, (int32_t)t);
+            check_operator(f, (int32_t)t);
         for (size_t t = 0; kinds->settled && f->kinds && t < f->s->test_count; t++)
-            judge_test(f, &f->s->tests[t]);
+            check_test(f, &f->s->tests[t]);
     }
     for (uint32_t n = 0; n < kinds->source_count; n++) {
         jox_free(searches[n].hooks);
@@ -376,18 +386,18 @@ void jox_misuse_find(JoxBuild *b) {
     }
     jox_free(searches);
     if (!kinds->settled && jox_outline_syntax(b->source)->whole)
-        warn_of_size(script, b->source);
+        warn_too_large(script, b->source);
     for (size_t n = 0; n < script->vm.source_count; n++) {
         const JoxSyntax *s = jox_outline_syntax(script->vm.sources[n]);
         if (!s->whole)
-            warn_of_size(script, script->vm.sources[n]);
+            warn_too_large(script, script->vm.sources[n]);
         for (size_t t = 0; s->whole && t < s->tree_count; t++)
             if (s->trees[t].kind == JOX_TREE_TABLE)
-                report_doubled(b, s, &s->trees[t]);
+                report_doubled_keys(b, s, &s->trees[t]);
     }
     for (uint32_t i = 0; i < script->misuse_count; i++)
         if (script->misuses[i].certain)
-            report(b, &script->misuses[i]);
+            report_misuse(b, &script->misuses[i]);
 }
 
 bool jox_misuse_explains(JoxBuild *b, const char *path) {
@@ -399,7 +409,7 @@ bool jox_misuse_explains(JoxBuild *b, const char *path) {
         const bool here = span && b->script->vm.sources[misuse->source] == source &&
                           misuse->at >= span->first && misuse->at < span->last;
         if (here && !misuse->reported)
-            report(b, misuse);
+            report_misuse(b, misuse);
         found |= misuse->reported;
     }
     return found;

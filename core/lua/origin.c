@@ -1,4 +1,5 @@
-/* Where the parts of a machine stand: in its own file, or in that of a mod. */
+/* Finds where the parts of a machine are written: in its own file, or in that of a mod. Used for
+   positions of errors while the machine is built. */
 #include <stdio.h>
 #include <string.h>
 
@@ -30,8 +31,8 @@ void jox_origin_keep(JoxScript *script, const char *path, const char *number,
 
 /* ---- of a machine under construction ---- */
 
-/* The source that a path of the machine was written in, and its path there. */
-static const JoxSource *locate(const JoxBuild *b, const char *path, char there[512]) {
+/* Returns the source that a path of the machine was written in, with its path there. */
+static const JoxSource *locate_path(const JoxBuild *b, const char *path, char there[512]) {
     const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
     if (!origin) {
         snprintf(there, 512, "%s", path);
@@ -43,8 +44,8 @@ static const JoxSource *locate(const JoxBuild *b, const char *path, char there[5
     return b->script->vm.sources[origin->source];
 }
 
-/* Finds a part that the file does not write out in its table, or the nearest part around it: the
-   position, and the number of the source. False where the table has the nearest one. */
+/* Finds a part that the file's table constructor does not write out, or the nearest enclosing part:
+   position and number of the source. False if the constructor has the nearest one. */
 static bool follow_part(JoxBuild *b, const char *path, JoxPosition *at, uint32_t *number) {
     char shorter[256];
     snprintf(shorter, sizeof shorter, "%s", path);
@@ -66,11 +67,11 @@ static bool follow_part(JoxBuild *b, const char *path, JoxPosition *at, uint32_t
     return false;
 }
 
-/* The position of a path, and the number of its source. */
+/* Returns the position of a path, and the number of its source. */
 static JoxPosition find_position(JoxBuild *b, const char *path, uint32_t *number) {
     char there[512];
     JoxPosition at;
-    const JoxSource *source = locate(b, path, there);
+    const JoxSource *source = locate_path(b, path, there);
     if (source == b->source && strcmp(there, path) == 0 && follow_part(b, path, &at, number))
         return at;
     *number = 0;
@@ -94,6 +95,6 @@ int32_t jox_read_line(JoxBuild *b, const char *path, uint16_t *source) {
 
 const JoxPath *jox_read_span(const JoxBuild *b, const char *path, const JoxSource **source) {
     char there[512];
-    *source = locate(b, path, there);
+    *source = locate_path(b, path, there);
     return jox_outline_find(*source, there);
 }

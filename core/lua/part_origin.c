@@ -1,6 +1,6 @@
-/* Finds where a part of a machine is written that its file does not write out in one table: in a
-   local, by an assignment, in a function or a library that builds it. The machine is followed from
-   the file's `return` through the syntax trees. why.c and origin.c ask. */
+/* Finds where a part of a machine is written if its file does not write it out in one table: in a
+   local, by an assignment, or in a function or library that builds it. Follows the machine from the
+   file's `return` through the syntax trees. Called by why.c and origin.c. */
 #include <stdio.h>
 #include <string.h>
 
@@ -14,16 +14,16 @@ typedef struct PartSearch {
     JoxPartOrigin *found;
 } PartSearch;
 
-static const JoxSyntax *syntax_at(const PartSearch *f, uint32_t source) {
+static const JoxSyntax *get_tree(const PartSearch *f, uint32_t source) {
     return jox_outline_syntax(f->kinds->script->vm.sources[source]);
 }
 
 static bool follow_value(PartSearch *f, uint32_t source, int32_t tree, const char *path, int depth);
 
-/* Goes on with the value of a part whose key is a token; without a rest of the path it is found. */
-static bool take_part(PartSearch *f, uint32_t source, uint32_t key, int32_t value, const char *rest,
-                      int depth) {
-    const JoxTree *t = &syntax_at(f, source)->trees[value];
+/* Continues with the value of a key; at the end of the path that is the part. */
+static bool follow_part_value(PartSearch *f, uint32_t source, uint32_t key, int32_t value,
+                              const char *rest, int depth) {
+    const JoxTree *t = &get_tree(f, source)->trees[value];
     if (*rest)
         return follow_value(f, source, value, rest + 1, depth);
     *f->found = (JoxPartOrigin){source, key, t->first, t->last};
@@ -32,7 +32,7 @@ static bool take_part(PartSearch *f, uint32_t source, uint32_t key, int32_t valu
 
 typedef enum { KEY_OTHER, KEY_SAME, KEY_COMPUTED } KeyMatch;
 
-/* Whether a key that is written in brackets, or as a name, is one of `length` bytes. */
+/* Compares a key, in brackets or a name, with a name of `length` bytes. */
 static KeyMatch match_key(const JoxSyntax *s, const JoxTree *t, int32_t in_brackets,
                           const char *name, size_t length) {
     const JoxToken *token = &s->source->tokens[t->at];
@@ -44,12 +44,12 @@ static KeyMatch match_key(const JoxSyntax *s, const JoxTree *t, int32_t in_brack
     return token->length == length && memcmp(token->text, name, length) == 0 ? KEY_SAME : KEY_OTHER;
 }
 
-/* A part that was assigned to a table: `t.name = value`, or with a computed key. */
+/* Follows assignments to a table, `t.name = value` or with a computed key. */
 static bool follow_assigned(PartSearch *f, JoxKind table, const char *path, KeyMatch match,
                             int depth) {
     const size_t length = strcspn(path, ".");
     for (uint32_t o = f->kinds->source_count; o-- > 0;) {
-        const JoxSyntax *s = syntax_at(f, o);
+        const JoxSyntax *s = get_tree(f, o);
         for (size_t b = f->kinds->trees[o] ? s->binding_count : 0; b-- > 0;) {
             const JoxTreeBinding *bound = &s->bindings[b];
             const JoxTree *target = &s->trees[bound->target];
@@ -59,16 +59,16 @@ static bool follow_assigned(PartSearch *f, JoxKind table, const char *path, KeyM
             const JoxKind to = f->kinds->trees[o][target->a];
             if (to.site == JOX_SITE_TREE && to.source == table.source && to.tree == table.tree &&
                 match_key(s, target, target->b, path, length) == match &&
-                take_part(f, o, target->at, bound->value, path + length, depth))
+                follow_part_value(f, o, target->at, bound->value, path + length, depth))
                 return true;
         }
     }
     return false;
 }
 
-/* A part that a table writes out: under its name, or by its number among the items. */
+/* Follows a field of a table constructor, by name, or by number for an item. */
 static bool follow_field(PartSearch *f, JoxKind table, const char *path, int depth) {
-    const JoxSyntax *s = syntax_at(f, table.source);
+    const JoxSyntax *s = get_tree(f, table.source);
     const size_t length = strcspn(path, ".");
     const bool number = length > 0 && strspn(path, "0123456789") == length;
     unsigned item = 0, wanted = 0;
@@ -81,13 +81,14 @@ static bool follow_field(PartSearch *f, JoxKind table, const char *path, int dep
         if (plain ? !number || item != wanted
                   : match_key(s, field, field->a, path, length) != KEY_SAME)
             continue;
-        if (take_part(f, table.source, field->at + (!plain && !field->named), field->b,
-                      path + length, depth))
+        if (follow_part_value(f, table.source, field->at + (!plain && !field->named), field->b,
+                              path + length, depth))
             return true;
     }
     return false;
 }
 
+/* Follows a call: the argument of a word, or what a function returns. */
 static bool follow_call(PartSearch *f, uint32_t source, const JoxTree *call, const char *path,
                         int depth) {
     const JoxKind callee = f->kinds->trees[source][call->a];
@@ -97,7 +98,7 @@ static bool follow_call(PartSearch *f, uint32_t source, const JoxTree *call, con
         return call->items != JOX_NO_TREE && follow_value(f, source, call->items, path, depth);
     if (callee.site != JOX_SITE_TREE)
         return false;
-    const JoxSyntax *s = syntax_at(f, callee.source);
+    const JoxSyntax *s = get_tree(f, callee.source);
     const int32_t function = s->trees[callee.tree].variable;
     for (size_t r = s->return_count; r-- > 0;)
         if (s->returns[r].function == function && s->returns[r].value != JOX_NO_TREE &&
@@ -106,10 +107,10 @@ static bool follow_call(PartSearch *f, uint32_t source, const JoxTree *call, con
     return false;
 }
 
-/* A name: what was assigned to its variable, the last first. */
+/* Follows a name: the values assigned to its variable, the last first. */
 static bool follow_variable(PartSearch *f, uint32_t source, int32_t variable, const char *path,
                             int depth) {
-    const JoxSyntax *s = syntax_at(f, source);
+    const JoxSyntax *s = get_tree(f, source);
     for (size_t b = variable == JOX_NO_TREE ? 0 : s->binding_count; b-- > 0; f->steps++) {
         const JoxTreeBinding *bound = &s->bindings[b];
         const JoxTree *target = &s->trees[bound->target];
@@ -120,10 +121,10 @@ static bool follow_variable(PartSearch *f, uint32_t source, int32_t variable, co
     return false;
 }
 
-/* Looks for a part, by its path, of the value of an expression. */
+/* Finds a part, by its path, in the value of an expression. */
 static bool follow_value(PartSearch *f, uint32_t source, int32_t tree, const char *path,
                          int depth) {
-    const JoxSyntax *s = syntax_at(f, source);
+    const JoxSyntax *s = get_tree(f, source);
     tree = jox_syntax_bare(s, tree);
     const JoxTree *t = &s->trees[tree];
     char longer[256];
@@ -140,14 +141,14 @@ static bool follow_value(PartSearch *f, uint32_t source, int32_t tree, const cha
         return follow_variable(f, source, t->variable, path, depth);
     case JOX_TREE_CALL:
         return follow_call(f, source, t, path, depth);
-    case JOX_TREE_INDEX: /* a part of what lies deeper */
+    case JOX_TREE_INDEX: /* a part of a part of what `a` holds */
         if (!t->named)
             return false;
         const JoxToken *name = jox_syntax_token(s, tree);
         snprintf(longer, sizeof longer, "%.*s.%s", name->length < 60 ? (int)name->length : 60,
                  name->text, path);
         return follow_value(f, source, t->a, longer, depth);
-    case JOX_TREE_BINARY: /* `a or b` gives either */
+    case JOX_TREE_BINARY: /* `a or b` may be either */
         return follow_value(f, source, t->b, path, depth) ||
                follow_value(f, source, t->a, path, depth);
     default:
@@ -160,7 +161,7 @@ bool jox_part_find(JoxKinds *kinds, const char *path, JoxPartOrigin *found) {
     if (!kinds->settled || kinds->source_count == 0 || !kinds->trees[0] ||
         kinds->followed > MOST_STEPS_IN_ALL)
         return false;
-    const JoxSyntax *s = syntax_at(&f, 0);
+    const JoxSyntax *s = get_tree(&f, 0);
     bool good = false;
     for (size_t r = s->return_count; r-- > 0 && !good;)
         good = s->returns[r].function == 0 && s->returns[r].value != JOX_NO_TREE &&

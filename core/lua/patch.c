@@ -1,5 +1,6 @@
-/* Mods change a behaviour's table before it is read: their files are run, and what they return is
-   merged or takes its place. */
+/* Lets mods change a behaviour's table before it is read: runs their files and merges the tables
+   that they return, or replaces the behaviour's. Called by the loader; base/format/patch.h does the
+   merging. */
 #include <stdio.h>
 #include <string.h>
 
@@ -32,9 +33,9 @@ bool jox_lua_patch_target(const char *text, size_t length, char target[128], boo
     return found;
 }
 
-/* Whether a patch's target is the machine whose table is at `index`: by its name, but for one of a
-   mod, or by its file's. */
-static bool is_target(JoxScript *script, int index, const char *target) {
+/* Returns whether a patch is for the machine whose table is at `index`: by the machine's name,
+   unless it comes from a mod, or by the name of its file. */
+static bool is_patch_target(JoxScript *script, int index, const char *target) {
     lua_State *L = script->vm.L;
     const JoxScope *scope = script->scope;
     const char *path = script->vm.sources[0]->path;
@@ -46,9 +47,9 @@ static bool is_target(JoxScript *script, int index, const char *target) {
     return named || jox_patch_is_target(target, path, scope->mods, scope->mod_count);
 }
 
-/* Runs one file of a mod; its patch is left on the stack. NULL with diagnostics. */
-static JoxNode *run_file(JoxScript *script, int32_t mod, const JoxModPatch *patch,
-                         uint32_t *number) {
+/* Runs a file of a mod and leaves its patch on the stack; NULL with diagnostics. */
+static JoxNode *run_mod_file(JoxScript *script, int32_t mod, const JoxModPatch *patch,
+                             uint32_t *number) {
     lua_State *L = script->vm.L;
     *number = (uint32_t)script->vm.source_count;
     jox_vm_tried(&script->vm, patch->path);
@@ -69,9 +70,9 @@ static JoxNode *run_file(JoxScript *script, int32_t mod, const JoxModPatch *patc
     return NULL;
 }
 
-/* Merges what the file's `node` changes into the machine's table at `table`, or replaces it. */
-static void merge_file(JoxScript *script, int table, const JoxNode *node, uint32_t mod,
-                       uint32_t source) {
+/* Merges the patch into the machine's table at stack index `table`, or replaces that. */
+static void merge_mod_patch(JoxScript *script, int table, const JoxNode *node, uint32_t mod,
+                            uint32_t source) {
     lua_State *L = script->vm.L;
     luaL_checkstack(L, 40, "patch");
     lua_newtable(L);
@@ -107,11 +108,11 @@ bool jox_patch_behaviour(JoxScript *script) {
         for (uint32_t f = 0; f < scope->mods[m].patch_count; f++) {
             const JoxModPatch *file = &scope->mods[m].patches[f];
             uint32_t source;
-            if (!file->lua || !file->target || !is_target(script, table, file->target))
+            if (!file->lua || !file->target || !is_patch_target(script, table, file->target))
                 continue;
-            const JoxNode *node = run_file(script, (int32_t)m, file, &source);
+            const JoxNode *node = run_mod_file(script, (int32_t)m, file, &source);
             if (node)
-                merge_file(script, table, node, m, source);
+                merge_mod_patch(script, table, node, m, source);
             lua_settop(L, table);
         }
     lua_rawseti(L, LUA_REGISTRYINDEX, machine->hook);

@@ -1,5 +1,6 @@
-/* Lua tables as trees for base/patch.h: the machine's table, whose transitions go by their ids.
-   Tables are copied where they change, for a file may use one table in several places. */
+/* Lua tables as trees for base/format/patch.h; patch.c applies patches through it. Transitions are
+   found by their ids. Tables are copied where they change, as a file may use one table in several
+   places. */
 #include <stdio.h>
 #include <string.h>
 
@@ -25,20 +26,22 @@ void *jox_nodes_pop_value(JoxLuaNodes *n) {
     return (void *)(intptr_t)n->count;
 }
 
-static void *pop_to(JoxLuaNodes *n, int top) {
+/* Makes a node of the value on top of the stack, and sets the stack to `top`. */
+static void *pop_node(JoxLuaNodes *n, int top) {
     void *node = jox_nodes_pop_value(n);
     lua_settop(n->L, top);
     return node;
 }
 
-static void fail(JoxLuaNodes *n, const char *from, const char *code, const char *hint,
-                 const char *message, const char *name) {
+/* Reports an error at key `from` of the patch. */
+static void report_patch_error(JoxLuaNodes *n, const char *from, const char *code, const char *hint,
+                               const char *message, const char *name) {
     JoxPosition at = jox_outline_at(n->script->vm.sources[n->source], from);
     jox_diag_error(n->script->diagnostics, at, code, hint, message, name);
 }
 
-/* Whether the machine that is changed calls something by another name now, which is reported. */
-static bool renamed(JoxLuaNodes *n, const char *from, const char *name) {
+/* Reports a name that the machine has renamed; false if it has not. */
+static bool report_renamed(JoxLuaNodes *n, const char *from, const char *name) {
     lua_State *L = n->L;
     const int top = lua_gettop(L);
     const char *now = NULL;
@@ -52,8 +55,8 @@ static bool renamed(JoxLuaNodes *n, const char *from, const char *name) {
     return now != NULL;
 }
 
-/* Pushes a copy of the table at `index`, its items shared. */
-static void push_copy(lua_State *L, int index) {
+/* Pushes a copy of the table at `index`, with the same items. */
+static void push_table_copy(lua_State *L, int index) {
     lua_newtable(L);
     int copy = lua_gettop(L);
     lua_pushnil(L);
@@ -65,8 +68,8 @@ static void push_copy(lua_State *L, int index) {
     }
 }
 
-/* Whether the table at `index` is a list and nothing else. */
-static bool is_list(lua_State *L, int index) {
+/* Returns whether the table at `index` is a list and nothing else. */
+static bool is_lua_list(lua_State *L, int index) {
     bool list = lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0;
     if (!list)
         return false;
@@ -81,30 +84,31 @@ static bool is_list(lua_State *L, int index) {
     return list;
 }
 
-/* ---- the operations of a tree ---- */
+/* ---- operations of JoxPatchTree ---- */
 
-static JoxPatchKind kind(void *c, void *node) {
+static JoxPatchKind get_lua_kind(void *c, void *node) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     const JoxNode *value = jox_node_get(n->L, at);
     const JoxPatchKind result = value && value->kind == JOX_NODE_NONE ? JOX_PATCH_NOTHING
                                 : lua_type(n->L, at) != LUA_TTABLE    ? JOX_PATCH_LEAF
-                                : is_list(n->L, at)                   ? JOX_PATCH_LIST
+                                : is_lua_list(n->L, at)               ? JOX_PATCH_LIST
                                                                       : JOX_PATCH_MAP;
     lua_settop(n->L, at - 1);
     return result;
 }
 
-static void *copy(void *c, void *node) {
+static void *copy_lua_node(void *c, void *node) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
-    push_copy(n->L, at);
-    return pop_to(n, at - 1);
+    push_table_copy(n->L, at);
+    return pop_node(n, at - 1);
 }
 
-/* The string keys of a table, sorted. Others are an error, but for items where they may stand. */
-static uint32_t keys(void *c, void *map, const char *path, const char *from,
-                     const char *const **names) {
+/* Lists the string keys of a table, sorted. Other keys are an error, except items where items may
+   be. */
+static uint32_t list_lua_keys(void *c, void *map, const char *path, const char *from,
+                              const char *const **names) {
     JoxLuaNodes *n = c;
     lua_State *L = n->L;
     const int at = jox_nodes_push_value(n, map);
@@ -117,26 +121,27 @@ static uint32_t keys(void *c, void *map, const char *path, const char *from,
     const char **found = lua_newuserdatauv(L, (most + 1) * sizeof *found, 0);
     for (lua_pushnil(L); lua_next(L, at); lua_pop(L, 1))
         if (lua_type(L, -2) == LUA_TSTRING)
-            found[count++] = lua_tostring(L, -2); /* the table holds it */
+            found[count++] = lua_tostring(L, -2); /* valid while the table lives */
         else
             odd |= !items || !lua_isinteger(L, -2);
     if (odd)
-        fail(n, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
-             "this table of a patch takes names as keys%s", "");
+        report_patch_error(n, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
+                           "this table of a patch takes names as keys%s", "");
     jox_sort_texts(found, count);
     *names = found;
-    pop_to(n, at - 1); /* the list of nodes keeps the names alive */
+    pop_node(n, at - 1); /* the list of nodes keeps the keys alive */
     return (uint32_t)count;
 }
 
-static void *get(void *c, void *map, const char *key) {
+static void *get_lua_key(void *c, void *map, const char *key) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, map);
     jox_read_field(n->L, at, key);
-    return pop_to(n, at - 1);
+    return pop_node(n, at - 1);
 }
 
-static void set(void *c, void *map, const char *key, const JoxPatchPlace *place, void *value) {
+static void set_lua_key(void *c, void *map, const char *key, const JoxPatchPlace *place,
+                        void *value) {
     (void)place;
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, map);
@@ -146,7 +151,7 @@ static void set(void *c, void *map, const char *key, const JoxPatchPlace *place,
     lua_settop(n->L, at - 1);
 }
 
-static void remove_key(void *c, void *map, const char *key) {
+static void remove_lua_key(void *c, void *map, const char *key) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, map);
     lua_pushstring(n->L, key);
@@ -155,7 +160,7 @@ static void remove_key(void *c, void *map, const char *key) {
     lua_settop(n->L, at - 1);
 }
 
-static uint32_t count(void *c, void *node) {
+static uint32_t count_lua_items(void *c, void *node) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     const uint32_t items = lua_istable(n->L, at) ? (uint32_t)lua_rawlen(n->L, at) : 0;
@@ -163,16 +168,16 @@ static uint32_t count(void *c, void *node) {
     return items;
 }
 
-static void *item(void *c, void *node, uint32_t i) {
+static void *get_lua_item(void *c, void *node, uint32_t i) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     lua_rawgeti(n->L, at, (lua_Integer)i + 1);
-    return pop_to(n, at - 1);
+    return pop_node(n, at - 1);
 }
 
-/* What is taken away is `false` until it is swept. */
-static void put(void *c, void *node, uint32_t i, void *value) {
-    JOX_ASSERT(i <= count(c, node));
+/* A removed item is `false` until sweep_lua_items. */
+static void put_lua_item(void *c, void *node, uint32_t i, void *value) {
+    JOX_ASSERT(i <= count_lua_items(c, node));
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     if (value)
@@ -183,7 +188,7 @@ static void put(void *c, void *node, uint32_t i, void *value) {
     lua_settop(n->L, at - 1);
 }
 
-static void insert(void *c, void *node, uint32_t i, void *value) {
+static void insert_lua_item(void *c, void *node, uint32_t i, void *value) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     const lua_Integer length = (lua_Integer)lua_rawlen(n->L, at), place = (lua_Integer)i + 1;
@@ -198,7 +203,7 @@ static void insert(void *c, void *node, uint32_t i, void *value) {
     lua_settop(n->L, at - 1);
 }
 
-static void sweep(void *c, void *node) {
+static void sweep_lua_items(void *c, void *node) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     const lua_Integer length = (lua_Integer)lua_rawlen(n->L, at);
@@ -217,16 +222,16 @@ static void sweep(void *c, void *node) {
     lua_settop(n->L, at - 1);
 }
 
-static const char *text(void *c, void *leaf) {
+static const char *get_lua_text(void *c, void *leaf) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, leaf);
     const char *result = lua_type(n->L, at) == LUA_TSTRING ? lua_tostring(n->L, at) : NULL;
-    lua_settop(n->L, at - 1); /* the list holds it */
+    lua_settop(n->L, at - 1); /* valid while the list holds it */
     return result;
 }
 
-/* The id of a transition, pushed; NULL where the item is none. */
-static const char *push_id(JoxLuaNodes *n, int state, lua_Integer i) {
+/* Pushes the id of a transition and returns it; NULL if the item has none. */
+static const char *push_transition_id(JoxLuaNodes *n, int state, lua_Integer i) {
     jox_vm_charge(n->L, 10);
     const bool table = lua_rawgeti(n->L, state, i) == LUA_TTABLE;
     if (!table || jox_read_field(n->L, lua_gettop(n->L), "id") != LUA_TSTRING)
@@ -234,61 +239,65 @@ static const char *push_id(JoxLuaNodes *n, int state, lua_Integer i) {
     return lua_tostring(n->L, -1);
 }
 
-static bool is_item(void *c, void *node, uint32_t i, const char *id) {
+static bool has_lua_item_id(void *c, void *node, uint32_t i, const char *id) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
-    const char *own = push_id(n, at, (lua_Integer)i + 1);
+    const char *own = push_transition_id(n, at, (lua_Integer)i + 1);
     const bool is = own && strcmp(own, id) == 0;
     lua_settop(n->L, at - 1);
     return is;
 }
 
-static bool is_taken(JoxLuaNodes *n, int state, const char *id) {
+/* Returns whether a transition of the state has the id. */
+static bool is_id_used(JoxLuaNodes *n, int state, const char *id) {
     const int top = lua_gettop(n->L);
     bool taken = false;
     for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state) && !taken; i++) {
-        const char *own = push_id(n, state, i);
+        const char *own = push_transition_id(n, state, i);
         taken = own && strcmp(own, id) == 0;
         lua_settop(n->L, top);
     }
     return taken;
 }
 
-/* A copy of a transition with an id of its own: the first that is free. */
-static void *admit(void *c, void *node, void *value, const char *path, const char *keep,
-                   const JoxPatchPlace *place, char id[JOX_PATCH_ID]) {
+/* Copies a transition for insertion, with the id `keep` or the first free one. */
+static void *admit_lua_item(void *c, void *node, void *value, const char *path, const char *keep,
+                            const JoxPatchPlace *place, char id[JOX_PATCH_ID]) {
     JOX_ASSERT(!keep || *keep);
     JoxLuaNodes *n = c;
     lua_State *L = n->L;
     const int state = jox_nodes_push_value(n, node), at = jox_nodes_push_value(n, value);
     if (lua_type(L, at) != LUA_TTABLE)
-        fail(n, place->from, "bad-value", "Example: { to = \"Exit\", when = after(5) }",
-             "a transition must be a table, not %s", luaL_typename(L, at));
+        report_patch_error(n, place->from, "bad-value",
+                           "Example: { to = \"Exit\", when = after(5) }",
+                           "a transition must be a table, not %s", luaL_typename(L, at));
     else if (lua_rawlen(L, state) >= 2 * JOX_MOST_TRANSITIONS)
-        fail(n, place->from, "too-many", "Split the state", "%s has too many transitions", path);
+        report_patch_error(n, place->from, "too-many", "Split the state",
+                           "%s has too many transitions", path);
     if (lua_type(L, at) != LUA_TTABLE || lua_rawlen(L, state) >= 2 * JOX_MOST_TRANSITIONS) {
         lua_settop(L, state - 1);
         return NULL;
     }
-    push_copy(L, at);
+    push_table_copy(L, at);
     if (keep)
         snprintf(id, JOX_PATCH_ID, "%s", keep);
     else
-        for (int nth = 1; jox_read_id(L, at, nth, id), is_taken(n, state, id);)
+        for (int nth = 1; jox_read_id(L, at, nth, id), is_id_used(n, state, id);)
             nth++;
     lua_pushstring(L, id);
     lua_setfield(L, at + 1, "id");
     lua_pushvalue(L, at + 1);
-    return pop_to(n, state - 1);
+    return pop_node(n, state - 1);
 }
 
-static JoxPosition position(void *c, const JoxPatchPlace *at) {
+static JoxPosition locate_lua_change(void *c, const JoxPatchPlace *at) {
     const JoxLuaNodes *n = c;
     return jox_outline_at(n->script->vm.sources[n->source], at->from);
 }
 
-/* Gives every transition of the state its id, as a copy of its own, and keeps where it stands. */
-static void name_transitions(JoxLuaNodes *n, int state, const char *path) {
+/* Gives each transition of a state its id, in a copy of its own, and records where it is written.
+ */
+static void set_transition_ids(JoxLuaNodes *n, int state, const char *path) {
     lua_State *L = n->L;
     const lua_Integer length = (lua_Integer)lua_rawlen(L, state);
     char ids[JOX_MOST_TRANSITIONS][128];
@@ -296,13 +305,13 @@ static void name_transitions(JoxLuaNodes *n, int state, const char *path) {
         ids[i - 1][0] = 0;
         if (lua_rawgeti(L, state, i) == LUA_TTABLE) {
             bool taken = true;
-            for (int nth = 1; taken; nth++) { /* as without patches */
+            for (int nth = 1; taken; nth++) { /* numbered as without patches */
                 taken = false;
                 jox_read_id(L, lua_gettop(L), nth, ids[i - 1]);
                 for (lua_Integer o = 1; o < i; o++)
                     taken |= strcmp(ids[o - 1], ids[i - 1]) == 0;
             }
-            push_copy(L, lua_gettop(L));
+            push_table_copy(L, lua_gettop(L));
             lua_pushstring(L, ids[i - 1]);
             lua_setfield(L, -2, "id");
             lua_rawseti(L, state, i);
@@ -316,100 +325,105 @@ static void name_transitions(JoxLuaNodes *n, int state, const char *path) {
     }
 }
 
-/* A state is the one table whose items go by ids: its transitions. */
-static bool enter(void *c, void *node, void *change, const char *path, const char *from,
-                  int depth) {
+/* Prepares a state, the only table whose items have ids, for patches of its transitions. */
+static bool enter_lua_state(void *c, void *node, void *change, const char *path, const char *from,
+                            int depth) {
     JOX_ASSERT(depth >= 0 && depth <= jox_lua_tree.deepest);
     JoxLuaNodes *n = c;
     if (depth != 2 || strncmp(path, "states.", 7) != 0)
         return false;
-    if (count(c, change) > 0)
-        fail(n, from, "bad-patch",
-             "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
-             "or remove = { \"ID\" }",
-             "%s: transitions of a patch need a place", path);
+    if (count_lua_items(c, change) > 0)
+        report_patch_error(
+            n, from, "bad-patch",
+            "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
+            "or remove = { \"ID\" }",
+            "%s: transitions of a patch need a place", path);
     const int state = jox_nodes_push_value(n, node);
-    name_transitions(n, state, path);
+    set_transition_ids(n, state, path);
     lua_settop(n->L, state - 1);
     return true;
 }
 
-/* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
- */
-static bool skips(void *c, void *node, const JoxPatchPlace *at, int depth) {
+/* Reports and skips the patch of a state that does not exist. A patch with verbs is meant to change
+   one; without, it adds one. */
+static bool skips_lua_state(void *c, void *node, const JoxPatchPlace *at, int depth) {
     JoxLuaNodes *n = c;
     bool verbs = false;
-    if (depth != 1 || strncmp(at->from, "states.", 7) != 0 || get(c, node, at->key))
+    if (depth != 1 || strncmp(at->from, "states.", 7) != 0 || get_lua_key(c, node, at->key))
         return false;
-    const JoxPatchKind is = kind(c, at->value);
+    const JoxPatchKind is = get_lua_kind(c, at->value);
     for (int v = 0; (is == JOX_PATCH_MAP || is == JOX_PATCH_LIST) && v < JOX_PATCH_VERBS; v++)
-        verbs |= get(c, at->value, jox_patch_verbs[v]) != NULL;
+        verbs |= get_lua_key(c, at->value, jox_patch_verbs[v]) != NULL;
     if (!verbs)
         return false;
-    if (renamed(n, at->from, at->key))
+    if (report_renamed(n, at->from, at->key))
         return true;
     const char *const *names;
     char hint[JOX_HINT];
-    const uint32_t known = keys(c, node, "states", at->from, &names);
-    fail(n, at->from, "unknown-state",
-         jox_did_you_mean(at->key, names, known < 64 ? known : 64, hint),
-         "there is no state '%s' to change", at->key);
+    const uint32_t known = list_lua_keys(c, node, "states", at->from, &names);
+    report_patch_error(n, at->from, "unknown-state",
+                       jox_did_you_mean(at->key, names, known < 64 ? known : 64, hint),
+                       "there is no state '%s' to change", at->key);
     return true;
 }
 
-static void missing(void *c, void *node, const char *name, const JoxPatchPlace *at,
-                    bool transition) {
+/* Reports a key or transition that the patch refers to and that does not exist. */
+static void report_missing_part(void *c, void *node, const char *name, const JoxPatchPlace *at,
+                                bool transition) {
     JoxLuaNodes *n = c;
     if (!transition) {
-        fail(n, at->from, "unknown-key", NULL, "there is no '%s' to take away", name);
+        report_patch_error(n, at->from, "unknown-key", NULL, "there is no '%s' to take away", name);
         return;
     }
-    if (renamed(n, at->from, name))
+    if (report_renamed(n, at->from, name))
         return;
     const char *names[JOX_MOST_TRANSITIONS];
     char hint[JOX_HINT];
     size_t known = 0;
     const int state = jox_nodes_push_value(n, node);
     for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state); i++) {
-        const char *id = push_id(n, state, i);
+        const char *id = push_transition_id(n, state, i);
         if (id && known < JOX_MOST_TRANSITIONS)
             names[known++] = jox_vm_intern(&n->script->vm, id);
         lua_settop(n->L, state);
     }
     lua_settop(n->L, state - 1);
-    fail(n, at->from, "unknown-transition", jox_did_you_mean(name, names, known, hint),
-         "this state has no transition '%s'", name);
+    report_patch_error(n, at->from, "unknown-transition",
+                       jox_did_you_mean(name, names, known, hint),
+                       "this state has no transition '%s'", name);
 }
 
-static void misused(void *c, JoxPatchVerb verb, const JoxPatchPlace *at) {
+/* Reports a verb, or the change of a transition, that is no table. */
+static void report_misused_verb(void *c, JoxPatchVerb verb, const JoxPatchPlace *at) {
     if (strcmp(at->key, jox_patch_verbs[verb]) == 0)
-        fail(c, at->from, "bad-value",
-             "Example: remove = { \"Exit\" }, change = { Exit = { ... } }", "'%s' must be a table",
-             at->key);
+        report_patch_error(c, at->from, "bad-value",
+                           "Example: remove = { \"Exit\" }, change = { Exit = { ... } }",
+                           "'%s' must be a table", at->key);
     else
-        fail(c, at->from, "bad-value", "Example: change = { Exit = { chance = 0.5 } }",
-             "the change of '%s' must be a table", at->key);
+        report_patch_error(c, at->from, "bad-value",
+                           "Example: change = { Exit = { chance = 0.5 } }",
+                           "the change of '%s' must be a table", at->key);
 }
 
-const JoxPatchTree jox_lua_tree = {.kind = kind,
-                                   .copy = copy,
-                                   .keys = keys,
-                                   .get = get,
-                                   .set = set,
-                                   .remove = remove_key,
-                                   .count = count,
-                                   .item = item,
-                                   .put = put,
-                                   .insert = insert,
-                                   .sweep = sweep,
-                                   .text = text,
-                                   .is_item = is_item,
-                                   .admit = admit,
-                                   .position = position,
-                                   .enter = enter,
-                                   .skips = skips,
-                                   .missing = missing,
-                                   .misused = misused,
+const JoxPatchTree jox_lua_tree = {.kind = get_lua_kind,
+                                   .copy = copy_lua_node,
+                                   .keys = list_lua_keys,
+                                   .get = get_lua_key,
+                                   .set = set_lua_key,
+                                   .remove = remove_lua_key,
+                                   .count = count_lua_items,
+                                   .item = get_lua_item,
+                                   .put = put_lua_item,
+                                   .insert = insert_lua_item,
+                                   .sweep = sweep_lua_items,
+                                   .text = get_lua_text,
+                                   .is_item = has_lua_item_id,
+                                   .admit = admit_lua_item,
+                                   .position = locate_lua_change,
+                                   .enter = enter_lua_state,
+                                   .skips = skips_lua_state,
+                                   .missing = report_missing_part,
+                                   .misused = report_misused_verb,
                                    .item_mark = "@",
                                    .verbs = (1u << JOX_PATCH_VERBS) - 1,
                                    .lists_merge = true,

@@ -1,25 +1,27 @@
-/* Lua tables as trees for base/patch.h. */
+/* Lua tables as trees for base/format/patch.h. patch.c is the only caller. */
 #ifndef JOX_LUA_PATCH_TREE_H
 #define JOX_LUA_PATCH_TREE_H
 
 #include "base/format/patch.h"
 #include "lua/language/script.h"
 
-/* Values of Lua as nodes: a node is the number of a value in a list on the stack. */
+/* Nodes of a tree: each is the index of a Lua value in a list on the stack, which keeps the value
+   alive. */
 typedef struct JoxLuaNodes {
     JoxScript *script;
     lua_State *L;
-    int list; /* stack index */
+    int list; /* stack index of the list */
     lua_Integer count;
-    uint32_t source; /* number of the patch's file */
-    int table;       /* stack index of the machine's table that is changed */
+    uint32_t source; /* number of the patch's source */
+    int table;       /* stack index of the machine's table, which is changed */
 } JoxLuaNodes;
 
-/* Pushes a node's value; its stack index. */
+/* Pushes the value of a node; returns its stack index. */
 int jox_nodes_push_value(JoxLuaNodes *nodes, void *node);
-/* The node of the value on top of the stack, popped; NULL of nil. */
+/* Makes a node of the value on top of the stack, which is popped; NULL for nil. */
 void *jox_nodes_pop_value(JoxLuaNodes *nodes);
-/* The operations; the context, a JoxLuaNodes, is to be set. Raises errors: within jox_vm_call. */
+/* Operations on Lua tables; set its context to a JoxLuaNodes. They raise errors, so use them within
+   jox_vm_call. */
 extern const JoxPatchTree jox_lua_tree;
 
 #endif

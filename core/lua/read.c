@@ -1,5 +1,5 @@
-/* Reading the machine's table: keys, values and what they must be. Everything wrong is reported,
-   not only the first. */
+/* Reads keys and values of a machine's table and checks them. Every error is reported, not only the
+   first. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,9 +10,10 @@
 
 enum { KEYS_MOST = 64 };
 
-/* Position of a key itself: of the key written out, or of the table around it. */
-static void unknown_key(JoxBuild *b, const char *path, const char *key, const char *const *known,
-                        size_t count) {
+/* Reports an unknown key at its position, or at that of the table around it, with the key that was
+   meant. */
+static void report_unknown_key(JoxBuild *b, const char *path, const char *key,
+                               const char *const *known, size_t count) {
     char full[256], hint[JOX_HINT];
     snprintf(full, sizeof full, "%s%s%s", path, *path ? "." : "", key);
     const bool transition = !strcmp(key, "transitions") || !strcmp(key, "to") ||
@@ -57,10 +58,10 @@ void jox_read_check(JoxBuild *b, int index, const char *path, const char *const 
         wrong[place] = key;
     }
     for (size_t k = 0; k < n; k++)
-        unknown_key(b, path, wrong[k], known, count);
+        report_unknown_key(b, path, wrong[k], known, count);
 }
 
-/* Pushes table[key] by raw access; its type. */
+/* Pushes table[key] by raw access and returns its type. */
 int jox_read_field(lua_State *L, int index, const char *key) {
     JOX_ASSERT(lua_istable(L, index));
     lua_pushstring(L, key);
@@ -71,8 +72,9 @@ void jox_read_join(char path[256], const char *prefix, const char *key) {
     snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
 }
 
-/* "states.Circle.2.on_take" in words: "state Circle > transition 2 > on_take". */
-static void describe(const char *path, JoxText *out) {
+/* Prints a path for people: "states.Circle.2.on_take" is "state Circle > transition 2 > on_take".
+ */
+static void print_part_path(const char *path, JoxText *out) {
     char part[128];
     for (int depth = 0; *path; depth++) {
         size_t n = strcspn(path, ".");
@@ -91,7 +93,7 @@ static void describe(const char *path, JoxText *out) {
 int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* pops the function */
     JoxScript *script = b->script;
     JoxText where = {0};
-    describe(path, &where);
+    print_part_path(path, &where);
     JOX_RESERVE(script->hooks, script->hook_capacity, script->hook_count + 1);
     script->hooks[script->hook_count] =
         (JoxHook){.ref = luaL_ref(script->vm.L, LUA_REGISTRYINDEX), .where = where.data};
@@ -114,7 +116,6 @@ int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key)
     return -1;
 }
 
-/* A number, distribution or expression for a parameter; pops it. */
 JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info, bool *is_dist,
                         JoxDist *dist) {
     lua_State *L = b->script->vm.L;
@@ -159,7 +160,7 @@ JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInf
     bool is_dist;
     JoxDist dist;
     JoxValue value = jox_read_value(b, path, info, &is_dist, &dist);
-    if (is_dist) { /* drawn once per agent, into a slot of its own */
+    if (is_dist) { /* drawn once per agent, into an own value without a name */
         value.kind = JOX_VALUE_OWN;
         value.index = jox_build_own(b, "");
         b->machine->own[value.index].dist = dist;
@@ -167,8 +168,6 @@ JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInf
     return value;
 }
 
-/* A condition, compiled: the index of its expression; -1 for none. Pops the value. A function
- * becomes *hook where allowed. */
 int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_gettop(L) > 0);
@@ -201,7 +200,6 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     return expression;
 }
 
-/* A target named by a key (a place's name or a target value), or -1. */
 int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(index > 0 && lua_istable(L, index));
@@ -231,8 +229,8 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
     return target;
 }
 
-/* Adds the bit of the tag on the stack. */
-static void add_tag(JoxBuild *b, const char *path, bool is_set, uint64_t *mask) {
+/* Adds the bit of the tag on top of the stack to `mask`. */
+static void add_tag_bit(JoxBuild *b, const char *path, bool is_set, uint64_t *mask) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_gettop(L) > 0);
     if (lua_type(L, -1) != LUA_TSTRING || lua_rawlen(L, -1) > 60) {
@@ -258,12 +256,12 @@ uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key
     int type = jox_read_field(L, index, key);
     if (type == LUA_TTABLE) {
         for (lua_Integer i = 1; lua_rawgeti(L, -1, i) != LUA_TNIL; i++) {
-            add_tag(b, full, is_set, &mask);
+            add_tag_bit(b, full, is_set, &mask);
             lua_pop(L, 1);
         }
         lua_pop(L, 1);
     } else if (type != LUA_TNIL) {
-        add_tag(b, full, is_set, &mask);
+        add_tag_bit(b, full, is_set, &mask);
     }
     lua_pop(L, 1);
     return mask;

@@ -28,8 +28,8 @@ static const struct Section {
     {"The machine's table, and others", "", 0},
 };
 
-/* Text in a cell of a table: | would end it. */
-static void cell(JoxText *out, const char *text) {
+/* Prints text into a cell of a Markdown table; | is escaped. */
+static void print_cell(JoxText *out, const char *text) {
     for (const char *c = text; *c; c++) {
         if (*c == '|')
             jox_text_add(out, "\\");
@@ -45,16 +45,16 @@ static void print_words(JoxText *out, const struct Section *section) {
         if (word->makes != section->makes)
             continue;
         jox_text_add(out, "| `");
-        cell(out, word->signature);
+        print_cell(out, word->signature);
         jox_text_printf(out, "` | %s | ", word->unit);
-        cell(out, word->meaning);
+        print_cell(out, word->meaning);
         const JoxWordNumber *number;
         for (uint32_t n = 0; (number = jox_word_number(word->name, n)); n++)
             jox_text_printf(out, "%s`%s` %g to %g%s%s", n ? ", " : "; ", number->name,
                             number->least, number->greatest, *number->unit ? " " : "",
                             number->unit);
         jox_text_add(out, " | `");
-        cell(out, word->example);
+        print_cell(out, word->example);
         jox_text_add(out, "` |\n");
     }
 }
@@ -68,17 +68,17 @@ static void print_keys(JoxText *out, const char *owner, const char *title, const
         if (strcmp(key->owner, owner) != 0)
             continue;
         jox_text_printf(out, "| `%s` | ", key->name);
-        cell(out, key->type);
+        print_cell(out, key->type);
         jox_text_printf(out, " | %s | ", key->unit);
-        cell(out, key->meaning);
+        print_cell(out, key->meaning);
         jox_text_add(out, " | `");
-        cell(out, key->example);
+        print_cell(out, key->example);
         jox_text_add(out, "` |\n");
     }
 }
 
-/* A value in a parameter's range that is not its default. */
-static double sample(const JoxParameterInfo *p) {
+/* Returns a value in a parameter's range that is not its default. */
+static double get_sample_value(const JoxParameterInfo *p) {
     double value = p->value + 0.25 * ((p->value < 1.0 ? 1.0 : p->value));
     return value > p->greatest ? p->greatest : value;
 }
@@ -101,7 +101,7 @@ void jox_lua_reference(JoxText *out) {
         const JoxParameterInfo *info = &jox_parameters[p];
         jox_text_printf(out, "| `%s` | %s | %g to %g | %g | %s | `%s = %g` |\n", info->name,
                         info->unit, info->least, info->greatest, info->value, info->meaning,
-                        info->name, sample(info));
+                        info->name, get_sample_value(info));
     }
     jox_text_add(out, "\n## Tables\n");
     print_keys(out, "machine", "machine { ... }", "");
@@ -123,7 +123,8 @@ void jox_lua_reference(JoxText *out) {
 
 /* ---- editors ---- */
 
-static const char *class_of(const JoxWord *word) {
+/* Returns the class of what a word makes, for lua-language-server. */
+static const char *get_word_class(const JoxWord *word) {
     switch (word->makes) {
     case JOX_NODE_CONDITION:
         return "jostle.Condition";
@@ -140,7 +141,8 @@ static const char *class_of(const JoxWord *word) {
     }
 }
 
-static const char *argument_type(char letter) {
+/* Returns the type of an argument by its letter, for lua-language-server. */
+static const char *get_argument_type(char letter) {
     return letter == 'p'   ? "string|jostle.Target|jostle.Number"
            : letter == 't' ? "string|jostle.Target|jostle.Number"
            : letter == 'n' ? "number|jostle.Number"
@@ -148,8 +150,8 @@ static const char *argument_type(char letter) {
                            : "string";
 }
 
-static void define_word(JoxText *out, const JoxWord *word) {
-    if (*word->name == ':') /* a method: see jox_lua_definitions */
+static void print_word_definition(JoxText *out, const JoxWord *word) {
+    if (*word->name == ':') /* a method, which jox_lua_definitions prints */
         return;
     static const char *const KEYWORDLESS[] = {"require", "print", "machine"};
     for (size_t k = 0; k < 2; k++)
@@ -164,12 +166,13 @@ static void define_word(JoxText *out, const JoxWord *word) {
             bool optional = *t == '?';
             t += optional;
             n++;
-            jox_text_printf(out, "---@param a%d%s %s\n", n, optional ? "?" : "", argument_type(*t));
+            jox_text_printf(out, "---@param a%d%s %s\n", n, optional ? "?" : "",
+                            get_argument_type(*t));
             snprintf(list + strlen(list), sizeof list - strlen(list), "%sa%d", n > 1 ? ", " : "",
                      n);
         }
-        jox_text_printf(out, "---@return %s\nfunction %s(%s) end\n", class_of(word), word->name,
-                        list);
+        jox_text_printf(out, "---@return %s\nfunction %s(%s) end\n", get_word_class(word),
+                        word->name, list);
     } else if (!strcmp(word->name, "machine")) {
         jox_text_add(
             out, "---@param sheet jostle.Machine\n---@return any\nfunction machine(sheet) end\n");
@@ -179,16 +182,17 @@ static void define_word(JoxText *out, const JoxWord *word) {
                         "%s(behaviour) end\n",
                         word->name);
     } else if (word->takes) {
-        jox_text_printf(out, "---@return %s\nfunction %s(...) end\n", class_of(word), word->name);
+        jox_text_printf(out, "---@return %s\nfunction %s(...) end\n", get_word_class(word),
+                        word->name);
     } else if (!strcmp(word->name, "now") || !strcmp(word->name, "own") ||
                !strcmp(word->name, "settings")) {
         jox_text_printf(out, "---@type table<string, jostle.Number>\n%s = {}\n", word->name);
     } else {
-        jox_text_printf(out, "---@type %s\n%s = nil\n", class_of(word), word->name);
+        jox_text_printf(out, "---@type %s\n%s = nil\n", get_word_class(word), word->name);
     }
 }
 
-/* A key's type as lua-language-server writes it. */
+/* Returns a key's type in the notation of lua-language-server. */
 static const char *editor_type(const char *type) {
     static const char *const TYPES[][2] = {
         {"text", "string"},
@@ -221,7 +225,8 @@ static const char *editor_type(const char *type) {
     return "any";
 }
 
-static void define_table(JoxText *out, const char *class, const char *owner, bool parameters) {
+static void print_table_definition(JoxText *out, const char *class, const char *owner,
+                                   bool parameters) {
     jox_text_printf(out, "\n---@class %s\n", class);
     for (size_t k = 0; k < jox_table_key_count; k++)
         if (!strcmp(jox_table_keys[k].owner, owner))
@@ -271,9 +276,9 @@ void jox_lua_definitions(JoxText *out) {
                  "\n---@class jostle.Drawn\n"
                  "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"
                  "---@operator mul(number|jostle.Number): jostle.Steering\n");
-    define_table(out, "jostle.Machine", "machine", false);
-    define_table(out, "jostle.State", "state", true);
-    define_table(out, "jostle.Transition", "transition", false);
+    print_table_definition(out, "jostle.Machine", "machine", false);
+    print_table_definition(out, "jostle.State", "state", true);
+    print_table_definition(out, "jostle.Transition", "transition", false);
     jox_text_add(out, "\n---@class jostle.Me\n");
     for (size_t k = 0; k < jox_me_key_count; k++)
         jox_text_printf(out, "---@field %s %s %s%s%s\n", jox_me_keys[k].name,
@@ -281,7 +286,7 @@ void jox_lua_definitions(JoxText *out) {
                         *jox_me_keys[k].unit ? ", " : "", jox_me_keys[k].unit);
     jox_text_add(out, "---@field [string] any a parameter, or what memory declares\n");
     for (size_t w = 0; w < jox_word_count; w++)
-        define_word(out, &jox_words[w]);
+        print_word_definition(out, &jox_words[w]);
 }
 
 void jox_lua_luacheck(JoxText *out) {
@@ -307,8 +312,9 @@ void jox_lua_luacheck(JoxText *out) {
 
 static const char MEMORY[] = "local mine = memory { laps = 0, touched = false }\n";
 
-static void example_behaviour(JoxText *out, const char *top, const char *state,
-                              const char *transition) {
+/* Prints a behaviour with an example in its machine, in a state, or in a transition. */
+static void print_example(JoxText *out, const char *top, const char *state,
+                          const char *transition) {
     jox_text_printf(
         out,
         "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s%s\n"
@@ -322,34 +328,34 @@ static void example_behaviour(JoxText *out, const char *top, const char *state,
         top, state, transition);
 }
 
-static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
+static void print_word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
     char part[512];
     const char *e = word->example;
     *of_mod = false;
     switch (word->makes) {
     case JOX_NODE_CONDITION:
         snprintf(part, sizeof part, ", when = %s | after(1)", e);
-        example_behaviour(out, "", "", part);
+        print_example(out, "", "", part);
         return;
     case JOX_NODE_NUMBER:
         snprintf(part, sizeof part, "speed = clamp(%s, 0, 2), steer = drift(1, 0),", e);
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_TARGET:
         snprintf(part, sizeof part, "steer = seek(%s), face = %s,", e, e);
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_STEER:
         snprintf(part, sizeof part, "steer = %s,", e);
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_DIST:
         snprintf(part, sizeof part, " defaults = { speed = %s },", e);
-        example_behaviour(out, part, "", ", when = after(1)");
+        print_example(out, part, "", ", when = after(1)");
         return;
     case JOX_NODE_CIRCUITS:
         snprintf(part, sizeof part, " counts = { laps = %s },", e);
-        example_behaviour(out, part, "", ", when = after(1)");
+        print_example(out, part, "", ", when = after(1)");
         return;
     default:
         break;
@@ -360,17 +366,17 @@ static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
     } else if (!strncmp(e, "machine", 7)) {
         jox_text_printf(out, "return %s\n", e);
     } else if (!strncmp(e, "memory", 6)) {
-        example_behaviour(out, "", "", ", when = mine.laps:is(0)");
+        print_example(out, "", "", ", when = mine.laps:is(0)");
     } else if (!strncmp(e, "require", 7) || !strncmp(e, "print", 5)) {
         jox_text_printf(out, "%s%s\n", strncmp(e, "require", 7) ? "" : "local library = ", e);
-        example_behaviour(out, "", "", ", when = after(1)");
+        print_example(out, "", "", ", when = after(1)");
     } else {
         snprintf(part, sizeof part, "push = 10 * %s,", e);
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
     }
 }
 
-static void key_example(const JoxTableKey *key, JoxText *out) {
+static void print_key_example(const JoxTableKey *key, JoxText *out) {
     char part[512];
     bool become = !strcmp(key->name, "become");
     if (!strcmp(key->owner, "machine")) {
@@ -386,26 +392,25 @@ static void key_example(const JoxTableKey *key, JoxText *out) {
                             strcmp(key->name, "start") ? ", start = \"Start\"" : "");
         else {
             snprintf(part, sizeof part, " %s,", key->example);
-            example_behaviour(out, part, "", ", when = after(1)");
+            print_example(out, part, "", ", when = after(1)");
         }
     } else if (!strcmp(key->owner, "state")) {
         snprintf(part, sizeof part, "%s,", key->example);
-        example_behaviour(out, "", part,
-                          become ? ", when = after(1)" : ", when = after(1) | lasted");
+        print_example(out, "", part, become ? ", when = after(1)" : ", when = after(1) | lasted");
     } else if (!strcmp(key->owner, "transition")) {
         bool to = !strcmp(key->name, "to");
         snprintf(part, sizeof part, "%s%s", to ? "" : ", ", to ? "" : key->example);
-        example_behaviour(out, "", "", part);
+        print_example(out, "", "", part);
     } else if (!strcmp(key->owner, "signal")) {
         snprintf(part, sizeof part, "signal = { \"alarm\", %s },", key->example);
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
     } else {
         bool kick = !strcmp(key->owner, "kick"), at = !strcmp(key->name, "at");
         snprintf(part, sizeof part, "%s = { nearest \"ball\", %s%s },", key->owner, key->example,
                  at     ? (kick ? ", impulse = 3" : ", speed = 5")
                  : kick ? ""
                         : ", at = \"post\"");
-        example_behaviour(out, "", part, ", when = after(1)");
+        print_example(out, "", part, ", when = after(1)");
     }
 }
 
@@ -413,13 +418,13 @@ bool jox_lua_example(size_t n, JoxText *name, JoxText *out, bool *of_mod) {
     *of_mod = false;
     if (n < jox_word_count) {
         jox_text_add(name, jox_words[n].name);
-        word_example(&jox_words[n], out, of_mod);
+        print_word_example(&jox_words[n], out, of_mod);
         return true;
     }
     n -= jox_word_count;
     if (n < jox_table_key_count) {
         jox_text_printf(name, "%s.%s", jox_table_keys[n].owner, jox_table_keys[n].name);
-        key_example(&jox_table_keys[n], out);
+        print_key_example(&jox_table_keys[n], out);
         return true;
     }
     n -= jox_table_key_count;
@@ -427,7 +432,8 @@ bool jox_lua_example(size_t n, JoxText *name, JoxText *out, bool *of_mod) {
         return false;
     char part[128];
     jox_text_add(name, jox_parameters[n].name);
-    snprintf(part, sizeof part, "%s = %g,", jox_parameters[n].name, sample(&jox_parameters[n]));
-    example_behaviour(out, "", part, ", when = after(1)");
+    snprintf(part, sizeof part, "%s = %g,", jox_parameters[n].name,
+             get_sample_value(&jox_parameters[n]));
+    print_example(out, "", part, ", when = after(1)");
     return true;
 }

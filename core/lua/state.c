@@ -1,4 +1,4 @@
-/* One state of a machine: steering, parameters, actions, transitions. */
+/* Reads one state of a machine: steering, parameters, actions, transitions. Called by build.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 
-/* The weight of a steering term: a number, or an expression that is computed each step. */
+/* Reads the weight of a steering term: a number, or an expression computed in each step. */
 static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) {
     JoxValue value = {.kind = JOX_VALUE_UNSET};
     if (weight && weight->kind == JOX_NODE_NUMBER && weight->op == JOX_OP_CONST) {
@@ -150,16 +150,17 @@ void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
         snprintf(id + strlen(id), 28, "#%d", nth);
 }
 
-/* Whether a transition before `t` has this id. */
-static bool id_taken(const JoxState *state, const JoxTransition *t, const char *id) {
+/* Returns whether a transition before `t` has this id. */
+static bool is_earlier_id(const JoxState *state, const JoxTransition *t, const char *id) {
     for (const JoxTransition *other = state->transitions; other < t; other++)
         if (strcmp(other->id, id) == 0)
             return true;
     return false;
 }
 
-/* Where the value of a key begins; where no text says so, the key. */
-static JoxPosition value_at(JoxBuild *b, const char *path) {
+/* Returns where the value of a key begins, or the position of the key if the value is not written
+   out. */
+static JoxPosition locate_value(JoxBuild *b, const char *path) {
     const JoxSource *source;
     const JoxPath *span = jox_read_span(b, path, &source);
     if (!span || span->first >= source->token_count)
@@ -168,8 +169,8 @@ static JoxPosition value_at(JoxBuild *b, const char *path) {
     return (JoxPosition){source->path, t->line, t->column, t->end_column};
 }
 
-/* The state that a transition leads to. */
-static uint16_t read_to(JoxBuild *b, int index, const char *path) {
+/* Reads the state that a transition leads to. */
+static uint16_t read_destination(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->script->vm.L;
     const JoxMachine *m = b->machine;
     char full[256], hint[JOX_HINT];
@@ -182,7 +183,7 @@ static uint16_t read_to(JoxBuild *b, int index, const char *path) {
                         "Example: { to = \"Exit\", when = after(5) }",
                         "a transition needs `to`, the name of a state");
     } else if (now) {
-        jox_diag_renamed(b->script->diagnostics, value_at(b, full), to, now);
+        jox_diag_renamed(b->script->diagnostics, locate_value(b, full), to, now);
     } else if (target < 0) {
         const char *names[256];
         size_t count = m->state_count < 256 ? m->state_count : 256;
@@ -206,7 +207,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     t->line = jox_read_line(b, path, &t->source);
     jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
                    false);
-    t->to = read_to(b, index, path);
+    t->to = read_destination(b, index, path);
     jox_read_join(full, path, "when");
     jox_read_field(L, index, "when");
     t->when = jox_read_condition(b, full, &t->when_hook);
@@ -219,7 +220,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     t->on_take = jox_read_hook(b, index, path, "on_take");
 }
 
-static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
+static void read_state_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(!state->transitions);
     uint32_t count = (uint32_t)lua_rawlen(L, index);
@@ -244,8 +245,8 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
         int nth = 1;
         do
             jox_read_id(L, lua_gettop(L), nth++, id);
-        while (id_taken(state, t, id));
-        snprintf(item, sizeof item, "@%.60s", id); /* patches name a transition by its id */
+        while (is_earlier_id(state, t, id));
+        snprintf(item, sizeof item, "@%.60s", id); /* as patches name it: by its id */
         if (b->script->changes.count > 0) {
             char canonical[256];
             jox_read_join(canonical, path, item);
@@ -292,5 +293,5 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");
     state->on_exit = jox_read_hook(b, index, path, "on_exit");
-    read_transitions(b, index, path, state);
+    read_state_transitions(b, index, path, state);
 }

@@ -1,4 +1,5 @@
-/* Who set what: the places of one path of a machine, from the engine's default to the last mod. */
+/* Lists the places that set a value of a machine, from the engine's default to the last mod. For
+   `jostle why` and the inspector of the live page. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,23 +9,23 @@
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 
-enum { LONGEST = 400 }; /* bytes of a value that are told */
+enum { LONGEST = 400 }; /* bytes of a value that are shown */
 
-/* One place that set a path. */
+/* A place that sets a value. */
 typedef struct Setting {
     const JoxSource *source;
     uint32_t first, last; /* tokens of the value */
     const JoxToken *key;
-    int32_t mod; /* index of the mod, or -1: the behaviour itself */
+    int32_t mod; /* index of the mod, or -1 for the behaviour itself */
     bool removes;
 } Setting;
 
-/* The text of a value as written, on one line and without comments; cut after `most` bytes. */
+/* Prints a value as written, on one line and without comments; cut after `most` bytes. */
 static void print_value(const Setting *setting, size_t most, JoxText *out) {
     const JoxSource *source = setting->source;
     JOX_ASSERT(setting->first <= setting->last && setting->last <= source->token_count);
     size_t begin = out->length;
-    const char *before = NULL; /* where the last token ended */
+    const char *before = NULL; /* end of the last token */
     for (uint32_t t = setting->first; t < setting->last && t < source->token_count; t++) {
         const JoxToken *token = &source->tokens[t];
         bool quoted = token->kind == JOX_TOKEN_STRING;
@@ -40,22 +41,23 @@ static void print_value(const Setting *setting, size_t most, JoxText *out) {
         return;
     out->length = begin + most - 3;
     while (out->length > begin && ((unsigned char)out->data[out->length] & 0xc0) == 0x80)
-        out->length--; /* no half of a letter */
+        out->length--; /* never within a character */
     jox_text_add(out, "...");
 }
 
-/* What is done with the places that are found: each is told to `visit` where that is given, and
-   the last one is kept. */
+/* A search for places: each is passed to `visit`, if given, and the last is kept. */
 typedef struct Settings {
     const JoxScope *scope;
-    JoxKinds *kinds; /* made on first use, where `follows` */
-    bool follows;    /* also what a file builds, and not only what it writes out */
+    JoxKinds *kinds; /* made on first use */
+    bool follows;    /* also finds values that the file builds, not only those that its table
+                        constructor has */
     JoSetVisit *visit;
     void *context;
     Setting last;
 } Settings;
 
-static void tell(const Setting *setting, const Settings *to) {
+/* Passes a place to the visitor. */
+static void visit_place(const Setting *setting, const Settings *to) {
     JoxText value = {0};
     const bool is_mod = setting->mod >= 0 && (uint32_t)setting->mod < to->scope->mod_count;
     if (!setting->removes)
@@ -72,23 +74,22 @@ static void tell(const Setting *setting, const Settings *to) {
     jox_text_free(&value);
 }
 
-/* Adds the place where a path is written in a source. False if it is not written there. */
-static bool take_place(const JoxScript *script, uint32_t source, const char *path, int32_t mod,
-                       bool removes, Settings *to) {
+/* Adds the place of a path in a source; false if it is not written there. */
+static bool add_written_place(const JoxScript *script, uint32_t source, const char *path,
+                              int32_t mod, bool removes, Settings *to) {
     const JoxPath *found = jox_outline_find(script->vm.sources[source], path);
     if (!found || found->key >= script->vm.sources[source]->token_count)
         return false;
     const JoxToken *key = &script->vm.sources[source]->tokens[found->key];
     to->last = (Setting){script->vm.sources[source], found->first, found->last, key, mod, removes};
     if (to->visit)
-        tell(&to->last, to);
+        visit_place(&to->last, to);
     return true;
 }
 
-/* Adds the places of a path that the behaviour's own file does not write out in its table: what is
-   written there of the part around it, as `A = lib.stand(2)` of the speed of A, and where that
-   leads. */
-static bool take_followed(const JoxScript *script, const char *path, Settings *to) {
+/* Adds places of a value that the behaviour's table constructor does not have: of the part around
+   it, as `A = lib.stand(2)` for the speed of A, and of what builds it. */
+static bool add_followed_places(const JoxScript *script, const char *path, Settings *to) {
     JoxPartOrigin found;
     if (to->follows && !to->kinds)
         to->kinds = jox_kinds_read(script);
@@ -99,18 +100,19 @@ static bool take_followed(const JoxScript *script, const char *path, Settings *t
     for (char *dot; (dot = strrchr(around, '.'));) {
         *dot = 0;
         if ((found.source != 0 || strcmp(around, "states") != 0) &&
-            take_place(script, 0, around, -1, false, to))
+            add_written_place(script, 0, around, -1, false, to))
             break;
     }
     const JoxSource *source = script->vm.sources[found.source];
     to->last = (Setting){source, found.first, found.last, &source->tokens[found.key], -1, false};
     if (to->visit)
-        tell(&to->last, to);
+        visit_place(&to->last, to);
     return true;
 }
 
-/* A transition's path in the behaviour's own file, where it stands by its number. */
-static void by_number(const JoxMachine *machine, const char *canonical, char path[256]) {
+/* Replaces the id of a transition in a path by its number, as in the behaviour's own file. */
+static void use_transition_number(const JoxMachine *machine, const char *canonical,
+                                  char path[256]) {
     char state[128], id[128];
     const char *at = strstr(canonical, ".@");
     snprintf(path, 256, "%s", canonical);
@@ -125,33 +127,34 @@ static void by_number(const JoxMachine *machine, const char *canonical, char pat
             snprintf(path, 256, "states.%.100s.%u%.100s", state, t + 1, at + 2 + n);
 }
 
-/* Finds every place that set one canonical path, in the order in which they were set; how many. */
-static int take_all(const JoxScript *script, const JoxMachine *machine, const char *canonical,
-                    Settings *to) {
+/* Adds every place that sets a path, in the order in which they apply; returns how many. */
+static int add_all_places(const JoxScript *script, const JoxMachine *machine, const char *canonical,
+                          Settings *to) {
     char own[256];
     int count = 0;
-    bool named = false; /* the file's own place is among the changes */
+    bool named = false; /* the changes of mods include the file's own place */
     for (size_t o = 0; o < script->changes.count; o++)
         named |= script->changes.items[o].mod < 0 &&
                  strstr(canonical, script->changes.items[o].path) == canonical;
-    by_number(machine, canonical, own);
+    use_transition_number(machine, canonical, own);
     if (!named)
-        count += take_place(script, 0, own, -1, false, to) || take_followed(script, own, to);
+        count += add_written_place(script, 0, own, -1, false, to) ||
+                 add_followed_places(script, own, to);
     for (size_t o = 0; o < script->changes.count; o++) {
         const JoxPatchChange *change = &script->changes.items[o];
         char path[512];
         const char *rest;
         if (!jox_patch_leads(change, canonical, &rest))
             continue;
-        rest = change->removes ? "" : rest; /* the whole of it went there */
+        rest = change->removes ? "" : rest; /* the whole part was removed */
         snprintf(path, sizeof path, "%.250s%s%.250s", change->from,
                  *rest && *change->from ? "." : "", rest);
-        count += take_place(script, change->source, path, change->mod, change->removes, to);
+        count += add_written_place(script, change->source, path, change->mod, change->removes, to);
     }
     return count;
 }
 
-/* Whether a state sets a key that is no parameter. */
+/* Returns whether a state sets a key that is no parameter. */
 static bool sets_key(const JoxState *state, const char *key) {
     const struct {
         const char *key;
@@ -177,8 +180,8 @@ static bool sets_key(const JoxState *state, const char *key) {
     return false;
 }
 
-/* Whether the machine has what a path names: a state, a transition of it, or a key that the state
-   sets. */
+/* Returns whether the machine has the part that a path names: a state, a transition, or a key that
+   the state sets. */
 static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
     char state[128], id[128];
     const size_t n = strcspn(path, ".");
@@ -198,37 +201,38 @@ static bool has_part(const JoxMachine *machine, const char *path, int parameter)
     return false;
 }
 
-/* Finds the place that something built by a function comes from: the nearest that is written out of
-   what it is part of, as `A = lib.stand(2)` of the speed of A. */
-static int take_nearest(const JoxScript *script, const JoxMachine *machine, const char *canonical,
-                        Settings *to) {
+/* Adds the places of the nearest enclosing part that is written out, for a value that a function
+   builds. */
+static int add_enclosing_places(const JoxScript *script, const JoxMachine *machine,
+                                const char *canonical, Settings *to) {
     char path[256];
     int count = 0;
     snprintf(path, sizeof path, "%s", canonical);
     for (char *dot; !count && (dot = strrchr(path, '.'));) {
         *dot = 0;
-        count = take_all(script, machine, path, to);
+        count = add_all_places(script, machine, path, to);
     }
     return count;
 }
 
-static bool explain_path(const JoxScript *script, const JoxMachine *machine, const char *path,
-                         Settings *to) {
+/* Finds the form of a path that the machine has, and visits its places. */
+static bool visit_path(const JoxScript *script, const JoxMachine *machine, const char *path,
+                       Settings *to) {
     char canonical[256];
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
-    int count = take_all(script, machine, path, to);
+    int count = add_all_places(script, machine, path, to);
     snprintf(canonical, sizeof canonical, "states.%.240s", path);
     if (!count)
-        count = take_all(script, machine, canonical, to);
+        count = add_all_places(script, machine, canonical, to);
     snprintf(canonical, sizeof canonical, "states.%.*s.@%.120s", (int)(n < 100 ? n : 100), path,
              rest ? rest + 1 : "");
     if (!count && rest)
-        count = take_all(script, machine, canonical, to);
+        count = add_all_places(script, machine, canonical, to);
     int parameter = jox_parameter_find(last ? last + 1 : path);
     if (!count && has_part(machine, path, parameter)) {
         snprintf(canonical, sizeof canonical, "states.%.240s", path);
-        count = take_nearest(script, machine, canonical, to);
+        count = add_enclosing_places(script, machine, canonical, to);
     }
     if (parameter < 0)
         return count > 0;
@@ -238,9 +242,9 @@ static bool explain_path(const JoxScript *script, const JoxMachine *machine, con
         snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
         if (jox_machine_state(machine, state) < 0 && strncmp(path, "defaults.", 9) != 0)
             return false;
-        count = take_all(script, machine, canonical, to);
+        count = add_all_places(script, machine, canonical, to);
         if (!count && machine->defaults[parameter].line > 0)
-            count = take_nearest(script, machine, canonical, to);
+            count = add_enclosing_places(script, machine, canonical, to);
     }
     if (!count) {
         char number[32];
@@ -257,7 +261,7 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
                  const JoxScope *scope, JoSetVisit *visit, void *context) {
     const JoxScript *script = jox_lua_script(lua, machine);
     Settings to = {.scope = scope, .visit = visit, .context = context, .follows = true};
-    const bool found = script && explain_path(script, machine, path, &to);
+    const bool found = script && visit_path(script, machine, path, &to);
     jox_kinds_free(to.kinds);
     return found;
 }
@@ -267,7 +271,7 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
     const JoxScript *script = jox_lua_script(lua, machine);
     Settings to = {.scope = scope};
     *out = (JoxWritten){0};
-    if (!script || take_all(script, machine, path, &to) == 0 || to.last.removes)
+    if (!script || add_all_places(script, machine, path, &to) == 0 || to.last.removes)
         return false;
     print_value(&to.last, LONGEST, &out->text);
     out->file = to.last.source->path;
@@ -280,7 +284,8 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
 
 /* ---- memory ---- */
 
-/* The token of `NAME = value` in a table that begins at token `t`; NULL. */
+/* Returns the token of the key in `NAME = value`, in the table that opens at token `t`; NULL if
+   there is none. */
 static const JoxToken *find_field(const JoxSource *source, size_t t, const char *name) {
     int depth = 0;
     for (; t + 2 < source->token_count; t++) {
