@@ -1,5 +1,4 @@
-/* Kinds of mistakes in behaviours, each with its exact place, its hint and the part of the sheet.
- */
+/* Errors in behaviours: each is reported with its exact position, hint and part of the table. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +15,7 @@ typedef struct Mistake {
     const char *text;
     JoxSeverity severity;
     int line, column, end;
-    const char *code, *says; /* says: in the message, the hint or the context */
+    const char *code, *says; /* says: part of the message, hint or context */
 } Mistake;
 
 #define ERROR JOX_SEVERITY_ERROR
@@ -165,7 +164,7 @@ static void each_kind_of_mistake_has_its_place(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* The shape of an error as people see it. */
+/* Compares a printed error, with the source line and context, to its text. */
 static void an_error_is_shown_in_full(void **state) {
     (void)state;
     static const char SHEET[] =

@@ -1,4 +1,4 @@
-/* What behaviours may use of Lua: values, refusals, budgets; frozen tables. */
+/* Functions of Lua that behaviours can use: their results, errors and budgets; frozen tables. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ static void keep_line(void *context, const char *text) {
     lines++;
 }
 
-static JoxScript *open_script(JoxLua *lua) {
+static JoxScript *open_library_script(JoxLua *lua) {
     static const JoxScope OPEN = {0};
     JoxScript *script = jox_script_create(lua);
     assert_non_null(script);
@@ -37,8 +37,8 @@ static JoxScript *open_script(JoxLua *lua) {
     return script;
 }
 
-/* Runs text; what it returned, as text, or "error: " and why. */
-static const char *run_in(JoxScript *script, const char *text) {
+/* Runs a text; returns its results as text, or "error: " and the message. */
+static const char *run_in_script(JoxScript *script, const char *text) {
     static char result[1024];
     const char *why;
     int line;
@@ -58,10 +58,10 @@ static const char *run_in(JoxScript *script, const char *text) {
     return result;
 }
 
-static const char *run(const char *text) {
+static const char *run_text(const char *text) {
     JoxLua *lua = jox_lua_create(NULL);
-    JoxScript *script = open_script(lua);
-    const char *result = run_in(script, text);
+    JoxScript *script = open_library_script(lua);
+    const char *result = run_in_script(script, text);
     jox_script_free(script);
     jox_diag_free(&diagnostics);
     jox_lua_free(lua);
@@ -69,12 +69,12 @@ static const char *run(const char *text) {
 }
 
 typedef struct Case {
-    const char *text, *gives; /* for errors: a part of the message */
+    const char *text, *gives; /* gives: the result, or part of the error message */
 } Case;
 
-static void check(const Case *cases, size_t count) {
+static void check_cases(const Case *cases, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        const char *got = run(cases[i].text);
+        const char *got = run_text(cases[i].text);
         bool wants_error = strncmp(cases[i].gives, "error: ", 7) == 0;
         bool good = wants_error ? strncmp(got, "error: ", 7) == 0 && strstr(got, cases[i].gives + 7)
                                 : strcmp(got, cases[i].gives) == 0;
@@ -82,9 +82,9 @@ static void check(const Case *cases, size_t count) {
             fail_msg("%s\n gave '%s', not '%s'", cases[i].text, got, cases[i].gives);
     }
 }
-#define CHECK(cases) check(cases, sizeof cases / sizeof *cases)
+#define CHECK(cases) check_cases(cases, sizeof cases / sizeof *cases)
 
-static void numbers(void **state) {
+static void number_functions_give_exact_results(void **state) {
     (void)state;
     static const Case CASES[] = {
         {"return math.floor(2.7)", "2"},
@@ -128,7 +128,7 @@ static void numbers(void **state) {
     CHECK(CASES);
 }
 
-static void texts(void **state) {
+static void text_functions_give_exact_results(void **state) {
     (void)state;
     static const Case CASES[] = {
         {"return ('abc'):upper()", "ABC"},
@@ -185,7 +185,7 @@ static void texts(void **state) {
     CHECK(CASES);
 }
 
-static void lists(void **state) {
+static void table_functions_give_exact_results(void **state) {
     (void)state;
     static const Case CASES[] = {
         {"local t = {1, 3} table.insert(t, 2, 2) return table.concat(t, ',')", "1,2,3"},
@@ -235,7 +235,7 @@ static void lists(void **state) {
     CHECK(CASES);
 }
 
-static void order_of_pairs(void **state) {
+static void pairs_visits_keys_in_order(void **state) {
     (void)state;
     static const Case CASES[] = {
         {"local s = '' for k in pairs({b = 1, a = 1, 7, [1.5] = 1, [-1] = 1, [2^60] = 1}) do "
@@ -260,7 +260,7 @@ static void order_of_pairs(void **state) {
     CHECK(CASES);
 }
 
-static void errors_and_budgets(void **state) {
+static void errors_are_caught_but_not_spent_budgets(void **state) {
     (void)state;
     static const Case CASES[] = {
         {"return pcall(error, 'x')", "false"},
@@ -291,7 +291,7 @@ static void errors_and_budgets(void **state) {
     CHECK(CASES);
 }
 
-/* What a load prints waits in its VM: counted by its lines. */
+/* Copies the lines printed while loading, which the VM keeps. */
 static void keep_printed(JoxScript *script) {
     printed[0] = 0;
     keep_line(NULL, script->vm.printed_text.data);
@@ -303,13 +303,13 @@ static void keep_printed(JoxScript *script) {
 static void print_is_limited(void **state) {
     (void)state;
     JoxLua *lua = jox_lua_create(NULL);
-    JoxScript *script = open_script(lua);
-    run_in(script, "print('a', 1, nil)\nprint('\\27[2J\\n' .. ('x'):rep(9999))");
+    JoxScript *script = open_library_script(lua);
+    run_in_script(script, "print('a', 1, nil)\nprint('\\27[2J\\n' .. ('x'):rep(9999))");
     keep_printed(script);
     assert_non_null(strstr(printed, "t.lua:1: a 1 nil\n"));
     assert_non_null(strstr(printed, "t.lua:2: ?[2J xxx"));
     assert_non_null(strstr(printed, "xxx ...\n"));
-    run_in(script, "for i = 1, 1000 do print(i) end");
+    run_in_script(script, "for i = 1, 1000 do print(i) end");
     keep_printed(script);
     assert_int_equal(lines, 101);
     assert_non_null(strstr(printed, "t.lua:1: ... print is limited\n"));
@@ -332,7 +332,7 @@ static int freeze_argument(lua_State *L) {
     return 1;
 }
 
-static void frozen_tables(void **state) {
+static void frozen_tables_refuse_writes(void **state) {
     (void)state;
 #define TRIED(what)                                                                                \
     "local ok, why = pcall(function() " what " end) if ok then error 'written' end return why"
@@ -359,7 +359,7 @@ static void frozen_tables(void **state) {
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         JoxLua *lua = jox_lua_create(NULL);
-        JoxScript *script = open_script(lua);
+        JoxScript *script = open_library_script(lua);
         lua_State *L = script->vm.L;
         const char *why = "", *got;
         char text[1024];
@@ -388,7 +388,7 @@ static void frozen_tables(void **state) {
         got = good ? jox_library_text(L, -1, NULL) : why;
         const char *wanted = CASES[i].gives;
         bool error = strncmp(wanted, "error: ", 7) == 0;
-        size_t skip = strncmp(wanted, "b0:1: ", 6) == 0 ? 6 : 0; /* other lines */
+        size_t skip = strncmp(wanted, "b0:1: ", 6) == 0 ? 6 : 0; /* the case runs on another line */
         if (error == good || !strstr(got, wanted + (error ? 7 : skip)))
             fail_msg("%s\n gave '%s', not '%s'", CASES[i].text, got, wanted);
         jox_script_free(script);
@@ -399,13 +399,13 @@ static void frozen_tables(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers),
-        cmocka_unit_test(texts),
-        cmocka_unit_test(lists),
-        cmocka_unit_test(order_of_pairs),
-        cmocka_unit_test(errors_and_budgets),
+        cmocka_unit_test(number_functions_give_exact_results),
+        cmocka_unit_test(text_functions_give_exact_results),
+        cmocka_unit_test(table_functions_give_exact_results),
+        cmocka_unit_test(pairs_visits_keys_in_order),
+        cmocka_unit_test(errors_are_caught_but_not_spent_budgets),
         cmocka_unit_test(print_is_limited),
-        cmocka_unit_test(frozen_tables),
+        cmocka_unit_test(frozen_tables_refuse_writes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Loading behaviours: places of errors, what is compiled, what the sandbox refuses. */
+/* Loading behaviours: positions of errors, compiled conditions, limits of the sandbox. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 
 static JoxDiagnostics diagnostics;
 
-/* Loads text; the machine or NULL, with the diagnostics left for the test. */
+/* Loads a text; returns the machine or NULL, and keeps the diagnostics for the test. */
 static JoxMachine *load_in(JoxLua *lua, const JoxScope *scope, const char *text) {
     jox_diag_free(&diagnostics);
     return jox_lua_load_text(lua, "t.lua", text, strlen(text), scope, &diagnostics);
@@ -24,7 +24,7 @@ static JoxMachine *load_in(JoxLua *lua, const JoxScope *scope, const char *text)
 typedef struct Mistake {
     const char *text;
     int line, column;
-    const char *code, *says; /* in message or hint */
+    const char *code, *says; /* says: part of the message or hint */
 } Mistake;
 
 #define SHEET(rest)                                                                                \
@@ -115,7 +115,7 @@ static void names_are_checked_against_the_scene(void **state) {
     jox_lua_free(lua);
 }
 
-/* Operators of the only condition, in order of execution. */
+/* Expects the operations of the only condition, in order of execution. */
 static void expect_code(JoxLua *lua, const char *when, const JoxOp *ops, uint32_t count) {
     char text[512];
     snprintf(text, sizeof text,
@@ -260,8 +260,8 @@ static void shipped_behaviours_load_and_their_prefixes_do_no_harm(void **state) 
     jox_lua_free(lua);
 }
 
-/* Of the calls of one person among any number who are called in turn, one in 16 is timed. */
-static void timed_calls_are_shared_evenly(void **state) {
+/* If agents are called in turn, one in 16 calls of each agent is timed, for any number of them. */
+static void each_agent_has_its_share_of_timed_calls(void **state) {
     (void)state;
     for (uint64_t people = 1; people <= 64; people++)
         for (uint64_t one = 0; one < people; one++) {
@@ -276,7 +276,7 @@ static void timed_calls_are_shared_evenly(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(timed_calls_are_shared_evenly),
+        cmocka_unit_test(each_agent_has_its_share_of_timed_calls),
         cmocka_unit_test(every_mistake_has_its_place),
         cmocka_unit_test(all_mistakes_of_a_file_are_reported_at_once),
         cmocka_unit_test(names_are_checked_against_the_scene),

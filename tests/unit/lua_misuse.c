@@ -1,6 +1,5 @@
-/* Lua's own operators between values of the language: what is valid must load, and what would drop
-   an operand in silence must be refused at its place. The parser on which that rests reads all Lua.
- */
+/* Lua operators on values of the language: valid code must load, and code that would lose an
+   operand must be refused at its position. Also tests the parser, which must read all Lua. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +15,7 @@
 #include "lua/language/script.h"
 #include "lua/loader.h"
 
-/* A whole behaviour: what comes before the machine, the condition, and further keys of the state.
+/* A whole behaviour from the text before the machine, a condition, and further keys of the state.
  */
 #define BEHAVIOUR(before, when, keys)                                                              \
     before "\nreturn machine { name = \"m\", start = \"A\", states = { A = { steer = hold, " keys  \
@@ -43,7 +42,7 @@ static const char LIBRARY[] =
     "  return extra and (c & extra) or c\n"
     "end\n"
     "function crowd.to(target) target = target or goal; return seek(target) end\n"
-    "function crowd.both(a, b) return a and b end\n" /* misuse where conditions are given */
+    "function crowd.both(a, b) return a and b end\n" /* misuse if called with conditions */
     "crowd.packed = now.density:above(4)\n"
     "return crowd\n";
 
@@ -89,8 +88,8 @@ static const char *const GOOD[] = {
               "near(kind(\"any\"), 2) | near(kind(nearest \"ball\"), 2)", ""),
 };
 
-/* Behaviours as people write them: libraries that build states, options, defaults. Of each, nothing
-   is said. */
+/* Valid behaviours with common idioms: libraries that build states, options, defaults. None may
+   give a message. */
 static const char *const IDIOMS[] = {
     /* options that are constants at the top of the file */
     BEHAVIOUR("local opts = { extra = after(9) }\nlocal cond = stuck(2)\n"
@@ -123,7 +122,7 @@ static const char *const IDIOMS[] = {
               "f { }", ""),
     BEHAVIOUR("local function f(w) local c = w if c then return c & after(1) end return lasted end",
               "f(stuck(2))", ""),
-    /* lists of what to do, and states that are built in a loop */
+    /* lists of transitions, and states that are built in a loop */
     BEHAVIOUR("local list = { { to = \"B\", when = after(2) } }\nlocal c = stuck(9)\n"
               "for _, t in ipairs(list) do if t.when then c = c | t.when end end",
               "c", ""),
@@ -187,7 +186,7 @@ static const char *const IDIOMS[] = {
     BEHAVIOUR("local c = after(1)\nrepeat local more = c c = more | stuck(1) until c", "c", ""),
 };
 
-/* A backtick marks what is refused. */
+/* Refused behaviours; a backtick marks the position of the error. */
 static const char *const BAD[] = {
     BEHAVIOUR("", "after(3) `and stuck(2)", ""),
     BEHAVIOUR("", "after(3) `or stuck(2)", ""),
@@ -261,7 +260,7 @@ static const char *const BAD[] = {
               "far", ""),
 };
 
-/* The behaviour's text without its mark, which gives the place. */
+/* Removes the mark from a behaviour's text; returns its position. */
 static void split_mark(const char *marked, char *text, int *line, int *column) {
     const char *mark = strchr(marked, '`'), *begins = marked;
     *line = 1;
@@ -277,8 +276,8 @@ static void split_mark(const char *marked, char *text, int *line, int *column) {
     *text = 0;
 }
 
-/* Loads a text beside the library; the number of errors, with the first in *first. */
-static uint32_t errors_of(const char *text, JoxDiagnostics *diagnostics) {
+/* Loads a text beside the library; returns the number of errors. */
+static uint32_t count_errors(const char *text, JoxDiagnostics *diagnostics) {
     JoxOverlay overlay = {0};
     JoxLua *lua = jox_lua_create(NULL);
     jox_overlay_put(&overlay, "./crowd.lua", LIBRARY, sizeof LIBRARY - 1);
@@ -297,7 +296,7 @@ static void valid_lua_loads(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof GOOD / sizeof *GOOD; i++) {
         JoxDiagnostics diagnostics = {0};
-        if (errors_of(GOOD[i], &diagnostics) > 0)
+        if (count_errors(GOOD[i], &diagnostics) > 0)
             fail_msg("%s\n gave %s:%d:%d %s", GOOD[i], diagnostics.items[0].file,
                      diagnostics.items[0].line, diagnostics.items[0].column,
                      diagnostics.items[0].message);
@@ -305,11 +304,11 @@ static void valid_lua_loads(void **state) {
     }
 }
 
-static void idioms_load_in_silence(void **state) {
+static void idioms_load_without_messages(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof IDIOMS / sizeof *IDIOMS; i++) {
         JoxDiagnostics diagnostics = {0};
-        errors_of(IDIOMS[i], &diagnostics);
+        count_errors(IDIOMS[i], &diagnostics);
         for (size_t d = 0; d < diagnostics.count; d++) {
             const JoxDiagnostic *told = &diagnostics.items[d];
             if (told->severity == JOX_SEVERITY_ERROR || !strcmp(told->code, "lua-operator"))
@@ -320,15 +319,14 @@ static void idioms_load_in_silence(void **state) {
     }
 }
 
-/* While the file loads, a test of what is surely there may be a switch: it is noted, not refused.
- */
-static void sure_test_is_noted(void **state) {
+/* While a file loads, a test of a value that is always there may be a constant switch. */
+static void test_of_constant_gives_a_note(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
     const char *text = BEHAVIOUR("local extra = after(9)\nlocal c = stuck(2)\n"
                                  "if extra then c = c | extra end",
                                  "c", "");
-    assert_int_equal(errors_of(text, &diagnostics), 0);
+    assert_int_equal(count_errors(text, &diagnostics), 0);
     const JoxDiagnostic *note = NULL;
     for (size_t d = 0; d < diagnostics.count; d++)
         if (!strcmp(diagnostics.items[d].code, "lua-operator"))
@@ -347,7 +345,7 @@ static void misuse_is_refused_at_its_place(void **state) {
         char text[1024];
         int line, column;
         split_mark(BAD[i], text, &line, &column);
-        const uint32_t errors = errors_of(text, &diagnostics);
+        const uint32_t errors = count_errors(text, &diagnostics);
         const JoxDiagnostic *d = errors ? &diagnostics.items[0] : NULL;
         if (!d || strcmp(d->code, "lua-operator") || d->line != line || d->column != column)
             fail_msg("%s\n gave %d:%d %s", BAD[i], d ? d->line : 0, d ? d->column : 0,
@@ -356,20 +354,20 @@ static void misuse_is_refused_at_its_place(void **state) {
     }
 }
 
-/* What a library does with what it is given is judged by what it is given. */
+/* A library function is checked with the kinds of the arguments it was called with. */
 static void library_function_is_judged_by_its_arguments(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
-    assert_int_equal(
-        errors_of(BEHAVIOUR("local lib = require \"crowd\"", "lib.both(after(1), lib.packed)", ""),
-                  &diagnostics),
-        1);
+    assert_int_equal(count_errors(BEHAVIOUR("local lib = require \"crowd\"",
+                                            "lib.both(after(1), lib.packed)", ""),
+                                  &diagnostics),
+                     1);
     assert_string_equal(diagnostics.items[0].file, "./crowd.lua");
     assert_int_equal(diagnostics.items[0].line, 19);
     jox_diag_free(&diagnostics);
 }
 
-/* What the parser must read whole, in the number of functions and variables that it has. */
+/* Texts that the parser must read to the end, with their number of functions and variables. */
 static const struct {
     const char *text;
     size_t functions, variables;
@@ -404,7 +402,7 @@ static void parser_reads_all_of_lua(void **state) {
 }
 
 /* 3,000 names within 45 functions of 190 variables each: more than the search looks at. */
-static void file_that_is_not_searched_is_told_of(void **state) {
+static void file_too_large_to_search_is_reported(void **state) {
     (void)state;
     JoxText text = {0};
     JoxDiagnostics diagnostics = {0};
@@ -421,7 +419,7 @@ static void file_that_is_not_searched_is_told_of(void **state) {
     for (int f = 0; f < 45; f++)
         jox_text_add(&text, " end");
     jox_text_add(&text, BEHAVIOUR("", "after(1) and after(2)", ""));
-    assert_int_equal(errors_of(text.data, &diagnostics), 0);
+    assert_int_equal(count_errors(text.data, &diagnostics), 0);
     assert_int_equal(diagnostics.count, 1);
     assert_string_equal(diagnostics.items[0].code, "too-large");
     jox_diag_free(&diagnostics);
@@ -431,12 +429,12 @@ static void file_that_is_not_searched_is_told_of(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(valid_lua_loads),
-        cmocka_unit_test(idioms_load_in_silence),
-        cmocka_unit_test(sure_test_is_noted),
+        cmocka_unit_test(idioms_load_without_messages),
+        cmocka_unit_test(test_of_constant_gives_a_note),
         cmocka_unit_test(misuse_is_refused_at_its_place),
         cmocka_unit_test(library_function_is_judged_by_its_arguments),
         cmocka_unit_test(parser_reads_all_of_lua),
-        cmocka_unit_test(file_that_is_not_searched_is_told_of),
+        cmocka_unit_test(file_too_large_to_search_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

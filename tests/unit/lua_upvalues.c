@@ -1,5 +1,5 @@
-/* Variables that functions share with the code around them: assignments are found in the source
-   when a file loads, and after each call by their values. */
+/* Assignments to upvalues: found in the source when a file loads, and by their values after a call.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 static JoxDiagnostics diagnostics;
 
-static JoxScript *open_script(JoxLua *lua) {
+static JoxScript *open_upvalue_script(JoxLua *lua) {
     static const JoxScope OPEN = {0};
     JoxScript *script = jox_script_create(lua);
     assert_non_null(script);
@@ -30,9 +30,8 @@ typedef struct Assigned {
     int line;
 } Assigned;
 
-/* Where the function that a text returns assigns a variable from outside of it, as a load sees it.
- */
-static const JoxToken *assigned_by(JoxScript *script, const char *text) {
+/* Returns the token where the function that a text returns assigns an upvalue; NULL if none. */
+static const JoxToken *find_assigned_upvalue(JoxScript *script, const char *text) {
     const char *why, *names[64];
     int line, count = 0, top;
     lua_Debug about;
@@ -49,7 +48,7 @@ static const JoxToken *assigned_by(JoxScript *script, const char *text) {
                                 (size_t)count);
 }
 
-static void assigned_upvalues(void **state) {
+static void assigned_upvalues_are_found(void **state) {
     (void)state;
     static const Assigned CASES[] = {
         {"local n = 0\nreturn function(me)\n n = n + 1\nend", "n", 3},
@@ -98,8 +97,8 @@ static void assigned_upvalues(void **state) {
     };
     JoxLua *lua = jox_lua_create(NULL);
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        JoxScript *script = open_script(lua);
-        const JoxToken *t = assigned_by(script, CASES[i].text);
+        JoxScript *script = open_upvalue_script(lua);
+        const JoxToken *t = find_assigned_upvalue(script, CASES[i].text);
         if ((t != NULL) != (CASES[i].name != NULL))
             fail_msg("%s\n %s", CASES[i].text, t ? "was found" : "was not found");
         if (t && (!jox_token_is(t, CASES[i].name) || t->line != CASES[i].line))
@@ -109,11 +108,11 @@ static void assigned_upvalues(void **state) {
     jox_lua_free(lua);
 }
 
-/* Lines far apart, many names and constants, deep nesting: all of the form is read. */
-static void upvalues_of_large_functions(void **state) {
+/* Functions with lines far apart, many names and constants, and deep nesting. */
+static void assigned_upvalues_of_large_functions_are_found(void **state) {
     (void)state;
     JoxLua *lua = jox_lua_create(NULL);
-    JoxScript *script = open_script(lua);
+    JoxScript *script = open_upvalue_script(lua);
     JoxText text = {0};
     jox_text_add(&text, "local last = 0 return function()\n");
     for (int i = 0; i < 300; i++)
@@ -130,7 +129,7 @@ static void upvalues_of_large_functions(void **state) {
     int wanted = 1;
     for (const char *c = text.data; *c; c++)
         wanted += *c == '\n';
-    const JoxToken *t = assigned_by(script, text.data);
+    const JoxToken *t = find_assigned_upvalue(script, text.data);
     assert_non_null(t);
     assert_true(jox_token_is(t, "last"));
     assert_int_equal(t->line, wanted);
@@ -149,13 +148,13 @@ static int watch_argument(lua_State *L) {
     return 0;
 }
 
-/* What a function changes outside of itself is found after the call, named and taken back, also
-   where the source does not show it. */
+/* Restores the upvalues that a function changed and names the first, also if the source does not
+   show it. */
 static void changed_upvalues_are_set_back(void **state) {
     (void)state;
     static const struct {
-        const char *text, *name; /* name: what changes, NULL for nothing */
-        uint32_t count;          /* of variables that it could change */
+        const char *text, *name; /* name: changed upvalue, or NULL */
+        uint32_t count;          /* number of upvalues it could change */
     } CASES[] = {
         {"local n = 0 return function() n = n + 1 end", "n", 1},
         {"local n = 1 return function() n = 1.0 end", "n", 1},
@@ -178,7 +177,7 @@ static void changed_upvalues_are_set_back(void **state) {
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         JoxLua *lua = jox_lua_create(NULL);
-        JoxScript *script = open_script(lua);
+        JoxScript *script = open_upvalue_script(lua);
         lua_State *L = script->vm.L;
         const char *why, *text = CASES[i].text;
         char name[64] = "";
@@ -211,8 +210,8 @@ static void changed_upvalues_are_set_back(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(assigned_upvalues),
-        cmocka_unit_test(upvalues_of_large_functions),
+        cmocka_unit_test(assigned_upvalues_are_found),
+        cmocka_unit_test(assigned_upvalues_of_large_functions_are_found),
         cmocka_unit_test(changed_upvalues_are_set_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
