@@ -106,8 +106,8 @@ void jox_vm_tried(JoxVm *vm, const char *path);
 /* Compiles source `number` and pushes the chunk; on failure false, with the message pushed. Stops
    at the deadline of the load. */
 bool jox_vm_compile(JoxVm *vm, size_t number);
-/* Whether the parser stops within the first `length` bytes of source `number`: what follows cannot
-   mend them. */
+/* Returns whether Lua's parser finds an error in the first `length` bytes of source `number` other
+   than their end. */
 bool jox_vm_stops_within(JoxVm *vm, size_t number, size_t length);
 
 /* ---- the sandbox ---- */
