@@ -32,7 +32,7 @@ static const Mistake MISTAKES[] = {
     {"local c = near(\"k\")\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument", "not nothing"},
     {"local a, b = = 1\n" HEAD "A = {} } }", ERROR, 1, 14, 15, "lua-error", "unexpected symbol"},
     {HEAD "A = { on_enter = me.laps = 1 } } }", ERROR, 2, 26, 27, "lua-error", "expected"},
-    {HEAD "A = { { to = \"A\", chance = 3 } } } }", ERROR, 2, 20, 26, "out-of-range",
+    {HEAD "A = { { to = \"A\", chance = 3 } } } }", ERROR, 2, 19, 25, "out-of-range",
      "0 to 1, not"},
     {"local c = require \"../x\"\n" HEAD "A = {} } }", ERROR, 1, 19, 25, "bad-require",
      "not a plain name"},
