@@ -32,35 +32,35 @@ function Number:is(n) end
 
 ---@class jostle.Target
 local Target = {}
---- of `nearest` and `neighbours`: only those in a state of the name
+--- of `nearest` and `neighbours`: only agents in a state of this name
 ---@param name string
 ---@return jostle.Number
 function Number:in_state(name) end
---- of `nearest` and `neighbours`: only those in a state of the name
+--- of `nearest` and `neighbours`: only agents in a state of this name
 ---@param name string
 ---@return jostle.Target
 function Target:in_state(name) end
---- the same: only those whose machine has the name
+--- the same: only agents whose machine has this name
 ---@param name string
 ---@return jostle.Number
 function Number:of_machine(name) end
---- the same: only those whose machine has the name
+--- the same: only agents whose machine has this name
 ---@param name string
 ---@return jostle.Target
 function Target:of_machine(name) end
---- the same: only those of a group of the scene
+--- the same: only agents of a group of the scene
 ---@param name string
 ---@return jostle.Number
 function Number:of_group(name) end
---- the same: only those of a group of the scene
+--- the same: only agents of a group of the scene
 ---@param name string
 ---@return jostle.Target
 function Target:of_group(name) end
---- the same: only those whose public memory of the name is true, or is a number within bounds, both included
+--- the same: only those whose public memory of this name is true, or is a number within bounds, both included
 ---@param name string
 ---@return jostle.Number
 function Number:where(name, ...) end
---- the same: only those whose public memory of the name is true, or is a number within bounds, both included
+--- the same: only those whose public memory of this name is true, or is a number within bounds, both included
 ---@param name string
 ---@return jostle.Target
 function Target:where(name, ...) end
@@ -73,13 +73,13 @@ function Target:where(name, ...) end
 
 ---@class jostle.Machine
 ---@field name? string how messages and mods call it
----@field version? number the author's; informs people
+---@field version? number set by the author, shown in messages
 ---@field start? string where agents begin
 ---@field defaults? jostle.State values for all states, drawn once per agent
 ---@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group may set them
 ---@field public? string|string[] memory that others may ask for, by `theirs` and `:where`
 ---@field counts? table memory that counts by itself, in all states
----@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one
+---@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. A scene, mod or other behaviour that uses the old name gets a message with the new one
 ---@field states? table<string, jostle.State> name = state
 
 ---@class jostle.State
@@ -91,18 +91,18 @@ function Target:where(name, ...) end
 ---@field push_when? jostle.Condition pushes only while this holds
 ---@field push_toward? string|jostle.Target|jostle.Number pushes that way; else the way it wants to go
 ---@field push_weight? "equal"|"nearest" shares the push among all in the way, or gives it to the nearest
----@field push_only? string|string[] pushes those alone
----@field ignore? string|string[] does not avoid those
+---@field push_only? string|string[] pushes only agents with these tags
+---@field ignore? string|string[] does not avoid agents and bodies with these tags
 ---@field face? string|jostle.Target|jostle.Number looks at; else where it walks
----@field approach? string|jostle.Target|jostle.Number a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on
+---@field approach? string|jostle.Target|jostle.Number a body or agent: not avoided in advance, only not overlapped; agents are kept apart by contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches, with no wall between
 ---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s, where hands reach it and there is room to hold it; it is carried in front, its middle at 1.2 m, nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and falls where there is none. Hands reach over what is lower than the lowest point of what they hold
----@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; who is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`
+---@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; the agent that is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? number the greatest force with which it holds on; else 300, N
 ---@field throw? table throws the body that it carries, from its own side of walls
----@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
+---@field colour? string of agents in this state where people are coloured by state; without it one is chosen; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
----@field set? table on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, in place of what it had: of the scene, or new ones
+---@field set? table on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, replacing those it had: of the scene, or new ones
 ---@field counts? table memory that counts while in this state
 ---@field on_enter? fun(me: jostle.Me) called on entering
 ---@field on_exit? fun(me: jostle.Me) called on leaving
@@ -144,7 +144,7 @@ function Target:where(name, ...) end
 ---@field vy number velocity north, m/s
 ---@field time number simulated time, s
 ---@field time_in_state number since the state was entered, s
----@field density number people per square metre about it, 1/m2
+---@field density number people per square metre around the agent, 1/m2
 ---@field pushed number magnitude of the net force, N
 ---@field compression number sum of contact force magnitudes over circumference, N/m
 ---@field load number greatest push borne from any one direction: over directions d, the greatest sum of the positive parts of f.d over its contacts f, N
@@ -152,11 +152,11 @@ function Target:where(name, ...) end
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
 ---@field goal string can be set
----@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` finds one of: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
+---@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` chooses from: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them changes after it, and memory that their machine lacks is nil
 ---@field signal fun(name: string) calls out: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 
---- `inside(place) or inside(target, place)`: the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, but for solids that hold the point
+--- `inside(place) or inside(target, place)`: the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, except solids that contain the point
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? string|jostle.Target|jostle.Number
 ---@return jostle.Condition
@@ -167,7 +167,7 @@ function inside(a1, a2) end
 ---@return jostle.Condition
 function crosses(a1) end
 
---- `near(target, metres)`: the target is nearer than so many metres; of a place, no wall or closed gate may lie between, but for those on or in which its nearest point lies
+--- `near(target, metres)`: the target is nearer than so many metres; of a place, no wall or closed gate may lie between, except walls that its nearest point lies on or in
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition
@@ -183,7 +183,7 @@ function touches(a1) end
 ---@return jostle.Condition
 function first_in(a1) end
 
---- `after(seconds)`: so long in this state
+--- `after(seconds)`: the agent has been in this state for so many seconds
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
 function after(a1) end
@@ -192,7 +192,7 @@ function after(a1) end
 ---@type jostle.Condition
 lasted = nil
 
---- `stuck(seconds)`: has not moved by 0.25 m for so long
+--- `stuck(seconds)`: the agent has not moved by 0.25 m for so many seconds
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
 function stuck(a1) end
@@ -218,7 +218,7 @@ function incoming(a1, a2) end
 ---@return jostle.Condition
 function kicked(a1) end
 
---- `has(target)`: the agent carries the body (see `take`), or holds on to somebody who is what the target asks for (see `grasp`)
+--- `has(target)`: the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function has(a1) end
@@ -228,7 +228,7 @@ function has(a1) end
 ---@return jostle.Condition
 function sees(a1) end
 
---- `heard(name [, metres])`: somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene now; bodies are no hindrance
+--- `heard(name [, metres])`: somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene gives it now; bodies are no hindrance
 ---@param a1 string
 ---@param a2? number|jostle.Number
 ---@return jostle.Condition
@@ -264,12 +264,12 @@ function queued(a1) end
 ---@return jostle.Number
 function distance(a1) end
 
---- `neighbours(tag)`: agents seen, with no wall and no tall body between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the words with a colon say which of them
+--- `neighbours(tag)`: agents seen, with no wall and no tall body between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the methods with a colon select among them
 ---@param a1 string
 ---@return jostle.Number
 function neighbours(a1) end
 
---- `theirs(target, name)`: what another remembers by a name that its machine makes `public`, true as 1; 0 where there is nobody, or nothing of the name
+--- `theirs(target, name)`: memory of another agent that its machine makes `public`, true as 1; 0 if there is no such agent or memory
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 string
 ---@return jostle.Number
@@ -311,24 +311,24 @@ holders = nil
 ---@type jostle.Number
 time_in_state = nil
 
---- `min(a, b)`: the lesser
+--- `min(a, b)`: the lesser of two
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Number
 function min(a1, a2) end
 
---- `max(a, b)`: the greater
+--- `max(a, b)`: the greater of two
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Number
 function max(a1, a2) end
 
---- `abs(a)`: without its sign
+--- `abs(a)`: absolute value
 ---@param a1 number|jostle.Number
 ---@return jostle.Number
 function abs(a1) end
 
---- `sqrt(a)`: square root; 0 of what is negative
+--- `sqrt(a)`: square root; 0 of a negative number
 ---@param a1 number|jostle.Number
 ---@return jostle.Number
 function sqrt(a1) end
@@ -348,7 +348,7 @@ now = {}
 ---@type table<string, jostle.Number>
 own = {}
 
---- `nearest(tag)`: the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of "anyone", "opponents" or "teammates"; the words with a colon say which agents
+--- `nearest(tag)`: the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of "anyone", "opponents" or "teammates"; the methods with a colon select among agents
 ---@param a1 string
 ---@return jostle.Target
 function nearest(a1) end
@@ -362,7 +362,7 @@ function one_of(a1) end
 ---@type jostle.Target
 goal = nil
 
---- `home`: the agent's own post: where it came in, or became what it is
+--- `home`: the agent's own post: where it arrived, or took up its present machine
 ---@type jostle.Target
 home = nil
 
@@ -406,18 +406,18 @@ function follow(a1, a2) end
 ---@return jostle.Steering
 function together(a1) end
 
---- `drift(x, y)`: in a direction east and north, of numbers or of what is computed; a length of 1 is the wanted speed
+--- `drift(x, y)`: in the direction x east and y north, numbers or expressions; a length of 1 is the wanted speed
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Steering
 function drift(a1, a2) end
 
---- `wander([place])`: about, turning gradually and back from walls; in a place: within it
+--- `wander([place])`: walks about, turning gradually, and back from walls; with a place: within it
 ---@param a1? string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function wander(a1) end
 
---- `formation(target [, metres])`: to the agent's place in a row, so far apart: along a line, or behind somebody across the way they look; in the order in which they stand
+--- `formation(target [, metres])`: to the agent's place in a row, so far apart: along a line, or behind an agent and across the direction it looks in; in the order in which they stand
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? number
 ---@return jostle.Steering
@@ -433,7 +433,7 @@ function gather(a1, a2) end
 ---@type jostle.Steering
 spread = nil
 
---- `evade`: sideways, out of the way of those who come towards: to the right of who is straight ahead
+--- `evade`: sideways, out of the way of oncoming agents; to the right of one straight ahead
 ---@type jostle.Steering
 evade = nil
 
@@ -469,7 +469,7 @@ function uniform(...) end
 ---@return jostle.Drawn
 function choose(...) end
 
---- `circuits(place)`: for `counts`: net counter-clockwise turns about a place since its start line was first crossed; what is walked back is taken back
+--- `circuits(place)`: for `counts`: net counter-clockwise turns about a place since its start line was first crossed; walking back counts down
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return any
 function circuits(a1) end
@@ -488,12 +488,12 @@ function machine(sheet) end
 ---@return fun(sheet: table): any
 function patch(behaviour) end
 
---- `replace "behaviour" { ... }`: in a mod: takes the place of a behaviour's whole table; returned by the file
+--- `replace "behaviour" { ... }`: in a mod: replaces a behaviour's whole table; returned by the file
 ---@param behaviour string
 ---@return fun(sheet: table): any
 function replace(behaviour) end
 
---- `none`: in a patch: takes a key or a state away
+--- `none`: in a patch: removes a key or a state
 ---@type any
 none = nil
 

@@ -15,22 +15,22 @@ const JoxWord jox_words[] = {
     /* conditions */
     {"inside", "t?p", CONDITION, JOX_OP_INSIDE, 0, "inside(place) or inside(target, place)", "",
      "the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, "
-     "but for solids that hold the point", "inside \"yard\""},
+     "except solids that contain the point", "inside \"yard\""},
     {"crosses", "p", CONDITION, JOX_OP_CROSSES, 0, "crosses(line)", "",
      "the last step crossed a line, from its right to its left", "crosses \"mid\""},
     {"near", "tn", CONDITION, JOX_OP_NEAR, 0, "near(target, metres)", "",
-     "the target is nearer than so many metres; of a place, no wall or closed gate may lie between, but for "
-     "those on or in which its nearest point lies", "near(\"post\", 2)"},
+     "the target is nearer than so many metres; of a place, no wall or closed gate may lie between, except "
+     "walls that its nearest point lies on or in", "near(\"post\", 2)"},
     {"touches", "t", CONDITION, JOX_OP_TOUCHES, 0, "touches(target)", "",
      "the gap to the target is below 5 cm", "touches(nearest \"ball\")"},
     {"first_in", "p", CONDITION, JOX_OP_FIRST_IN, 0, "first_in(queue)", "",
      "the agent heads the queue that it steers in", "first_in \"row\""},
     {"after", "n", CONDITION, JOX_OP_AFTER, 0, "after(seconds)", "",
-     "so long in this state", "after(5)"},
+     "the agent has been in this state for so many seconds", "after(5)"},
     {"lasted", NULL, CONDITION, JOX_OP_LASTED, 0, "lasted", "",
      "the duration that `lasts` drew has passed", "lasted"},
     {"stuck", "n", CONDITION, JOX_OP_STUCK, 0, "stuck(seconds)", "",
-     "has not moved by 0.25 m for so long", "stuck(3)"},
+     "the agent has not moved by 0.25 m for so many seconds", "stuck(3)"},
     {"hit_by", "t", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
      "a target faster than 1 m/s touches the agent, or hit it in the last step", "hit_by(nearest \"ball\")"},
     {"grounded", "t", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
@@ -41,11 +41,11 @@ const JoxWord jox_words[] = {
     {"kicked", "t", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
      "the agent kicked or threw the body in the last step", "kicked(nearest \"ball\")"},
     {"has", "t", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
-     "the agent carries the body (see `take`), or holds on to somebody who is what the target asks for (see `grasp`)", "has(nearest \"ball\")"},
+     "the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)", "has(nearest \"ball\")"},
     {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
      "the target is there, within perception, with no wall and no tall body between", "sees(nearest \"people\")"},
     {"heard", "s?n", CONDITION, JOX_OP_HEARD, 0, "heard(name [, metres])", "",
-     "somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene now; bodies are no hindrance",
+     "somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene gives it now; bodies are no hindrance",
      "heard(\"alarm\", 10)"},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within half a metre of it, is closed, and the agent sees that: within "
@@ -65,18 +65,18 @@ const JoxWord jox_words[] = {
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",
      "agents seen, with no wall and no tall body between, that bear a tag, or are \"anyone\", \"teammates\", "
      "\"opponents\": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; "
-     "the words with a colon say which of them", "neighbours \"people\""},
+     "the methods with a colon select among them", "neighbours \"people\""},
     {"theirs", "ts", NUMBER, JOX_OP_THEIRS, 0, "theirs(target, name)", "",
-     "what another remembers by a name that its machine makes `public`, true as 1; 0 where there is "
-     "nobody, or nothing of the name", "theirs(nearest \"people\", \"laps\")"},
+     "memory of another agent that its machine makes `public`, true as 1; 0 if there is no such agent "
+     "or memory", "theirs(nearest \"people\", \"laps\")"},
 #define X(name, word, unit, meaning, value) \
     {#word, NULL, NUMBER, NOW, JOX_NOW_##name, #word, unit, meaning, #word},
     JOX_MEASURED_WORDS(X)
 #undef X
-    {"min", "nn", NUMBER, JOX_OP_MIN, 0, "min(a, b)", "", "the lesser", "min(1.2, 2 - density_here)"},
-    {"max", "nn", NUMBER, JOX_OP_MAX, 0, "max(a, b)", "", "the greater", "max(now.speed, own.speed)"},
-    {"abs", "n", NUMBER, JOX_OP_ABS, 0, "abs(a)", "", "without its sign", "abs(now.x)"},
-    {"sqrt", "n", NUMBER, JOX_OP_SQRT, 0, "sqrt(a)", "", "square root; 0 of what is negative",
+    {"min", "nn", NUMBER, JOX_OP_MIN, 0, "min(a, b)", "", "the lesser of two", "min(1.2, 2 - density_here)"},
+    {"max", "nn", NUMBER, JOX_OP_MAX, 0, "max(a, b)", "", "the greater of two", "max(now.speed, own.speed)"},
+    {"abs", "n", NUMBER, JOX_OP_ABS, 0, "abs(a)", "", "absolute value", "abs(now.x)"},
+    {"sqrt", "n", NUMBER, JOX_OP_SQRT, 0, "sqrt(a)", "", "square root; 0 of a negative number",
      "sqrt(density_here)"},
     {"clamp", "nnn", NUMBER, JOX_OP_CLAMP, 0, "clamp(a, least, greatest)", "",
      "kept between two bounds", "clamp(headway / 0.95, 0.2, own.speed)"},
@@ -92,17 +92,17 @@ const JoxWord jox_words[] = {
     /* targets */
     {"nearest", "g", TARGET, JOX_TARGET_NEAREST, 0, "nearest(tag)", "",
      "the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of \"anyone\", "
-     "\"opponents\" or \"teammates\"; the words with a colon say which agents", "nearest \"ball\""},
+     "\"opponents\" or \"teammates\"; the methods with a colon select among agents", "nearest \"ball\""},
     {":in_state", "*", TARGET, 0, 0, "of:in_state(name)", "",
-     "of `nearest` and `neighbours`: only those in a state of the name",
+     "of `nearest` and `neighbours`: only agents in a state of this name",
      "nearest(\"people\"):in_state(\"Start\")"},
     {":of_machine", "*", TARGET, 0, 0, "of:of_machine(name)", "",
-     "the same: only those whose machine has the name",
+     "the same: only agents whose machine has this name",
      "nearest(\"anyone\"):of_machine(\"example\")"},
     {":of_group", "*", TARGET, 0, 0, "of:of_group(name)", "",
-     "the same: only those of a group of the scene", "nearest(\"anyone\"):of_group(\"people\")"},
+     "the same: only agents of a group of the scene", "nearest(\"anyone\"):of_group(\"people\")"},
     {":where", "*", TARGET, 0, 0, "of:where(name [, least [, greatest]])", "",
-     "the same: only those whose public memory of the name is true, or is a number within bounds, "
+     "the same: only those whose public memory of this name is true, or is a number within bounds, "
      "both included", "nearest(\"people\"):where(\"laps\", 0, 2)"},
     {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
      "a member of a set of places, drawn on entering the state; `goal` from then on",
@@ -110,7 +110,7 @@ const JoxWord jox_words[] = {
     {"goal", NULL, TARGET, JOX_TARGET_GOAL, 0, "goal", "",
      "the place that one_of drew last, or that a function set", "goal"},
     {"home", NULL, TARGET, JOX_TARGET_HOME, 0, "home", "",
-     "the agent's own post: where it came in, or became what it is", "home"},
+     "the agent's own post: where it arrived, or took up its present machine", "home"},
     /* steering */
     {"seek", "t", STEER, JOX_STEER_SEEK, 0, "seek(target)", "",
      "straight to the target: a line is passed, at a point one stops", "seek \"post\""},
@@ -130,13 +130,13 @@ const JoxWord jox_words[] = {
     {"together", "?d", STEER, JOX_STEER_TOGETHER, 0, "together([metres])", "",
      "towards the teammates seen, once they are farther than that", "seek(\"post\") + 0.5 * together(1)"},
     {"drift", "nn", STEER, JOX_STEER_DRIFT, 0, "drift(x, y)", "",
-     "in a direction east and north, of numbers or of what is computed; a length of 1 is the wanted "
+     "in the direction x east and y north, numbers or expressions; a length of 1 is the wanted "
      "speed", "drift(1, 0.1 * mine.laps)"},
     {"wander", "?p", STEER, JOX_STEER_WANDER, 0, "wander([place])", "",
-     "about, turning gradually and back from walls; in a place: within it", "wander \"yard\""},
+     "walks about, turning gradually, and back from walls; with a place: within it", "wander \"yard\""},
     {"formation", "t?d", STEER, JOX_STEER_FORMATION, 0, "formation(target [, metres])", "",
-     "to the agent's place in a row, so far apart: along a line, or behind somebody across the way "
-     "they look; in the order in which they stand", "formation(\"mid\", 0.8)"},
+     "to the agent's place in a row, so far apart: along a line, or behind an agent and across "
+     "the direction it looks in; in the order in which they stand", "formation(\"mid\", 0.8)"},
     {"gather", "p?d", STEER, JOX_STEER_GATHER, 0, "gather(place [, degrees])", "",
      "to the agent's spot among those who wait in a polygon, round walls and fixed bodies: they fill "
      "it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or "
@@ -145,7 +145,7 @@ const JoxWord jox_words[] = {
     {"spread", NULL, STEER, JOX_STEER_SPREAD, 0, "spread", "",
      "away from the neighbours", "0.3 * spread + seek \"post\""},
     {"evade", NULL, STEER, JOX_STEER_EVADE, 0, "evade", "",
-     "sideways, out of the way of those who come towards: to the right of who is straight ahead", "seek \"post\" + 0.5 * evade"},
+     "sideways, out of the way of oncoming agents; to the right of one straight ahead", "seek \"post\" + 0.5 * evade"},
     {"hold", NULL, STEER, JOX_STEER_HOLD, 0, "hold", "", "stands", "hold"},
     {"player", NULL, STEER, JOX_STEER_PLAYER, 0, "player", "",
      "a person, or the input log, drives this agent", "player"},
@@ -158,7 +158,7 @@ const JoxWord jox_words[] = {
     /* the machine's table */
     {"circuits", "p", JOX_NODE_CIRCUITS, 0, 0, "circuits(place)", "",
      "for `counts`: net counter-clockwise turns about a place since its start line was first "
-     "crossed; what is walked back is taken back", "circuits \"yard\""},
+     "crossed; walking back counts down", "circuits \"yard\""},
     {"memory", "*", 0, 0, 0, "memory { name = value, ... }", "",
      "what each agent remembers: numbers and booleans, kept through reloads; the result gives the "
      "values as expressions", "memory { laps = 0, touched = false }"},
@@ -168,9 +168,9 @@ const JoxWord jox_words[] = {
      "in a mod: changes a behaviour's table, key by key; returned by the file",
      "patch \"stander\" { defaults = { perception = 2 } }"},
     {"replace", "*", 0, 0, 0, "replace \"behaviour\" { ... }", "",
-     "in a mod: takes the place of a behaviour's whole table; returned by the file",
+     "in a mod: replaces a behaviour's whole table; returned by the file",
      "replace \"stander\" { name = \"stander\", start = \"Stand\", states = { Stand = {} } }"},
-    {"none", NULL, 0, 0, 0, "none", "", "in a patch: takes a key or a state away",
+    {"none", NULL, 0, 0, 0, "none", "", "in a patch: removes a key or a state",
      "patch \"stander\" { defaults = { perception = none } }"},
     {"settings", NULL, 0, 0, 0, "settings.NAME", "",
      "in a mod: the values of its settings, plain numbers", "patch \"stander\" { defaults = { perception = settings.reach } }"},
@@ -199,7 +199,7 @@ const size_t jox_word_number_count = sizeof jox_word_numbers / sizeof *jox_word_
 
 const JoxTableKey jox_table_keys[] = {
     {"machine", "name", "text", "", "how messages and mods call it", "name = \"walker\"", 0, 0},
-    {"machine", "version", "number", "", "the author's; informs people", "version = 1", 0, 0},
+    {"machine", "version", "number", "", "set by the author, shown in messages", "version = 1", 0, 0},
     {"machine", "start", "name of a state", "", "where agents begin", "start = \"Start\"", 0, 0},
     {"machine", "defaults", "table of parameters", "", "values for all states, drawn once per agent",
      "defaults = { speed = normal(1.3, 0.2), radius = 0.2 }", 0, 0},
@@ -209,7 +209,7 @@ const JoxTableKey jox_table_keys[] = {
      "public = { \"laps\" }", 0, 0},
     {"machine", "counts", "table", "", "memory that counts by itself, in all states",
      "counts = { laps = circuits \"yard\" }", 0, 0},
-    {"machine", "renamed", "table of names", "", "old name = new name, of states, own values and memory, which agents keep at a reload. Who writes the old one, in a scene, a mod or another behaviour, is told the new one",
+    {"machine", "renamed", "table of names", "", "old name = new name, of states, own values and memory, which agents keep at a reload. A scene, mod or other behaviour that uses the old name gets a message with the new one",
      "renamed = { Old = \"Start\" }", 0, 0},
     {"machine", "states", "table of states", "", "name = state", "states = { Start = { steer = hold } }", 0, 0},
     {"state", "steer", "steering or function", "", "where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s",
@@ -223,22 +223,22 @@ const JoxTableKey jox_table_keys[] = {
     {"state", "push_toward", "target", "", "pushes that way; else the way it wants to go", "push_toward = \"post\"", 0, 0},
     {"state", "push_weight", "\"equal\" or \"nearest\"", "", "shares the push among all in the way, or gives it to the nearest",
      "push_weight = \"nearest\"", 0, 0},
-    {"state", "push_only", "tag or list of tags", "", "pushes those alone", "push_only = \"people\"", 0, 0},
-    {"state", "ignore", "tag or list of tags", "", "does not avoid those", "ignore = { \"people\" }", 0, 0},
+    {"state", "push_only", "tag or list of tags", "", "pushes only agents with these tags", "push_only = \"people\"", 0, 0},
+    {"state", "ignore", "tag or list of tags", "", "does not avoid agents and bodies with these tags", "ignore = { \"people\" }", 0, 0},
     {"state", "face", "target", "", "looks at; else where it walks", "face = \"post\"", 0, 0},
-    {"state", "approach", "target", "", "a body or somebody: not anticipated, only not overlapped; people by their contacts alone, where forces are on",
+    {"state", "approach", "target", "", "a body or agent: not avoided in advance, only not overlapped; agents are kept apart by contacts alone, where forces are on",
      "approach = nearest \"ball\"", 0, 0},
     {"state", "kick", "table", "", "kicks a body that it touches, with no wall between", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s, where hands reach it and there is room to hold it; it is carried in front, its middle at 1.2 m, nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and falls where there is none. Hands reach over what is lower than the lowest point of what they hold", "take = nearest \"ball\"", 0, 0},
     {"state", "grasp", "target", "", "takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; "
-     "who is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
+     "the agent that is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
     {"state", "grip", "number", "N", "the greatest force with which it holds on; else 300", "grasp = nearest \"people\", grip = 400", 0, JOX_MOST_GRIP},
     {"state", "throw", "table", "", "throws the body that it carries, from its own side of walls", "throw = { nearest \"ball\", at = \"post\", speed = 6 }", 0, 0},
-    {"state", "colour", "text", "", "of who is in it where people are coloured by state; else one is taken: " JOX_COLOUR_RULE,
+    {"state", "colour", "text", "", "of agents in this state where people are coloured by state; without it one is chosen; one of " JOX_COLOUR_RULE,
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "calls out on entering, and every so often with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
-    {"state", "set", "table", "", "on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, in place of what it had: of the scene, or new ones",
+    {"state", "set", "table", "", "on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, replacing those it had: of the scene, or new ones",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while in this state", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called on entering", "on_enter = function(me) me.laps = 1 end", 0, 0},
@@ -250,9 +250,9 @@ const JoxTableKey jox_table_keys[] = {
     {"transition", "signal", "name", "", "calls out", "signal = \"alarm\"", 0, 0},
     {"transition", "on_take", "function(me)", "", "called when it is taken", "on_take = function(me) me.touched = true end", 0, 0},
     {"transition", "id", "text", "", "how mods name it; else its target, with #2, #3 for repeats", "id = \"leave\"", 0, 0},
-    {"kick", "at", "target", "", "whereto; else straight ahead", "at = \"post\"", 0, 0},
+    {"kick", "at", "target", "", "where it goes; without it straight ahead", "at = \"post\"", 0, 0},
     {"kick", "impulse", "number", "m/s", "N s per kg of the body: the change of its velocity", "impulse = 2 + 2 * now.speed", 0, 50},
-    {"throw", "at", "target", "", "whereto", "at = nearest \"people\"", 0, 0},
+    {"throw", "at", "target", "", "where it goes", "at = nearest \"people\"", 0, 0},
     {"throw", "speed", "number", "m/s", "level speed", "speed = 6", 0.1, 40},
     {"signal", "every", "plain number", "s", "between two calls", "every = 0.5", 0.01, 1e6},
 };
@@ -266,7 +266,7 @@ const JoxMeKey jox_me_keys[] = {
     {"vy", "number", "m/s", "velocity north"},
     {"time", "number", "s", "simulated time"},
     {"time_in_state", "number", "s", "since the state was entered"},
-    {"density", "number", "1/m2", "people per square metre about it"},
+    {"density", "number", "1/m2", "people per square metre around the agent"},
     {"pushed", "number", "N", "magnitude of the net force"},
     {"compression", "number", "N/m", "sum of contact force magnitudes over circumference"},
     {"load", "number", "N", JOX_LOAD_MEANING},
@@ -274,7 +274,7 @@ const JoxMeKey jox_me_keys[] = {
     {"state", "text", "", "name of its state; nil of a neighbour without a machine"},
     {"machine", "text", "", "name of its machine; nil of a neighbour without one"},
     {"goal", "name of a place", "", "can be set"},
-    {"neighbours", "list", "", "views of the agents that `nearest \"anyone\"` finds one of: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
+    {"neighbours", "list", "", "views of the agents that `nearest \"anyone\"` chooses from: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them changes after it, and memory that their machine lacks is nil"},
     {"signal", "function(name)", "", "calls out: me.signal(\"alarm\")"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
