@@ -32,7 +32,7 @@ uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundP
     const uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i];
     JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
     JoxContactSelf self = jox_load_contact_self(a, i);
-    self.least_id = INT32_MIN; /* the other agent is tested below */
+    self.least_id = INT32_MIN; /* the loop below compares the ids itself */
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
                                     : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];

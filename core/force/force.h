@@ -54,8 +54,7 @@ typedef struct JoxForceStep {
                                  and all at once, to have the effect at its end that it has step by
                                  step; 0: interval */
     const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all may push */
-    const uint8_t
-        *push_nearest; /* per agent, 1: all of the push goes to the nearest target; NULL: shared */
+    const uint8_t *push_nearest; /* per agent, 1: pushes the nearest target only; NULL: all */
     /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
     const float *push_toward_x, *push_toward_y;
 } JoxForceStep;
@@ -63,11 +62,11 @@ typedef struct JoxForceStep {
 typedef struct JoxForceTotals {
     uint32_t pushers; /* agents that pushed something this step */
     uint32_t pairs;   /* overlapping pairs of agents */
-    uint32_t touches; /* agents whose centre is in a driven body */
-    uint32_t inside;  /* agents whose middle is in a driven body */
-    uint32_t passed;  /* over the contacts */
-    uint32_t passes;  /* N: greatest change of a contact force in the last pass */
-    float residual;   /* N: by which the last pass still changed a contact force */
+    uint32_t touches; /* contacts of agents with bodies */
+    uint32_t inside;  /* agents whose centre is in a driven body */
+    uint32_t passed;  /* forces that the last infer passed on */
+    uint32_t passes;  /* over the contacts */
+    float residual;   /* N: greatest change of a contact force in the last pass */
     /* N s: momentum of the step's pushes that came from the ground; zero with `react` */
     double ground_x, ground_y;
     /* N s: given to moving bodies by pushes; given to agents by contacts with such bodies, and the

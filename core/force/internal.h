@@ -59,7 +59,7 @@ struct JoxForces {
     uint32_t *found_first, *wall_first; /* wall_first: after the layout an index into `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
-    bool has_full_list; /* of agents within touch range: contacts are found singly */
+    bool has_full_list; /* some touch list is full: contacts are found agent by agent */
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bits of the colours of its pairs */
     JoxListed *listed;    /* per agent */

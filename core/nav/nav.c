@@ -59,7 +59,7 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
     JOX_SECTION(s, "wall_reach", nav->grid.reach);
     if (s->mode == JOX_SECTIONS_RESTORE &&
         !(nav->grid.reach >= 0.0f && nav->grid.reach <= MOST_WALL_REACH)) {
-        jox_sections_fail(s, "wall_reach", "nobody reaches so far");
+        jox_sections_fail(s, "wall_reach", "no agent reaches this far");
         nav->grid.reach = 0.0f;
     }
     if (s->mode == JOX_SECTIONS_RESTORE)

@@ -16,11 +16,10 @@ typedef struct Cells {
 
 /* Cells within reach of each lane, and of each lane together with the next one. */
 typedef struct Reach {
-    float x[JOX_WIDTH], y[JOX_WIDTH],
-        radius2[JOX_WIDTH]; /* m: position of the image from which the lane searches; m2 */
+    float x[JOX_WIDTH], y[JOX_WIDTH]; /* m: image of the agent that searches */
+    float radius2[JOX_WIDTH];         /* m2 */
     Cells own, both;
-    uint32_t pairs; /* lanes whose cells together with those of the next lane are not many more than
-                       their own */
+    uint32_t pairs; /* lanes that reach few more cells together with the next lane than alone */
 } Reach;
 
 static inline JoxFloats find_cells(JoxFloats at, float low, float per_metre, uint32_t cells) {
@@ -126,7 +125,7 @@ list_candidates(Packet *packet, const Reach *reach, const uint32_t lane, const u
     for (; row <= last; row += columns) {
         const size_t begin = row[left], end = row[right];
         if (greater_size(n[0], n[1]) + (end - begin) > ROOM) {
-            n[0] = n[1] = PLACES + 1; /* as many as that, at least */
+            n[0] = n[1] = PLACES + 1; /* counts as an overflow */
             break;
         }
         const JoxInts ends = ji_set((int32_t)end);

@@ -10,11 +10,9 @@
 #include "nav/kernels.h"
 #include "nav/walk_lanes.h"
 
-static const float AS_FREE =
-    0.98f; /* share of the wanted speed: a lane that gets as much straight on does not turn */
-static const float WORST = -0.2f; /* m/s: worth of a direction is at least this */
-static const float NO_LIMIT =
-    64.0f; /* wanted speeds: what a direction without agents ahead allows */
+static const float AS_FREE = 0.98f;  /* share of the wanted speed that needs no turning aside */
+static const float WORST = -0.2f;    /* m/s: worth of a direction is at least this */
+static const float NO_LIMIT = 64.0f; /* speed limit without agents ahead, in wanted speeds */
 
 /* Directions, offsets and velocities of neighbours are in the frame of each lane's agent: x along
    its aim, y to its left. */

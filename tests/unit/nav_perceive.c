@@ -23,7 +23,7 @@ static double draw_near(uint32_t crowd, uint32_t *drawn, double from, double to)
 
 typedef enum Kind { RANDOM, LATTICE, COINCIDENT, PACKED, FAR, LINE, KINDS } Kind;
 
-static JoxV2 place_crowd(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
+static JoxV2 place_near_crowd(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
     float size = kind == PACKED ? 2.0f : kind == FAR ? 4000.0f : 14.0f;
     switch (kind) {
     case LATTICE:
@@ -47,7 +47,7 @@ static void fill_crowd(JoxAgents *a, uint32_t crowd) {
         a->period = (JoxV2){15.0f, crowd % 2 ? 15.0f : 0.0f};
     for (uint32_t k = 0; k < people; k++) {
         uint32_t i = jox_agents_add(a);
-        JoxV2 at = place_crowd(kind, k, crowd, &drawn);
+        JoxV2 at = place_near_crowd(kind, k, crowd, &drawn);
         a->x[i] = periodic ? fmodf(at.x, 15.0f) : at.x;
         a->y[i] = periodic ? fmodf(at.y, 15.0f) : at.y;
         jox_param_set(a, JOX_PARAM_radius, i, (float)draw_near(crowd, &drawn, 0.1, 0.3));
