@@ -210,7 +210,7 @@ static int32_t find_present_slot(const JoxMachineRun *machines, uint32_t i, cons
 }
 
 /* Returns whether a write overwrites another change of this step that it could not know of: it
-   depends on the value before the step. Equal values of a condition lose nothing. */
+   depends on the value before the step. Booleans that are set to the same value lose nothing. */
 static bool loses_change(const JoxLua *lua, uint32_t i, uint32_t slot, const JoxWrite *write) {
     const JoxAgents *a = lua->machines->agents;
     const size_t at = (size_t)i * a->memory_stride + slot;

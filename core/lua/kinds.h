@@ -34,8 +34,8 @@ typedef struct JoxKinds {
     bool settled;      /* the kinds are final; false: the script is too large to tell */
 } JoxKinds;
 
-/* Infers the kinds of all files of a script that has run. Free with jox_kinds_free; NULL is allowed
-   there. */
+/* Infers the kinds of all files of a script that has run. Free with jox_kinds_free, which
+   also takes NULL. */
 JoxKinds *jox_kinds_read(const JoxScript *script);
 void jox_kinds_free(JoxKinds *kinds);
 /* Place in a source where a part of a machine is written. */
@@ -47,7 +47,8 @@ typedef struct JoxPartOrigin {
    "states.Wait.2.when"; false if the code that builds it cannot be followed. In part_origin.c. */
 bool jox_part_find(JoxKinds *kinds, const char *path, JoxPartOrigin *found);
 
-/* Returns whether it is surely a value of the language, which Lua always takes for true. */
+/* Returns whether an expression of this kind surely is a value of the language, which Lua always
+   takes for true. */
 static inline bool jox_kind_is_value(JoxKind kind) {
     return kind.bits != 0 && (kind.bits & ~(JOX_KIND_CONDITION | JOX_KIND_VALUE)) == 0;
 }

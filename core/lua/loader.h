@@ -46,9 +46,9 @@ typedef struct JoxLuaExport {
     char kind[24]; /* "function", "a condition", "a steering", "number" */
     int line;      /* 0: unknown */
 } JoxLuaExport;
-/* Runs a file in a Lua state of its own and lists its exports by line; NULL with diagnostics.
-     about is the comment at the head of the file, or NULL. Free the list with jox_lua_exports_free,
-   and *about with jox_free. */
+/* Runs a file in a Lua state of its own and lists its exports by line; NULL with diagnostics. The
+   comment at the head of the file, or NULL, goes to *about. Free the list with
+   jox_lua_exports_free, and *about with jox_free. */
 JoxLuaExport *jox_lua_exports(JoxLua *lua, const char *path, const JoxScope *scope, uint32_t *count,
                               char **about, JoxDiagnostics *diagnostics);
 void jox_lua_exports_free(JoxLuaExport *exports, uint32_t count);

@@ -21,7 +21,7 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
 int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use);
 /* Returns the slot of an own value, added on first use; a name of "" adds a new one. */
 int32_t jox_build_own(JoxBuild *build, const char *name);
-/* Does the same for an own value that an expression uses, and keeps where. */
+/* Returns the slot of an own value that an expression uses, and keeps where it is first used. */
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
 /* Returns the slot of memory, added on first use; a name of "" adds a new one. */
 int32_t jox_build_memory(JoxBuild *build, const char *name);
@@ -81,7 +81,8 @@ int32_t jox_read_hook(JoxBuild *build, int index, const char *path, const char *
    dist. */
 JoxValue jox_read_value(JoxBuild *build, const char *path, const JoxParameterInfo *info,
                         bool *is_dist, JoxDist *dist);
-/* Does the same; a distribution is drawn once per agent into an own value. */
+/* Reads a value as jox_read_value does; a distribution is drawn once per agent into an own value.
+ */
 JoxValue jox_read_parameter(JoxBuild *build, const char *path, const JoxParameterInfo *info);
 /* Compiles the condition on top of the stack, popped; returns its expression or -1. A function
    becomes *hook, if `hook` is not NULL. */

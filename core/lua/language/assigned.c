@@ -12,7 +12,8 @@ static bool is_shared(const JoxSyntax *s, int32_t tree, int32_t f, const char *n
            !jox_syntax_within(s, s->variables[t->variable].function, f);
 }
 
-/* Returns the first assignment in function `f` of such a variable; NULL if there is none. */
+/* Returns the first token in function `f` that assigns a variable of this name from outside of it;
+   NULL if there is none. */
 static const JoxToken *find_assignment(const JoxSyntax *s, int32_t f, const char *name) {
     const JoxToken *first = NULL;
     for (size_t b = 0; b < s->binding_count; b++) {
@@ -26,7 +27,7 @@ static const JoxToken *find_assignment(const JoxSyntax *s, int32_t f, const char
     return first;
 }
 
-/* Returns whether function `f` uses such a variable at all. */
+/* Returns whether function `f` uses a variable of this name that is declared outside of it. */
 static bool uses_shared(const JoxSyntax *s, int32_t f, const char *name) {
     for (size_t t = 0; t < s->tree_count; t++)
         if (is_shared(s, (int32_t)t, f, name))

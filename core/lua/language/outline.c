@@ -65,7 +65,7 @@ static size_t outline_table(const JoxSource *source, size_t at, const char *pref
     return at + 1;
 }
 
-/* Returns whether patch "NAME" { or replace "NAME" { begins at token i. */
+/* Returns whether patch "NAME" { or replace "NAME" { begins at token `i`. */
 static bool begins_patch(const JoxSource *source, size_t i) {
     const JoxToken *t = &source->tokens[i];
     return i + 3 < source->token_count &&

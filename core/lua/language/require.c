@@ -1,5 +1,5 @@
-/* require: runs a file beside the one that requires it, beside the behaviour, of a mod, or of the
-   library. */
+/* require: runs another file once and returns its result. The file is beside the one that requires
+   it, beside the behaviour, in a mod or in the library. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -274,7 +274,7 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
 /* Returns the position of a word in the innermost running line of a script, and marks that
    occurrence as used. */
 JoxPosition jox_word_position(lua_State *L, const char *word);
-/* Does the same, with the number of the source. */
+/* Returns the position as jox_word_position does, with the number of its source. */
 JoxNamePlace jox_word_written(lua_State *L, const char *word);
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* creates a node and pushes it */

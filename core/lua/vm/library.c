@@ -321,8 +321,8 @@ static int base_pcall(lua_State *L) {
 
 /* ---- print ---- */
 
-/* Counts a printed line; whether it may be printed in this second of simulated time. *last: print
-   instead that no more lines follow. */
+/* Counts a printed line; returns whether it may be printed in this second of simulated time. *last:
+   print instead that no more lines follow. */
 static bool may_print(JoxVm *vm, bool *last) {
     uint32_t most = vm->group->limits.print_lines;
     const uint32_t second = vm->loading ? 0 : vm->second;

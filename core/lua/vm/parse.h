@@ -27,7 +27,7 @@ struct JoxParser {
 
 /* Returns whether the next token is `text`. */
 bool jox_parse_is(const JoxParser *p, const char *text);
-/* Passes the next token if it is `text`; whether it was. */
+/* Passes the next token if it is `text`; returns whether it was. */
 bool jox_parse_accept(JoxParser *p, const char *text);
 /* Passes the next token, which must be `text`; else the parser fails. */
 void jox_parse_expect(JoxParser *p, const char *text);

@@ -84,7 +84,8 @@ void jox_vm_charge(lua_State *L, uint64_t steps);
 /* Ends the present call for good: pops the message, raises it, and makes every further instruction
    fail, so that pcall cannot go on. */
 int jox_vm_stop(lua_State *L);
-/* Counts a failure in a second of simulated time; whether it may still be reported in full. */
+/* Counts a failure in a second of simulated time; returns whether it may still be reported in full.
+ */
 bool jox_vm_may_say(JoxVm *vm, uint32_t second);
 /* Returns the source number that a chunk name stands for ("b3": 3), or -1. */
 int jox_vm_source(const JoxVm *vm, const char *chunk);
