@@ -15,22 +15,22 @@
     X(neighbours, "", 0, 16, 10, "greatest number of neighbours that are considered")              \
     X(horizon, "s", 0.01, 30, 0.5, "time ahead for which other agents are avoided")                \
     X(wall_horizon, "s", 0.01, 30, 0.3, "time ahead for which walls are avoided")                  \
-    X(push, "N", 0, 5000, 0, "force with which an agent pushes those in its way")                  \
+    X(push, "N", 0, 5000, 0, "force with which an agent pushes agents in its way")                 \
     X(push_reach, "m", 0, 2, 0.1, "greatest gap over which an agent pushes")                       \
     X(push_angle, "degree", 0, 180, 60, "half-angle of the cone in which an agent pushes")         \
     X(absorb, "", 0, 1, 0.8, "share of a force that is passed on (k of equations 8 and 9)")        \
     X(brace_angle, "degree", 0, 180, 60, "half-angle of the cone that takes a passed-on force")    \
-    X(yield, "", 0, 1, 0.5, "share of the avoidance between agents taken; 0.5 is reciprocal")      \
+    X(yield, "", 0, 1, 0.5, "share of mutual avoidance that the agent takes; 0.5 is reciprocal")   \
     X(radius, "m", 0.02, 5, 0.2, "radius of the agent's disc")                                     \
     X(mass, "kg", 1, 10000, 70, "mass")                                                            \
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
     X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \
-    X(brace, "N", 0, 5000, 200, "force of others that who wants to get on holds with the feet")    \
+    X(brace, "N", 0, 5000, 200, "force of others that the feet of an agent under way withstand")   \
     X(time_gap, "s", 0, 10, 0,                                                                     \
-      "time kept to those ahead, by the walking law; 0: velocities are chosen by ORCA")            \
+      "time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA")       \
     X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
     X(turn, "", 0, 0.6, 0.4,                                                                       \
-      "share of the radius by which who wants to get on turns a shoulder in touching others")
+      "share of the radius that an agent under way saves in contacts by turning a shoulder")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,

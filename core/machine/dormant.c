@@ -128,8 +128,8 @@ static void tell_kind_changed(const JoxMachine *old, const JoxMachine *next,
     jox_text_printf(out, " memory '%.60s' was %s and is %s now: ", jox_memory_identity(now),
                     describe_kind(now), describe_kind(&next->memory[other]));
     if (jox_memory_before(old, next, other) < 0)
-        jox_text_printf(out, "%s begin with what it begins with, and ", people);
-    jox_text_printf(out, "what they had is kept until it is %s again\n", describe_kind(now));
+        jox_text_printf(out, "%s start with its initial value, and ", people);
+    jox_text_printf(out, "their old values are kept until it is %s again\n", describe_kind(now));
 }
 
 /* Tells which dormant memory the new version drops. */
@@ -168,8 +168,10 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
             jox_text_printf(out, " memory '%.60s' of %s is kept until a version names it again\n",
                             name, people);
         else
-            jox_text_printf(out, " memory '%.60s' of %s is what it was when it was last named\n",
-                            name, people);
+            jox_text_printf(
+                out,
+                " memory '%.60s' of %s has the value again that it had when it was last named\n",
+                name, people);
     }
     tell_dropped(old, next, out);
 }

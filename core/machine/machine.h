@@ -32,8 +32,8 @@ enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
     X(density, density_here, "1/m2",                                                               \
       "people per square metre about the agent, from its neighbours' distances", a->density[i])    \
     X(headway, headway, "m",                                                                       \
-      "free way ahead to the neighbour in it who does not come the other way; perception where "   \
-      "nobody is", jox_headway(run, i))                                                            \
+      "free distance ahead to the next neighbour that does not come the other way; perception "    \
+      "if there is none", jox_headway(run, i))                                                            \
     X(eagerness, eagerness, "",                                                                    \
       "how eager the agent is to get on, 0 to 1: the crowd about it raises it, within the bounds " \
       "of `haste`", a->eager[i])                                                                   \

@@ -112,20 +112,20 @@ function Target:where(name, ...) end
 ---@field neighbours? number|jostle.Number|jostle.Drawn greatest number of neighbours that are considered; 0 to 16, default 10
 ---@field horizon? number|jostle.Number|jostle.Drawn time ahead for which other agents are avoided, s; 0.01 to 30, default 0.5
 ---@field wall_horizon? number|jostle.Number|jostle.Drawn time ahead for which walls are avoided, s; 0.01 to 30, default 0.3
----@field push? number|jostle.Number|jostle.Drawn force with which an agent pushes those in its way, N; 0 to 5000, default 0
+---@field push? number|jostle.Number|jostle.Drawn force with which an agent pushes agents in its way, N; 0 to 5000, default 0
 ---@field push_reach? number|jostle.Number|jostle.Drawn greatest gap over which an agent pushes, m; 0 to 2, default 0.1
 ---@field push_angle? number|jostle.Number|jostle.Drawn half-angle of the cone in which an agent pushes, degree; 0 to 180, default 60
 ---@field absorb? number|jostle.Number|jostle.Drawn share of a force that is passed on (k of equations 8 and 9); 0 to 1, default 0.8
 ---@field brace_angle? number|jostle.Number|jostle.Drawn half-angle of the cone that takes a passed-on force, degree; 0 to 180, default 60
----@field yield? number|jostle.Number|jostle.Drawn share of the avoidance between agents taken; 0.5 is reciprocal; 0 to 1, default 0.5
+---@field yield? number|jostle.Number|jostle.Drawn share of mutual avoidance that the agent takes; 0.5 is reciprocal; 0 to 1, default 0.5
 ---@field radius? number|jostle.Number|jostle.Drawn radius of the agent's disc, m; 0.02 to 5, default 0.2
 ---@field mass? number|jostle.Number|jostle.Drawn mass, kg; 1 to 10000, default 70
 ---@field restitution? number|jostle.Number|jostle.Drawn restitution of contacts between agents; 0 to 1, default 0
 ---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5
----@field brace? number|jostle.Number|jostle.Drawn force of others that who wants to get on holds with the feet, N; 0 to 5000, default 200
----@field time_gap? number|jostle.Number|jostle.Drawn time kept to those ahead, by the walking law; 0: velocities are chosen by ORCA, s; 0 to 10, default 0
+---@field brace? number|jostle.Number|jostle.Drawn force of others that the feet of an agent under way withstand, N; 0 to 5000, default 200
+---@field time_gap? number|jostle.Number|jostle.Drawn time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA, s; 0 to 10, default 0
 ---@field haste? number|jostle.Number|jostle.Drawn motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness; 0 to 1, default 0.5
----@field turn? number|jostle.Number|jostle.Drawn share of the radius by which who wants to get on turns a shoulder in touching others; 0 to 0.6, default 0.4
+---@field turn? number|jostle.Number|jostle.Drawn share of the radius that an agent under way saves in contacts by turning a shoulder; 0 to 0.6, default 0.4
 
 ---@class jostle.Transition
 ---@field to? string where it leads
@@ -279,7 +279,7 @@ function theirs(a1, a2) end
 ---@type jostle.Number
 density_here = nil
 
---- `headway` in m: free way ahead to the neighbour in it who does not come the other way; perception where nobody is
+--- `headway` in m: free distance ahead to the next neighbour that does not come the other way; perception if there is none
 ---@type jostle.Number
 headway = nil
 

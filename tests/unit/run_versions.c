@@ -176,7 +176,7 @@ static void memory_that_a_version_lacks_is_kept_and_told(void **state) {
     assert_null(strstr(said.data, "laps")); /* told once */
     step(scene, 5);
     save_live(scene, COUNTING);
-    assert_non_null(strstr(said.data, "memory 'laps' of 2 people is what it was"));
+    assert_non_null(strstr(said.data, "memory 'laps' of 2 people has the value again"));
     assert_true(remembered(scene, 1, "laps") == laps && remembered(scene, 1, "met") == 1.0);
     jo_scene_free(scene);
 }
@@ -265,12 +265,13 @@ static void memory_that_is_back_is_not_told_to_begin(void **state) {
     JoScene *scene = load_own(TWO, NAMES("laps = 5", ""));
     save_live(scene, NAMES("laps = false", ""));
     assert_non_null(strstr(said.data, "'laps' was a number and is true or false now: 2 people "
-                                      "begin with what it begins with, and what they had"));
+                                      "start with its initial value, and their old values"));
     save_live(scene, NAMES("laps = 0", ""));
     assert_true(remembered(scene, 0, "laps") == 5.0);
-    assert_non_null(strstr(said.data, "'laps' of 2 people is what it was when it was last named"));
-    assert_non_null(strstr(said.data, "'laps' was true or false and is a number now: what they had "
-                                      "is kept until it is true or false again"));
+    assert_non_null(strstr(
+        said.data, "'laps' of 2 people has the value again that it had when it was last named"));
+    assert_non_null(strstr(said.data, "'laps' was true or false and is a number now: their old "
+                                      "values are kept until it is true or false again"));
     assert_null(strstr(said.data, "begins with"));
     jo_scene_free(scene);
 }

@@ -16,14 +16,14 @@ static void check_field(const JoxField *f, JoxSections *s) {
     size_t count = (size_t)f->columns * (size_t)f->rows;
     for (size_t c = 0; c < count && !s->failed; c++)
         if (f->cells[c].patch >= (int32_t)f->patch_count || f->cells[c].patch < JOX_FIELD_PLAIN)
-            jox_sections_fail(s, "field_cells", "a cell has a patch that there is not");
+            jox_sections_fail(s, "field_cells", "a cell refers to a patch that does not exist");
     for (uint32_t p = 0; p < f->patch_count && !s->failed; p++)
         if (f->patches[p].first > f->ref_count ||
             f->patches[p].count > f->ref_count - f->patches[p].first)
-            jox_sections_fail(s, "field_patches", "a patch has edges that there are not");
+            jox_sections_fail(s, "field_patches", "a patch refers to edges that do not exist");
     for (uint32_t r = 0; r < f->ref_count && !s->failed; r++)
         if (f->refs[r] >= f->edge_count)
-            jox_sections_fail(s, "field_refs", "an edge is named that there is not");
+            jox_sections_fail(s, "field_refs", "an edge is referred to that does not exist");
 }
 
 void jox_field_sections(JoxField **field, JoxSections *s) {
@@ -50,7 +50,7 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
     f->rows = (int)rows;
     f->patch_capacity = f->patch_count;
     if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !is_valid_grid(f))
-        jox_sections_fail(s, "field_columns", "the grid is none");
+        jox_sections_fail(s, "field_columns", "the grid is invalid");
     if (!s->failed)
         check_field(f, s);
     if (s->failed) {
