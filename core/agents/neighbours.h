@@ -31,7 +31,7 @@ typedef struct JoxNeighbours {
     uint8_t *close;     /* per agent: of these, how many it may touch, at least */
     float *crowding2;   /* squared distance of neighbour JOX_CROWD_RANK, m2, where there is one */
     float widest;       /* greatest radius of an agent, m */
-    JoxMotion *motions; /* of all agents as they were perceived, valid until they move */
+    JoxMotion *motions; /* motion per agent, as perceived; valid until they move */
     /* Contacts do not depend on perception. If the list above may lack an agent within touching
        range, the JOX_MOST_NEIGHBOURS nearest within that range are stored here, from i *
        JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is JOX_TOUCH_IS_SEEN. NULL: the

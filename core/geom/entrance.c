@@ -104,6 +104,7 @@ static uint32_t count_rooms(const JoxWalls *walls, JoxV2 p) {
     return rooms;
 }
 
+/* Classifies a cell by its middle; clear cells are BEYOND until their piece is opened. */
 static JoxFloorCell judge_cell(const JoxEntrance *e, bool outlined, JoxV2 p) {
     const JoxWalls *walls = e->grid->walls;
     if (!is_on_floor(e, p))
@@ -193,6 +194,7 @@ static bool is_floor_cut(const JoxEntrance *e) {
     return e->open_count == 0;
 }
 
+/* Measures the shares of the place that are blocked or outside, and the area of open cells. */
 static void measure_shares(JoxEntrance *e, const JoxPlace *place) {
     uint32_t given = 0, blocked = 0, outside = 0;
     for (uint32_t cell = 0; cell < e->columns * e->rows; cell++) {

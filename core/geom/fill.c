@@ -228,6 +228,7 @@ static uint32_t fill_randomly(const JoxArea *area, const JoxAreaIndex *index, ui
 
 /* ---- lattices, and the choice between them ---- */
 
+/* Fills an area with `count` points of a lattice; of more points, `count` are drawn. */
 static uint32_t fill_lattice(const JoxArea *area, const JoxAreaIndex *index, bool hex,
                              uint32_t count, float spacing, uint64_t seed, uint32_t stream,
                              JoxV2 **positions) {

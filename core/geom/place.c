@@ -27,6 +27,8 @@ static JoxV2 find_principal_direction(const JoxPlace *place) {
     return jox_length2(axis) > 0.0f ? jox_unit(axis) : (JoxV2){1.0f, 0.0f};
 }
 
+/* Computes the stadium that orbits follow, from the extent along and across the principal
+   direction. */
 static void finish_axis(JoxPlace *place) {
     place->axis_a = place->axis_b = place->centre;
     if (!jox_place_is_area(place)) {
@@ -59,6 +61,7 @@ static JoxV2 find_first_point(const JoxPlace *place) {
     return place->points[0];
 }
 
+/* Tests and nearest points by kind, for the table below; see jox_place_contains. */
 static bool is_in_point(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
     return jox_length(jox_sub(point, place->centre)) <= place->radius;
@@ -431,6 +434,7 @@ static const JoxPlace *find_area_around(const JoxPlace *places, uint32_t count, 
     return found;
 }
 
+/* Returns the nearest named place within NEAR and its distance `away`, m; NULL: none. */
 static const JoxPlace *find_place_near(const JoxPlace *places, uint32_t count, JoxV2 at,
                                        float *away) {
     const JoxPlace *found = NULL;

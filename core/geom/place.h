@@ -42,7 +42,7 @@ typedef enum JoxPlaceOutline {
     JOX_OUTLINE_RING    /* a closed polyline */
 } JoxPlaceOutline;
 
-/* What can be done with a place. All of the engine except the reader of scenes tests the form,
+/* The uses of a place. All of the engine except the reader of scenes tests the form,
    never the kind, as several kinds may share a form. */
 typedef enum JoxPlaceForm {
     JOX_FORM_SPOT,  /* a point with a radius: people stop at it */
@@ -128,9 +128,9 @@ JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t place, JoxV2 point);
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance);
 int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
 
-/* ---- arrival (place_reach.c): at a place, with no wall between ---- Conditions of behaviours,
-   sinks and steering use these; measurements (density, probes) use the functions above, which
-   ignore walls. `walls` holds all walls, open gates too; NULL: none. */
+/* ---- arrival (place_reach.c): at a place, with no wall between ----
+   Conditions of behaviours, sinks and steering use these; measurements (density, probes) use the
+   functions above, which ignore walls. `walls` holds all walls, open gates too; NULL: none. */
 
 /* Returns whether a point is at a place (jox_place_contains) and no closed wall cuts the segment to
    the place's nearest point; a set: to that of a member. Ignores solids that contain the nearest

@@ -27,6 +27,7 @@ static uint32_t clamp_cell(float at, uint32_t count) {
     return at <= 0.0f ? 0 : at >= (float)(count - 1) ? count - 1 : (uint32_t)at;
 }
 
+/* Returns the cells that the bounding box of an edge reaches, extended by `reach`. */
 static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
     JoxV2 a = g->walls->vertices[edge].point, b = get_edge_end(g->walls, edge)->point;
     return (CellRange){
@@ -36,6 +37,7 @@ static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
         clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
 }
 
+/* Returns whether any point of a cell may be within `reach` of an edge. */
 static bool is_cell_near_edge(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
     JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
     JoxV2 near = jox_segment_nearest(g->walls->vertices[edge].point,
@@ -44,6 +46,7 @@ static bool is_cell_near_edge(const JoxWallGrid *g, uint32_t x, uint32_t y, uint
     return jox_length2(jox_sub(near, centre)) <= limit * limit;
 }
 
+/* Sets the grid's box and cell size: 1 m, or more if it would have more than MOST_CELLS cells. */
 static void size_grid(JoxWallGrid *g) {
     JoxV2 high = {-INFINITY, -INFINITY};
     g->low = (JoxV2){INFINITY, INFINITY};
@@ -78,6 +81,7 @@ static void enter_edge(JoxWallGrid *g, uint32_t edge) {
         }
 }
 
+/* Asserts that lists of cells are contiguous and ascending. */
 static void check_wall_grid(const JoxWallGrid *g) {
     size_t cells = (size_t)g->columns * g->rows;
     JOX_ASSERT(cells > 0 && g->cell > 0.0f && g->reach > 0.0f);

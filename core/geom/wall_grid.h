@@ -1,5 +1,5 @@
-/* A grid over the edges of walls, for finding the edges near a point. nav, force, world and scene
-   use it. */
+/* A grid over the edges of walls, for finding the edges near a point. body, force, machine, nav and
+   record use it. */
 #ifndef JOX_GEOM_WALL_GRID_H
 #define JOX_GEOM_WALL_GRID_H
 

@@ -1,5 +1,5 @@
-/* Finds the parts of a line that walls leave free (jox_walls_openings), for entrances and exits at
-   lines. */
+/* Finds the parts of a line that walls leave free (jox_walls_openings), for probes at lines
+   (record). */
 #include <math.h>
 
 #include "base/sort.h"
@@ -85,6 +85,7 @@ static bool is_inside_solid(const JoxWalls *walls, JoxV2 at) {
     return false;
 }
 
+/* Adds the free part from `low` to `high`, shares of the line's length, if it counts. */
 static void add_opening(JoxWallOpenings *out, const JoxWalls *walls, const JoxV2 line[2], float low,
                         float high) {
     const JoxV2 along = jox_sub(line[1], line[0]);

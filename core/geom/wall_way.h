@@ -1,5 +1,5 @@
-/* Moves and lines of sight that walls stop. World moves agents by it; scenes and places test what
-   lies between two points. */
+/* Moves and lines of sight that walls stop. nav moves agents by it; world and places test what lies
+   between two points. */
 #ifndef JOX_GEOM_WALL_WAY_H
 #define JOX_GEOM_WALL_WAY_H
 

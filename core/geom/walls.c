@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 
+/* Appends a ring of linked vertices. */
 static void add_ring(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool solid,
                      float height) {
     JOX_ASSERT(count >= 2);

@@ -13,6 +13,7 @@ JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
     return run->scratch;
 }
 
+/* Grows the scratch to the number of agents and workers. */
 static void reserve_scratch(JoxMachineRun *run, JoxPool *pool) {
     JoxMachineScratch *s = jox_machines_scratch(run);
     uint32_t workers = jox_pool_threads(pool);
@@ -82,6 +83,7 @@ static uint32_t find_first_state(const JoxMachineRun *run, uint32_t machine) {
     return first;
 }
 
+/* Appends the batches of one state, whose agents are grouped[begin .. end - 1]. */
 static void add_batches(JoxMachineScratch *s, uint16_t machine, uint16_t state, uint32_t begin,
                         uint32_t end) {
     for (; begin < end; begin += JOX_BATCH) {
@@ -234,6 +236,7 @@ visit_parts(const StateSort *sort, uint32_t begin, uint32_t end, bool clear, Par
             visit(sort, &parts[p]);
 }
 
+/* Counts the next agent of a part by its state. */
 static inline __attribute__((always_inline)) void count_agent(const StateSort *sort, Part *part) {
     const JoxAgents *a = sort->agents;
     const uint32_t i = part->next++;
@@ -243,6 +246,7 @@ static inline __attribute__((always_inline)) void count_agent(const StateSort *s
     part->numbers[state]++;
 }
 
+/* Lists the next agent of a part in its state's range. */
 static inline __attribute__((always_inline)) void list_agent(const StateSort *sort, Part *part) {
     const uint32_t i = part->next++;
     sort->scratch->grouped[part->numbers[sort->scratch->in_state[i]]++] = i;
@@ -258,6 +262,7 @@ static void list_parts(void *context, uint32_t begin, uint32_t end, uint32_t wor
     visit_parts(context, begin, end, false, list_agent);
 }
 
+/* Sorts agents by state: counts per part, then prefix sums, then lists. */
 static void sort_by_state(StateSort *sort, JoxPool *pool) {
     enum { PARTS = 64, LEAST = 256 };
     JoxMachineScratch *s = sort->scratch;

@@ -64,7 +64,7 @@ typedef struct JoxMachineScratch {
     uint32_t everywhere_count;
     size_t heard_capacity, everywhere_capacity;
     JoxHands hands;  /* obstacles between an agent and a body it picks up */
-    uint64_t *marks; /* a bit per id */
+    uint64_t *marks; /* a bit per rank of an agent, for sorting a long list by id */
     uint32_t mark_capacity;
     uint32_t *place_people; /* per place: number of people in it; UINT32_MAX: not counted, as no
                                machine reads it */
@@ -75,7 +75,7 @@ typedef struct JoxMachineScratch {
     uint32_t workers;
 } JoxMachineScratch;
 
-/* What a target resolves to: a place, a body or an agent. m, m/s. */
+/* The point that a target resolves to, m, m/s, with its place, body or agent. */
 typedef struct JoxSpot {
     bool found;
     float x, y, z, vx, vy, radius;

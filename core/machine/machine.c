@@ -144,6 +144,7 @@ static uint32_t find_new_bit(const JoxMachine *m, const uint16_t *numbers, uint3
     return bit;
 }
 
+/* Replaces each bit of a set of tags by its new one. */
 static void renumber_tags(const JoxMachine *m, const uint16_t *numbers, uint64_t *tags) {
     uint64_t now = 0;
     for (uint32_t bit = 0; bit < 64; bit++)
@@ -152,6 +153,7 @@ static void renumber_tags(const JoxMachine *m, const uint16_t *numbers, uint64_t
     *tags = now;
 }
 
+/* Renumbers the tags and the team that actions assign. */
 static void renumber_actions(const JoxMachine *m, const uint16_t *numbers, JoxActions *actions) {
     renumber_tags(m, numbers, &actions->tags);
     for (uint32_t n = 0; n < m->belonging_count && actions->sets_team; n++)

@@ -77,6 +77,8 @@ static void keep_given(const JoxMachine *old, JoxMachine *next) {
     }
 }
 
+/* Maps own values and memory of the new version to old slots, and draws own values whose
+   distribution changed. */
 static void map_slots(JoxReplacement *r, uint64_t seed) {
     const JoxMachine *old = r->old, *next = r->next;
     r->own_moves = false;
@@ -116,6 +118,8 @@ static bool is_same_value(const JoxReplacement *r, const JoxValue *a, const JoxV
     return true; /* expressions are computed each step */
 }
 
+/* Maps an old state: its successor, the parameters that differ, and the transitions that
+   continue. */
 static void map_state(JoxReplacement *r, uint32_t from) {
     const JoxState *was = &r->old->states[from];
     int to = find_next_state(r->next, was->name);
@@ -255,6 +259,7 @@ static void redraw_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) 
     }
 }
 
+/* Moves an agent's memory to its new slots; new memory gets its initial value. */
 static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
     double *memory = a->memory + (size_t)i * a->memory_stride;
@@ -265,6 +270,8 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
         jox_post_set(run, i); /* first version with a post */
 }
 
+/* Moves an agent to the successor of its state, and updates its conditions, memory, parameters and
+   tags. */
 static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
     uint16_t was = a->state[i];

@@ -68,7 +68,7 @@ typedef enum JoxRouteKind {
     JOX_ROUTE_KINDS
 } JoxRouteKind;
 
-/* What wrote a value of a watched agent last. */
+/* Last writer of a value of a watched agent. */
 typedef enum JoxWriter {
     JOX_WROTE_TRANSITION, /* actions of a transition */
     JOX_WROTE_STATE,      /* actions on entering a state */
@@ -85,7 +85,7 @@ typedef struct JoxWrote {
     int line;
 } JoxWrote;
 
-/* A watched agent: its last transition with the reason, and what wrote its values. */
+/* A watched agent: its last transition with the reason, and the last writers of its values. */
 typedef struct JoxWatched {
     JoxWrote *wrote; /* one for each value that was written since watching began */
     uint32_t wrote_count;
@@ -325,7 +325,7 @@ int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i);
 uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *places, uint32_t most);
 /* Sets bits in `wanted` for the distance fields that agents need in their states. */
 void jox_machines_ask_routes(JoxMachineRun *run);
-/* Records what wrote a value of agent i, if it is watched. */
+/* Records the writer of a value of agent i, if it is watched. */
 void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote);
 /* Frees the record of an agent that is no longer watched. */
 void jox_watched_end(JoxWatched *watched);

@@ -8,6 +8,7 @@
 #include "geom/walls.h"
 #include "machine/internal.h"
 
+/* Orders signals by name, x, agent. */
 static bool is_signal_before(const JoxSignal *a, const JoxSignal *b) {
     if (a->name != b->name)
         return a->name < b->name;

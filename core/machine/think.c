@@ -18,6 +18,7 @@ static double find_angle(JoxV2 a, JoxV2 b) {
     return t * (1.0 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7 - t2 / 9))));
 }
 
+/* Updates a counter of one agent about place `index`, by the angle of its last move. */
 static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, uint32_t i,
                            int32_t index) {
     const JoxAgents *a = run->agents;
@@ -161,6 +162,7 @@ static void evaluate_function_conditions(JoxMachineRun *run) {
     }
 }
 
+/* Calls a hook of the agent's machine, if there is one. */
 static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32_t agent) {
     double unused[2] = {0.0, 0.0};
     if (hook >= 0 && run->call)

@@ -15,8 +15,8 @@ enum { JOX_FRONT_GOAL = 8 }; /* in place of a number of a neighbour on the ring 
 typedef struct JoxFrontNode {
     float at[2];            /* m */
     float slowness;         /* s/m */
-    float time;             /* of the quickest way so far, s */
-    float length;           /* of the quickest way, m, once the node is finished */
+    float time;             /* time of the quickest way so far, s */
+    float length;           /* length of the quickest way, m, once the node is finished */
     float share;            /* position between ends[0] and ends[1], 0 to 1 */
     uint8_t links, corners; /* see JoxFieldWalled */
     uint8_t finished;       /* bits: linked neighbours on the ring that are finished */

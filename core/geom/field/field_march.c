@@ -118,6 +118,7 @@ static inline Best start_best(const JoxFrontNode *n) {
     return (Best){jox_float_bits(n->time), jox_float_bits(n->share), n->ends};
 }
 
+/* Replaces the best way by another one, if that counts and is quicker. */
 static inline void keep_sooner(Best *best, bool counts, float time, float share, uint32_t ends) {
     const bool sooner = counts & (jox_float_bits(time) < best->time);
     best->time = select_bits(sooner, best->time, jox_float_bits(time));
@@ -250,6 +251,7 @@ static INLINE void visit_neighbour(March *m, const JoxFrontNode *from, int k, ui
         reach_even_beside(m, n, back, finished);
 }
 
+/* Finishes nodes in order of time until none is left. */
 static void march_all(March *m) {
     const float most = MOST_TIME * m->w->f->size;
     float latest = 0.0f;

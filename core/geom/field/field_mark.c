@@ -65,6 +65,7 @@ static void list_edge(JoxFieldWork *w, uint32_t edge, float reach) {
     }
 }
 
+/* Lists the edges within `reach` of each cell, in refs. */
 static void list_edges_by_cell(JoxFieldWork *w, float reach) {
     JoxField *f = w->f;
     for (uint32_t e = 0; e < f->edge_count; e++)
@@ -97,6 +98,8 @@ static void fill_row(JoxFieldWork *w, int row, const float *x, int crossings) {
     }
 }
 
+/* Marks the samples inside one solid, row by row, by crossing numbers; `x` has room for the
+   crossings of a row. */
 static void fill_solid(JoxFieldWork *w, const JoxWalls *walls, const struct JoxWallRing *ring,
                        float *x) {
     JoxField *f = w->f;
@@ -237,6 +240,7 @@ static uint32_t find_linked_corners(const JoxFieldWork *w, int cell) {
     return links & (links >> 1 | links << 7) & across;
 }
 
+/* Finds the triangles of a node with two adjacent ring neighbours that no wall intersects. */
 static void find_free_corners(JoxFieldWork *w, int cell) {
     uint32_t corners = find_linked_corners(w, cell);
     for (int t = 0; t < 8 && jox_field_has_edges(w, cell); t++) {

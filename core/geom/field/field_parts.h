@@ -14,7 +14,7 @@ enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* in place of a patch: int
 enum { JOX_FIELD_BLOCKED = 9 };                      /* in place of a node */
 
 typedef struct JoxFieldCell {
-    float length; /* of the way from the node, m; INFINITY: no way */
+    float length; /* length of the way from the node, m; INFINITY: no way */
     float x, y;   /* direction of the way; shorter than 1 within JOX_FIELD_CLOSE of the goal */
     int32_t patch;
 } JoxFieldCell;

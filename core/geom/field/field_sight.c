@@ -39,6 +39,8 @@ static float find_distance2(JoxV2 a, JoxV2 b, JoxV2 p) {
     return jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
 }
 
+/* Returns whether an edge blocks the segment p-q, or is nearer to it than `least` allows
+   (jox_field_sees). */
 static bool does_edge_hide(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
     if (jox_maxf(p.x, q.x) + least < jox_minf(e->a.x, e->b.x) ||
         jox_minf(p.x, q.x) - least > jox_maxf(e->a.x, e->b.x) ||
@@ -120,6 +122,8 @@ static JoxFieldSight find_visible_nodes(const JoxFieldWork *w, const JoxFieldSpo
     return seen;
 }
 
+/* Computes the visibility of a sample; fills the marks and directions of its patch that walls
+   determine. */
 static JoxFieldSight examine_sample(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s) {
     const JoxField *f = w->f;
     const JoxFieldSpot spot = jox_field_spot(w, cell, s);

@@ -81,7 +81,7 @@ static int compare_across(const void *left, const void *right, const void *conte
 /* A run of agents in a row that get adjacent spots: isotonic regression keeps their order and
    minimises the ways. */
 typedef struct Block {
-    float sum; /* sum over its agents of nearest spot minus index in the row */
+    float sum; /* sum over its agents: index of the nearest spot less index in the row */
     uint32_t count;
 } Block;
 
@@ -98,6 +98,8 @@ static float find_nearest_spot(const JoxV2 *spots, uint32_t count, JoxV2 left, f
     return (float)low;
 }
 
+/* Assigns the spots of one row to `count` agents, which are sorted across, so that the sum of
+   squared distances is least. */
 static void assign_row(JoxMachineRun *run, const JoxGatherPlace *g, uint32_t row,
                        JoxGathering *entries, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
@@ -165,6 +167,7 @@ static void assign_spots(JoxMachineRun *run, JoxGathering *entries, uint32_t cou
     jox_gather_exchange(run, cells, entries, count, g->spacing);
 }
 
+/* Lists all agents that gather in s->gathered, and returns their number. */
 static uint32_t find_gathered(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;

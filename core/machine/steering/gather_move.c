@@ -38,6 +38,7 @@ static float find_remaining_way(const JoxMachineRun *run, JoxStandable *ground,
     return jox_maxf(0.0f, way - near);
 }
 
+/* Returns whether an agent on its way to its spot is much slower than it wants to be. */
 static bool is_hindered(const JoxMachineRun *run, const JoxGathering *entry, float near) {
     const JoxAgents *a = run->agents;
     const uint32_t i = entry->agent;

@@ -149,6 +149,7 @@ static void list_batch_agents(const JoxMachineRun *run, const JoxBatchRange *bat
             run->scratch->grouped[batch->begin + (n < batch->count ? n : batch->count - 1)];
 }
 
+/* Computes preferred velocities and facing directions of one batch. */
 static void prefer_batch(const Prefer *p, const JoxBatchRange *batch, JoxRegisters registers) {
     const JoxMachineRun *run = p->run;
     const JoxMachine *machine = run->set->items[batch->machine];

@@ -50,6 +50,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
                                     : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
 }
 
+/* Returns the way to the agent's place in the queue; before it has a rank, towards the queue. */
 static JoxV2 steer_queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     int32_t index = jox_target_place(run, i, term->target);
@@ -61,6 +62,7 @@ static JoxV2 steer_queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTer
     return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, jox_param(a, JOX_PARAM_speed, i));
 }
 
+/* Returns the direction away from the neighbours' centroid. */
 static JoxV2 steer_spread(const JoxMachineRun *run, uint32_t i) {
     const JoxAgents *a = run->agents;
     JoxV2 sum = {0.0f, 0.0f};
@@ -95,6 +97,7 @@ JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
     return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
 }
 
+/* Returns the way towards the centroid of visible teammates, once it is farther than args[0] m. */
 static JoxV2 steer_together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     const JoxNeighbours *n = run->neighbours;
@@ -114,6 +117,7 @@ static JoxV2 steer_together(const JoxMachineRun *run, uint32_t i, const JoxSteer
     return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
 
+/* Returns the way to a point args[0] m from the target, on the agent's side. */
 static JoxV2 steer_follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
     JoxSpot spot = jox_target_find(run, i, term->target);
