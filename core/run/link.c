@@ -350,6 +350,34 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_run_check_tally(scene, diagnostics);
 }
 
+/* ---- mods ---- */
+
+void jox_run_check_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics) {
+    const JoxMachineSet *set = &scene->world->model.machines;
+    bool used = false;
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        used |= jox_path_below(scene->spec->files[f].path, mod->folder);
+    for (uint32_t m = 0; m < set->count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, set->items[m], &count);
+        for (uint32_t f = 0; f < count; f++)
+            used |= jox_path_below(files[f].path, mod->folder);
+    }
+    if (used)
+        return;
+    const JoxPosition folder = {mod->folder, 0, 0, 0};
+    const JoxModPatch *patch = mod->patch_count ? &mod->patches[0] : NULL;
+    if (patch && patch->target)
+        jox_diag_warn(diagnostics, patch->position, "unused-mod",
+                      "Patches name a scene or a behaviour that it uses",
+                      "mod %s changes nothing of this scene, which has no '%.60s'", mod->name,
+                      patch->target);
+    else
+        jox_diag_warn(diagnostics, folder, "unused-mod",
+                      "Files in its patches/ change scenes and behaviours",
+                      "mod %s changes nothing of this scene: it has no patches", mod->name);
+}
+
 /* ---- what is measured of those whom it does not suit ---- */
 
 static const char WAY_OUT[] =

@@ -325,18 +325,22 @@ static bool is_missing_mod(const JoxMods *mods, const char *name) {
 
 /* Whether the mods that the def names are all taken; else an error names one. Those that the user
    turned on, or the scene names, may be missing. */
-static bool takes_named_mods(const JoSceneDef *def, const JoxMods *mods,
+static bool takes_named_mods(const JoSceneDef *def, const JoScene *scene,
                              JoxDiagnostics *diagnostics) {
+    const JoxMods *mods = scene->mods;
     for (size_t n = 0; n < def->mod_count; n++) {
         const char *name = def->mods[n];
         size_t length = strlen(name);
         for (; length > 1 && name[length - 1] == '/'; length--)
             continue;
-        bool taken = false;
+        const JoxMod *taken = NULL;
         for (uint32_t m = 0; m < mods->count && !taken; m++)
-            taken = strcmp(mods->items[m].name, name) == 0 ||
-                    (strncmp(mods->items[m].folder, name, length) == 0 &&
-                     !mods->items[m].folder[length]);
+            if (strcmp(mods->items[m].name, name) == 0 ||
+                (strncmp(mods->items[m].folder, name, length) == 0 &&
+                 !mods->items[m].folder[length]))
+                taken = &mods->items[m];
+        if (taken)
+            jox_run_check_use(scene, taken, diagnostics);
         if (taken)
             continue;
         if (!is_missing_mod(mods, name)) /* that has been said */
@@ -368,7 +372,7 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
         if (scene || culprit < 0 || (without >> culprit & 1)) {
             jox_diag_move(&problems, &found);
             jox_diag_move(diagnostics, &now);
-            if (scene && takes_named_mods(def, scene->mods, &problems)) {
+            if (scene && takes_named_mods(def, scene, &problems)) {
                 scene->mod_problems = problems;
                 return scene;
             }

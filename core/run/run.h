@@ -100,6 +100,8 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
 /* What machines expect of each other and of the scene: signals, states, own values. */
 void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Warns where the scene was made of no file of a mod: its patches change nothing there. */
+void jox_run_check_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics);
 /* A note where flows are measured of people who do not walk by the walking law: of the
    first group that is so. False: none. */
 bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics);

@@ -36,6 +36,8 @@ says "  --at alone" 2 "--at goes with --agent" "$JOSTLE" mod why speed scenes/ev
 says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
+says "a mod that was asked for and changes nothing is told" 0 "gentle-queue/patches/tawaf.lua:5:14: warning: mod gentle-queue changes nothing of this scene, which has no 'tawaf'" "$JOSTLE" run scenes/dodgeball.yaml --mod gentle-queue --steps 5 --quiet
+"$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet 2>&1 | grep -q "changes nothing"; [ $? = 1 ]; verdict "  not one that does" $?
 says "without it two" 0 '"agents": 2' "$JOSTLE" run scenes/dodgeball.yaml --steps 5 --quiet --summary -
 says "what a mod defines: functions, with their parameters and the comment before them" 0 '| `has_room(place, most)` | function | Whether there is room about a place' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
 says "  and values" 0 '| `squeezed` | a condition | Who is squeezed' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
