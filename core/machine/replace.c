@@ -108,7 +108,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
 
 /* Returns whether a parameter that is written on entering a state has the same value in both
    versions for all agents. */
-static bool is_same_value(const JoxReplacement *r, const JoxValue *a, const JoxValue *b) {
+static bool stays_same_value(const JoxReplacement *r, const JoxValue *a, const JoxValue *b) {
     if (a->kind != b->kind)
         return false;
     if (b->kind == JOX_VALUE_CONST)
@@ -130,7 +130,7 @@ static void map_state(JoxReplacement *r, uint32_t from) {
     const JoxState *is = &r->next->states[to];
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(r->next, is, p);
-        if (is_same_value(r, jox_state_parameter(r->old, was, p), value) ||
+        if (stays_same_value(r, jox_state_parameter(r->old, was, p), value) ||
             value->kind == JOX_VALUE_EXPRESSION)
             continue;
         Assignment *assign = &r->assign[from][r->assign_count[from]++];

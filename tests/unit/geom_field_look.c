@@ -25,7 +25,7 @@ static JoxWalls make_room_plan(double angle) {
 }
 
 /* Returns a point anywhere, at the goal, on a border of cells or on a wall, far outside, or NaN. */
-static JoxV2 draw_point(uint32_t k, const JoxField *field, JoxV2 goal, double angle) {
+static JoxV2 draw_lookup_point(uint32_t k, const JoxField *field, JoxV2 goal, double angle) {
     JoxV2 low, high;
     float size;
     jox_field_box(field, &low, &high, &size);
@@ -62,7 +62,7 @@ static void compare_lookups(const JoxField *field, JoxFieldKernel *look, uint32_
     points.count =
         number % 5 == 0 ? JOX_FIELD_POINTS : 1 + (uint32_t)(255 * draw_walk_number(number, 9));
     for (uint32_t k = 0; k < JOX_FIELD_POINTS; k++) {
-        const JoxV2 p = draw_point(number * JOX_FIELD_POINTS + k, field, goal, angle);
+        const JoxV2 p = draw_lookup_point(number * JOX_FIELD_POINTS + k, field, goal, angle);
         points.x[k] = p.x;
         points.y[k] = p.y;
     }

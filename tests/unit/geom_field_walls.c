@@ -15,7 +15,7 @@
 /* ---- margins, solids, thin walls ---- */
 
 /* Makes a room with a solid block, a solid corner, a niche and a crooked thin wall. */
-static JoxWalls make_room(double angle) {
+static JoxWalls make_walled_room(double angle) {
     static const JoxV2 block[] = {{-2, -1}, {1, -1}, {1, 1.5f}, {-2, 1.5f}};
     static const JoxV2 hook[] = {{4, -5}, {6, -5}, {6, 2}, {5, 2}, {5, -4}, {4, -4}};
     static const JoxV2 thin[] = {{-5, 4}, {-1, 3.1f}, {2, 4.7f}, {4.4f, 3.3f}, {4.6f, 5.8f}};
@@ -37,7 +37,7 @@ static void walks_leave_margins_and_cross_no_wall(void **state) {
     for (int t = 0; t < 3; t++)
         for (int c = 0; c < 3; c++) {
             double angle = 0.35 * t;
-            JoxWalls walls = make_room(angle);
+            JoxWalls walls = make_walled_room(angle);
             JoxV2 goal = turn_point((JoxV2){6.5f, 6.3f}, angle);
             JoxField *field = make_field_to_point(&walls, goal, 11.0f, cells[c], 0.2f);
             for (uint32_t k = 0, tried = 0; tried < 150; k++) {
@@ -213,7 +213,7 @@ static void goals_in_and_at_walls_are_reached(void **state) {
 
 static void the_same_plan_gives_the_same_bits(void **state) {
     (void)state;
-    JoxWalls walls = make_room(0.2);
+    JoxWalls walls = make_walled_room(0.2);
     JoxField *a = make_field_to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f);
     JoxField *b = make_field_to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f);
     for (uint32_t k = 0; k < 2000; k++) {

@@ -91,7 +91,7 @@ static JoxPlace hall_place = {
     .kind = JOX_PLACE_POLYGON, .points = hall_corners, .count = 4, .start = -1};
 static uint32_t hall_index;
 
-static JoxArea make_hall(void) {
+static JoxArea make_hall_area(void) {
     return (JoxArea){.places = &hall_place, .in = &hall_index, .in_count = 1};
 }
 
@@ -112,7 +112,7 @@ static double find_power(const JoxV2 *p, uint32_t count, double length, bool y) 
    spacing yields 400 and more. */
 static void random_is_uniform_along_both_axes(void **state) {
     (void)state;
-    const JoxArea area = make_hall();
+    const JoxArea area = make_hall_area();
     uint32_t strips[2][10] = {{0}};
     for (uint64_t seed = 1; seed <= 5; seed++) {
         JoxV2 *p;
@@ -140,7 +140,7 @@ static void random_is_uniform_along_both_axes(void **state) {
 /* Points keep their spacing from given points, and across joined edges. */
 static void random_points_keep_spacing_across_joined_edges(void **state) {
     (void)state;
-    JoxArea area = make_hall();
+    JoxArea area = make_hall_area();
     JoxV2 *first, *second;
     area.period = jox_v2(40, 25);
     assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 900, 0, 1, 1, &first), 900);
@@ -165,7 +165,7 @@ static void random_points_keep_spacing_across_joined_edges(void **state) {
 /* A given spacing is kept: agents that do not fit are left out, and the search ends soon. */
 static void a_given_spacing_limits_the_count(void **state) {
     (void)state;
-    const JoxArea area = make_hall();
+    const JoxArea area = make_hall_area();
     JoxV2 *p;
     /* Discs placed one by one jam at a cover of 54.7 %; the hall's border adds a little. */
     const double jammed = 0.547 * 41 * 26 / (3.14159265 / 4);

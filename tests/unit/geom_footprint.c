@@ -13,7 +13,7 @@
 
 static uint32_t drawn;
 
-static float draw_unit(void) {
+static float draw_footprint_number(void) {
     return (float)jox_random_unit(7, drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
@@ -51,11 +51,11 @@ static JoxFootprintPoint find_nearest_plainly(const JoxObject *body, JoxV2 point
 }
 
 /* Makes a ring of 3 to 16 corners on an ellipse anywhere. */
-static JoxObject make_ring(uint32_t trial) {
+static JoxObject make_footprint_ring(uint32_t trial) {
     JoxObject body = {.footprint_count = 3 + trial % 14};
-    const float x = 60.0f * draw_unit() - 30.0f, y = 10.0f * draw_unit() - 5.0f,
-                turn = 6.28f * draw_unit();
-    const float size = trial % 50 ? 0.1f + 0.6f * draw_unit() : 8.0f,
+    const float x = 60.0f * draw_footprint_number() - 30.0f,
+                y = 10.0f * draw_footprint_number() - 5.0f, turn = 6.28f * draw_footprint_number();
+    const float size = trial % 50 ? 0.1f + 0.6f * draw_footprint_number() : 8.0f,
                 flat = trial % 3 ? 1.0f : 0.05f;
     for (uint32_t k = 0; k < body.footprint_count; k++) {
         const float angle = 6.2831853f * (float)k / (float)body.footprint_count;
@@ -78,13 +78,13 @@ static JoxV2 draw_query(const JoxObject *body, uint32_t query) {
     if (query == 0)
         return corners[1];
     if (query == 1)
-        return interpolate_points(corners[0], corners[1], draw_unit());
+        return interpolate_points(corners[0], corners[1], draw_footprint_number());
     if (query == 2)
         return interpolate_points(corners[body->footprint_count - 1], corners[0], 0.5f);
     if (query == 3)
         return centre;
-    return jox_add(
-        centre, jox_v2(reach * (2.0f * draw_unit() - 1.0f), reach * (2.0f * draw_unit() - 1.0f)));
+    return jox_add(centre, jox_v2(reach * (2.0f * draw_footprint_number() - 1.0f),
+                                  reach * (2.0f * draw_footprint_number() - 1.0f)));
 }
 
 static uint32_t inside_or_on;
@@ -102,7 +102,7 @@ static void nearest_points_agree_with_a_plain_search(void **state) {
     (void)state;
     const uint32_t trials = 20000, queries = 20;
     for (uint32_t trial = 0; trial < trials; trial++) {
-        const JoxObject body = make_ring(trial);
+        const JoxObject body = make_footprint_ring(trial);
         for (uint32_t query = 0; query < queries; query++)
             compare_nearest(&body, draw_query(&body, query));
     }
@@ -113,18 +113,18 @@ static void nearest_points_agree_with_a_plain_search(void **state) {
 static void degenerate_rings_agree_with_a_plain_search(void **state) {
     (void)state;
     for (uint32_t trial = 0; trial < 2000; trial++) {
-        JoxObject body = make_ring(trial);
+        JoxObject body = make_footprint_ring(trial);
         const JoxV2 near = draw_query(&body, 5);
         body.footprint[1] = body.footprint[0]; /* an edge of length 0 */
         compare_nearest(&body, near);
         for (uint32_t k = 0; k < body.footprint_count; k++) /* a ring shrunk to a point */
             body.footprint[k] = body.footprint[0];
         compare_nearest(&body, near);
-        body = make_ring(trial);
+        body = make_footprint_ring(trial);
         body.footprint[trial % body.footprint_count].y += 1e30f;
         compare_nearest(&body, near);
         compare_nearest(&body, interpolate_points(body.footprint[0], body.footprint[1], 0.5f));
-        body = make_ring(trial);
+        body = make_footprint_ring(trial);
         for (uint32_t k = 0; k < body.footprint_count; k++)
             body.footprint[k].x += 1e20f;
         compare_nearest(&body, near);
