@@ -132,8 +132,8 @@ bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, u
                               float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
 
 /* Assertions about the cells of the grid; about the neighbours (ascending by distance, then id,
-   within perception, without the agent itself); about half-planes (unit normals); and about a
-   solution of the linear program. */
+   within perception, each once, without the agent itself); about half-planes (unit normals); and
+   about a solution of the linear program. */
 void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *agents);
 void jox_neighbours_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
 /* Asserts that no agent has moved since the neighbours were found. */

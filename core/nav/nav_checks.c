@@ -43,6 +43,8 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
             const float distance = jox_length(jox_offset(a, i, n->index[at]));
             JOX_ASSERT(distance <= perception * 1.0001f);
             JOX_ASSERT(before <= distance * 1.0001f);
+            for (uint32_t other = 0; other < k; other++)
+                JOX_ASSERT(n->index[jox_neighbour_at(n, i, other)] != n->index[at]);
             before = distance;
         }
     }

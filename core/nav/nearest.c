@@ -76,8 +76,12 @@ static void search_image(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
         for (uint32_t j = first[left]; j < first[right + 1]; j++)
             buffer_candidate(a, i, j, point, r2, found);
     }
-    for (uint32_t k = 0; k < nav->stray_count; k++) /* strays stand outside of their cells */
-        buffer_candidate(a, i, nav->strays[k], point, r2, found);
+    for (uint32_t k = 0; k < nav->stray_count; k++) { /* strays stand outside of their cells */
+        const uint32_t stray = nav->strays[k];
+        const uint32_t row = a->cell[stray] / nav->columns, column = a->cell[stray] % nav->columns;
+        if (row < low || row > high || column < left || column > right) /* else buffered above */
+            buffer_candidate(a, i, stray, point, r2, found);
+    }
 }
 
 /* Finds the agents nearest to agent i within `radius` (m), over periodic edges too. */

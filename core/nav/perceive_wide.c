@@ -188,17 +188,37 @@ static inline void find_strays(const Packet *packet, const Reach *reach, uint32_
     }
 }
 
-/* Appends the strays within the radius to the list of one lane. */
+/* Drops agents from the places `from` to `count` of a lane's list that stand in an earlier place.
+   Returns how many places are left. */
+static inline uint32_t drop_listed(Packet *packet, uint32_t lane, uint32_t from, uint32_t count) {
+    uint32_t *index = packet->index + (size_t)lane * LIST;
+    float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    uint32_t kept = from;
+    for (uint32_t place = from; place < count; place++) {
+        uint32_t same = 0;
+        while (same < from && index[same] != index[place])
+            same++;
+        index[kept] = index[place];
+        distance2[kept] = distance2[place];
+        kept += same == from;
+    }
+    return kept;
+}
+
+/* Appends the strays within the radius to the list of one lane. A stray whose cell was searched is
+   listed already: its cell and its position are both within reach where edges are close to each
+   other, or where few cells hold all agents. */
 static inline void list_strays(Packet *packet, const Reach *reach, uint32_t lane,
                                const Strays *strays) {
     const Seeker seeker = make_seeker(packet, reach, lane);
-    uint32_t n = packet->count[lane];
+    const uint32_t from = packet->count[lane];
+    uint32_t n = from;
     for (uint32_t k = 0; k < strays->count && n <= PLACES; k += JOX_WIDTH) {
         const JoxInts at = ji_add(ji_set((int32_t)k), ji_lane());
         n += append_packet(&seeker, n, jv_load(strays->x, strays->y, k), ji_load(strays->index + k),
                            ji_less(at, ji_set((int32_t)strays->count)));
     }
-    packet->count[lane] = n;
+    packet->count[lane] = n > PLACES ? n : drop_listed(packet, lane, from, n);
 }
 
 /* Adds the candidates that `lanes` (bits) see from one of their periodic images to the lists. Not

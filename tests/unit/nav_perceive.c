@@ -1,7 +1,7 @@
 /* The kernel of perceive against a plain reference, which tests all agents, on every instruction
    set that the machine runs. Random crowds, and hard ones: coincident, on a lattice where distances
-   tie, packed closer than lists have room for, far apart, across periodic edges, of mixed
-   parameters, and moved since the sort. */
+   tie, packed closer than lists have room for, far apart, across periodic edges, at one edge, of
+   mixed parameters, and moved since the sort. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,13 +15,13 @@
 #include "base/number/random.h"
 #include "nav/internal.h"
 
-enum { CROWDS = 30, MOST_PEOPLE = 700 };
+enum { CROWDS = 35, MOST_PEOPLE = 700 };
 
 static double draw_near(uint32_t crowd, uint32_t *drawn, double from, double to) {
     return from + (to - from) * jox_random_unit(4, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
 }
 
-typedef enum Kind { RANDOM, LATTICE, COINCIDENT, PACKED, FAR, LINE, KINDS } Kind;
+typedef enum Kind { RANDOM, LATTICE, COINCIDENT, PACKED, FAR, LINE, EDGE, KINDS } Kind;
 
 static JoxV2 place_near_crowd(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
     float size = kind == PACKED ? 2.0f : kind == FAR ? 4000.0f : 14.0f;
@@ -32,24 +32,34 @@ static JoxV2 place_near_crowd(Kind kind, uint32_t i, uint32_t crowd, uint32_t *d
         return (JoxV2){0.25f * (float)(i % 9), 0.0f};
     case LINE:
         return (JoxV2){(float)draw_near(crowd, drawn, 0.0, 300.0), 1.0f};
+    case EDGE: /* one column of cells holds all agents, so that all searches share it */
+        return (JoxV2){(float)draw_near(crowd, drawn, 14.8, 14.99),
+                       (float)draw_near(crowd, drawn, 0.0, 3.0)};
     default:
         return (JoxV2){(float)draw_near(crowd, drawn, 0.0, (double)size),
                        (float)draw_near(crowd, drawn, 0.0, (double)size)};
     }
 }
 
+/* Returns the period of a crowd, m; 0 for none. With 5 m, a search that sees an edge reaches cells
+   at the opposite edge. */
+static float choose_period(uint32_t crowd) {
+    const uint32_t round = crowd / KINDS;
+    return round % 3 != 1 ? 0.0f : round == 1 ? 15.0f : 5.0f;
+}
+
 static void fill_crowd(JoxAgents *a, uint32_t crowd) {
     uint32_t drawn = 0;
     const Kind kind = (Kind)(crowd % KINDS);
     const uint32_t people = 1 + (uint32_t)draw_near(crowd, &drawn, 0.0, MOST_PEOPLE - 1);
-    const bool mixed = crowd / KINDS % 2, periodic = crowd / KINDS % 3 == 1;
-    if (periodic)
-        a->period = (JoxV2){15.0f, crowd % 2 ? 15.0f : 0.0f};
+    const bool mixed = crowd / KINDS % 2;
+    const float period = choose_period(crowd);
+    a->period = (JoxV2){period, crowd % 2 ? period : 0.0f};
     for (uint32_t k = 0; k < people; k++) {
         uint32_t i = jox_agents_add(a);
         JoxV2 at = place_near_crowd(kind, k, crowd, &drawn);
-        a->x[i] = periodic ? fmodf(at.x, 15.0f) : at.x;
-        a->y[i] = periodic ? fmodf(at.y, 15.0f) : at.y;
+        a->x[i] = period > 0.0f ? fmodf(at.x, period) : at.x;
+        a->y[i] = period > 0.0f ? fmodf(at.y, period) : at.y;
         jox_param_set(a, JOX_PARAM_radius, i, (float)draw_near(crowd, &drawn, 0.1, 0.3));
         if (!mixed)
             continue;
@@ -99,11 +109,12 @@ static void scatter(JoxNav *nav, JoxAgents *a) {
 
 /* Moves agents over periodic edges, and lists them as strays. */
 static void send_over_edges(JoxNav *nav, JoxAgents *a) {
+    const float period = a->period.x;
     for (uint32_t i = 0; i < a->count && nav->stray_count < JOX_MOST_STRAYS; i++) {
-        const float left = a->x[i] < 0.1f ? 15.0f : a->x[i] > 14.9f ? -15.0f : 0.0f;
-        if (a->period.x <= 0.0f || left == 0.0f)
+        const float shift = a->x[i] < 0.1f ? period : a->x[i] > period - 0.1f ? -period : 0.0f;
+        if (period <= 0.0f || shift == 0.0f)
             continue;
-        a->x[i] = fminf(fmaxf(a->x[i] + left, 0.0f), 14.99f);
+        a->x[i] = fminf(fmaxf(a->x[i] + shift, 0.0f), period - 0.01f);
         jox_nav_stray(nav, i);
     }
     jox_nav_place_strays(nav, a);
