@@ -119,6 +119,19 @@ static JoxV2 middle_of(const JoxObstacle *body) {
     return jox_scale(sum, 1.0f / (float)body->count);
 }
 
+/* Whether a stride passes an edge or, where edges of the world are joined, one of its images. */
+static bool is_passed(const JoxHindrances *h, JoxV2 from, JoxV2 to, JoxV2 p, JoxV2 q) {
+    const JoxV2 period = h->stage->agents->period;
+    const int across = period.x > 0.0f, up = period.y > 0.0f;
+    for (int i = -across; i <= across; i++)
+        for (int j = -up; j <= up; j++) {
+            const JoxV2 by = {(float)i * period.x, (float)j * period.y};
+            if (jox_edge_lies_between(from, to, jox_add(p, by), jox_add(q, by)))
+                return true;
+        }
+    return false;
+}
+
 /* The closed gate or the body of a layer that a stride passes or comes nearer to than `clear` m. */
 static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, float clear,
                      JoxHindrance *out) {
@@ -130,7 +143,7 @@ static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, floa
              v++) {
             const JoxV2 from = walls->vertices[v].point,
                         to = walls->vertices[walls->vertices[v].next].point;
-            if (!jox_edge_lies_between(from, to, p, q))
+            if (!is_passed(h, from, to, p, q))
                 continue;
             *out = (JoxHindrance){JOX_HINDRANCE_GATE, r, jox_scale(jox_add(from, to), 0.5f)};
             return true;
