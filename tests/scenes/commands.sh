@@ -312,7 +312,7 @@ expect "  and people wait for that one" 0 "3 people wait to get to 'out', the fi
 expect "  behind one that opens it is told" 0 "nobody of group 'g' can reach 'out': gate 'east' is closed at (6.0, 3.0) m, and nothing opens it" "$JOSTLE" check "$work/row.yaml"
 expect "  by a run, too" 1 "nobody can reach 'out': gate 'east' is closed" "$JOSTLE" run "$work/row.yaml" --for 6 --quiet
 printf 'jostle: 1\nbounds: [[0, 0], [12, 4]]\nperiodic: x\nplaces: {src: {polygon: [[8, 1], [11, 1], [11, 3], [8, 3]]}, out: {point: [2, 2]}}\nwalls:\n  - {line: [[0, 0], [0, 4]], name: seam}\n  - {line: [[0, 0], [12, 0]]}\n  - {line: [[0, 4], [12, 4]]}\n  - {line: [[6, 0], [6, 4]]}\ngroups: {g: {count: 3, in: src, journey: [{exit: out}]}}\n' >"$work/seam.yaml"
-expect "  at a joined edge, from its other side, too" 0 "cannot reach 'out': gate 'seam' is closed at (0.0, 2.0) m, and nothing opens it" "$JOSTLE" check "$work/seam.yaml"
+expect "  at a joined edge, from its other side, too" 0 "nobody of group 'g' can reach 'out': gate 'seam' is closed at (0.0, 2.0) m, and nothing opens it" "$JOSTLE" check "$work/seam.yaml"
 sed 's/{exit: out}/{until: alarm}, {wait: 1, open: east}, {exit: hall}/' "$work/west.yaml" >"$work/waits.yaml"
 expect "a journey that waits for a gate that nothing opens is told, with its step" 0 "waits.yaml:8:60: warning: gate 'east' is closed, and nothing opens it" "$JOSTLE" check "$work/waits.yaml"
 expect "  for a signal, too" 0 "waits.yaml:8:44: warning: no machine of the scene gives the signal 'alarm'" "$JOSTLE" check "$work/waits.yaml"
