@@ -44,8 +44,12 @@ typedef struct Standing {
     uint8_t *waits; /* by place: of this look somebody waits for what is shut */
     size_t waits_capacity;
     JoxKeptList kept; /* at the time at which it was asked for last */
-    double kept_at;   /* s */
-    uint32_t no_way;  /* places to which none leads */
+    /* Counts by group of each item of `kept`. Reserved in steps, from the scene's heap: whoever
+       asks for `kept` may have a heap of one call. */
+    uint32_t *kept_groups;
+    size_t kept_groups_capacity;
+    double kept_at;  /* s */
+    uint32_t no_way; /* places to which none leads */
 } Standing;
 
 /* Slots are used again: who is new in one has not stood yet. */
@@ -236,12 +240,6 @@ static void look_for_ways(Standing *s, JoScene *scene) {
 
 /* ---- the listener ---- */
 
-static void free_kept(JoxKeptList *list) {
-    for (uint32_t k = 0; k < list->count; k++)
-        jox_free(list->items[k].groups);
-    *list = (JoxKeptList){0};
-}
-
 static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
     Standing *s = self;
     (void)scene, (void)options, (void)error;
@@ -257,6 +255,8 @@ static bool frame(void *self, JoScene *scene, JoError *error) {
     if (!jox_run_is_due(scene, LOOK))
         return true;
     JOX_RESERVE(s->stills, s->still_capacity, world->state.agents.count);
+    JOX_RESERVE(s->kept_groups, s->kept_groups_capacity,
+                (size_t)JOX_MOST_KEPT * scene->spec->group_count);
     s->still_count = 0;
     for (uint32_t i = 0; i < world->state.agents.count; i++)
         look(s, world, i);
@@ -284,7 +284,7 @@ static void release(void *self) {
     jox_free(s->told);
     jox_free(s->shut_since);
     jox_free(s->waits);
-    free_kept(&s->kept);
+    jox_free(s->kept_groups);
     jox_free(s->first);
 }
 
@@ -303,17 +303,20 @@ void jox_run_collect_standing(JoScene *scene) {
 
 /* ---- people who are kept from a place at the end ---- */
 
-static JoxKept *find_kept(const JoScene *scene, JoxKeptList *list, uint32_t place,
+static JoxKept *find_kept(Standing *s, const JoScene *scene, uint32_t place,
                           const JoxHindrance *why) {
+    JoxKeptList *list = &s->kept;
+    const size_t groups = scene->spec->group_count;
     for (uint32_t k = 0; k < list->count; k++)
         if (list->items[k].place == place && list->items[k].why.kind == why->kind &&
             list->items[k].why.by == why->by)
             return &list->items[k];
     if (list->count == JOX_MOST_KEPT)
         return NULL;
-    JoxKept *kept = &list->items[list->count++];
-    *kept = (JoxKept){.place = place, .why = *why};
-    kept->groups = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *kept->groups);
+    JoxKept *kept = &list->items[list->count];
+    *kept = (JoxKept){.place = place, .groups = s->kept_groups + list->count * groups, .why = *why};
+    memset(kept->groups, 0, groups * sizeof *kept->groups);
+    list->count++;
     return kept;
 }
 
@@ -328,8 +331,7 @@ static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bo
             continue;
         const JoxHindrance why =
             jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), radius_of(a, i));
-        JoxKept *kept =
-            why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept(scene, &s->kept, place, &why);
+        JoxKept *kept = why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept(s, scene, place, &why);
         if (!kept)
             continue;
         kept->people++;
@@ -345,12 +347,12 @@ static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bo
 const JoxKeptList *jox_run_kept(const JoScene *scene) {
     Standing *s = jox_run_listener(scene, &STANDING);
     const double now = jo_world_time(scene->world);
-    if (!s)
-        return NULL;
+    if (!s || s->kept_groups_capacity < (size_t)JOX_MOST_KEPT * scene->spec->group_count)
+        return NULL; /* no look since a scene with as many groups came */
     if (s->kept_at == now)
         return &s->kept;
     s->kept_at = now;
-    free_kept(&s->kept);
+    s->kept = (JoxKeptList){0};
     bool *opening = jox_run_opening_gates(scene);
     for (uint32_t p = 0; p < s->told_count && p < scene->world->machines.place_count; p++)
         if (s->told[p] == TOLD || !isnan(s->shut_since[p]))
