@@ -132,12 +132,18 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
    Conditions of behaviours, sinks and steering use these; measurements (density, probes) use the
    functions above, which ignore walls. `walls` holds all walls, open gates too; NULL: none. */
 
+/* Whether no standing wall cuts the straight way from a point, which a place contains, to the
+   place: see jox_place_is_reached. */
+bool jox_place_has_way(const JoxPlace *places, uint32_t place, const JoxWalls *walls, JoxV2 point);
 /* Returns whether a point is at a place (jox_place_contains) and no closed wall cuts the segment to
    the place's nearest point; a set: to that of a member. Ignores solids that contain the nearest
    point and walls on which it lies, but not closed gates, as nobody leaves through a closed door.
    Areas need no free segment. */
-bool jox_place_is_reached(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
-                          JoxV2 point);
+static inline bool jox_place_is_reached(const JoxPlace *places, uint32_t place,
+                                        const JoxWalls *walls, JoxV2 point) {
+    return jox_place_contains(places, place, point) &&
+           (!walls || walls->ring_count == 0 || jox_place_has_way(places, place, walls, point));
+}
 /* Does the same for `count` points: in[k] for points[k]. */
 void jox_place_is_reached_each(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
                                const JoxV2 *points, uint32_t count, bool *in);

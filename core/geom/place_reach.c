@@ -29,12 +29,9 @@ static bool is_way_cut(const JoxWalls *walls, JoxV2 p, JoxV2 q, bool leaves) {
     return false;
 }
 
-bool jox_place_is_reached(const JoxPlace *places, uint32_t index, const JoxWalls *walls,
-                          JoxV2 point) {
+bool jox_place_has_way(const JoxPlace *places, uint32_t index, const JoxWalls *walls, JoxV2 point) {
     const JoxPlace *place = &places[index];
-    if (!jox_place_contains(places, index, point))
-        return false;
-    if (!walls || walls->ring_count == 0 || jox_place_is_area(place))
+    if (jox_place_is_area(place))
         return true;
     if (!jox_place_is_set(place))
         return !is_way_cut(walls, point, jox_place_nearest(places, index, point), true);
@@ -48,7 +45,7 @@ void jox_place_is_reached_each(const JoxPlace *places, uint32_t index, const Jox
                                const JoxV2 *points, uint32_t count, bool *in) {
     jox_place_contains_each(places, index, points, count, in);
     for (uint32_t k = 0; walls && walls->ring_count > 0 && k < count; k++)
-        in[k] = in[k] && jox_place_is_reached(places, index, walls, points[k]);
+        in[k] = in[k] && jox_place_has_way(places, index, walls, points[k]);
 }
 
 bool jox_place_is_near(const JoxPlace *places, uint32_t index, const JoxWalls *walls, JoxV2 point,
