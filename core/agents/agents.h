@@ -215,11 +215,6 @@ static inline bool jox_stands_pressed(const JoxAgents *agents, uint32_t i) {
 static inline bool jox_is_same_of_all(const void *cells, size_t size, uint32_t count) {
     return memcmp(cells, (const char *)cells + size, (count - 1) * size) == 0;
 }
-/* Returns whether an agent approaches or holds another, or is held: some of its neighbours are then
-   not avoided (jox_is_close_to). */
-static inline bool jox_is_close_to_some(const JoxAgents *agents, uint32_t i) {
-    return agents->approached[i] || agents->grasped[i] || agents->held[i];
-}
 /* Returns whether agent i does not avoid agent j, because one of them approaches or holds the
    other. Only contacts keep them apart. */
 static inline bool jox_is_close_to(const JoxAgents *agents, uint32_t i, uint32_t j) {

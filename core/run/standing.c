@@ -17,6 +17,9 @@ enum { CROWD = 10, FEW = 3, CANDIDATES = 64 };
    once it holds at two looks, as ways through gates are known a little later; that a way leads
    there for people as broad as those; that it was told. */
 typedef enum NoWay { LEADS, SEEMS_SHUT, CLEARED, TOLD } NoWay;
+/* What people do at a look who go to one place: nobody does; some go there; some wait there, or on
+   their way, for a gate or a body that shuts it. */
+typedef enum Waits { NOBODY, GO, WAIT } Waits;
 static const float BROAD =
     0.22f; /* m: radius of people for whom the ways of routes are too narrow */
 
@@ -41,7 +44,7 @@ typedef struct Standing {
     size_t shut_count, shut_capacity;
     uint32_t *first; /* by place: of this look the broadest person with none, plus 1 */
     size_t first_capacity;
-    uint8_t *waits; /* by place: of this look somebody waits for what is shut */
+    uint8_t *waits; /* by place, of this look: Waits */
     size_t waits_capacity;
     JoxKeptList kept; /* at the time at which it was asked for last */
     /* Counts by group of each item of `kept`. Reserved in steps, from the scene's heap: whoever
@@ -214,11 +217,11 @@ static void look_for_ways(Standing *s, JoScene *scene) {
     bool shut;
     make_room(s, places);
     for (uint32_t p = 0; p < places; p++)
-        s->first[p] = s->waits[p] = 0;
+        s->first[p] = s->waits[p] = 0; /* NOBODY */
     for (uint32_t i = 0; i < a->count; i++) {
         int32_t place = jox_machines_field_goal(machines, i, &shut);
         if (place >= 0)
-            s->waits[place] |= shut || has_gate_on(scene, (uint32_t)place);
+            s->waits[place] = shut || s->waits[place] == WAIT ? WAIT : GO;
         if (place < 0 || !(radius_of(a, i) > BROAD))
             place = jox_machines_no_way(machines, i);
         if (place >= 0 && (!s->first[place] || radius_of(a, i) > radius_of(a, s->first[place] - 1)))
@@ -226,7 +229,8 @@ static void look_for_ways(Standing *s, JoScene *scene) {
     }
     for (uint32_t p = 0; p < places; p++) {
         const uint8_t before = s->told[p];
-        s->shut_since[p] = !s->waits[p]              ? (double)NAN
+        const bool waits = s->waits[p] == WAIT || (s->waits[p] == GO && has_gate_on(scene, p));
+        s->shut_since[p] = !waits                    ? (double)NAN
                            : isnan(s->shut_since[p]) ? jo_world_time(scene->world)
                                                      : s->shut_since[p];
         if (before == TOLD)
@@ -320,7 +324,7 @@ static JoxKept *find_kept(Standing *s, const JoScene *scene, uint32_t place,
     return kept;
 }
 
-/* Those who go to one place. */
+/* Adds the people who go to one place. */
 static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bool *opening) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
