@@ -1,5 +1,5 @@
 /* Constants of the walking law, one set for all crowds; core/walking.md explains them. The law
-   itself is in nav/walk.c. */
+   itself is in nav/walk/walk.c. */
 #ifndef JOX_AGENTS_WALK_LAW_H
 #define JOX_AGENTS_WALK_LAW_H
 

@@ -13,7 +13,10 @@
 #include "base/number/random.h"
 #include "force/kernels.h"
 #include "geom/wall_way.h"
-#include "nav/kernels.h"
+#include "nav/move/move.h"
+#include "nav/near/perceive.h"
+#include "nav/orca/solve.h"
+#include "nav/walk/walk.h"
 
 enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 9 }; /* not a whole number of packets */
 

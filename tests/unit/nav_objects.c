@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "nav/internal.h"
+#include "nav/orca/solve.h"
 
 enum { PILLARS = 40 };
 

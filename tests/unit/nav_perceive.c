@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
-#include "nav/internal.h"
+#include "nav/state.h"
 
 enum { CROWDS = 35, MOST_PEOPLE = 700 };
 

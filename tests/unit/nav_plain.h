@@ -9,7 +9,9 @@
 
 #include "base/assert.h"
 #include "base/number/random.h"
-#include "nav/kernels.h"
+#include "nav/near/perceive.h"
+#include "nav/orca/solve.h"
+#include "nav/walk/walk.h"
 
 /* ---- ORCA ---- */
 

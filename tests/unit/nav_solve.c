@@ -13,7 +13,9 @@
 
 #include "base/mem.h"
 #include "base/number/random.h"
-#include "nav/kernels.h"
+#include "nav/near/perceive.h"
+#include "nav/orca/solve.h"
+#include "nav/walk/walk.h"
 #include "unit/nav_plain.h"
 
 enum { CROWDS = 48, MOST_PEOPLE = 300, MOST_PLANES = 4 };

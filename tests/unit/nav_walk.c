@@ -13,7 +13,7 @@
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "geom/polygon.h"
-#include "nav/walk_lanes.h"
+#include "nav/walk/walk_lanes.h"
 #include "world/world.h"
 
 static const double TURN = 37.0 / 180.0 * 3.14159265358979323846;

@@ -12,7 +12,7 @@
 #include "base/mem.h"
 #include "base/number/random.h"
 #include "geom/polygon.h"
-#include "nav/internal.h"
+#include "nav/orca/solve.h"
 
 typedef struct Fixture {
     JoxAgents agents;

@@ -3,7 +3,7 @@
 #include "unit/run_acted.h"
 
 #include "jostle_tools.h"
-#include "nav/internal.h"
+#include "nav/state.h"
 
 /* People who come from two sources, in parties of three, walk through a gate to where they leave;
    others cross a circle, each to a place of its own. */

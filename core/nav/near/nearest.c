@@ -1,0 +1,149 @@
+/* The nearest neighbours of one agent at a time, in plain C. The kernel of perceive calls it for
+   agents with too many candidates for its lists, and for agents whose neighbour lists do not cover
+   touch range. */
+#include <math.h>
+
+#include "base/number/bits.h"
+#include "base/number/pi.h"
+#include "nav/near/perceive.h"
+
+/* Returns the key of a candidate, which sorts by distance, then id: the bits of the squared
+   distance (never negative) above the rank, which ascends with the id. */
+static inline uint64_t make_sort_key(float d2, uint32_t rank) {
+    return (uint64_t)jox_float_bits(d2) << 32 | rank;
+}
+
+static inline float read_distance2(uint64_t key) {
+    return jox_float_of((uint32_t)(key >> 32));
+}
+
+enum { BUFFER = 64 };
+
+/* The `most` nearest candidates so far, in ascending order, padded with UINT64_MAX; and a buffer of
+   candidates still to be sorted in. */
+typedef struct Nearest {
+    uint64_t keys[JOX_MOST_NEIGHBOURS];
+    uint64_t waiting[BUFFER];
+    uint32_t count, most, waits;
+} Nearest;
+
+static void clear_nearest(Nearest *n) {
+    n->count = n->waits = 0;
+    for (uint32_t k = 0; k < n->most; k++)
+        n->keys[k] = UINT64_MAX;
+}
+
+/* Sorts the buffered candidates in, without branches: each key is compared with all slots, and the
+   greater one goes on. */
+static void sort_in_waiting(Nearest *n) {
+    JOX_ASSERT(n->waits <= BUFFER && n->most <= JOX_MOST_NEIGHBOURS);
+    for (uint32_t w = 0; w < n->waits; w++) {
+        uint64_t key = n->waiting[w];
+        for (uint32_t k = 0; k < n->most; k++) {
+            uint64_t here = n->keys[k];
+            n->keys[k] = key < here ? key : here;
+            key = key < here ? here : key;
+        }
+    }
+    n->count += n->waits;
+    n->waits = 0;
+}
+
+/* Buffers agent j as a candidate if it is not agent i and lies within the radius of a point. */
+static inline void buffer_candidate(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 point,
+                                    float radius2, Nearest *found) {
+    const float dx = a->x[j] - point.x, dy = a->y[j] - point.y, d2 = dx * dx + dy * dy;
+    found->waiting[found->waits] = make_sort_key(d2, a->rank[j]);
+    found->waits +=
+        (d2 <= radius2) &
+        (j != i); /* overwritten by the next candidate if it does not count; no branch */
+    if (found->waits == BUFFER)
+        sort_in_waiting(found);
+}
+
+/* Buffers the agents within `radius` (m) of a point, except agent i. */
+static void search_image(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
+                         float radius, Nearest *found) {
+    const float x = point.x, y = point.y, r2 = radius * radius;
+    const JoxV2 least = nav->drift.least, most = nav->drift.most;
+    const uint32_t left = jox_column_of(nav, x - radius - most.x);
+    const uint32_t right = jox_column_of(nav, x + radius - least.x);
+    const uint32_t low = jox_row_of(nav, y - radius - most.y);
+    const uint32_t high = jox_row_of(nav, y + radius - least.y);
+    JOX_ASSERT(low <= high && high < nav->rows && left <= right && right < nav->columns);
+    for (uint32_t row = low; row <= high; row++) {
+        const uint32_t *first = nav->cell_first + (size_t)row * nav->columns;
+        for (uint32_t j = first[left]; j < first[right + 1]; j++)
+            buffer_candidate(a, i, j, point, r2, found);
+    }
+    for (uint32_t k = 0; k < nav->stray_count; k++) { /* strays stand outside of their cells */
+        const uint32_t stray = nav->strays[k];
+        const uint32_t row = a->cell[stray] / nav->columns, column = a->cell[stray] % nav->columns;
+        if (row < low || row > high || column < left || column > right) /* else buffered above */
+            buffer_candidate(a, i, stray, point, r2, found);
+    }
+}
+
+/* Finds the agents nearest to agent i within `radius` (m), over periodic edges too. */
+static void search_nearest(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
+                           Nearest *found) {
+    JoxV2 point = {a->x[i], a->y[i]};
+    float wide = radius + nav->drift.farthest;
+    clear_nearest(found);
+    for (int row = -1; row <= 1; row++)
+        for (int column = -1; column <= 1; column++)
+            if (jox_sees_image(point.x, a->origin.x, a->period.x, wide, column) &&
+                jox_sees_image(point.y, a->origin.y, a->period.y, wide, row))
+                search_image(
+                    nav, a, i,
+                    jox_add(point, (JoxV2){(float)column * a->period.x, (float)row * a->period.y}),
+                    radius, found);
+    sort_in_waiting(found);
+    found->count = found->count < found->most ? found->count : found->most;
+}
+
+void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
+    const JoxAgents *a = p->agents;
+    JoxNeighbours *out = p->out;
+    Nearest found = {.most = JOX_MOST_NEIGHBOURS};
+    search_nearest(p->nav, a, i, range, &found);
+    out->touch_count[i] = (uint8_t)found.count;
+    for (uint32_t k = 0; k < found.count; k++)
+        out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
+}
+
+/* Writes the neighbours found for agent i into the columns. */
+static void write_nearest(const JoxPerceive *p, uint32_t i, float perception,
+                          const Nearest *found) {
+    const JoxAgents *a = p->agents;
+    bool full = found->most > 0 && found->count == found->most;
+    float reach = full ? sqrtf(read_distance2(found->keys[found->count - 1])) : perception;
+    a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
+    a->density[i] =
+        (float)found->count / ((float)JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
+    const float touch = jox_touch_most(p->out);
+    uint32_t close = 0;
+    for (uint32_t k = 0; k < found->count; k++) {
+        p->out->index[jox_neighbour_at(p->out, i, k)] = a->by_rank[(uint32_t)found->keys[k]];
+        close += read_distance2(found->keys[k]) <= touch * touch;
+    }
+    p->out->count[i] = (uint8_t)found->count;
+    p->out->close[i] = (uint8_t)close;
+    if (found->count > JOX_CROWD_RANK)
+        p->out->crowding2[i] = read_distance2(found->keys[JOX_CROWD_RANK]);
+}
+
+void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
+    const JoxAgents *a = p->agents;
+    const float perception = jox_minf(jox_param(a, JOX_PARAM_perception, i), p->sight);
+    Nearest found;
+    found.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
+    clear_nearest(&found);
+    for (bool again = found.most > 0; again;) {
+        radius = jox_minf(radius, perception);
+        search_nearest(p->nav, a, i, radius, &found);
+        again = found.count < found.most && radius < perception;
+        radius *= JOX_SEARCH_GROWTH;
+    }
+    write_nearest(p, i, perception, &found);
+}

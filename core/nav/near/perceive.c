@@ -1,0 +1,39 @@
+/* The stage perceive: each agent's nearest neighbours, by the kernel of the run's instruction set.
+ */
+#include <math.h>
+
+#include "base/assert.h"
+#include "nav/near/perceive.h"
+#include "simd/four.h"
+
+#define X(name, isa) [isa] = jox_perceive_packets_##name,
+static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxPerceive *p = context;
+    const JoxAgents *a = p->agents;
+    jox_interleave(&p->out->motions[begin], a->x + begin, a->y + begin, a->vx + begin,
+                   a->vy + begin, end - begin);
+    KERNELS[p->nav->isa](p, begin, end);
+}
+
+static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
+    const uint32_t most = (uint32_t)jox_param_greatest(a, JOX_PARAM_neighbours);
+    out->widest = jox_param_greatest(a, JOX_PARAM_radius);
+    jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
+}
+
+float jox_nav_sight(const JoxAgents *a) {
+    float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
+    return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
+}
+
+void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
+    reserve_neighbours(out, agents);
+    nav->clear_reach = -1.0f;
+    JoxPerceive perceive = {nav, agents, out, jox_nav_sight(agents)};
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
+    JOX_CHECK(jox_neighbours_check(out, agents));
+}

@@ -1,0 +1,137 @@
+/* Half-planes of rigid bodies: equation 4. half_planes.c calls jox_orca_objects for one agent at a
+   time. */
+#include "base/assert.h"
+#include "nav/orca/solve.h"
+
+/* A body that an agent avoids. The nearest point of its footprint is computed at its first use. */
+typedef struct Minded {
+    const JoxObject *body;
+    JoxV2 at; /* centre of the agent, m */
+    bool known;
+    JoxFootprintPoint side;
+} Minded;
+
+static const JoxFootprintPoint *find_side(Minded *m) {
+    if (!m->known)
+        m->side = jox_footprint_nearest(m->body, m->at);
+    m->known = true;
+    return &m->side;
+}
+
+/* Makes the half-plane of a body: outside of its bounding disc for that disc; within it for the
+   nearest side of the true footprint, so that agents can walk along a long wall. Bodies never
+   reciprocate, so the share is 1. */
+static JoxHalfPlane make_body_plane(const JoxAgents *a, uint32_t i, Minded *m, float planning_time,
+                                    float tau) {
+    const JoxObject *o = m->body;
+    JoxV2 own = {a->vx[i], a->vy[i]};
+    JoxV2 p = {o->position.x - m->at.x, o->position.y - m->at.y};
+    JoxV2 moving = {o->velocity.x, o->velocity.y}, v = jox_sub(own, moving);
+    float radius = jox_param(a, JOX_PARAM_radius, i), sum = radius + o->disc;
+    if (jox_length2(p) > sum * sum || o->footprint_count == 0) {
+        float disc = o->footprint_count == 0 ? o->round : o->disc;
+        return jox_orca_half_plane(p, v, radius + disc, tau, planning_time, own, 1.0f,
+                                   (JoxV2){1.0f, 0.0f});
+    }
+    const JoxFootprintPoint *side = find_side(m);
+    float gap = side->gap - radius, time = gap < 0.0f ? planning_time : tau;
+    moving = jox_object_velocity_at(o, side->point);
+    return (JoxHalfPlane){side->normal, jox_dot(moving, side->normal) - gap / time};
+}
+
+/* Makes the half-plane that the paper prints: for the disc of the body's bounding sphere, outside
+   and inside of it. */
+static JoxHalfPlane make_sphere_plane(const JoxAgents *a, uint32_t i, const JoxObject *o,
+                                      float planning_time, float tau) {
+    JoxV2 own = {a->vx[i], a->vy[i]};
+    return jox_orca_half_plane(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]),
+                               jox_sub(own, jox_v2(o->velocity.x, o->velocity.y)),
+                               jox_param(a, JOX_PARAM_radius, i) + o->sphere, tau, planning_time,
+                               own, 1.0f, jox_v2(1.0f, 0.0f));
+}
+
+/* Returns whether agent i avoids the body of a row: the footprint must be within perception and,
+   where `among` is given, may be one of the nearest. A body that the agent approaches counts even
+   where it ignores bodies of this kind. */
+static bool is_body_avoided(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
+                            const JoxNearest *among) {
+    const JoxObject *o = &objects->rows[row];
+    JoxV2 at = {a->x[i], a->y[i]};
+    float sight = jox_param(a, JOX_PARAM_perception, i);
+    float away = jox_length(jox_v2(o->position.x - at.x, o->position.y - at.y));
+    float apart = away - jox_maxf(o->disc, o->round); /* lower bound of the gap, m */
+    if (apart > sight || (among && !jox_nearest_takes(among, apart)))
+        return false;
+    if (o->tags & a->ignore[i] && jox_referred(a->approach[i]) != (int32_t)row)
+        return false;
+    return away <= sight || jox_footprint_nearest(o, at).gap <= sight;
+}
+
+/* Returns whether agent i has to avoid a body by its own motion. It need not avoid one that it
+   touches, whose contact plane replaces this; nor, where contacts are searched for, one that
+   overlaps it without a contact (a fast, swept body, or one behind a wall): avoidance would
+   separate them at once and throw the agent. */
+static bool needs_avoidance(const JoxContactPlanes *touched, const JoxAgents *a, uint32_t i,
+                            uint32_t row, Minded *m) {
+    if (!touched)
+        return true;
+    const JoxContactPlane *planes = touched->planes + touched->starts[i] + touched->people[i];
+    for (uint32_t k = 0; k < touched->bodies[i]; k++)
+        if (planes[k].other == row)
+            return false;
+    float radius = a->breadth[i];
+    return !jox_object_reaches(m->body, m->at, radius) || find_side(m)->gap >= radius;
+}
+
+/* Sorts the rows listed so far by their gaps to the point `at`. */
+static void sort_by_gap(JoxNearest *nearest, const JoxObjects *objects, JoxV2 at) {
+    const JoxNearest all = *nearest;
+    nearest->count = 0;
+    for (uint32_t k = 0; k < all.count; k++)
+        jox_nearest_offer(nearest, jox_footprint_nearest(&objects->rows[all.rows[k]], at).gap,
+                          all.rows[k]);
+}
+
+/* Lists the rows of the bodies that agent i avoids, ascending; the nearest ones if there are more
+   than `most`. Returns how many. */
+static uint32_t list_rows(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
+                          JoxNearest *nearest) {
+    JoxV2 at = {a->x[i], a->y[i]};
+    JoxObjectWalk walk = jox_objects_near(objects, at, jox_param(a, JOX_PARAM_perception, i));
+    uint32_t row;
+    bool many = false; /* more bodies than room: the gaps decide */
+    while (jox_objects_next(&walk, &row)) {
+        if (!is_body_avoided(a, i, objects, row, many ? nearest : NULL))
+            continue;
+        if (nearest->count < nearest->most && !many) {
+            nearest->rows[nearest->count++] = row;
+            continue;
+        }
+        if (!many)
+            sort_by_gap(nearest, objects, at);
+        many = true;
+        jox_nearest_offer(nearest, jox_footprint_nearest(&objects->rows[row], at).gap, row);
+    }
+    jox_nearest_by_row(nearest);
+    return nearest->count;
+}
+
+uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
+                          const JoxObjects *objects, const JoxContactPlanes *touched,
+                          float planning_time, JoxHalfPlane *out, uint32_t most) {
+    JOX_ASSERT(most <= JOX_MOST_NEAREST);
+    JoxNearest nearest;
+    jox_nearest_begin(&nearest, most);
+    uint32_t count = list_rows(a, i, objects, &nearest), made = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t row = nearest.rows[k];
+        Minded minded = {.body = &objects->rows[row], .at = {a->x[i], a->y[i]}};
+        if (!needs_avoidance(touched, a, i, row, &minded))
+            continue;
+        bool approached = jox_referred(a->approach[i]) == (int32_t)row;
+        float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);
+        out[made++] = nav->literal ? make_sphere_plane(a, i, minded.body, planning_time, tau)
+                                   : make_body_plane(a, i, &minded, planning_time, tau);
+    }
+    return made;
+}
