@@ -1,6 +1,6 @@
 /* Contacts of a step: of agents with agents ("pairs"), walls and bodies ("touches"), and the
-   impulses that keep them from moving into each other. contact_find*.c finds them, contact_layout.c
-   lays them out, contact_solve.c solves them; contact.c runs these in order. */
+   impulses that keep them from moving into each other. contact/find*.c finds them, contact/layout.c
+   lays them out, contact/solve.c solves them; contact/stage.c runs these in order. */
 #ifndef JOX_FORCE_CONTACT_H
 #define JOX_FORCE_CONTACT_H
 
@@ -88,7 +88,7 @@ typedef struct JoxTouch {
     int16_t drive; /* index of the body's drive, or -1 */
 } JoxTouch;
 
-/* A kinematic body that moves and touches agents (touch.c). */
+/* A kinematic body that moves and touches agents (contact/bodies.c). */
 typedef struct JoxDrive {
     uint32_t row;
     float speed;   /* m/s: greatest towards an agent that it touches, or of its centre */
@@ -130,7 +130,7 @@ typedef struct JoxSupport {
     JoxSupportAxis normal, across[2];
 } JoxSupport;
 
-/* Decides whether a support has to be solved again (support_solve.c). */
+/* Decides whether a support has to be solved again (support/solve.c). */
 typedef struct JoxSupportWatch {
     uint32_t rows[2];
     float most_per_unrest[2]; /* greatest impulse per unrest of each body, root of kg */

@@ -33,6 +33,15 @@ static inline float jox_contact_impulse(float normal_velocity, float restitution
     return -(1.0f + restitution) * normal_velocity / inverse_mass;
 }
 
+/* Returns the least normal velocity after a contact, m/s: the gap (m) may close within dt (s), but
+   no more; agents that meet within it bounce by the restitution. `speed`: normal velocity before,
+   m/s. */
+static inline float jox_contact_target(float gap, float speed, float restitution, float dt) {
+    const float target = gap > 0.0f ? -gap / dt : 0.0f;
+    const bool bounces = restitution > 0.0f && speed < target;
+    return bounces ? jox_maxf(target, -restitution * speed) : target;
+}
+
 static inline JoxV3 jox_cross3(JoxV3 a, JoxV3 b) {
     return (JoxV3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -5,7 +5,7 @@
 #define JOX_FORCE_KERNELS_H
 
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 #include "simd/isa.h"
 
 /* Computes `breadth` of agents [begin, end), which are in one chunk. */

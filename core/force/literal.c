@@ -1,7 +1,7 @@
 /* Literal mode: the terms of the net force as the paper prints them. */
 #include "base/assert.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 /* m/s: a force that changes a velocity by less in a step counts as rounding */
 static const float ROUNDING = 1e-5f;

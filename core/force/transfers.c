@@ -4,7 +4,7 @@
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
     if (need > list->capacity) {

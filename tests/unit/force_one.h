@@ -1,4 +1,4 @@
-/* Plain C for one agent of what the kernels sum_wide.c and infer_wide.c do for a packet. */
+/* Plain C for one agent of what the kernels sum_wide.c and pass_on_wide.c do for a packet. */
 #ifndef TESTS_FORCE_ONE_H
 #define TESTS_FORCE_ONE_H
 

@@ -1,6 +1,6 @@
 /* Supports of bodies: skipped contacts would hardly change, and agents feel the same as if none
    were skipped. */
-#include "force/internal.h"
+#include "force/forces.h"
 #include "unit/force_crowd.h"
 
 enum { WIDE = 3, DEEP = 4, HIGH = 3, BOXES = WIDE * DEEP * HIGH, PEOPLE = 3 * WIDE };

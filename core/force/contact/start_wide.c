@@ -2,7 +2,7 @@
 #include <float.h>
 
 #include "force/kernels.h"
-#include "force/pushes_lanes.h"
+#include "force/terms_lanes.h"
 
 static inline JoxMask are_finite(JoxFloats x) {
     return jf_le(jf_abs(x), jf_set(FLT_MAX));

@@ -4,12 +4,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "force/contact_find_lanes.h"
-#include "force/internal.h"
-
-float jox_contact_target(float gap, float speed, float restitution, float dt) {
-    return jox_target_lanes(gap, speed, restitution, dt);
-}
+#include "force/contact/find_lanes.h"
+#include "force/forces.h"
 
 static bool is_in_touch_list(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;

@@ -1,7 +1,7 @@
 /* The stage contact, equations 6 and 7: finds the contacts, solves all of them together, and writes
    the agents' contact forces. world/step.c calls it after push. */
 #include "base/assert.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 /* Returns the sum of the impulses that agent i received, N s; adds the number of its contacts that
    press or touch to *contacts. */

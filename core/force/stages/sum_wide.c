@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/kernels.h"
-#include "force/pushes_lanes.h"
+#include "force/terms_lanes.h"
 
 static inline JoxMask has_force(JoxVector a) {
     return jf_lt(jf_set(0.0f), jf_max(jf_abs(a.x), jf_abs(a.y)));

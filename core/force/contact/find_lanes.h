@@ -1,5 +1,5 @@
 /* Contacts between agents: which pairs touch, and what the solve needs of them. A lane is an agent
-   with one of its neighbours. contact_find_wide.c includes it for packets, contact_near.c at width
+   with one of its neighbours. find_wide.c includes it for packets, find_alone.c at width
    1. */
 #ifndef JOX_FORCE_CONTACT_FIND_LANES_H
 #define JOX_FORCE_CONTACT_FIND_LANES_H
@@ -90,9 +90,7 @@ static inline uint32_t jox_find_touching(const JoxForces *f, const JoxContactSel
     return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
 }
 
-/* Returns the least normal velocity after a contact, m/s: the gap (m) may close within dt (s), but
-   no more; agents that meet within it bounce by the restitution. `speed`: normal velocity before,
-   m/s. */
+/* jox_contact_target, by lane. */
 static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloats restitution,
                                          float dt) {
     const JoxFloats zero = jf_set(0.0f), target = jf_select(jf_lt(zero, gap), -gap / dt, zero);

@@ -3,7 +3,7 @@
 
 #include "base/assert.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 typedef struct Target {
     bool is_body;

@@ -8,7 +8,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 /* m/s: residuals of the contact solve must not make planes contradict each other */
 static const float SLACK = 1e-3f;

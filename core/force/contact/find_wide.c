@@ -1,8 +1,8 @@
 /* The kernel that finds contacts. A lane is an agent: the nearest neighbours of all lanes of a
    packet are tested, then the second nearest, and so on, until none can touch. Contacts are few, so
    they are written one at a time; so are contacts with walls, and contacts of agents whose
-   neighbour list does not cover touch range (contact_near.c). */
-#include "force/contact_find_lanes.h"
+   neighbour list does not cover touch range (find_alone.c). */
+#include "force/contact/find_lanes.h"
 #include "geom/wall_grid_lanes.h"
 
 /* Adds the contacts of lanes whose neighbour list covers touch range. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "force/kernels.h"
-#include "force/pushes_lanes.h"
+#include "force/terms_lanes.h"
 
 static inline JoxMask is_nonzero(JoxVector a) {
     const JoxFloats zero = jf_set(0.0f);

@@ -1,7 +1,7 @@
 /* Parts of one agent's forces, for inspection. */
 #include "base/assert.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
     JOX_ASSERT(agent < f->step.agents->capacity); /* agents may have left since */

@@ -105,15 +105,6 @@ static void close_find_crowd(Crowd *c) {
 
 /* ---- contacts of one agent in plain C ---- */
 
-/* Returns the least normal velocity after the contact, m/s: the gap may close within the step, but
-   no more; agents that meet within it bounce by the restitution. */
-static float plain_target(float gap, float speed, float restitution, float dt) {
-    float target = gap > 0.0f ? -gap / dt : 0.0f;
-    if (restitution > 0.0f && speed < target)
-        target = jox_maxf(target, -restitution * speed);
-    return target;
-}
-
 /* Returns the contact of agents i and j over a gap (m); a normal of (0, 0): both at the same
    point. */
 static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal,
@@ -130,7 +121,8 @@ static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, 
         .other_id = a->id[j],
         .normal = normal,
         .squeeze = squeeze,
-        .target = plain_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)), (float)f->step.dt),
+        .target =
+            jox_contact_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)), (float)f->step.dt),
         .mass = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j))};
 }
 

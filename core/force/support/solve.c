@@ -1,4 +1,4 @@
-/* Solves the supports of bodies (support.c) in sweeps. In a pile, most contacts settle after a few
+/* Solves the supports of bodies (supports.c) in sweeps. In a pile, most contacts settle after a few
    sweeps, while the chain of agents that push on it needs dozens. So after some passes a contact is
    tested again only once its bodies may have changed enough, and solved only where its impulses
    would change enough.
@@ -10,7 +10,7 @@
    greater. */
 #include <math.h>
 
-#include "force/internal.h"
+#include "force/forces.h"
 
 enum {
     SWEEPS = 2, /* over the supports, per pass over all contacts */

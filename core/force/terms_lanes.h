@@ -1,8 +1,8 @@
 /* Forces on the agents of a packet, from agent `i` on: sums of force terms, and the part of pushes
-   that feet hold. internal.h has the same for one agent. Included by the kernels of sum, infer and
+   that feet hold. forces.h has the same for one agent. Included by the kernels of sum, infer and
    the start of contacts. */
-#ifndef JOX_FORCE_PUSHES_LANES_H
-#define JOX_FORCE_PUSHES_LANES_H
+#ifndef JOX_FORCE_TERMS_LANES_H
+#define JOX_FORCE_TERMS_LANES_H
 
 #include "agents/param_lanes.h"
 #include "force/equations.h"

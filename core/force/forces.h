@@ -1,7 +1,7 @@
 /* Types and helpers that the files of force share. Scratch memory grows to its peak and stays;
    JoxForces owns all of it. */
-#ifndef JOX_FORCE_INTERNAL_H
-#define JOX_FORCE_INTERNAL_H
+#ifndef JOX_FORCE_FORCES_H
+#define JOX_FORCE_FORCES_H
 
 #include "base/number/pi.h"
 #include "force/contact.h"
@@ -162,9 +162,12 @@ static inline float jox_circumference(float radius) {
     return (float)JOX_TURN * radius;
 }
 
+#define JOX_CHEST 1.1f /* m: height at which agents push and are hit */
 /* Returns the height at which an agent meets a body, m: chest height, clamped to the body's
    extent. */
-float jox_touch_height(const JoxObject *body);
+static inline float jox_touch_height(const JoxObject *body) {
+    return jox_minf(jox_maxf(JOX_CHEST, body->low), body->high);
+}
 
 /* How an agent plans: how long it keeps a plan, s; the share of the way covered in that time; and
    how long forces count meanwhile, s (interval_forced). */
@@ -213,13 +216,13 @@ static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
     return jox_add(jox_sum_terms(a, i, JOX_FORCE_FREE), jox_unheld_pushes(a, i));
 }
 
-/* contact_find.c: finds the contacts of all agents. */
+/* contact/find.c: finds the contacts of all agents. */
 void jox_contacts_find(JoxForces *forces);
-/* contact_near.c: finds the contacts with other agents that one agent has to find, by ascending id;
-   returns how many. The agent of lesser id finds a contact, or the other one where the list of the
-   first is full. `walls`: some are near. */
+/* contact/find_alone.c: finds the contacts with other agents that one agent has to find, by
+   ascending id; returns how many. The agent of lesser id finds a contact, or the other one where
+   the list of the first is full. `walls`: some are near. */
 uint32_t jox_find_contacts_alone(JoxForces *forces, uint32_t agent, bool walls, JoxFoundPair *out);
-/* contact_near.c: finds the nearest edges that an agent touches; returns how many. */
+/* contact/find_alone.c: finds the nearest edges that an agent touches; returns how many. */
 uint32_t jox_find_wall_contacts(const JoxForces *forces, uint32_t agent,
                                 JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
 /* Inserts a contact into a list of `count`, sorted by id. */
@@ -230,16 +233,13 @@ static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const Jox
 }
 /* N/m: stiffness of turned shoulders, until the bodies themselves meet */
 #define JOX_SQUEEZE 2000.0f
-/* contact_layout.c: lays out the contacts found, in the order of ids, with the impulses of the last
+/* contact/layout.c: lays out the contacts found, in the order of ids, with the impulses of the last
    step, and computes the start of the solve (lay); keeps the impulses for the next step (keep). */
 void jox_contacts_lay_out(JoxForces *forces);
 void jox_contacts_keep(JoxForces *forces);
 /* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
  *at is the place in the list, 0 at first. */
 float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
-/* Returns the least normal velocity after a contact, m/s: the gap (m) may close within the step,
-   but no more, and agents that meet within it bounce. `speed`: normal velocity before, m/s. */
-float jox_contact_target(float gap, float speed, float restitution, float dt);
 /* Returns the most agents that any chunk has. */
 static inline uint32_t jox_chunk_agents(const JoxForces *f) {
     const uint32_t count = f->step.agents->count;
@@ -248,20 +248,20 @@ static inline uint32_t jox_chunk_agents(const JoxForces *f) {
 /* m: bodies nearer than this touch. Bullet lets them tremble by tenths of a millimetre, which in a
    short step would alter the force between them noticeably. */
 #define JOX_BODY_SLACK 1e-3f
-/* contact_solve.c: solves all impulses. */
+/* contact/solve.c: solves all impulses. */
 void jox_contacts_solve(JoxForces *forces);
-/* contact_planes.c: makes the half-planes of contacts. */
+/* contact/planes.c: makes the half-planes of contacts. */
 void jox_contact_planes_make(JoxForces *forces);
-/* load.c: measures compression and load of one agent, and the loads of all walls, from the
-   impulses. */
+/* contact/crush_load.c: measures compression and load of one agent, and the loads of all walls,
+   from the impulses. */
 void jox_load_measure(JoxForces *forces, uint32_t agent);
 /* Returns whether neither walls nor pushes press on any of agents [begin, end). */
 bool jox_loads_are_none(const JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_wall_loads_measure(JoxForces *forces);
 
-/* touch.c: contacts with bodies. find: of agents [begin, end); collect: sorts those of all chunks;
-   begin: motions of bodies, first impulses; pass: one pass over all touches, which returns the
-   greatest change of an impulse, N s; finish: impulses on the bodies. */
+/* contact/bodies.c: contacts with bodies. find: of agents [begin, end); collect: sorts those of all
+   chunks; begin: motions of bodies, first impulses; pass: one pass over all touches, which returns
+   the greatest change of an impulse, N s; finish: impulses on the bodies. */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_touches_collect(JoxForces *forces);
 void jox_touches_begin(JoxForces *forces);
@@ -281,10 +281,10 @@ static inline bool jox_have_no_contacts(const JoxForces *f, uint32_t begin, uint
 float jox_touch_speed_before(const JoxForces *forces, const JoxTouch *touch);
 float jox_touch_speed_after(const JoxForces *forces, const JoxTouch *touch);
 
-/* support.c: supports of the touched bodies. begin: motions of all bodies, first impulses; pass: as
-   for touches; finish: the share of the touches' impulses that supports held. */
+/* support/supports.c: supports of the touched bodies. begin: motions of all bodies, first impulses;
+   pass: as for touches; finish: the share of the touches' impulses that supports held. */
 void jox_supports_begin(JoxForces *forces);
-void jox_supports_warm(JoxForces *forces); /* support_solve.c: applies the first impulses */
+void jox_supports_warm(JoxForces *forces); /* support/solve.c: applies the first impulses */
 float jox_supports_pass(JoxForces *forces);
 void jox_supports_finish(JoxForces *forces);
 /* Velocity of a point of a body, m/s; and applying an impulse there, N s, while contacts are

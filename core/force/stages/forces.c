@@ -127,7 +127,7 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 }
 
 /* Returns the stage memory for so many agents, bytes: builds, padded to fours, and what
-   contact_layout.c takes. */
+   contact/layout.c takes. */
 static size_t measure_memory(size_t agents) {
     return jox_stage_memory_bytes(agents + 3, sizeof(JoxBuild)) +
            jox_stage_memory_bytes(agents, sizeof(uint64_t)) +

@@ -1,5 +1,5 @@
 /* Solves the impulses of all contacts together. Velocities start from what the other forces give
-   (contact_layout.c); Gauss-Seidel passes over the contacts (sequential impulses with accumulated
+   (layout.c); Gauss-Seidel passes over the contacts (sequential impulses with accumulated
    clamping, E. Catto, Game Developers Conference 2006) repeat until a pass changes no force by more
    than the tolerance. Contacts of one colour share no agent, so that neither threads nor the order
    in memory change a bit. */

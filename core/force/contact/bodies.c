@@ -1,5 +1,5 @@
 /* Equation 7: contacts of agents with bodies ("touches"). The supports of the bodies are solved
-   with them (support.c). */
+   with them (support/supports.c). */
 #include <math.h>
 #include <string.h>
 
@@ -7,13 +7,7 @@
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/equations.h"
-#include "force/internal.h"
-
-static const float CHEST = 1.1f; /* m: height at which agents push and are hit */
-
-float jox_touch_height(const JoxObject *body) {
-    return jox_minf(jox_maxf(CHEST, body->low), body->high);
-}
+#include "force/forces.h"
 
 /* Finds the contact of agent i with body `row`. Returns false if the gap cannot close within the
    step, or a wall stands between them. */

@@ -1,4 +1,4 @@
-/* Measures what contacts press agents and walls with; contact.c calls it once the contacts are
+/* Measures what contacts press agents and walls with; stage.c calls it once the contacts are
    solved.
 
    Compression is the sum of |f.n| over all contacts of an agent, with agents, walls and bodies,
@@ -11,7 +11,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/internal.h"
+#include "force/forces.h"
 #include "simd/four.h"
 
 enum { MOST_FORCES = 64 };

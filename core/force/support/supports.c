@@ -8,7 +8,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 enum {
     LINKS = 4 /* bodies in a row, from the touched one on; the next one acts as a wall */

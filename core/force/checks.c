@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "force/internal.h"
+#include "force/forces.h"
 
 void jox_transfers_check(const JoxForces *f) {
     const JoxAgents *a = f->step.agents;
