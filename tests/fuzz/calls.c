@@ -375,7 +375,7 @@ static void call(Caller *c) {
 /* ---- the whole ---- */
 
 /* A message comes within a step: what would change its world is misuse there. */
-static void hear(void *context, const char *text) {
+static void call_within_step(void *context, const char *text) {
     Caller *c = context;
     (void)text;
     if (c->within || !c->scene)
@@ -409,7 +409,7 @@ static JoScene *load(Caller *c, bool resumable) {
     def.no_density = true; /* the time that it takes is worth more calls */
     def.resumable = resumable;
     def.threads = 1;
-    def.message = hear;
+    def.message = call_within_step;
     def.message_context = c;
     JoScene *loaded = jo_scene_load(&def, &error);
     FUZZ_CHECK(loaded);

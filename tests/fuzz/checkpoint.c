@@ -7,16 +7,11 @@
 #include "base/mem.h"
 #include "support/fuzz.h"
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 static void resume(const void *data, size_t size) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     char *note = NULL;
-    def.message = ignore;
+    def.message = ignore_message;
     JoScene *scene = jo_scene_resume(&def, fuzz_write("f.checkpoint", data, size), &note, &error);
     FUZZ_CHECK(scene || *error.text);
     jo_free(note);

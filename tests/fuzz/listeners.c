@@ -61,11 +61,6 @@ static const char *names[32]; /* of those who collect */
 static uint32_t name_count;
 static uint64_t later_hash;
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 static void read_into(const char *path, JoxText *out) {
     enum { LARGEST = 1 << 24 };
     size_t length = 0;
@@ -99,7 +94,7 @@ static void end(void) {
 static JoScene *resume(const JoxText *file, JoError *error) {
     JoSceneDef def = jo_default_scene_def();
     char *note = NULL;
-    def.message = ignore;
+    def.message = ignore_message;
     JoScene *scene =
         jo_scene_resume(&def, fuzz_write("one.checkpoint", file->data, file->length), &note, error);
     jo_free(note);
@@ -122,7 +117,7 @@ static void begin(void) {
     def.path = fuzz_path("scene.yaml");
     def.text = SCENE;
     def.text_length = strlen(SCENE);
-    def.message = ignore;
+    def.message = ignore_message;
     def.named_mods_only = def.resumable = true;
     def.threads = 1;
     JoScene *scene = jo_scene_load(&def, &error);

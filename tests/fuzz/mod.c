@@ -21,11 +21,6 @@ static const char LUA[] =
 static const char *const FILES[] = {"mods/fuzz/mod.yaml", "mods/fuzz/patches/base.yaml",
                                     "mods/fuzz/patches/base.lua"};
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *text = fuzz_text(data, size), *from = text;
     for (int f = 0; f < 3; f++) {
@@ -50,7 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     def.mods = mods;
     def.mod_count = 1;
     def.named_mods_only = true;
-    def.message = ignore;
+    def.message = ignore_message;
     fuzz_run(jo_scene_load(&def, &error), 4);
     jo_free(jo_mods_list(&def));
     jo_free(jo_mods_why(&def, "base.A.push", &error));

@@ -16,11 +16,6 @@ static const char SCENE[] =
     "groups: {a: {behaviour: player.lua, count: 3, in: hall},\n"
     "         b: {behaviour: stander.lua, count: 3, in: hall}}\n";
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 static void say(JoxScenePage *s, char *text) {
     int lines = 0;
     for (char *line = text; line && lines < MOST_LINES; lines++) {
@@ -40,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     def.scene.path = "tests/fuzz/fuzz.yaml";
     def.scene.text = SCENE;
     def.scene.text_length = sizeof SCENE - 1;
-    def.scene.message = ignore;
+    def.scene.message = ignore_message;
     def.scene.named_mods_only = true;
     def.watch = false;
     def.fast = true;

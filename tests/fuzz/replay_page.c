@@ -18,11 +18,6 @@ static const char SCENE[] =
     "groups: {a: {behaviour: stander.lua, count: 3, in: hall},\n"
     "         b: {behaviour: stander.lua, count: 3, in: hall}}\n";
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 /* The recording of all inputs. */
 static const char *recording(void) {
     static char path[4096];
@@ -34,7 +29,7 @@ static const char *recording(void) {
     def.path = "tests/fuzz/fuzz.yaml";
     def.text = SCENE;
     def.text_length = sizeof SCENE - 1;
-    def.message = ignore;
+    def.message = ignore_message;
     def.named_mods_only = true;
     JoScene *scene = jo_scene_load(&def, &error);
     if (!scene || !jo_scene_record(scene, path, 0.05, &error))
@@ -71,7 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoxReplayPage p = {.def = &def};
     JoError error = {0};
     def.recording = recording();
-    def.message = ignore;
+    def.message = ignore_message;
     p.page.server = fuzz_server();
     p.page.session.speed = 1;
     p.page.watchers[0].client = 1;

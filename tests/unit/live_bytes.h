@@ -7,7 +7,7 @@
 
 #include "base/format/json.h"
 #include "live/live.h"
-#include "live_page.h"
+#include "unit/scene_loader.h"
 
 /* ---- JSON: its numbers by path ---- */
 
@@ -146,7 +146,7 @@ static inline JoScene *load_tawaf(const char *count) {
     snprintf(people, sizeof people, "groups.pilgrims.count=%s", count);
     snprintf(keep, sizeof keep, "sources.0.keep=%s", count);
     const char *sets[] = {people, keep};
-    return load("scenes/tawaf.yaml", sets, 2);
+    return load_scene_file("scenes/tawaf.yaml", sets, 2);
 }
 
 #endif

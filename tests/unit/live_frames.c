@@ -19,7 +19,7 @@
    its person changes. */
 static void people_keep_their_slots_between_frames(void **state) {
     (void)state;
-    JoScene *scene = load_own(COMING, EASTWARD);
+    JoScene *scene = load_scene_text(COMING, EASTWARD);
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     static uint32_t owner[1000];
@@ -28,7 +28,7 @@ static void people_keep_their_slots_between_frames(void **state) {
     uint32_t others = 0, same = 0;
     memset(owner, 0xff, sizeof owner);
     for (int t = 0; t < 400; t++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         check_frame_people(scene, &seen);
@@ -59,7 +59,7 @@ static void people_keep_their_slots_between_frames(void **state) {
 /* An agent that crosses a periodic edge keeps its slot, whose parity flips. */
 static void parity_flips_at_periodic_edges(void **state) {
     (void)state;
-    JoScene *scene = load("scenes/ring.yaml", NULL, 0);
+    JoScene *scene = load_scene_file("scenes/ring.yaml", NULL, 0);
     const float period = scene->world->state.agents.period.x;
     JoxBytes frame = {0};
     static double x[1000];
@@ -67,7 +67,7 @@ static void parity_flips_at_periodic_edges(void **state) {
     uint32_t rounds = 0;
     assert_true(period > 1.0f);
     for (int t = 0; t < 200; t++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
         Seen seen = decode_frame(&frame, scene->world);
@@ -91,13 +91,14 @@ static void parity_flips_at_periodic_edges(void **state) {
 /* Positions in frames are right for agents that walk far beyond all that the scene names. */
 static void area_grows_with_the_crowd(void **state) {
     (void)state;
-    JoScene *scene = load_own(PEOPLE(20), HEAD "\"A\", defaults = { speed = 9, max_speed = 9 }, "
-                                               "states = { A = { steer = drift(-1, -0.3) } } }\n");
+    JoScene *scene =
+        load_scene_text(PEOPLE(20), HEAD "\"A\", defaults = { speed = 9, max_speed = 9 }, "
+                                         "states = { A = { steer = drift(-1, -0.3) } } }\n");
     JoxBytes frame = {0};
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
     Seen before = decode_frame(&frame, scene->world);
     for (int t = 0; t < 300; t++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         check_frame_people(scene, &seen);
@@ -111,14 +112,14 @@ static void area_grows_with_the_crowd(void **state) {
 /* In a state with `lies = true` the flags say so, in place of a lean under pushes. */
 static void lying_state_sets_the_lying_flag(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(PEOPLE(4),
-                 HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = after(0.2) } }, "
-                      "B = { steer = hold, lies = true } } }\n");
+    JoScene *scene = load_scene_text(
+        PEOPLE(4),
+        HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = after(0.2) } }, "
+             "B = { steer = hold, lies = true } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     for (int t = 0; t < 2; t++) {
-        step(scene, t == 0 ? 1 : 8);
+        step_scene(scene, t == 0 ? 1 : 8);
         a->contact_x[0] = 200.0f;
         jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
         const Seen seen = decode_frame(&frame, scene->world);
@@ -133,11 +134,12 @@ static void lying_state_sets_the_lying_flag(void **state) {
    push. */
 static void averaged_pushes_set_the_lean(void **state) {
     (void)state;
-    JoScene *scene = load_own(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoScene *scene =
+        load_scene_text(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");
     JoxAgents *a = &scene->world->state.agents;
     static const float FORCE[] = {50, 100, 200, 400};
     JoxBytes frame = {0};
-    step(scene, 1);
+    step_scene(scene, 1);
     for (uint32_t i = 0; i < a->count; i++) { /* 3 degrees off one of the eight directions */
         const float turn = ((float)(a->id[i] % 8) * 45.0f + 3.0f) * 0.0174532925f;
         const float force = FORCE[a->id[i] / 8];
@@ -153,14 +155,14 @@ static void averaged_pushes_set_the_lean(void **state) {
         const uint32_t hard = a->id[i] / 8;
         assert_int_equal(lean, hard ? 1 + a->id[i] % 8 + 8 * (hard - 1) : 0);
     }
-    step(scene, 1); /* a step without pushes */
+    step_scene(scene, 1); /* a step without pushes */
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
     seen = decode_frame(&frame, scene->world);
     uint32_t leaning = 0;
     for (uint32_t i = 0; i < a->count; i++)
         leaning += seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT > 0;
     assert_true(leaning >= 24); /* the average has hardly decayed */
-    step(scene, 100);
+    step_scene(scene, 100);
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
     seen = decode_frame(&frame, scene->world);
     for (uint32_t i = 0; i < a->count; i++)
@@ -172,10 +174,10 @@ static void averaged_pushes_set_the_lean(void **state) {
 /* Compares the values of each colour with the columns that they come from. */
 static void colour_values_match_the_columns(void **state) {
     (void)state;
-    JoScene *scene = load("scenes/running-through.yaml", NULL, 0);
+    JoScene *scene = load_scene_file("scenes/running-through.yaml", NULL, 0);
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
-    step(scene, 60); /* the runner has reached the standing people */
+    step_scene(scene, 60); /* the runner has reached the standing people */
     for (uint32_t i = 0; i < a->count; i++)
         a->load[i] = a->compression[i] = (float)(10 * i);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
@@ -208,12 +210,12 @@ static void colour_values_match_the_columns(void **state) {
 
 static void people_message_reports_changes(void **state) {
     (void)state;
-    JoScene *scene = load_own(COMING, EASTWARD);
+    JoScene *scene = load_scene_text(COMING, EASTWARD);
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes people = {0};
     assert_true(jox_live_people(scene, &people));
     assert_false(jox_live_people(scene, &people));
-    step(scene, 40); /* the source adds people */
+    step_scene(scene, 40); /* the source adds people */
     assert_true(jox_live_people(scene, &people));
     assert_int_equal(get32(people.data), 2);
     assert_int_equal(get32(people.data + 4), 0);
@@ -248,11 +250,11 @@ static double sum_field(const JoxBytes *field, double *most) {
 /* In a dense crowd, once there are enough samples, the greatest pressure is that of the summary. */
 static void pressure_field_matches_the_run(void **state) {
     (void)state;
-    JoScene *scene = load("scenes/two-bottlenecks.yaml", NULL, 0);
+    JoScene *scene = load_scene_file("scenes/two-bottlenecks.yaml", NULL, 0);
     JoxBytes field = {0};
     double most, greatest = 0;
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
-    step(scene, 1620);
+    step_scene(scene, 1620);
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
     const JoxLocal *local = jox_run_local(scene);
     for (size_t c = 0; c < (size_t)local->grid->columns * local->grid->rows; c++)
@@ -269,7 +271,7 @@ static void density_field_sums_to_the_number_of_people(void **state) {
     JoxBytes field = {0};
     JoxText text = {0};
     double most;
-    step(scene, 20);
+    step_scene(scene, 20);
     jox_live_field(scene, JOX_LIVE_DENSITY, &field);
     assert_int_equal(get32(field.data + 4), 0);
     const double people = sum_field(&field, &most);
@@ -293,20 +295,20 @@ static void density_field_sums_to_the_number_of_people(void **state) {
 /* Compares the transitions of the last second with the world's total. */
 static void status_counts_transitions_of_the_last_second(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(PEOPLE(200), HEAD
-                 "\"A\", states = {"
-                 "A = { steer = hold, lasts = uniform(0.1, 3),"
-                 " { to = \"B\", when = lasted, chance = 0.5 }, { to = \"C\", when = lasted } },"
-                 "B = { steer = hold, { to = \"A\", when = after(0.4) } },"
-                 "C = { steer = hold, { to = \"A\", when = after(0.7) } } } }\n");
+    JoScene *scene = load_scene_text(
+        PEOPLE(200),
+        HEAD "\"A\", states = {"
+             "A = { steer = hold, lasts = uniform(0.1, 3),"
+             " { to = \"B\", when = lasted, chance = 0.5 }, { to = \"C\", when = lasted } },"
+             "B = { steer = hold, { to = \"A\", when = after(0.4) } },"
+             "C = { steer = hold, { to = \"A\", when = after(0.7) } } } }\n");
     const JoxStatistics *s = &scene->world->state.statistics;
     uint64_t at[400];
     JoxText text = {0};
     jox_live_status(scene, &(JoxLiveSession){0}, &text); /* attaches the listener that counts */
     for (int t = 0; t < 200; t++) {
         at[t] = s->transitions;
-        step(scene, 1);
+        step_scene(scene, 1);
         text.length = 0;
         jox_live_status(scene, &(JoxLiveSession){0}, &text);
         parse_numbers(&text);
@@ -322,8 +324,9 @@ static void status_counts_transitions_of_the_last_second(void **state) {
     assert_true(s->transitions > 500);
     /* A reload numbers the transitions again, and counts start from 0. */
     const uint64_t version = jox_live_version(scene);
-    assert_true(reload_text(scene, 0,
-                            HEAD "\"A\", states = { A = { steer = hold }, B = { steer = hold }, C "
+    assert_true(reload_behaviour(scene, 0,
+                                 HEAD
+                                 "\"A\", states = { A = { steer = hold }, B = { steer = hold }, C "
                                  "= { steer = hold } } }\n"));
     assert_true(jox_live_version(scene) != version);
     text.length = 0;
@@ -337,14 +340,14 @@ static void status_counts_transitions_of_the_last_second(void **state) {
 /* The status has a hint once people have gone back and forth between two states in every step. */
 static void status_has_hints(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(PEOPLE(20), HEAD "\"A\", states = {"
-                                  "A = { steer = hold, { to = \"B\", when = after(0) } },"
-                                  "B = { steer = hold, { to = \"A\", when = after(0) } } } }\n");
+    JoScene *scene = load_scene_text(PEOPLE(20), HEAD
+                                     "\"A\", states = {"
+                                     "A = { steer = hold, { to = \"B\", when = after(0) } },"
+                                     "B = { steer = hold, { to = \"A\", when = after(0) } } } }\n");
     JoxText text = {0};
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
     assert_non_null(strstr(text.data, "\"hints\": []"));
-    step(scene, 40);
+    step_scene(scene, 40);
     text.length = 0;
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
     assert_non_null(strstr(text.data, "people went round 'A' -> 'B' -> 'A'"));
@@ -358,11 +361,12 @@ static void messages_do_not_change_the_run(void **state) {
     (void)state;
     static const char *const SCENES[] = {"scenes/running-through.yaml", "scenes/dodgeball.yaml"};
     for (int k = 0; k < 2; k++) {
-        JoScene *shown = load(SCENES[k], NULL, 0), *plain = load(SCENES[k], NULL, 0);
+        JoScene *shown = load_scene_file(SCENES[k], NULL, 0),
+                *plain = load_scene_file(SCENES[k], NULL, 0);
         JoxBytes frame = {0}, field = {0}, people = {0};
         for (int t = 0; t < 60; t++) {
             JoxText text = {0};
-            step(shown, 1);
+            step_scene(shown, 1);
             jox_live_scene(shown, &text);
             jox_live_status(shown, &(JoxLiveSession){0}, &text);
             jox_text_free(&text);
@@ -373,7 +377,7 @@ static void messages_do_not_change_the_run(void **state) {
             assert_true(t < 5 || jox_alloc_count() == before);
             jox_live_version(shown);
         }
-        step(plain, 60);
+        step_scene(plain, 60);
         assert_true(jo_world_hash(shown->world) == jo_world_hash(plain->world));
         jox_bytes_free(&frame);
         jox_bytes_free(&field);
@@ -398,5 +402,5 @@ int main(void) {
         cmocka_unit_test(status_has_hints),
         cmocka_unit_test(messages_do_not_change_the_run),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "jostle_tools.h"
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define TIGHT                                                                                      \
     "jostle: 1\n"                                                                                  \
@@ -19,12 +19,12 @@ static double read_number_after(const char *json, const char *key) {
 
 static void inspected_forces_and_planes_match_the_step(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(TIGHT, HEAD
-                 "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
-    JoScene *plain =
-        load_own(TIGHT, HEAD
-                 "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+    JoScene *scene = load_scene_text(
+        TIGHT,
+        HEAD "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+    JoScene *plain = load_scene_text(
+        TIGHT,
+        HEAD "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     double most = 0.0;
     for (int n = 0; n < 60; n++) {
@@ -35,8 +35,8 @@ static void inspected_forces_and_planes_match_the_step(void **state) {
             assert_true(jo_scene_input(scene, "push 25 90 -30", &error));
             assert_true(jo_scene_input(plain, "push 25 90 -30", &error));
         }
-        step(scene, 1);
-        step(plain, 1);
+        step_scene(scene, 1);
+        step_scene(plain, 1);
         const JoxInspected *seen = jox_world_inspect(scene->world, 25, &watched);
         uint32_t i = a->slot_index[25];
         JoxV2 sum = {0, 0};
@@ -101,7 +101,8 @@ static void check_same_plane(const JoxConstraint *now, const JoxConstraint *in_s
 static void inspection_between_steps_predicts_the_next_step(void **state) {
     (void)state;
     const char *behaviour = HEAD "\"A\", states = { A = { steer = seek \"out\" } } }\n";
-    JoScene *scene = load_own(LEAVING, behaviour), *plain = load_own(LEAVING, behaviour);
+    JoScene *scene = load_scene_text(LEAVING, behaviour),
+            *plain = load_scene_text(LEAVING, behaviour);
     JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     uint32_t looked = 0, planes = 0, left = 0, same = 0;
@@ -113,11 +114,11 @@ static void inspection_between_steps_predicts_the_next_step(void **state) {
             if (a->slot_index[s] != JOX_NO_INDEX) {
                 char push[40];
                 snprintf(push, sizeof push, "push %u 20 -10", s);
-                does(scene, push);
-                does(plain, push);
+                apply_input(scene, push);
+                apply_input(plain, push);
             }
-        step(scene, 1);
-        step(plain, 1);
+        step_scene(scene, 1);
+        step_scene(plain, 1);
         if (a->count == people && n % 8)
             continue;
         left += a->count < people;
@@ -134,8 +135,8 @@ static void inspection_between_steps_predicts_the_next_step(void **state) {
         const uint32_t count = copy_neighbour_planes(seen, before);
         /* in contact, or with half-planes of forces */
         const bool touches = a->contacts[i] > 0 || seen->plane_count != count;
-        step(scene, 1);
-        step(plain, 1);
+        step_scene(scene, 1);
+        step_scene(plain, 1);
         n++;
         seen = jox_world_inspect(scene->world, slot, &watched);
         if (!seen || touches || a->contacts[a->slot_index[slot]] > 0)
@@ -159,10 +160,10 @@ static void inspection_between_steps_predicts_the_next_step(void **state) {
 /* A restored world has no figures of its last step; the next step gives them. */
 static void inspection_of_a_restored_world_waits_for_a_step(void **state) {
     (void)state;
-    JoScene *scene = load_own(PLAIN PEOPLE_OF, WALKER);
+    JoScene *scene = load_scene_text(PLAIN PEOPLE_OF, WALKER);
     JoError error = {0};
     size_t size;
-    step(scene, 3);
+    step_scene(scene, 3);
     void *saved = jo_world_snapshot(scene->world, &size, &error);
     assert_true(saved && jo_world_restore(scene->world, saved, size, &error));
     jo_free(saved);
@@ -170,14 +171,14 @@ static void inspection_of_a_restored_world_waits_for_a_step(void **state) {
         char *json = jo_scene_inspect(scene, 2);
         assert_non_null(strstr(json, n ? "\"seen\": true" : "\"seen\": false"));
         jo_free(json);
-        step(scene, 1);
+        step_scene(scene, 1);
     }
     jo_scene_free(scene);
 }
 
 static void inspection_names_the_places_that_set_values(void **state) {
     (void)state;
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     char *json = jo_scene_inspect(scene, 1);
     assert_non_null(
         strstr(json, "\"last\": {\"from\": null, \"to\": \"Walk\", \"time\": 0, \"why\": null}"));
@@ -186,9 +187,9 @@ static void inspection_names_the_places_that_set_values(void **state) {
         strstr(json, "\"value\": 80, \"unit\": \"kg\", \"set\": \"scene groups.people "));
     assert_non_null(strstr(json, "\"seen\": false"));
     jo_free(json);
-    does(scene, "signal stop");
-    does(scene, "set m Wait max_speed 0.7");
-    step(scene, 2);
+    apply_input(scene, "signal stop");
+    apply_input(scene, "set m Wait max_speed 0.7");
+    step_scene(scene, 2);
     json = jo_scene_inspect(scene, 1);
     assert_non_null(strstr(json, "\"last\": {\"from\": \"Walk\", \"to\": \"Wait\", \"time\": 0"));
     assert_non_null(strstr(json, "when heard(\\\"stop\\\") is true"));
@@ -210,7 +211,7 @@ static void inspection_names_the_places_that_set_values(void **state) {
     assert_non_null(strstr(json, "\"seen\": false")); /* the new agent was in no step yet */
     assert_non_null(strstr(json, "\"planes\": []"));
     jo_free(json);
-    step(scene, 1);
+    step_scene(scene, 1);
     json = jo_scene_inspect(scene, 1);
     assert_non_null(strstr(json, "\"seen\": true"));
     jo_free(json);
@@ -222,14 +223,14 @@ static void inspection_names_the_places_that_set_values(void **state) {
 
 static void inspections_expire(void **state) {
     (void)state;
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     JoxInspection *all = &scene->world->scratch.inspection;
     for (uint32_t slot = 0; slot < 4; slot++)
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, 4);
-    step(scene, 60);
+    step_scene(scene, 60);
     jo_free(jo_scene_inspect(scene, 2));
-    step(scene, 60);
+    step_scene(scene, 60);
     assert_int_equal(all->count, 1);
     assert_int_equal(all->agents[0].slot, 2);
     for (int n = 0; n < 14; n++)
@@ -238,7 +239,7 @@ static void inspections_expire(void **state) {
     for (uint32_t slot = 3; slot < 18; slot++) /* one too many: replaces the oldest */
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, JOX_MOST_INSPECTED);
-    step(scene, 1);
+    step_scene(scene, 1);
     jo_scene_free(scene);
 }
 
@@ -250,5 +251,5 @@ int main(void) {
         cmocka_unit_test(inspection_of_a_restored_world_waits_for_a_step),
         cmocka_unit_test(inspections_expire),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

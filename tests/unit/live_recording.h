@@ -74,30 +74,19 @@ static inline void note_frame(const JoScene *scene) {
 
 /* Runs and records the scene; it has no bodies if the build is without Bullet. */
 static inline void record_room(void) {
-    JoScene *scene = load_own(ROOM, WALKERS);
+    JoScene *scene = load_scene_text(ROOM, WALKERS);
     JoError error = {0};
     recorded_count = 0;
-    snprintf(path, sizeof path, "%s/room.sqlite", folder);
+    snprintf(path, sizeof path, "%s/room.sqlite", test_folder);
     if (!jo_scene_record(scene, path, 0.0, &error))
         fail_msg("%s", error.text);
     for (int t = 0; t < 200; t++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         if (scene->world->state.tick % 2 == 0)
             note_frame(scene);
     }
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
-}
-
-static inline int remove_recordings(void **state) {
-    static const char *const NAMES[] = {"room.sqlite", "other.sqlite", "broken.sqlite", "walk.txt",
-                                        "index.html"};
-    for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
-        char file[300];
-        snprintf(file, sizeof file, "%s/%s", folder, NAMES[n]);
-        unlink(file);
-    }
-    return remove_folder(state);
 }
 
 #endif

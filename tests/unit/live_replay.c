@@ -143,8 +143,7 @@ static void speeds_and_densities_match_the_frames(void **state) {
 
 static void scene_message_of_a_recording(void **state) {
     (void)state;
-    char scene[300];
-    snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
+    const char *scene = test_path("scene.yaml");
     for (int k = 0; k < 2; k++) {
         JoxReplay *replay = open_replay(path, k ? scene : NULL, 0);
         JoxText text = {0}, told = {0};
@@ -201,22 +200,20 @@ static void scene_message_of_a_recording(void **state) {
 static void density_wraps_at_periodic_edges(void **state) {
     (void)state;
     JoScene *scene =
-        load_own("jostle: 1\n"
-                 "bounds: [[0, 0], [20, 6]]\n"
-                 "periodic: x\n"
-                 "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
-                 "3]]}}\n",
-                 HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to = \"B\", "
-                      "when = after(0.5) } }, B = { steer = hold, radius = 0.6 } } "
-                      "}\n");
+        load_scene_text("jostle: 1\n"
+                        "bounds: [[0, 0], [20, 6]]\n"
+                        "periodic: x\n"
+                        "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
+                        "3]]}}\n",
+                        HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to = \"B\", "
+                             "when = after(0.5) } }, B = { steer = hold, radius = 0.6 } } "
+                             "}\n");
     JoError error = {0};
     JoxText text = {0}, told = {0};
-    char file[300], plan[300];
-    snprintf(file, sizeof file, "%s/other.sqlite", folder);
-    snprintf(plan, sizeof plan, "%s/scene.yaml", folder);
+    const char *file = test_path("other.sqlite"), *plan = test_path("scene.yaml");
     unlink(file);
     assert_true(jo_scene_record(scene, file, 0.0, &error));
-    step(scene, 4);
+    step_scene(scene, 4);
     jox_live_status(scene, &(JoxLiveSession){.speed = 1}, &text);
     parse_numbers(&text);
     const double most = number_at("density_max", 0, 0, 0);
@@ -235,22 +232,22 @@ static void density_wraps_at_periodic_edges(void **state) {
 /* An open gate and a changed radius are shown as of each frame, in any order of frames. */
 static void gates_and_radii_follow_the_shown_frame(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "walls: [{line: [[8, 0], [8, 6]], name: gate}]\n"
-                              "groups: {people: {behaviour: own.lua, at: [[1, 3]]}}\n",
-                              HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to "
-                                   "= \"B\", when = after(0.5) } }, B = { steer = hold, "
-                                   "radius = 0.6 } } }\n");
+    JoScene *scene =
+        load_scene_text("jostle: 1\n"
+                        "walls: [{line: [[8, 0], [8, 6]], name: gate}]\n"
+                        "groups: {people: {behaviour: own.lua, at: [[1, 3]]}}\n",
+                        HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to "
+                             "= \"B\", when = after(0.5) } }, B = { steer = hold, "
+                             "radius = 0.6 } } }\n");
     JoError error = {0};
     JoxText text = {0}, told = {0};
     JoxBytes people = {0};
-    char file[300];
-    snprintf(file, sizeof file, "%s/other.sqlite", folder);
+    const char *file = test_path("other.sqlite");
     unlink(file);
     assert_true(jo_scene_record(scene, file, 0.0, &error));
-    step(scene, 20);
+    step_scene(scene, 20);
     assert_true(jo_scene_input(scene, "open gate", &error));
-    step(scene, 20);
+    step_scene(scene, 20);
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
     JoxReplay *replay = open_replay(file, NULL, 0);
@@ -299,8 +296,7 @@ static void copy_recording(const char *from, const char *to) {
 static void recordings_without_index_or_order_are_read(void **state) {
     (void)state;
     static uint32_t slots[4000];
-    char other[300];
-    snprintf(other, sizeof other, "%s/other.sqlite", folder);
+    const char *other = test_path("other.sqlite");
     copy_recording(path, other);
     run_sql(other, WITHOUT_KEY "DROP TABLE frame_data");
     JoxReplay *replay = open_replay(other, NULL, 0);
@@ -326,11 +322,10 @@ static void recordings_without_index_or_order_are_read(void **state) {
         people += seen.slot[8 * (size_t)s + 5] == 254; /* their states are unknown */
     assert_int_equal(people, recorded[50].count);
     jox_replay_close(replay);
-    write_file(
+    write_test_file(
         "walk.txt",
         "#framerate: 10\n# id frame x/m y/m\n7 10 0 -1\n7 11 0.1 -1\n7 12 0.2 -1\n3 12 5 5\n");
-    snprintf(other, sizeof other, "%s/walk.txt", folder);
-    replay = open_replay(other, NULL, 0);
+    replay = open_replay(test_path("walk.txt"), NULL, 0);
     assert_int_equal(jox_replay_frames(replay), 3);
     assert_true(jox_replay_show(replay, 2, &told));
     jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, &bytes);
@@ -370,10 +365,9 @@ static bool show_all_frames(const char *file, JoxText *told) {
 
 static void damaged_recordings_give_errors(void **state) {
     (void)state;
-    char other[300];
+    const char *other = test_path("broken.sqlite");
     size_t length;
     char *text = jox_read_file(path, 1 << 30, &length);
-    snprintf(other, sizeof other, "%s/broken.sqlite", folder);
     uint32_t wrong = 0;
     for (int k = 0; k < 60; k++) {
         JoxText told = {0};
@@ -434,5 +428,5 @@ int main(void) {
         cmocka_unit_test(gates_and_radii_follow_the_shown_frame),
         cmocka_unit_test(damaged_recordings_give_errors),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_recordings);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

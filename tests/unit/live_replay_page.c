@@ -63,9 +63,9 @@ static void recording_page_plays_pauses_and_seeks(void **state) {
     record_room();
     pthread_t thread;
     JoViewRecordingDef def = jo_default_view_recording_def();
-    write_file("index.html", "a page");
+    write_test_file("index.html", "a page");
     def.recording = path;
-    def.page = folder;
+    def.page = test_folder;
     def.stop = &stop;
     def.opened = keep_page_address;
     assert_int_equal(pthread_create(&thread, NULL, serve_recording, &def), 0);
@@ -124,5 +124,5 @@ static void recording_page_plays_pauses_and_seeks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(recording_page_plays_pauses_and_seeks)};
-    return cmocka_run_group_tests(tests, make_folder, remove_recordings);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

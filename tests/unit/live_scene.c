@@ -50,7 +50,7 @@ static void scene_message_has_all_parts_of_tawaf(void **state) {
 
 static void scene_message_of_bodies_and_a_player(void **state) {
     (void)state;
-    JoScene *scene = load("scenes/dodgeball.yaml", NULL, 0);
+    JoScene *scene = load_scene_file("scenes/dodgeball.yaml", NULL, 0);
     JoxText text = {0};
     jox_live_scene(scene, &text);
     parse_numbers(&text);
@@ -65,7 +65,7 @@ static void scene_message_of_bodies_and_a_player(void **state) {
         assert_near(number_at("walls.0.points.4.%d", k, 0, 0),
                     number_at("walls.0.points.0.%d", k, 0, 0), 0);
     assert_true(isnan(number_at("walls.1.height", 0, 0, 0)));
-    step(scene, 3);
+    step_scene(scene, 3);
     JoxBytes frame = {0};
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
     Seen seen = decode_frame(&frame, scene->world);
@@ -90,19 +90,19 @@ static void scene_message_of_bodies_and_a_player(void **state) {
 /* Names from files, with any characters, are escaped in the scene message. */
 static void scene_message_escapes_names(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\n"
-                 "title: \"a \\\"title\\\" \\\\ with\\ttab, \\x01, \xC3\xA9 and \xE2\x82\xAC\"\n"
-                 "view: {tools: [throw, gates, push], colour: speed, field: pressure}\n"
-                 "camera: {position: [1, -2, 3], target: [0, 0.5, 0]}\n"
-                 "places: {\"y\xC3\xA4rd 1.b\": {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\n"
-                 "walls:\n"
-                 "  - {line: [[0, 0], [0, 5], [3, 5]], name: \"g\xC3\xA4-te\", open: true}\n"
-                 "  - {line: [[5, 0], [5, 5]], name: \"g\xC3\xA4-te\"}\n"
-                 "probes: {out: {flow: [[0, 0], [0, 4]]}}\n"
-                 "groups: {\"p\xC3\xA9 ople\": {behaviour: own.lua, count: 4, fill: grid, in: "
-                 "\"y\xC3\xA4rd 1.b\"}}\n",
-                 FAST("1", ""));
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "title: \"a \\\"title\\\" \\\\ with\\ttab, \\x01, \xC3\xA9 and \xE2\x82\xAC\"\n"
+        "view: {tools: [throw, gates, push], colour: speed, field: pressure}\n"
+        "camera: {position: [1, -2, 3], target: [0, 0.5, 0]}\n"
+        "places: {\"y\xC3\xA4rd 1.b\": {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\n"
+        "walls:\n"
+        "  - {line: [[0, 0], [0, 5], [3, 5]], name: \"g\xC3\xA4-te\", open: true}\n"
+        "  - {line: [[5, 0], [5, 5]], name: \"g\xC3\xA4-te\"}\n"
+        "probes: {out: {flow: [[0, 0], [0, 4]]}}\n"
+        "groups: {\"p\xC3\xA9 ople\": {behaviour: own.lua, count: 4, fill: grid, in: "
+        "\"y\xC3\xA4rd 1.b\"}}\n",
+        FAST("1", ""));
     JoxText text = {0};
     jox_live_scene(scene, &text);
     parse_numbers(&text);
@@ -128,7 +128,7 @@ static void scene_message_escapes_names(void **state) {
         assert_near(number_at("dropped", 0, 0, 0), 7, 0);
         assert_near(number_at("time", 0, 0, 0), 0.05 * k, 1e-9);
         jox_text_free(&status);
-        step(scene, 1);
+        step_scene(scene, 1);
     }
     jox_text_free(&text);
     jo_scene_free(scene);
@@ -137,12 +137,12 @@ static void scene_message_escapes_names(void **state) {
 /* The version changes when a body breaks, but not when a gate opens. */
 static void version_changes_with_bodies_but_not_with_gates(void **state) {
     (void)state;
-    JoScene *scene = load("scenes/wall-breaking.yaml", NULL, 0);
+    JoScene *scene = load_scene_file("scenes/wall-breaking.yaml", NULL, 0);
     uint64_t version = jox_live_version(scene);
     const uint32_t bodies = jox_bodies_count(scene->world->state.bodies);
     for (int t = 0; t < 600 && jox_bodies_count(scene->world->state.bodies) == bodies; t++) {
         assert_true(jox_live_version(scene) == version);
-        step(scene, 1);
+        step_scene(scene, 1);
     }
     assert_true(jox_bodies_count(scene->world->state.bodies) > bodies);
     assert_true(jox_live_version(scene) != version);
@@ -157,9 +157,9 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
     jox_bytes_free(&frame);
     jox_text_free(&text);
     jo_scene_free(scene);
-    scene = load("scenes/gates.yaml", NULL, 0);
+    scene = load_scene_file("scenes/gates.yaml", NULL, 0);
     version = jox_live_version(scene);
-    step(scene, 20 * 30);
+    step_scene(scene, 20 * 30);
     assert_true(scene->world->state.statistics.opened > 0);
     assert_true(jox_live_version(scene) == version);
     jo_scene_free(scene);
@@ -172,5 +172,5 @@ int main(void) {
         cmocka_unit_test(scene_message_escapes_names),
         cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

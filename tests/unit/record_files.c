@@ -20,22 +20,22 @@
 #include "record/fields/density.h"
 #include "record/recorder.h"
 #include "record/regions.h"
+#include "unit/test_folder.h"
 
-static char folder[] = "/tmp/jostle-record-XXXXXX";
-static char path[128];
+static char path[320];
 static const char WKT[] = "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))";
 
-static int make_folder(void **state) {
-    (void)state;
-    bool made = mkdtemp(folder) != NULL;
-    snprintf(path, sizeof path, "%s/a.sqlite", folder);
-    return made ? 0 : -1;
+static int make_recording_folder(void **state) {
+    const int failed = make_test_folder(state);
+    snprintf(path, sizeof path, "%s", test_path("a.sqlite"));
+    return failed;
 }
 
-static int remove_folder(void **state) {
+/* Fails where another file is left beside the recording. */
+static int remove_recording_folder(void **state) {
     (void)state;
     unlink(path);
-    return rmdir(folder);
+    return rmdir(test_folder);
 }
 
 /* Submits frame f: people 0 to 2 at (f + id/4, -f), looking along +y, in state id. */
@@ -99,7 +99,7 @@ static void recording_reads_back(void **state) {
                     db, "SELECT count(*) FROM geometry JOIN frame_data ON hash = geometry_hash "
                         "WHERE wkt = 'POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))'") == 100);
     sqlite3_close(db);
-    unlink(path); /* no other file is left beside it, or remove_folder would fail */
+    unlink(path); /* no other file is left beside it, or remove_recording_folder would fail */
 }
 
 static void killed_writer_leaves_complete_frames(void **state) {
@@ -188,7 +188,7 @@ static void assert_refused(const char *where, const char *why) {
 static void other_files_are_not_replaced(void **state) {
     (void)state;
     assert_refused("/nowhere/at/all.sqlite", "cannot record to");
-    assert_refused(folder, "not a recording");
+    assert_refused(test_folder, "not a recording");
     assert_refused("/dev/null", "not a recording");
     FILE *file = fopen(path, "w");
     fputs("dear diary", file);
@@ -256,7 +256,7 @@ static void recording_ends_while_another_reads(void **state) {
     assert_int_equal(sqlite3_column_int(reading, 0), 5);
     sqlite3_finalize(reading);
     sqlite3_close(other);
-    char beside[256];
+    char beside[340];
     snprintf(beside, sizeof beside, "%s-wal", path);
     assert_int_equal(access(beside, F_OK), -1);
     unlink(path);
@@ -488,5 +488,5 @@ int main(void) {
                                        cmocka_unit_test(figures_of_runs_are_joined),
                                        cmocka_unit_test(input_and_coordinates_are_listed),
                                        cmocka_unit_test(speeds_per_region)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_recording_folder, remove_recording_folder);
 }

@@ -14,21 +14,14 @@
 
 #include "record/recorder.h"
 #include "record/trajectories.h"
+#include "unit/test_folder.h"
 
-static char folder[] = "/tmp/jostle-trajectories-XXXXXX";
-static char path[128];
+static char path[320];
 
-static int make_folder(void **state) {
-    (void)state;
-    bool made = mkdtemp(folder) != NULL;
-    snprintf(path, sizeof path, "%s/crowd", folder);
-    return made ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    unlink(path);
-    return rmdir(folder);
+static int make_recording_folder(void **state) {
+    const int failed = make_test_folder(state);
+    snprintf(path, sizeof path, "%s", test_path("crowd"));
+    return failed;
 }
 
 static void write_recording_text(const char *text, size_t length) {
@@ -461,5 +454,5 @@ int main(void) {
         cmocka_unit_test(own_recordings_keep_forces_and_walls),
         cmocka_unit_test(rows_in_any_order_are_read),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_recording_folder, remove_test_folder);
 }

@@ -2,7 +2,7 @@
    refused with a reason where it cannot, and is played back from the log to the same state. */
 #include <math.h>
 
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define OWN                                                                                        \
     "local mine = memory { met = false, hits = 0 }\n" HEAD                                         \
@@ -20,7 +20,8 @@ static JoWorld *world;
 static JoError error;
 
 static void begin_scene(void) {
-    scene = load_own(jox_bodies_available() ? WORLD PLACES WESTWARD : PLAIN PLACES WESTWARD, OWN);
+    scene = load_scene_text(jox_bodies_available() ? WORLD PLACES WESTWARD : PLAIN PLACES WESTWARD,
+                            OWN);
     world = jo_scene_world(scene);
     error = (JoError){0};
 }
@@ -52,47 +53,47 @@ static void people_are_added_and_moved(void **state) {
     double mass;
     assert_true(jo_agent_parameter(world, one, "mass", &mass) && mass == 80.0); /* of its group */
     JoAgent crowded = jo_world_spawn(world, "people", 5, 2, &error);
-    step(scene, 1);
+    step_scene(scene, 1);
     const JoAgentState a = jo_agent_state(world, one), b = jo_agent_state(world, crowded);
     assert_true(hypot(a.x - b.x, a.y - b.y) > 0.25); /* the second was put beside the first */
     assert_true(jo_agent_teleport(world, one, 12, -3, &error));
     assert_true(jo_agent_state(world, one).x == 12.0 && jo_agent_state(world, one).vx == 0.0);
     assert_true(jo_agent_teleport(world, crowded, 30, 0, &error)); /* in a wall: beside it */
     assert_true(fabs(jo_agent_state(world, crowded).x - 30.0) > 0.19);
-    step(scene, 20);
+    step_scene(scene, 20);
     assert_true(jo_agent_state(world, one).x < 11.5); /* on its way to the west */
     jo_world_remove_agent(world, one);
     assert_false(jo_agent_is_live(world, one));
     assert_int_equal(jo_world_agent_count(world), 5);
-    step(scene, 5);
+    step_scene(scene, 5);
     jo_scene_free(scene);
 }
 
 static void what_people_want_is_set(void **state) {
     (void)state;
     begin_scene();
-    step(scene, 10);
+    step_scene(scene, 10);
     const JoAgent one = agent_of(0), two = agent_of(3); /* whom nobody follows */
     double value;
     assert_true(jo_agent_state(world, one).vx < 0.0);
     assert_true(jo_agent_teleport(world, one, 0, -9, &error)); /* out of the others' way */
     assert_true(jo_agent_set_goal(world, one, "east", &error));
     assert_true(jo_agent_set_parameter(world, two, "speed", 0.5, &error));
-    step(scene, 60);
+    step_scene(scene, 60);
     assert_true(jo_agent_state(world, one).vx > 0.0);
     assert_true(fabs(jo_agent_state(world, two).vx + 0.5) < 0.05);
     assert_true(jo_agent_set_memory(world, two, "hits", 3, &error));
     assert_true(jo_agent_memory(world, two, "hits", &value) && value == 3.0);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_string_equal(jo_agent_state(world, two).state, "Rest");
     assert_true(jo_agent_memory(world, two, "met", &value) && value == 1.0);
     assert_true(jo_agent_set_state(world, one, "Rest", &error));
     assert_string_equal(jo_agent_state(world, one).state, "Rest");
     assert_true(jo_agent_memory(world, one, "met", &value) && value == 0.0);
-    step(scene, 1); /* what is done on entering, is done in the next step */
+    step_scene(scene, 1); /* what is done on entering, is done in the next step */
     assert_true(jo_agent_memory(world, one, "met", &value) && value == 1.0);
     assert_true(jo_agent_set_state(world, one, "Left", &error));
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_false(jo_agent_is_live(world, one));
     jo_scene_free(scene);
 }
@@ -100,7 +101,7 @@ static void what_people_want_is_set(void **state) {
 static void mistakes_are_refused_and_change_nothing(void **state) {
     (void)state;
     begin_scene();
-    step(scene, 2);
+    step_scene(scene, 2);
     const JoAgent one = agent_of(0), gone = agent_of(3), none = {0};
     jo_world_remove_agent(world, gone);
     REFUSED(jo_world_spawn(world, "peple", 1, 1, &error).generation, "Did you mean 'people'?");
@@ -139,7 +140,7 @@ static void bodies_are_pushed_and_placed(void **state) {
     if (!jox_bodies_available())
         skip();
     begin_scene();
-    step(scene, 1);
+    step_scene(scene, 1);
     const JoBody ball = jo_world_find_body(world, "ball"),
                  pillar = jo_world_find_body(world, "pillar");
     assert_true(jo_body_is_live(world, ball) && jo_body_is_live(world, pillar));
@@ -149,7 +150,7 @@ static void bodies_are_pushed_and_placed(void **state) {
     assert_true(jo_body_place(world, ball, (double[]){10, 4, 1}, NULL, &error));
     assert_true(jo_body_state(world, ball).x == 10.0 && jo_body_state(world, ball).vx == 0.0);
     assert_true(jo_body_set_velocity(world, ball, (double[]){0, 2, 0}, NULL, &error));
-    step(scene, 2);
+    step_scene(scene, 2);
     assert_true(fabs(jo_body_state(world, ball).y - 4.2) < 0.02);
     assert_true(jo_body_place(world, pillar, (double[]){2, 9, 1}, (double[]){0, 0, 0.6, 0.8},
                               &error)); /* static ones too */
@@ -162,28 +163,28 @@ static void bodies_are_pushed_and_placed(void **state) {
     assert_true(jo_body_remove(world, ball, &error));
     assert_false(jo_body_is_live(world, ball));
     REFUSED(jo_body_remove(world, ball, &error), "no body");
-    step(scene, 2);
+    step_scene(scene, 2);
     jo_scene_free(scene);
 }
 
 static void walls_come_and_go(void **state) {
     (void)state;
     begin_scene();
-    step(scene, 5);
+    step_scene(scene, 5);
     const JoAgent first = agent_of(0); /* goes west, from about x = 0 */
     assert_true(jo_world_add_wall(world, "block", (double[]){-2, -9, -2, 9}, 2, &error));
-    step(scene, 80);
+    step_scene(scene, 80);
     assert_true(jo_agent_state(world, first).x > -2.0);
     assert_true(jo_world_open_wall(world, "block", true, &error));
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_true(jo_agent_state(world, first).x < -2.0);
     assert_true(
         jo_world_add_wall(world, "solid", (double[]){-60, -9, -4, -9, -4, 9, -60, 9}, 4, &error));
-    step(scene, 1); /* who stood there is moved out */
+    step_scene(scene, 1); /* who stood there is moved out */
     assert_true(jo_agent_state(world, first).x > -4.0);
     assert_true(jo_world_remove_wall(world, "solid", &error) &&
                 jo_world_remove_wall(world, "block", &error));
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_true(jo_agent_state(world, first).x < -4.0);
     jo_scene_free(scene);
 }
@@ -191,23 +192,23 @@ static void walls_come_and_go(void **state) {
 /* A snapshot holds the walls that were added, and whether they are open. */
 static void added_walls_are_state(void **state) {
     (void)state;
-    scene = load_own(PLAIN PLACES WESTWARD, OWN);
+    scene = load_scene_text(PLAIN PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
     JoxText empty = {0}, walled = {0};
     assert_true(jox_world_snapshot(world, &empty, &error));
     assert_true(jo_world_add_wall(world, "a", (double[]){-1, -9, -1, 9}, 2, &error) &&
                 jo_world_add_wall(world, "b", (double[]){-2, -9, -2, 9}, 2, &error) &&
                 jo_world_open_wall(world, "a", true, &error));
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_true(jox_world_snapshot(world, &walled, &error));
     const uint64_t then = jo_world_hash(world);
-    step(scene, 30);
+    step_scene(scene, 30);
     const uint64_t later = jo_world_hash(world);
     assert_true(jox_world_restore(world, empty.data, empty.length, &error));
     assert_int_equal(world->model.all_walls.ring_count, 1);
     assert_true(jox_world_restore(world, walled.data, walled.length, &error));
     assert_true(jo_world_hash(world) == then);
-    step(scene, 30);
+    step_scene(scene, 30);
     assert_true(jo_world_hash(world) == later);
     jox_text_free(&empty);
     jox_text_free(&walled);
@@ -216,17 +217,15 @@ static void added_walls_are_state(void **state) {
 
 static void all_of_it_plays_back(void **state) {
     (void)state;
-    char log[300], yaml[300];
-    snprintf(log, sizeof log, "%s/acts.input", folder);
-    snprintf(yaml, sizeof yaml, "%s/scene.yaml", folder);
+    const char *log = test_path("acts.input");
     begin_scene();
     assert_true(jo_scene_log_input(scene, log, &error));
-    step(scene, 3);
+    step_scene(scene, 3);
     const JoAgent added = jo_world_spawn(world, "people", 4.1, 3.7, &error);
     assert_true(jo_agent_set_goal(world, added, "east", &error));
     assert_true(jo_agent_teleport(world, agent_of(1), 9.3, 1.0 / 3.0, &error));
     jo_agent_apply_force(world, agent_of(0), 120.5, -33);
-    step(scene, 4);
+    step_scene(scene, 4);
     assert_true(jo_agent_set_parameter(world, added, "speed", 0.7, &error) &&
                 jo_agent_set_memory(world, agent_of(2), "hits", 3, &error) &&
                 jo_agent_set_state(world, agent_of(3), "Rest", &error) &&
@@ -239,22 +238,18 @@ static void all_of_it_plays_back(void **state) {
             jo_body_impulse(world, ball, (double[]){-3, 0.1, 0}, (double[]){6, 1, 1.6}, &error) &&
             jo_body_remove(world, jo_world_find_body(world, "pillar"), &error));
     }
-    step(scene, 20);
+    step_scene(scene, 20);
     jo_world_remove_agent(world, agent_of(0));
     assert_true(jo_world_remove_wall(world, "a wall", &error));
-    step(scene, 10);
+    step_scene(scene, 10);
     const uint64_t hash = jo_world_hash(world);
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
-    JoSceneDef def = jo_default_scene_def();
-    def.path = yaml;
+    JoSceneDef def = define_scene(test_path("scene.yaml"));
     def.input_log = log;
     def.threads = 2;
-    def.message = collect_message;
-    def.named_mods_only = true;
-    scene = jo_scene_load(&def, &error);
-    assert_non_null(scene);
-    step(scene, 37);
+    scene = load_defined_scene(&def);
+    step_scene(scene, 37);
     assert_true(jo_world_hash(jo_scene_world(scene)) == hash);
     jo_scene_free(scene);
     assert_int_equal(remove(log), 0);
@@ -270,5 +265,5 @@ int main(void) {
         cmocka_unit_test(added_walls_are_state),
         cmocka_unit_test(all_of_it_plays_back),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,6 +1,6 @@
 /* Arrivals: nobody leaves, queues or gets to a place through a wall or a closed gate, and whoever
    has a way arrives. */
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 /* A hall, x from 0 to 24, y from 0 to 8, that a wall may divide at x = 20. */
 #define HALL(wall, place, more)                                                                    \
@@ -62,13 +62,13 @@ static void nobody_arrives_through_a_wall(void **state) {
     (void)state;
     for (size_t n = 0; n < sizeof ARRIVALS / sizeof *ARRIVALS; n++) {
         const Arrival *a = &ARRIVALS[n];
-        JoScene *scene = load_own(a->yaml, a->behaviour);
-        step(scene, 400);
+        JoScene *scene = load_scene_text(a->yaml, a->behaviour);
+        step_scene(scene, 400);
         if (scene->world->state.exits.left != a->first)
             fail_msg("%s: %d of 3 left", a->name, (int)scene->world->state.exits.left);
         if (strstr(a->yaml, "name: gate"))
-            does(scene, "open gate");
-        step(scene, 400);
+            apply_input(scene, "open gate");
+        step_scene(scene, 400);
         if (scene->world->state.exits.left != a->later)
             fail_msg("%s: %d of 3 left in the end", a->name, (int)scene->world->state.exits.left);
         jo_scene_free(scene);
@@ -77,5 +77,5 @@ static void nobody_arrives_through_a_wall(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_arrives_through_a_wall)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 static const char GREET[] =
     "local mine = memory { met = 0, left = 0 }\n" HEAD "\"Enter\", states = {\n"
@@ -41,16 +41,16 @@ static const char *state_of(const JoScene *scene, uint32_t agent) {
 
 static void a_renamed_state_goes_on_where_it_was(void **state) {
     (void)state;
-    JoScene *scene = load_own(PEOPLE(5), GREET);
-    step(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
+    JoScene *scene = load_scene_text(PEOPLE(5), GREET);
+    step_scene(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
     assert_string_equal(state_of(scene, 0), "Greet");
     uint32_t entered = scene->world->state.agents.entered[0];
-    assert_true(reload_text(scene, 0, ISTILAM));
+    assert_true(reload_behaviour(scene, 0, ISTILAM));
     assert_string_equal(state_of(scene, 0), "Istilam");
     assert_int_equal(scene->world->state.agents.entered[0], entered);
     int steps = 0;
     for (; strcmp(state_of(scene, 0), "Istilam") == 0 && steps < 100; steps++)
-        step(scene, 1);
+        step_scene(scene, 1);
     assert_in_range(steps, 3, 8); /* its time counts from when Greet was entered */
     for (uint32_t i = 0; i < 5; i++) {
         assert_true(memory_of(scene, i, "met") == 1.0); /* not entered again */
@@ -79,13 +79,13 @@ static void renamed_memory_and_own_values_are_kept(void **state) {
                                 "\"A\", own = { calm = 5, bravery = uniform(2, 3) },\n"
                                 "  renamed = { courage = \"bravery\", met = \"seen\" }, states = { "
                                 "A = { steer = hold } } }\n";
-    JoScene *scene = load_own(PEOPLE(4), BEFORE);
-    step(scene, 2);
+    JoScene *scene = load_scene_text(PEOPLE(4), BEFORE);
+    step_scene(scene, 2);
     double courage[4];
     for (uint32_t i = 0; i < 4; i++)
         courage[i] = own_of(scene, i, "courage");
     assert_true(courage[0] != courage[1]);
-    assert_true(reload_text(scene, 0, AFTER));
+    assert_true(reload_behaviour(scene, 0, AFTER));
     for (uint32_t i = 0; i < 4; i++) {
         assert_true(own_of(scene, i, "bravery") == courage[i]);
         assert_true(own_of(scene, i, "calm") == 5.0);
@@ -100,20 +100,20 @@ static void a_state_with_people_cannot_disappear(void **state) {
     static const char WITHOUT[] =
         HEAD "\"Enter\", states = { Enter = { steer = hold }, Istilam = { steer = hold, "
              "{ to = \"Enter\", when = after(1) } } } }\n";
-    JoScene *scene = load_own(PEOPLE(312), GREET);
-    assert_true(reload_text(scene, 0, GREET));
-    step(scene, 8);
+    JoScene *scene = load_scene_text(PEOPLE(312), GREET);
+    assert_true(reload_behaviour(scene, 0, GREET));
+    step_scene(scene, 8);
     uint64_t before = jo_world_hash(scene->world);
-    assert_false(reload_text(scene, 0, WITHOUT));
-    assert_non_null(strstr(why, "312 agents are in 'Greet', which this version lacks"));
-    assert_non_null(strstr(why, "renamed"));
+    assert_false(reload_behaviour(scene, 0, WITHOUT));
+    assert_non_null(strstr(refusal, "312 agents are in 'Greet', which this version lacks"));
+    assert_non_null(strstr(refusal, "renamed"));
     assert_int_equal(jo_world_hash(scene->world), before);
     assert_int_equal(scene->world->model.machines.items[0]->reloads, 1);
-    step(scene, 8);
+    step_scene(scene, 8);
     assert_string_equal(state_of(scene, 311), "Greet");
     jo_scene_free(scene);
-    scene = load_own(PEOPLE(312), GREET); /* nobody has got there yet */
-    assert_true(reload_text(scene, 0, WITHOUT));
+    scene = load_scene_text(PEOPLE(312), GREET); /* nobody has got there yet */
+    assert_true(reload_behaviour(scene, 0, WITHOUT));
     jo_scene_free(scene);
 }
 
@@ -126,17 +126,17 @@ static void memory_is_kept_by_name_and_type(void **state) {
     static const char AFTER[] =
         "local mine = memory { fresh = 11, tired = 4, laps = 0, seen = true }\n" HEAD
         "\"A\", states = { A = { steer = hold, on_enter = function(me) me.laps = 99 end } } }\n";
-    JoScene *scene = load_own(PEOPLE(5), BEFORE);
-    step(scene, 2);
+    JoScene *scene = load_scene_text(PEOPLE(5), BEFORE);
+    step_scene(scene, 2);
     assert_true(memory_of(scene, 4, "seen") == 7.0 && memory_of(scene, 4, "tired") == 1.0);
-    assert_true(reload_text(scene, 0, AFTER));
+    assert_true(reload_behaviour(scene, 0, AFTER));
     for (uint32_t i = 0; i < 5; i++) {
         assert_true(memory_of(scene, i, "laps") == 5.0);  /* kept; on_enter has not run */
         assert_true(memory_of(scene, i, "tired") == 4.0); /* was a boolean */
         assert_true(memory_of(scene, i, "seen") == 1.0);  /* was a number */
         assert_true(memory_of(scene, i, "fresh") == 11.0);
     }
-    step(scene, 2);
+    step_scene(scene, 2);
     assert_true(memory_of(scene, 4, "laps") == 5.0);
     jo_scene_free(scene);
 }
@@ -148,11 +148,11 @@ static const char TWO_GROUPS[] =
 
 static void another_distribution_reaches_the_living(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
-    step(scene, 3);
+    JoScene *scene = load_scene_text(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
+    step_scene(scene, 3);
     uint64_t before = jo_world_hash(scene->world);
     const JoxAgents *a = &scene->world->state.agents;
-    assert_true(reload_text(scene, 0, FAST("uniform(1.4, 1.6)", "")));
+    assert_true(reload_behaviour(scene, 0, FAST("uniform(1.4, 1.6)", "")));
     double low = 9, high = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         double speed = read_wanted_speed(scene, i);
@@ -165,12 +165,12 @@ static void another_distribution_reaches_the_living(void **state) {
         high = speed > high ? speed : high;
     }
     assert_true(low < 1.45 && high > 1.55); /* each has its own */
-    assert_true(reload_text(scene, 0, FAST("2", "")));
+    assert_true(reload_behaviour(scene, 0, FAST("2", "")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
-    assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", "")));
+    assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", "")));
     assert_int_equal(jo_world_hash(scene->world), before); /* and back: the same random numbers */
-    assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
+    assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) ==
                     (double)1.9f); /* a state's value goes before both */
@@ -187,16 +187,16 @@ static void own_values_are_kept_by_name(void **state) {
              "  horizon = uniform(0.3, 0.6), speed = uniform(1, 2) }, states = {\n"
              "  A = { steer = hold, max_speed = uniform(2, 3), push = own.perception + 100 * "
              "own.horizon } } }\n";
-    JoScene *scene = load_own(PEOPLE(40), BEFORE);
-    step(scene, 2);
+    JoScene *scene = load_scene_text(PEOPLE(40), BEFORE);
+    step_scene(scene, 2);
     double speed[40], push[40];
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < 40; i++) {
         speed[a->id[i]] = read_wanted_speed(scene, i);
         push[a->id[i]] = (double)jox_param(a, JOX_PARAM_push, i);
     }
-    assert_true(reload_text(scene, 0, AFTER));
-    step(scene, 1);
+    assert_true(reload_behaviour(scene, 0, AFTER));
+    step_scene(scene, 1);
     for (uint32_t i = 0; i < 40; i++) {
         double more = (double)jox_param(a, JOX_PARAM_push, i) - push[a->id[i]];
         assert_true(read_wanted_speed(scene, i) == speed[a->id[i]]);
@@ -213,12 +213,12 @@ static void values_that_move_are_carried(void **state) {
     static const char *const TEXTS[] = {ZEAL("mass = 50 + own.zest, speed = own.pace, "), ZEAL(""),
                                         ZEAL("speed = own.pace, radius = uniform(0.2, 0.25), ")};
     JoScene *scene =
-        load_own(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
-                       "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
-                 TEXTS[0]);
+        load_scene_text(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
+                              "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
+                        TEXTS[0]);
     const JoxAgents *a = &scene->world->state.agents;
     double push[40];
-    step(scene, 2);
+    step_scene(scene, 2);
     for (uint32_t i = 0; i < 40; i++)
         push[a->id[i]] = (double)jox_param(a, JOX_PARAM_push, i);
     assert_true(push[3] != push[4]);
@@ -226,14 +226,14 @@ static void values_that_move_are_carried(void **state) {
     bool moved = false;
     uint32_t before = 0;
     for (size_t k = 0; k < sizeof ORDER / sizeof *ORDER; k++) {
-        assert_true(reload_text(scene, 0, TEXTS[ORDER[k]]));
+        assert_true(reload_behaviour(scene, 0, TEXTS[ORDER[k]]));
         const JoxMachine *now = scene->world->model.machines.items[0];
         uint32_t slot = 0;
         while (strcmp(now->own[slot].name, "zeal") != 0)
             slot++;
         moved |= k > 0 && slot != before;
         before = slot;
-        step(scene, 1);
+        step_scene(scene, 1);
         for (uint32_t i = 0; i < 40; i++)
             assert_true((double)jox_param(a, JOX_PARAM_push, i) == push[a->id[i]]);
         for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
@@ -251,8 +251,8 @@ static void chances_are_not_rolled_again(void **state) {
     HEAD "\"A\", states = { A = { steer = hold, " before                                           \
          "{ to = \"B\", when = after(0.1), chance = 0.5 } }, B = { steer = hold }, "               \
          "C = { steer = hold } } }\n"
-    JoScene *scene = load_own(PEOPLE(200), ROLL(""));
-    step(scene, 8);
+    JoScene *scene = load_scene_text(PEOPLE(200), ROLL(""));
+    step_scene(scene, 8);
     uint32_t people[3];
     jox_machines_people(&scene->world->machines, 0, people);
     assert_in_range(people[0], 60, 140);
@@ -262,8 +262,8 @@ static void chances_are_not_rolled_again(void **state) {
                                ? ROLL("")
                                : ROLL("{ to = \"C\", when = after(50) }, { to = \"C\", id = \"x\", "
                                       "when = after(60) }, ");
-        assert_true(reload_text(scene, 0, text));
-        step(scene, 2);
+        assert_true(reload_behaviour(scene, 0, text));
+        step_scene(scene, 2);
     }
     jox_machines_people(&scene->world->machines, 0, people);
     assert_int_equal(people[0], waiting);
@@ -273,11 +273,11 @@ static void chances_are_not_rolled_again(void **state) {
 /* Parameters that a new version no longer sets fall back to what holds without it. */
 static void a_parameter_taken_out_falls_back(void **state) {
     (void)state;
-    JoScene *scene = load_own(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
-    step(scene, 2);
+    JoScene *scene = load_scene_text(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
+    step_scene(scene, 2);
     float push = jox_parameter_store(JOX_PARAM_push, jox_parameters[JOX_PARAM_push].value);
     assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == 80.0f);
-    assert_true(reload_text(scene, 0, FAST("1.5", "")));
+    assert_true(reload_behaviour(scene, 0, FAST("1.5", "")));
     assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == push);
     jo_scene_free(scene);
 }
@@ -294,5 +294,5 @@ int main(void) {
         cmocka_unit_test(chances_are_not_rolled_again),
         cmocka_unit_test(a_parameter_taken_out_falls_back),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

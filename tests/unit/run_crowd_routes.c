@@ -1,6 +1,6 @@
 /* Ways round a crowd while a scene runs: they come, are renewed and go, for those who walk by the
    walking law alone; the same for any number of threads, and after a state is restored. */
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 /* A room with a narrow door (about y = 2) and a wide one (about y = 9) to the goal. */
 #define ROOM(slowing)                                                                              \
@@ -30,7 +30,7 @@ static int run_out(JoScene *scene, int *seen, int *steps) {
     const JoxAgents *a = &scene->world->state.agents;
     *seen = 0;
     for (*steps = 0; *steps < 2400 && a->count > 0; ++*steps) {
-        step(scene, 1);
+        step_scene(scene, 1);
         *seen += crowd_field(scene) != NULL;
         for (uint32_t i = 0; i < a->count; i++)
             wide += a->prev_x[i] < 6.0f && a->x[i] >= 6.0f && a->y[i] > 5.0f;
@@ -41,8 +41,8 @@ static int run_out(JoScene *scene, int *seen, int *steps) {
 static void a_way_round_the_crowd_comes_and_goes(void **state) {
     (void)state;
     int seen, steps;
-    JoScene *scene = load_own(ROOM("2"), GOES("1"));
-    step(scene, 1);
+    JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
+    step_scene(scene, 1);
     assert_null(crowd_field(scene)); /* nobody is held up yet */
     assert_true(run_out(scene, &seen, &steps) > 5);
     assert_int_equal(scene->world->state.agents.count, 0);
@@ -52,9 +52,9 @@ static void a_way_round_the_crowd_comes_and_goes(void **state) {
 
 static void those_who_keep_no_time_gap_ask_for_none(void **state) {
     (void)state;
-    JoScene *scene = load_own(ROOM("2"), GOES("0"));
+    JoScene *scene = load_scene_text(ROOM("2"), GOES("0"));
     for (int n = 0; n < 200; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_null(crowd_field(scene));
     }
     for (uint32_t i = 0; i < scene->world->state.agents.count; i++)
@@ -66,7 +66,7 @@ static void those_who_keep_no_time_gap_ask_for_none(void **state) {
 static void without_slowing_all_take_the_nearer_door(void **state) {
     (void)state;
     int seen, steps;
-    JoScene *scene = load_own(ROOM("0"), GOES("1"));
+    JoScene *scene = load_scene_text(ROOM("0"), GOES("1"));
     assert_int_equal(run_out(scene, &seen, &steps), 0);
     assert_int_equal(scene->world->state.agents.count, 0);
     jo_scene_free(scene);
@@ -77,7 +77,7 @@ enum { STEPS = 200 };
 
 static void hashes_of(JoScene *scene, uint64_t hashes[STEPS]) {
     for (int n = 0; n < STEPS; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
@@ -86,7 +86,7 @@ static void threads_change_nothing(void **state) {
     (void)state;
     uint64_t one[STEPS], more[STEPS];
     for (int threads = 1; threads <= 4; threads *= 2) {
-        JoScene *scene = load_own(ROOM("2"), GOES("1"));
+        JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
         jox_pool_free(scene->world->scratch.pool);
         scene->world->scratch.pool = jox_pool_create(threads);
         hashes_of(scene, threads == 1 ? one : more);
@@ -100,11 +100,11 @@ static void threads_change_nothing(void **state) {
 static void a_restored_crowd_goes_on_to_the_bit(void **state) {
     (void)state;
     for (int before = 60; before <= 72; before += 3) { /* between renewals, and while one is made */
-        JoScene *scene = load_own(ROOM("2"), GOES("1"));
+        JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
         JoxText saved = {0};
         JoError error = {0};
         uint64_t first[STEPS], second[STEPS];
-        step(scene, before);
+        step_scene(scene, before);
         assert_true(jox_world_snapshot(scene->world, &saved, &error));
         JoxAgents *a = &scene->world->state.agents;
         uint32_t one = jox_agents_find(a, 7); /* the order of the columns is no state */
@@ -144,5 +144,5 @@ int main(void) {
         cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(a_restored_crowd_goes_on_to_the_bit),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

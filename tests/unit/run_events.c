@@ -2,7 +2,7 @@
  */
 #include <math.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
 #define EVENTS(list)                                                                               \
@@ -22,13 +22,13 @@ static bool is_open(const JoScene *scene) {
 
 static void at_their_times(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 0, signal: a}\n"
-                                     "  - {at: 0.1, every: 0.1, until: 0.3, signal: b}\n"
-                                     "  - {at: 0.12, signal: c}\n"),
-                              STAY);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 0, signal: a}\n"
+                                            "  - {at: 0.1, every: 0.1, until: 0.3, signal: b}\n"
+                                            "  - {at: 0.12, signal: c}\n"),
+                                     STAY);
     const uint64_t wanted[12] = {1, 1, 2, 3, 4, 4, 5, 5, 5, 5, 5, 5}; /* steps of 0.05 s */
     for (int n = 0; n < 12; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_int_equal(figures(scene)->announced, wanted[n]);
     }
     jo_scene_free(scene);
@@ -36,10 +36,11 @@ static void at_their_times(void **state) {
 
 static void faster_than_the_steps(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 0, every: 0.01, until: 0.11, signal: a}\n"), STAY);
+    JoScene *scene =
+        load_scene_text(EVENTS("  - {at: 0, every: 0.01, until: 0.11, signal: a}\n"), STAY);
     const uint64_t wanted[5] = {1, 6, 11, 12, 12};
     for (int n = 0; n < 5; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_int_equal(figures(scene)->announced, wanted[n]);
     }
     jo_scene_free(scene);
@@ -47,25 +48,25 @@ static void faster_than_the_steps(void **state) {
 
 static void every_step_for_long(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 0.05, every: 0.05, signal: a}\n"
-                                     "  - {at: 0.7, every: 0.3, signal: a}\n"),
-                              STAY);
-    step(scene, 2001); /* up to 100 s: sums of rounded times neither miss one nor repeat it */
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 0.05, every: 0.05, signal: a}\n"
+                                            "  - {at: 0.7, every: 0.3, signal: a}\n"),
+                                     STAY);
+    step_scene(scene, 2001); /* up to 100 s: sums of rounded times neither miss one nor repeat it */
     assert_int_equal(figures(scene)->announced, 2000 + 332);
     jo_scene_free(scene);
 }
 
 static void in_order_of_time_then_of_the_list(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 0.04, close: gate}\n"
-                                     "  - {at: 0.02, open: gate}\n"
-                                     "  - {at: 0.2, close: gate}\n"
-                                     "  - {at: 0.2, open: gate}\n"),
-                              STAY);
-    step(scene, 2);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 0.04, close: gate}\n"
+                                            "  - {at: 0.02, open: gate}\n"
+                                            "  - {at: 0.2, close: gate}\n"
+                                            "  - {at: 0.2, open: gate}\n"),
+                                     STAY);
+    step_scene(scene, 2);
     assert_int_equal(figures(scene)->opened + figures(scene)->closed, 2);
     assert_false(is_open(scene));
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_true(is_open(scene));
     jo_scene_free(scene);
 }
@@ -75,36 +76,36 @@ static void in_order_of_time_then_of_the_list(void **state) {
 static void everybody_hears(void **state) {
     (void)state;
     JoScene *scene =
-        load_own(EVENTS("  - {at: 0.2, signal: alarm}\n"),
-                 HEAD "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
-                      "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
-                      "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
+        load_scene_text(EVENTS("  - {at: 0.2, signal: alarm}\n"),
+                        HEAD "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
+                             "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
+                             "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 4);
+    step_scene(scene, 4);
     uint16_t waits = a->state[0];
     assert_int_equal(a->state[1], waits);
-    step(scene, 1); /* the step whose time is 0.2 s */
+    step_scene(scene, 1); /* the step whose time is 0.2 s */
     assert_true(a->state[0] != waits && a->state[1] != waits);
-    step(scene, 5); /* once: nobody hears it again */
+    step_scene(scene, 5); /* once: nobody hears it again */
     assert_true(a->state[0] != waits && a->state[1] != waits);
     assert_true(jo_scene_signal(scene, "alarm", NULL));
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true(a->state[0] == waits && a->state[1] == waits);
     jo_scene_free(scene);
 }
 
 static void signals_that_nobody_hears_are_named(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 1, signal: alarms}\n"),
-                              HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
-                                   "heard \"alarm\" } } } }\n");
-    assert_non_null(strstr(said.data, "scene.yaml:5:21: warning: "));
-    assert_non_null(strstr(said.data, "Did you mean 'alarm'?"));
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 1, signal: alarms}\n"), HEAD
+                                     "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
+                                     "heard \"alarm\" } } } }\n");
+    assert_non_null(strstr(scene_messages.data, "scene.yaml:5:21: warning: "));
+    assert_non_null(strstr(scene_messages.data, "Did you mean 'alarm'?"));
     jo_scene_free(scene);
-    scene = load_own(EVENTS("  - {at: 1, signal: alarm}\n"),
-                     HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
-                          "heard \"alarm\" } } } }\n");
-    assert_null(said.data); /* given by the scene, heard by a machine */
+    scene = load_scene_text(EVENTS("  - {at: 1, signal: alarm}\n"),
+                            HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
+                                 "heard \"alarm\" } } } }\n");
+    assert_null(scene_messages.data); /* given by the scene, heard by a machine */
     jo_scene_free(scene);
 }
 
@@ -117,25 +118,25 @@ static void signals_that_nobody_hears_are_named(void **state) {
 
 static void nobody_passes_a_gate_that_is_shut(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 8, open: gate}\n"), WALK);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 8, open: gate}\n"), WALK);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 160);
+    step_scene(scene, 160);
     assert_float_equal(a->x[0], 4.8, 0.05);
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_true(a->x[0] > 6.0f);
     jo_scene_free(scene);
 }
 
 static void walls_may_begin_open(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "walls: [{line: [[2, -5], [2, 5]], name: a, open: true},\n"
-                              "        {line: [[4, -5], [4, 5]], name: b, open: true},\n"
-                              "        {line: [[6, -5], [6, 5]], name: b, open: true}]\n"
-                              "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
-                              "events: [{at: 2.6, close: b}]\n",
-                              WALK);
-    step(scene, 200);
+    JoScene *scene = load_scene_text("jostle: 1\n"
+                                     "walls: [{line: [[2, -5], [2, 5]], name: a, open: true},\n"
+                                     "        {line: [[4, -5], [4, 5]], name: b, open: true},\n"
+                                     "        {line: [[6, -5], [6, 5]], name: b, open: true}]\n"
+                                     "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                                     "events: [{at: 2.6, close: b}]\n",
+                                     WALK);
+    step_scene(scene, 200);
     assert_float_equal(scene->world->state.agents.x[0], 3.8, 0.05); /* one name shuts two walls */
     assert_int_equal(scene->world->scratch.walls.ring_count, 2);
     jo_scene_free(scene);
@@ -143,17 +144,17 @@ static void walls_may_begin_open(void **state) {
 
 static void who_stands_where_a_wall_comes_is_moved(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\n"
-                 "walls: [{solid: [[4, -2], [6, -2], [6, 2], [4, 2]], name: block, open: true}]\n"
-                 "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.5, 1], [4.1, -1.9], [9, "
-                 "0], [3.8, 0]]}}\n"
-                 "events: [{at: 0.2, close: block}]\n",
-                 STAY);
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "walls: [{solid: [[4, -2], [6, -2], [6, 2], [4, 2]], name: block, open: true}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.5, 1], [4.1, -1.9], [9, "
+        "0], [3.8, 0]]}}\n"
+        "events: [{at: 0.2, close: block}]\n",
+        STAY);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 4);
+    step_scene(scene, 4);
     assert_int_equal(figures(scene)->moved_out, 0);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(figures(scene)->moved_out, 3);
     for (uint32_t id = 0; id < 5; id++) {
         uint32_t i = jox_agents_find(a, id);
@@ -169,7 +170,7 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
 /* The order in memory follows in the same step: those beside the new spot see who came. */
 static void who_is_moved_is_seen_at_once(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         "jostle: 1\n"
         "walls: [{solid: [[3, -3], [7, -3], [7, 3], [3, 3]], name: block, open: true}]\n"
         "groups: {people: {behaviour: own.lua, at: [[5, 0], [1.6, 0], [8.4, 0]]}}\n"
@@ -177,9 +178,9 @@ static void who_is_moved_is_seen_at_once(void **state) {
         HEAD "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     const JoxNeighbours *n = &scene->world->scratch.neighbours;
-    step(scene, 5); /* every fourth step sorts anyway; the next does not */
+    step_scene(scene, 5); /* every fourth step sorts anyway; the next does not */
     assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 0);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(figures(scene)->moved_out, 1);
     assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 1);
     jo_scene_free(scene);
@@ -188,17 +189,18 @@ static void who_is_moved_is_seen_at_once(void **state) {
 /* A passage full of people: the nearest free spot would be outside of it. */
 static void nobody_is_moved_through_another_wall(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "walls:\n"
-                              "  - {line: [[0, -0.25], [9, -0.25]]}\n"
-                              "  - {line: [[0, 0.25], [9, 0.25]]}\n"
-                              "  - {line: [[5, -0.25], [5, 0.25]], name: gate, open: true}\n"
-                              "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.32, 0], "
-                              "[5.7, 0], [6.1, 0], [4.68, 0], [4.3, 0], [3.9, 0]]}}\n"
-                              "events: [{at: 0.1, close: gate}]\n",
-                              STAY);
+    JoScene *scene =
+        load_scene_text("jostle: 1\n"
+                        "walls:\n"
+                        "  - {line: [[0, -0.25], [9, -0.25]]}\n"
+                        "  - {line: [[0, 0.25], [9, 0.25]]}\n"
+                        "  - {line: [[5, -0.25], [5, 0.25]], name: gate, open: true}\n"
+                        "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.32, 0], "
+                        "[5.7, 0], [6.1, 0], [4.68, 0], [4.3, 0], [3.9, 0]]}}\n"
+                        "events: [{at: 0.1, close: gate}]\n",
+                        STAY);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_int_equal(figures(scene)->moved_out, 1);
     assert_true(fabsf(a->x[jox_agents_find(a, 0)] - 5.0f) > 1.0f);
     for (uint32_t i = 0; i < a->count; i++)
@@ -223,17 +225,17 @@ static void bodies_know_of_gates(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene =
-        load_own(EVENTS("  - {at: 5, open: gate}\n"
-                        "  - {at: 5, throw: ball, velocity: [-3, 0, 0]}\n"
-                        "  - {at: 8, close: gate}\n"
-                        "  - {at: 8, throw: ball, from: [4, 2, 0.2], velocity: [3, 0, 0]}\n") BALL,
-                 STAY);
-    step(scene, 100);
+    JoScene *scene = load_scene_text(
+        EVENTS("  - {at: 5, open: gate}\n"
+               "  - {at: 5, throw: ball, velocity: [-3, 0, 0]}\n"
+               "  - {at: 8, close: gate}\n"
+               "  - {at: 8, throw: ball, from: [4, 2, 0.2], velocity: [3, 0, 0]}\n") BALL,
+        STAY);
+    step_scene(scene, 100);
     assert_float_equal(pose_of(scene, "ball").centre.x, 5.22, 0.05); /* it lies at the gate */
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_true(pose_of(scene, "ball").centre.x < 3.0f);
-    step(scene, 60);
+    step_scene(scene, 60);
     assert_true(pose_of(scene, "ball").centre.x < 5.0f);
     jo_scene_free(scene);
 }
@@ -242,16 +244,16 @@ static void what_rests_on_a_wall_falls_with_it(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         "jostle: 1\n"
         "walls: [{line: [[0, -2], [0, 2]], name: gate, height: 0.5}]\n"
         "bodies: [{name: ball, shape: {box: {size: [1, 1, 0.4]}}, mass: 5, at: [0, 0, 0.7]}]\n"
         "groups: {people: {behaviour: own.lua, at: [[9, 0]]}}\n"
         "events: [{at: 6, open: gate}]\n",
         STAY);
-    step(scene, 120); /* asleep by now */
+    step_scene(scene, 120); /* asleep by now */
     assert_float_equal(pose_of(scene, "ball").centre.z, 0.7, 0.05);
-    step(scene, 30);
+    step_scene(scene, 30);
     assert_float_equal(pose_of(scene, "ball").centre.z, 0.2, 0.05);
     jo_scene_free(scene);
 }
@@ -262,15 +264,15 @@ static void a_throw_does_what_it_says(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
     const double from[3] = {1, 2, 3}, velocity[3] = {4, 5, 6}, spin[3] = {7, 8, 9};
-    step(scene, 10);
+    step_scene(scene, 10);
     assert_true(jo_scene_throw(scene, "ball", from, velocity, spin, NULL));
     JoxPose pose = pose_of(scene, "ball");
     assert_true(pose.centre.x == 1 && pose.centre.y == 2 && pose.centre.z == 3);
     assert_true(pose.velocity.x == 4 && pose.velocity.y == 5 && pose.velocity.z == 6);
     assert_true(pose.spin.x == 7 && pose.spin.y == 8 && pose.spin.z == 9);
-    step(scene, 1);
+    step_scene(scene, 1);
     pose = pose_of(scene, "ball");
     assert_float_equal(pose.centre.x, 1.2, 0.001);
     assert_true(jo_scene_throw(scene, "ball", NULL, NULL, NULL, NULL)); /* stopped in the air */
@@ -292,15 +294,15 @@ static void who_picks_up_has_not_thrown(void **state) {
              "  Wait = { steer = hold, { to = \"Throw\", when = after(1) } },\n"
              "  Throw = { steer = hold, throw = { nearest \"ball\", at = \"post\", speed = 6 },\n"
              "    { to = \"End\", when = after(0.5) } }, End = { steer = hold } } }\n";
-    JoScene *scene = load_own("jostle: 1\nplaces: {post: {point: [20, 0]}}\n"
-                              "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
-                              "bodies: [{name: b, shape: {sphere: {radius: 0.1}}, mass: 1, "
-                              "at: [0.5, 0, 0.1], tags: [ball]}]\n",
-                              FETCH);
-    step(scene, 15);
+    JoScene *scene = load_scene_text("jostle: 1\nplaces: {post: {point: [20, 0]}}\n"
+                                     "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                                     "bodies: [{name: b, shape: {sphere: {radius: 0.1}}, mass: 1, "
+                                     "at: [0.5, 0, 0.1], tags: [ball]}]\n",
+                                     FETCH);
+    step_scene(scene, 15);
     assert_int_equal(figures(scene)->pickups, 1);
     assert_int_equal(figures(scene)->throws, 0);
-    step(scene, 60);
+    step_scene(scene, 60);
     assert_int_equal(figures(scene)->pickups, 1);
     assert_int_equal(figures(scene)->throws, 1);
     JoFigures *told = jo_scene_figures(scene);
@@ -314,14 +316,14 @@ static void a_throw_takes_it_from_the_hand(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
     JoxBodies *bodies = scene->world->state.bodies;
     const double up[3] = {0, 0, 3};
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true(jox_bodies_hold(bodies, jox_bodies_find_name(bodies, "ball"), 0));
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true(jo_scene_throw(scene, "ball", NULL, up, NULL, NULL));
-    step(scene, 1);
+    step_scene(scene, 1);
     const JoxObjects *objects = &scene->world->scratch.objects;
     assert_false(objects->rows[jox_bodies_find_name(bodies, "ball")].held);
     assert_true(pose_of(scene, "ball").velocity.z > 2);
@@ -332,7 +334,7 @@ static void a_throw_takes_it_from_the_hand(void **state) {
 
 static void calls_say_what_is_wrong(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n"), STAY);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 60, signal: a}\n"), STAY);
     JoError error = {0};
     const double much[3] = {0, NAN, 0};
     char longer[80];
@@ -352,7 +354,7 @@ static void calls_say_what_is_wrong(void **state) {
     jo_scene_free(scene);
     if (!jox_bodies_available())
         return;
-    scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    scene = load_scene_text(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
     assert_false(jo_scene_throw(scene, "bal", NULL, NULL, NULL, &error));
     assert_string_equal(error.text, "there is no body named 'bal'. Did you mean 'ball'?");
     assert_false(jo_scene_throw(scene, "rock", NULL, NULL, NULL, &error));
@@ -366,15 +368,15 @@ static void what_cannot_happen_is_said(void **state) {
     if (!jox_bodies_available())
         skip();
     JoScene *scene =
-        load_own(EVENTS("  - {at: 0.5, throw: ball, velocity: [1, 0, 0]}\n") BALL, STAY);
+        load_scene_text(EVENTS("  - {at: 0.5, throw: ball, velocity: [1, 0, 0]}\n") BALL, STAY);
     JoxBodies *bodies = scene->world->state.bodies;
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true(jox_bodies_remove(bodies, jox_bodies_find_name(bodies, "ball")));
-    jox_text_free(&said);
-    step(scene, 20);
-    assert_non_null(said.data);
+    jox_text_free(&scene_messages);
+    step_scene(scene, 20);
+    assert_non_null(scene_messages.data);
     assert_non_null(
-        strstr(said.data, "scene.yaml:5:22: t = 0.50 s: there is no body named 'ball'"));
+        strstr(scene_messages.data, "scene.yaml:5:22: t = 0.50 s: there is no body named 'ball'"));
     jo_scene_free(scene);
 }
 
@@ -382,10 +384,10 @@ static void what_cannot_happen_is_said(void **state) {
 
 static void edit(JoScene *scene, const char *text) {
     JoxDiagnostics diagnostics = {0};
-    write_file("scene.yaml", text);
+    write_test_file("scene.yaml", text);
     JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
     assert_non_null(spec);
-    jox_text_free(&said);
+    jox_text_free(&scene_messages);
     jox_run_rescene(scene, &spec, 0.0);
     jox_scene_free(spec);
     jox_diag_free(&diagnostics);
@@ -394,8 +396,8 @@ static void edit(JoScene *scene, const char *text) {
 static void an_edited_scene_keeps_what_events_did(void **state) {
     (void)state;
     JoScene *scene =
-        load_own(EVENTS("  - {at: 0.5, open: gate}\n  - {at: 0.6, signal: a}\n"), STAY);
-    step(scene, 20); /* t = 1 s */
+        load_scene_text(EVENTS("  - {at: 0.5, open: gate}\n  - {at: 0.6, signal: a}\n"), STAY);
+    step_scene(scene, 20); /* t = 1 s */
     assert_true(is_open(scene));
     /* Another wall, and a further event: the gate stays open, what was done is not done again. */
     edit(scene, "jostle: 1\n"
@@ -407,8 +409,8 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
                 "  - {at: 0.7, signal: b}\n" /* too late */
                 "  - {at: 1.0, signal: c}\n" /* in the next step */
                 "  - {at: 1.5, close: gate}\n");
-    assert_non_null(strstr(said.data, "walls, events changed, live from t = 1.00 s"));
-    step(scene, 1);
+    assert_non_null(strstr(scene_messages.data, "walls, events changed, live from t = 1.00 s"));
+    step_scene(scene, 1);
     assert_true(is_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 1);
     assert_int_equal(figures(scene)->announced, 2);
@@ -419,10 +421,10 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
                 "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
                 "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
                 "events: [{at: 1.5, close: gate}]\n");
-    assert_null(strstr(said.data, "walls"));
-    step(scene, 8);
+    assert_null(strstr(scene_messages.data, "walls"));
+    step_scene(scene, 8);
     assert_true(is_open(scene));
-    step(scene, 2);
+    step_scene(scene, 2);
     assert_false(is_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 2);
     jo_scene_free(scene);
@@ -431,13 +433,13 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
 /* A name without an event's touch follows the file. */
 static void an_edited_gate_follows_the_file(void **state) {
     (void)state;
-    JoScene *scene = load_own(EVENTS("  - {at: 50, open: gate}\n"), STAY);
-    step(scene, 1);
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 50, open: gate}\n"), STAY);
+    step_scene(scene, 1);
     assert_false(is_open(scene));
     edit(scene, "jostle: 1\n"
                 "walls: [{line: [[5, -5], [5, 5]], name: gate, open: true}]\n"
                 "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true(is_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 0);
     jo_scene_free(scene);
@@ -447,12 +449,12 @@ static void an_edited_gate_follows_the_file(void **state) {
 
 static void steps_without_events_allocate_nothing(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         EVENTS("  - {at: 0.5, open: gate}\n  - {at: 1, signal: a}\n  - {at: 900, signal: b}\n"),
         WALK);
-    step(scene, 100);
+    step_scene(scene, 100);
     uint64_t before = jox_alloc_count();
-    step(scene, 100);
+    step_scene(scene, 100);
     assert_int_equal(jox_alloc_count() - before, 0);
     jo_scene_free(scene);
 }
@@ -481,5 +483,5 @@ int main(void) {
         cmocka_unit_test(an_edited_gate_follows_the_file),
         cmocka_unit_test(steps_without_events_allocate_nothing),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

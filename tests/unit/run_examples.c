@@ -1,48 +1,24 @@
 /* Every example of the scene reference runs, and what is wrong with a scene after it was read is
    told with its line. Scenes lie in a folder beside the shipped behaviours. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
-
 #include "jostle_tools.h"
+#include "messages.h"
 #include "run/run.h"
+#include "unit/test_folder.h"
 
-static char folder[] = "/tmp/jostle-examples-XXXXXX";
 static const char *const COPIED[] = {"tawaf.yaml", "running-through.yaml", "dodgeball.input",
                                      "hall.wkt"};
-static char path[512];
-
-static const char *in_folder(const char *name) {
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_file(const char *name, const char *text) {
-    FILE *file = fopen(in_folder(name), "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
 
 static void link_file(const char *from, const char *to) {
     char *whole = realpath(from, NULL);
     assert_non_null(whole);
-    assert_int_equal(symlink(whole, in_folder(to)), 0);
+    assert_int_equal(symlink(whole, test_path(to)), 0);
     free(whole);
 }
 
 /* Scenes take what they include from their own folder, links followed. */
 static void copy_file(const char *name) {
     char bytes[4096];
-    FILE *from = fopen(name, "r"), *to = fopen(in_folder(name), "w");
+    FILE *from = fopen(name, "r"), *to = fopen(test_path(name), "w");
     assert_true(from && to);
     for (size_t size; (size = fread(bytes, 1, sizeof bytes, from)) > 0;)
         assert_int_equal(fwrite(bytes, 1, size, to), size);
@@ -50,13 +26,9 @@ static void copy_file(const char *name) {
     assert_int_equal(fclose(to), 0);
 }
 
-static int set_up(void **state) {
-    (void)state;
-    char from[256], to[256];
-    if (!mkdtemp(folder))
-        return -1;
-    snprintf(to, sizeof to, "%s/scenes", folder);
-    if (mkdir(to, 0700) != 0)
+static int lay_out_folder(void **state) {
+    char from[256];
+    if (make_test_folder(state) != 0 || mkdir(test_path("scenes"), 0700) != 0)
         return -1;
     link_file("behaviours", "behaviours");
     link_file("scripts", "scripts");
@@ -67,31 +39,11 @@ static int set_up(void **state) {
     return 0;
 }
 
-static int tear_down(void **state) {
-    (void)state;
-    char name[256];
-    for (size_t i = 0; i < sizeof COPIED / sizeof *COPIED; i++) {
-        snprintf(name, sizeof name, "scenes/%s", COPIED[i]);
-        unlink(in_folder(name));
-    }
-    static const char *const OTHERS[] = {"scenes/example.yaml", "scenes/part.yaml",
-                                         "scenes/broken.input", "scenes/notes.txt",
-                                         "behaviours",          "scripts"};
-    for (size_t i = 0; i < sizeof OTHERS / sizeof *OTHERS; i++)
-        unlink(in_folder(OTHERS[i]));
-    rmdir(in_folder("scenes"));
-    return rmdir(folder);
-}
-
-static void keep(void *context, const char *text) {
-    jox_text_add(context, text);
-}
-
-static JoScene *load(const char *name, JoxText *said) {
+static JoScene *load_example(const char *name, JoxText *said) {
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
-    def.path = in_folder(name);
-    def.message = keep;
+    def.path = test_path(name);
+    def.message = append_message;
     def.message_context = said;
     JoScene *scene = jo_scene_load(&def, &error);
     if (scene)
@@ -108,8 +60,8 @@ static void every_example_runs(void **state) {
         if (strncmp(example->yaml, "jostle:", 7) != 0 ||
             (!JOX_BULLET && strstr(example->yaml, "bodies:")))
             continue; /* a mod's file; bodies in a build without them */
-        write_file("scenes/example.yaml", example->yaml);
-        JoScene *scene = load("scenes/example.yaml", &said);
+        write_test_file("scenes/example.yaml", example->yaml);
+        JoScene *scene = load_example("scenes/example.yaml", &said);
         bool ran = scene != NULL;
         for (int step = 0; ran && step < 20; step++)
             ran = jo_scene_step(scene, &error);
@@ -161,8 +113,8 @@ static void find_mark(char *text, int *line, int *column, char *source) {
     snprintf(source, 512, "%.*s", (int)strcspn(begin, "\n"), begin);
 }
 
-static int compare(const JoxDiagnostics *d, const Case *wanted, const char *name, int line,
-                   int column, const char *source) {
+static int compare_diagnostic(const JoxDiagnostics *d, const Case *wanted, const char *name,
+                              int line, int column, const char *source) {
     const JoxDiagnostic *item = d->items;
     if (d->errors == 1 && !strcmp(item->code, wanted->code) && item->line == line &&
         item->column == column && strstr(item->file, name) && item->source &&
@@ -182,15 +134,15 @@ static int check_case(const Case *wanted, const char *text, const char *name) {
     int line, column;
     snprintf(marked, sizeof marked, "%s", text);
     find_mark(marked, &line, &column, source);
-    write_file(name, marked);
+    write_test_file(name, marked);
     JoxText said = {0};
     JoSceneDef def = jo_default_scene_def();
     JoxDiagnostics d = {0};
-    def.path = in_folder("scenes/example.yaml");
-    def.message = keep;
+    def.path = test_path("scenes/example.yaml");
+    def.message = append_message;
     def.message_context = &said;
     JoScene *scene = jox_run_load(&def, &d);
-    int wrong = compare(&d, wanted, name, line, column, source);
+    int wrong = compare_diagnostic(&d, wanted, name, line, column, source);
     jo_scene_free(scene);
     jox_diag_free(&d);
     jox_text_free(&said);
@@ -226,24 +178,24 @@ static void errors_of_other_files_show_their_line(void **state) {
         {"1 player 0 @99 0\n", "bad-input", NULL},
         {"5 player 0 1 0\n# back\n@4 player 0 0 0\n", "bad-input", NULL}};
     const Case value = {NULL, "unknown-value", "Did you mean 'speed'?"};
-    write_file("scenes/example.yaml",
-               "jostle: 1\ninput: broken.input\n" STANDER("at: [[0, 0]]") "player: g\n");
+    write_test_file("scenes/example.yaml",
+                    "jostle: 1\ninput: broken.input\n" STANDER("at: [[0, 0]]") "player: g\n");
     int wrong = 0;
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++)
         wrong += check_case(&LINES[i], LINES[i].text, "scenes/broken.input");
-    write_file("scenes/example.yaml", "jostle: 1\ninclude: part.yaml\n");
+    write_test_file("scenes/example.yaml", "jostle: 1\ninclude: part.yaml\n");
     wrong += check_case(&value, STANDER("at: [[0, 0]],\n  set: {@sped: 1}"), "scenes/part.yaml");
     assert_int_equal(wrong, 0);
 }
 
 /* ---- many files ---- */
 
-static size_t check(const char *name, bool json, JoxText *said) {
-    const char *paths[] = {in_folder(name)};
-    return jo_check(paths, 1, json, keep, said, NULL);
+static size_t check_files(const char *name, bool json, JoxText *said) {
+    const char *paths[] = {test_path(name)};
+    return jo_check(paths, 1, json, append_message, said, NULL);
 }
 
-static int count_of(const char *text, const char *word) {
+static int count_word(const char *text, const char *word) {
     int count = 0;
     for (const char *at = strstr(text, word); at; at = strstr(at + 1, word))
         count++;
@@ -256,22 +208,22 @@ static void a_check_of_many_files_keeps_the_errors_of_each(void **state) {
     jox_text_add(&text, "jostle: 1\n" STANDER("at: [[0, 0]]"));
     for (int k = 0; k < 30; k++)
         jox_text_printf(&text, "key_%d: 1\n", k);
-    write_file("scenes/example.yaml", text.data);
-    write_file("scenes/part.yaml", text.data);
-    assert_int_equal(check("scenes", true, &said), 60);
-    assert_int_equal(count_of(said.data, "example.yaml\""), 20);
-    assert_int_equal(count_of(said.data, "part.yaml\""), 20);
+    write_test_file("scenes/example.yaml", text.data);
+    write_test_file("scenes/part.yaml", text.data);
+    assert_int_equal(check_files("scenes", true, &said), 60);
+    assert_int_equal(count_word(said.data, "example.yaml\""), 20);
+    assert_int_equal(count_word(said.data, "part.yaml\""), 20);
     jox_text_free(&said);
-    assert_int_equal(check("scenes", false, &said), 60);
-    assert_int_equal(count_of(said.data, "unknown key"), 40);
+    assert_int_equal(check_files("scenes", false, &said), 60);
+    assert_int_equal(count_word(said.data, "unknown key"), 40);
     assert_non_null(strstr(said.data, "... and 20 more errors\n"));
     jox_text_free(&said);
     jox_text_free(&text);
-    write_file("scenes/notes.txt", "text\n");
-    assert_int_equal(check("scenes/notes.txt", true, &said), 1);
+    write_test_file("scenes/notes.txt", "text\n");
+    assert_int_equal(check_files("scenes/notes.txt", true, &said), 1);
     assert_non_null(strstr(said.data, "\"unknown-kind\""));
     jox_text_free(&said);
-    assert_int_equal(check("scenes/nothing.yaml", true, &said), 1);
+    assert_int_equal(check_files("scenes/nothing.yaml", true, &said), 1);
     assert_non_null(strstr(said.data, "\"unreadable-file\""));
     jox_text_free(&said);
 }
@@ -283,5 +235,5 @@ int main(void) {
         cmocka_unit_test(errors_of_other_files_show_their_line),
         cmocka_unit_test(a_check_of_many_files_keeps_the_errors_of_each),
     };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return cmocka_run_group_tests(tests, lay_out_folder, remove_test_folder);
 }

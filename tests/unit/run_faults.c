@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "jostle_tools.h"
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 /* ---- numbers that are not finite ---- */
 
@@ -22,20 +22,15 @@ static bool all_finite(const JoScene *scene) {
     return true;
 }
 
-/* Whether a scene whose behaviour steers so loads; the first error is in `why`. */
+/* Whether a scene whose behaviour steers so loads; the first error is in `refusal`. */
 static bool accepts(const char *steer) {
-    char path[300], sheet[600];
+    char sheet[600];
     snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { steer = %s } } }\n", steer);
-    write_file("own.lua", sheet);
-    write_file("scene.yaml", CROWD);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    JoSceneDef def = jo_default_scene_def();
+    write_test_file("own.lua", sheet);
+    const JoSceneDef def = define_scene(write_test_file("scene.yaml", CROWD));
     JoError error = {0};
-    def.path = path;
-    def.message = collect_message;
-    def.named_mods_only = true;
     JoScene *scene = jo_scene_load(&def, &error);
-    snprintf(why, sizeof why, "%.250s", error.text);
+    snprintf(refusal, sizeof refusal, "%.250s", error.text);
     jo_scene_free(scene);
     return scene != NULL;
 }
@@ -55,8 +50,8 @@ static void words_refuse_numbers_out_of_range(void **state) {
     for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
         if (accepts(wrong[n]))
             fail_msg("%s was accepted", wrong[n]);
-        if (!strstr(why, " must be from "))
-            fail_msg("%s: %s", wrong[n], why);
+        if (!strstr(refusal, " must be from "))
+            fail_msg("%s: %s", wrong[n], refusal);
     }
     assert_true(accepts("100 * drift(100, -100) + together(0) + follow(nearest \"anyone\", 1000)"));
 }
@@ -77,8 +72,8 @@ static void computed_numbers_keep_everybody_finite(void **state) {
     for (size_t n = 0; n < sizeof sheets / sizeof *sheets; n++) {
         char sheet[600];
         snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { %s } } }\n", sheets[n]);
-        JoScene *scene = load_own(CROWD, sheet);
-        step(scene, 40);
+        JoScene *scene = load_scene_text(CROWD, sheet);
+        step_scene(scene, 40);
         if (!all_finite(scene))
             fail_msg("%s", sheets[n]);
         jo_scene_free(scene);
@@ -101,12 +96,16 @@ static void computed_parameters_that_are_no_values_are_told(void **state) {
         char sheet[600];
         snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = {\n steer = hold, %s } } }\n",
                  cases[n].sheet);
-        JoScene *scene = load_own(PEOPLE(4), sheet);
-        step(scene, 40);
-        const char *line = said.data ? strstr(said.data, "own.lua:3: t = 0.00 s: ") : NULL;
-        line = line ? line : said.data ? strstr(said.data, "own.lua:2: t = 0.00 s: ") : NULL;
+        JoScene *scene = load_scene_text(PEOPLE(4), sheet);
+        step_scene(scene, 40);
+        const char *line =
+            scene_messages.data ? strstr(scene_messages.data, "own.lua:3: t = 0.00 s: ") : NULL;
+        line = line                  ? line
+               : scene_messages.data ? strstr(scene_messages.data, "own.lua:2: t = 0.00 s: ")
+                                     : NULL;
         if (!line || !strstr(line, cases[n].text) || strstr(line + 1, "own.lua:"))
-            fail_msg("%s: %s", cases[n].sheet, said.data ? said.data : "nothing was said");
+            fail_msg("%s: %s", cases[n].sheet,
+                     scene_messages.data ? scene_messages.data : "nothing was scene_messages");
         assert_null(jo_world_failure(scene->world));
         jo_scene_free(scene);
     }
@@ -115,10 +114,11 @@ static void computed_parameters_that_are_no_values_are_told(void **state) {
 /* The engine's last line: a number that is not finite ends the run, and says whose it is. */
 static void a_number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
-    JoScene *scene = load_own(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
+    JoScene *scene =
+        load_scene_text(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
     JoxAgents *a = &scene->world->state.agents;
     JoError error = {0};
-    step(scene, 1);
+    step_scene(scene, 1);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->id[i] == 101)
             a->vx[i] = NAN;
@@ -152,7 +152,7 @@ static void a_failed_world_names_agents_without_a_machine(void **state) {
 
 static void lua_may_look_at_agents_without_a_machine(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         PEOPLE(4), "local mine = memory { hits = 0, seen = 0 }\n" HEAD
                    "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
                    "  { to = \"A\", when = function(me)\n"
@@ -166,7 +166,7 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
     JoAgentDef agent = jo_default_agent_def();
     agent.x = agent.y = 12.0;
     jo_world_add_agent(scene->world, &agent, NULL);
-    step(scene, 5);
+    step_scene(scene, 5);
     assert_int_equal(scene->world->machines.state->hook_failures, 0);
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = scene->world->model.machines.items[0];
@@ -187,22 +187,22 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
    before the step: of two such changes one is lost. */
 static void lost_changes_of_memory_are_counted(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         PEOPLE(3), "local mine = memory { hits = 0 }\n" HEAD
                    "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
                    "  { to = \"A\", when = function(me)\n"
                    "    for _, n in ipairs(me.neighbours) do n.hits = n.hits + 1 end\n"
                    "    return false\n"
                    "  end } } } }\n");
-    step(scene, 4);
-    assert_non_null(strstr(said.data, "a change is lost"));
+    step_scene(scene, 4);
+    assert_non_null(strstr(scene_messages.data, "a change is lost"));
     assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4);
     char *summary = jo_scene_summary(scene), *closing = jo_scene_closing(scene);
     assert_non_null(strstr(summary, "\"changes_lost\": 12"));
     assert_non_null(strstr(closing, "12 lost changes of others' memory"));
     JoxText kept = {0};
     assert_true(jox_world_snapshot(scene->world, &kept, NULL));
-    step(scene, 2);
+    step_scene(scene, 2);
     assert_int_equal(scene->world->machines.state->changes_lost, 3 * 6);
     assert_true(jox_world_restore(scene->world, kept.data, kept.length, NULL));
     assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4); /* as at a resume */
@@ -226,10 +226,11 @@ static void each_of_three_hundred_sources_counts_for_itself(void **state) {
     for (int s = 0; s < SOURCES; s++)
         jox_text_printf(&text, "  - {at: p%d, like: people, rate: %d, even: true}\n", s,
                         s == 44 ? 5 : 1);
-    JoScene *scene = load_own(text.data, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoScene *scene =
+        load_scene_text(text.data, HEAD "\"A\", states = { A = { steer = hold } } }\n");
     jox_text_free(&text);
     assert_int_equal(jo_world_agent_count(scene->world), 0);
-    step(scene, 61); /* 3 s: three of each, and fifteen of one */
+    step_scene(scene, 61); /* 3 s: three of each, and fifteen of one */
     uint32_t made[SOURCES] = {0};
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -254,5 +255,5 @@ int main(void) {
         cmocka_unit_test(lost_changes_of_memory_are_counted),
         cmocka_unit_test(each_of_three_hundred_sources_counts_for_itself),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -2,7 +2,7 @@
    they are told to. Where there is no room for all, the others stand behind it. */
 #include <math.h>
 
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 typedef struct Area {
     float x0, y0, x1, y1; /* m */
@@ -58,7 +58,7 @@ static Stand look_at(const JoScene *scene, Area area) {
 }
 
 static void go_on(JoScene *scene, double seconds) {
-    step(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
+    step_scene(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
 }
 
 /* A hall 24 m wide with an area for the audience before its stage, 12 x 8 m. */
@@ -76,7 +76,7 @@ static JoScene *load_hall(int people) {
              " journey: [{to: front, until: alarm}, {exit: out}]}}\n"
              "events: [{at: 60, signal: alarm}]\n",
              people);
-    return load_own(text, "");
+    return load_scene_text(text, "");
 }
 
 static void few_stand_in_front_and_apart(void **state) {
@@ -127,19 +127,20 @@ static void all_leave_at_the_signal(void **state) {
 /* The front lies where the scene says, and two groups fill the area together. */
 static void people_gather_before_what_they_look_at(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "places:\n"
-                              "  west: {polygon: [[0, 0], [4, 0], [4, 6], [0, 6]]}\n"
-                              "  east: {polygon: [[20, 0], [24, 0], [24, 6], [20, 6]]}\n"
-                              "  square: {polygon: [[6, 8], [18, 8], [18, 18], [6, 18]]}\n"
-                              "  screen: {point: [5, 13], radius: 0.5}\n"
-                              "groups:\n"
-                              "  a: {count: 25, in: west, journey: [{to: square, front: screen,"
-                              " until: end}]}\n"
-                              "  b: {count: 25, in: east, journey: [{to: square, front: screen,"
-                              " until: end}]}\n"
-                              "events: [{at: 100, signal: end}]\n",
-                              "");
+    JoScene *scene =
+        load_scene_text("jostle: 1\n"
+                        "places:\n"
+                        "  west: {polygon: [[0, 0], [4, 0], [4, 6], [0, 6]]}\n"
+                        "  east: {polygon: [[20, 0], [24, 0], [24, 6], [20, 6]]}\n"
+                        "  square: {polygon: [[6, 8], [18, 8], [18, 18], [6, 18]]}\n"
+                        "  screen: {point: [5, 13], radius: 0.5}\n"
+                        "groups:\n"
+                        "  a: {count: 25, in: west, journey: [{to: square, front: screen,"
+                        " until: end}]}\n"
+                        "  b: {count: 25, in: east, journey: [{to: square, front: screen,"
+                        " until: end}]}\n"
+                        "events: [{at: 100, signal: end}]\n",
+                        "");
     const JoxAgents *a = &scene->world->state.agents;
     go_on(scene, 60);
     for (uint32_t i = 0; i < a->count; i++) {
@@ -153,16 +154,16 @@ static void people_gather_before_what_they_look_at(void **state) {
 static void spots_are_clear_of_walls(void **state) {
     (void)state;
     JoScene *scene =
-        load_own("jostle: 1\n"
-                 "places:\n"
-                 "  start: {polygon: [[1, 1], [13, 1], [13, 4], [1, 4]]}\n"
-                 "  ell: {polygon: [[1, 6], [13, 6], [13, 10], [5, 10], [5, 20], [1, 20]]}\n"
-                 "walls:\n"
-                 "  - {solid: [[2, 8], [4, 8], [4, 9], [2, 9]]}\n"
-                 "  - {line: [[0, 5], [0, 17], [14, 17], [14, 5]]}\n"
-                 "groups: {a: {count: 60, in: start, journey: [{to: ell, until: end}]}}\n"
-                 "events: [{at: 100, signal: end}]\n",
-                 "");
+        load_scene_text("jostle: 1\n"
+                        "places:\n"
+                        "  start: {polygon: [[1, 1], [13, 1], [13, 4], [1, 4]]}\n"
+                        "  ell: {polygon: [[1, 6], [13, 6], [13, 10], [5, 10], [5, 20], [1, 20]]}\n"
+                        "walls:\n"
+                        "  - {solid: [[2, 8], [4, 8], [4, 9], [2, 9]]}\n"
+                        "  - {line: [[0, 5], [0, 17], [14, 17], [14, 5]]}\n"
+                        "groups: {a: {count: 60, in: start, journey: [{to: ell, until: end}]}}\n"
+                        "events: [{at: 100, signal: end}]\n",
+                        "");
     const JoxAgents *a = &scene->world->state.agents;
     go_on(scene, 70);
     int front = 0;
@@ -202,5 +203,5 @@ int main(void) {
         cmocka_unit_test(spots_are_clear_of_walls),
         cmocka_unit_test(saved_crowds_go_on_to_the_bit),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -2,7 +2,7 @@
    there, stand apart and come to rest, also where there is no room for all of them. */
 #include <math.h>
 
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 typedef struct Rest {
     uint32_t inside;  /* people in the place 'front' */
@@ -13,7 +13,7 @@ typedef struct Rest {
 enum { MOST_PEOPLE = 200 };
 
 static void go_on(JoScene *scene, double seconds) {
-    step(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
+    step_scene(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
 }
 
 static uint32_t count_about(const JoxAgents *a, uint32_t i) {
@@ -53,7 +53,7 @@ static JoScene *load_room(const char *front, const char *walls, const char *peop
              "jostle: 1\nplaces:\n  front: {polygon: %s}\n  out: {point: [-50, -50]}\n%s\n"
              "walls:\n%s\nevents: [{at: 900, signal: end}]\n%s",
              front, people, walls, more);
-    return load_own(text, "");
+    return load_scene_text(text, "");
 }
 
 #define JOURNEY "journey: [{to: front, until: end}, {exit: out}]}"
@@ -162,13 +162,13 @@ static void spots_keep_off_fixed_bodies(void **state) {
 static void people_far_away_come_by_routes(void **state) {
     (void)state;
     JoScene *scene =
-        load_own("jostle: 1\nplaces:\n"
-                 "  front: {polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
-                 "  far: {polygon: [[0, -14], [6, -14], [6, -11], [0, -11]]}\n"
-                 "walls: [{line: [[-8, 2], [-8, -6], [14, -6], [14, 6]]}]\n"
-                 "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
-                 HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
-                      " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
+        load_scene_text("jostle: 1\nplaces:\n"
+                        "  front: {polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
+                        "  far: {polygon: [[0, -14], [6, -14], [6, -11], [0, -11]]}\n"
+                        "walls: [{line: [[-8, 2], [-8, -6], [14, -6], [14, 6]]}]\n"
+                        "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
+                        HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
+                             " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
     const Rest rest = settle(scene, 50);
     assert_true(rest.inside >= 19); /* people in front shift about on its edge */
     assert_in_range(rest.moved, 0, 1);
@@ -183,5 +183,5 @@ int main(void) {
         cmocka_unit_test(spots_keep_off_fixed_bodies),
         cmocka_unit_test(people_far_away_come_by_routes),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,7 +1,7 @@
 /* Contact with people that is meant: approaching them, taking hold, being pulled, slipping. */
 #include <math.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define APART(x)                                                                                   \
     "jostle: 1\nforces: {enabled: true}\nplaces: {end: {point: [30, 0]}}\n"                        \
@@ -23,14 +23,14 @@ typedef struct Pair {
     uint32_t one, other;
 } Pair;
 
-static Pair begin(const char *scene, const char *behaviour) {
-    Pair p = {.scene = load_own(scene, behaviour)};
+static Pair load_pair(const char *scene, const char *behaviour) {
+    Pair p = {.scene = load_scene_text(scene, behaviour)};
     p.a = &p.scene->world->state.agents;
     return p;
 }
 
-static void go(Pair *p, int steps) {
-    step(p->scene, steps);
+static void step_pair(Pair *p, int steps) {
+    step_scene(p->scene, steps);
     p->one = jox_agents_find(p->a, 0);
     p->other = jox_agents_find(p->a, 1);
 }
@@ -54,11 +54,11 @@ static void who_is_approached_is_run_into(void **state) {
             "steer = hold")};
     float came[2];
     for (int approaches = 0; approaches < 2; approaches++) {
-        Pair p = begin(APART("2"), STEERS[approaches]);
+        Pair p = load_pair(APART("2"), STEERS[approaches]);
         float least = INFINITY;
-        go(&p, 8);
+        step_pair(&p, 8);
         for (int n = 0; n < 32; n++) {
-            go(&p, 1);
+            step_pair(&p, 1);
             least = jox_minf(least, p.a->vx[p.one]);
         }
         assert_int_equal(p.a->approached[p.one], approaches ? 2 : 0);
@@ -74,11 +74,11 @@ static void who_is_approached_is_run_into(void **state) {
 /* What one is pulled by, the other is pulled by; never by more than the grip. */
 static void a_hold_pulls_both_alike(void **state) {
     (void)state;
-    Pair p = begin(APART("0.7"), TWO("", HOLDS, "steer = seek \"end\""));
+    Pair p = load_pair(APART("0.7"), TWO("", HOLDS, "steer = seek \"end\""));
     float most = 0.0f;
     int held = 0, told = 0;
     for (int n = 0; n < 60; n++) {
-        go(&p, 1);
+        step_pair(&p, 1);
         assert_float_equal(p.a->given_x[p.one] + p.a->given_x[p.other], 0, 1e-4);
         assert_float_equal(p.a->given_y[p.one] + p.a->given_y[p.other], 0, 1e-4);
         assert_true(p.a->given_x[p.one] >= 0.0f); /* towards whom it holds */
@@ -101,14 +101,14 @@ static void a_hold_pulls_both_alike(void **state) {
 /* A grip of 1 N holds nobody who walks: at a gap of 1 m the hold is lost. */
 static void a_weak_hold_slips(void **state) {
     (void)state;
-    Pair p = begin(APART("0.7"), TWO("steer = hold, grasp = nearest \"other\", grip = 1, "
-                                     "{ to = \"Free\", when = ~has(nearest \"other\") }",
-                                     "steer = hold, grasp = nearest \"other\", grip = 1, "
-                                     "{ to = \"Has\", when = has(nearest \"other\") }",
-                                     "steer = seek \"end\""));
-    go(&p, 6);
+    Pair p = load_pair(APART("0.7"), TWO("steer = hold, grasp = nearest \"other\", grip = 1, "
+                                         "{ to = \"Free\", when = ~has(nearest \"other\") }",
+                                         "steer = hold, grasp = nearest \"other\", grip = 1, "
+                                         "{ to = \"Has\", when = has(nearest \"other\") }",
+                                         "steer = seek \"end\""));
+    step_pair(&p, 6);
     assert_string_equal(state_of(&p, p.one), "Has");
-    go(&p, 40);
+    step_pair(&p, 40);
     assert_string_equal(state_of(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_int_equal(p.a->held[p.other], 0);
@@ -127,9 +127,9 @@ static void grips_are_within_bounds(void **state) {
         TWO("", "steer = hold, grasp = nearest \"other\", grip = 1e30 * now.time * 1e30",
             "steer = seek \"end\"")};
     for (int n = 0; n < 3; n++) {
-        Pair p = begin(APART("0.7"), GRIPS[n]);
+        Pair p = load_pair(APART("0.7"), GRIPS[n]);
         for (int k = 0; k < 20; k++) {
-            go(&p, 1);
+            step_pair(&p, 1);
             const float pull = p.a->given_x[p.one];
             assert_true(n < 2 ? pull == 0.0f : pull >= 0.0f && pull <= 5000.0f);
         }
@@ -139,8 +139,8 @@ static void grips_are_within_bounds(void **state) {
 
 static void who_is_out_of_reach_is_not_held(void **state) {
     (void)state;
-    Pair p = begin(APART("2"), TWO("", HOLDS, "steer = hold"));
-    go(&p, 10);
+    Pair p = load_pair(APART("2"), TWO("", HOLDS, "steer = hold"));
+    step_pair(&p, 10);
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_float_equal(p.a->x[p.one], 0, 1e-3);
     jo_scene_free(p.scene);
@@ -148,11 +148,11 @@ static void who_is_out_of_reach_is_not_held(void **state) {
 
 static void whoever_is_held_knows_and_may_be_let_go(void **state) {
     (void)state;
-    Pair p = begin(APART("0.7"), TWO("", HOLDS ", { to = \"Free\", when = after(1) }",
-                                     "steer = hold, { to = \"Has\", when = holders:is(1) }"));
-    go(&p, 5);
+    Pair p = load_pair(APART("0.7"), TWO("", HOLDS ", { to = \"Free\", when = after(1) }",
+                                         "steer = hold, { to = \"Has\", when = holders:is(1) }"));
+    step_pair(&p, 5);
     assert_string_equal(state_of(&p, p.other), "Has");
-    go(&p, 25);
+    step_pair(&p, 25);
     assert_string_equal(state_of(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_int_equal(p.a->held[p.other], 0);
@@ -168,5 +168,5 @@ int main(void) {
         cmocka_unit_test(who_is_out_of_reach_is_not_held),
         cmocka_unit_test(whoever_is_held_knows_and_may_be_let_go),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -4,7 +4,7 @@
 
 #include "geom/wall_grid.h"
 #include "jostle_tools.h"
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 static const JoxStatistics *figures(const JoScene *scene) {
     return &scene->world->state.statistics;
@@ -50,10 +50,10 @@ static void what_is_carried_and_thrown_stays_in_a_sealed_room(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(ROOM("3", "") BALL("[0, 0, 0.11]"), FETCHES);
+    JoScene *scene = load_scene_text(ROOM("3", "") BALL("[0, 0, 0.11]"), FETCHES);
     uint32_t held = 0;
     for (int n = 0; n < 200; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         const bool now = is_held(scene, "b");
         held += now;
         assert_true(pose_of(scene, "b").centre.x < (now ? 4.0f - 0.11f : 4.0f));
@@ -69,21 +69,21 @@ static void hands_reach_over_what_is_lower_than_the_body(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(ROOM("1.0", "") BALL("[0, 0, 0.11]"), FETCHES);
-    step(scene, 200);
+    JoScene *scene = load_scene_text(ROOM("1.0", "") BALL("[0, 0, 0.11]"), FETCHES);
+    step_scene(scene, 200);
     assert_true(pose_of(scene, "b").centre.x > 5.0f);
     jo_scene_free(scene);
-    scene = load_own(ROOM("1.15", "") BALL("[0, 0, 0.11]"), FETCHES);
+    scene = load_scene_text(ROOM("1.15", "") BALL("[0, 0, 0.11]"), FETCHES);
     for (int n = 0; n < 200; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_true(!is_held(scene, "b") || pose_of(scene, "b").centre.x < 4.0f - 0.11f);
     }
     jo_scene_free(scene);
 }
 
 static uint64_t pickups_from(const char *text) {
-    JoScene *scene = load_own(text, STANDS);
-    step(scene, 20);
+    JoScene *scene = load_scene_text(text, STANDS);
+    step_scene(scene, 20);
     const uint64_t pickups = figures(scene)->pickups;
     jo_scene_free(scene);
     return pickups;
@@ -131,14 +131,14 @@ static void a_kick_stops_at_any_wall(void **state) {
     static const char KICK[] =
         HEAD "\"A\", states = { A = { steer = hold, kick = { nearest \"thing\", at = \"out\", "
              "impulse = 5 } } } }\n";
-    JoScene *scene = load_own(ROOM("3", ", {line: [[-0.79, -5], [-0.79, 5]], height: 0.3}")
-                                  BALL("[-0.66, 0, 0.11]"),
-                              KICK);
-    step(scene, 10);
+    JoScene *scene = load_scene_text(ROOM("3", ", {line: [[-0.79, -5], [-0.79, 5]], height: 0.3}")
+                                         BALL("[-0.66, 0, 0.11]"),
+                                     KICK);
+    step_scene(scene, 10);
     assert_int_equal(figures(scene)->kicks, 0);
     jo_scene_free(scene);
-    scene = load_own(ROOM("3", "") BALL("[-0.66, 0, 0.11]"), KICK);
-    step(scene, 10);
+    scene = load_scene_text(ROOM("3", "") BALL("[-0.66, 0, 0.11]"), KICK);
+    step_scene(scene, 10);
     assert_true(figures(scene)->kicks > 0);
     jo_scene_free(scene);
 }
@@ -156,8 +156,8 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
         "[thing]}]\n";
     char text[600];
     snprintf(text, sizeof text, PASSAGE, "0.2, 2");
-    JoScene *scene = load_own(text, FETCHES);
-    step(scene, 100);
+    JoScene *scene = load_scene_text(text, FETCHES);
+    step_scene(scene, 100);
     assert_int_equal(figures(scene)->dropped, 1);
     assert_true(pose_of(scene, "b").centre.x < 2.0f);
     char *closing = jo_scene_closing(scene);
@@ -168,8 +168,8 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
     jo_free(told);
     jo_scene_free(scene);
     snprintf(text, sizeof text, PASSAGE, "2, 0.2");
-    scene = load_own(text, FETCHES);
-    step(scene, 100);
+    scene = load_scene_text(text, FETCHES);
+    step_scene(scene, 100);
     assert_int_equal(figures(scene)->dropped, 0);
     assert_true(pose_of(scene, "b").centre.x > 3.0f);
     jo_scene_free(scene);
@@ -193,7 +193,7 @@ static void nothing_carried_crosses_walls_however_its_carrier_turns(void **state
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         "jostle: 1\nplaces: {room: {polygon: [[-3, -3], [3, -3], [3, 3], [-3, 3]]}}\n"
         "walls: [{line: [[-3, -3], [3, -3], [3, 3], [-3, 3]], closed: true},\n"
         "  {solid: [[1, 1], [1.4, 1], [1.2, 1.5]]}, {line: [[-1.5, -2], [-1.5, 2]]}]\n"
@@ -204,7 +204,7 @@ static void nothing_carried_crosses_walls_however_its_carrier_turns(void **state
              "  A = { steer = wander(), take = nearest \"thing\" } } }\n");
     uint32_t held = 0;
     for (int n = 0; n < 400; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         const JoxObjects *objects = &scene->world->scratch.objects;
         jox_bodies_objects(scene->world->state.bodies, &scene->world->scratch.objects);
         for (uint32_t o = 0; o < objects->count; o++) {
@@ -227,5 +227,5 @@ int main(void) {
         cmocka_unit_test(what_has_no_room_is_dropped_and_told),
         cmocka_unit_test(nothing_carried_crosses_walls_however_its_carrier_turns),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,6 +1,6 @@
 /* What a program may give the engine: files in memory, threads, and memory before all else. */
 #include "jostle_host.h"
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define HALL "jostle: 1\ngroups: {some: {behaviour: walk.lua, at: [[0, 0], [2, 0]]}}\n"
 #define WALK_ON                                                                                    \
@@ -10,11 +10,6 @@
 #define FILE_OF(path, text)                                                                        \
     { path, text, sizeof text - 1 }
 
-static void quiet(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 static JoScene *load_files(const JoFile *files, size_t count, bool only, JoError *error) {
     JoSceneDef def = jo_default_scene_def();
     *error = (JoError){0};
@@ -23,7 +18,7 @@ static JoScene *load_files(const JoFile *files, size_t count, bool only, JoError
     def.file_count = count;
     def.files_only = only;
     def.threads = 1;
-    def.message = quiet;
+    def.message = ignore_message;
     return jo_scene_load(&def, error);
 }
 
@@ -37,7 +32,7 @@ static void scenes_are_read_from_memory(void **state) {
         JoScene *scene = load_files(files, 3, only, &error);
         if (!scene)
             fail_msg("%s:%d: %s", error.file, error.line, error.text);
-        step(scene, 20);
+        step_scene(scene, 20);
         assert_float_equal(scene->world->state.agents.vx[0], 1.5, 0.01);
         jo_scene_free(scene);
     }
@@ -60,14 +55,12 @@ static void what_is_not_among_the_files_is_missed(void **state) {
 /* A file of the disk is not read where only those given count. */
 static void the_disk_is_left_out(void **state) {
     (void)state;
-    char path[300];
     JoError error;
     JoSceneDef def = jo_default_scene_def();
-    write_file("own.lua", HEAD "\"A\", states = { A = { steer = hold } } }\n");
-    write_file("scene.yaml", "jostle: 1\ngroups: {one: {behaviour: own.lua, at: [[0, 0]]}}\n");
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    def.path = path;
-    def.message = quiet;
+    write_test_file("own.lua", HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    def.path = write_test_file("scene.yaml",
+                               "jostle: 1\ngroups: {one: {behaviour: own.lua, at: [[0, 0]]}}\n");
+    def.message = ignore_message;
     JoScene *scene = jo_scene_load(&def, &error);
     assert_non_null(scene);
     jo_scene_free(scene);
@@ -154,5 +147,5 @@ int main(void) {
         cmocka_unit_test(loops_run_on_the_programs_threads),
         cmocka_unit_test(an_allocator_comes_first),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -4,31 +4,17 @@
 
 #include "jostle_tools.h"
 #include "live/inspect.h"
-#include "unit/run_acted.h"
-
-static void path_of(const char *name, char path[300]) {
-    snprintf(path, 300, "%s/%s", folder, name);
-}
+#include "unit/gate_ball_scene.h"
 
 /* The same scene, that plays a log. */
-static JoScene *play(const char *log, uint32_t threads) {
-    char scene[300];
-    path_of("scene.yaml", scene);
-    JoSceneDef def = jo_default_scene_def();
-    JoError error = {0};
-    def.path = scene;
+static JoScene *play_log(const char *log, uint32_t threads) {
+    JoSceneDef def = define_scene(test_path("scene.yaml"));
     def.input_log = log;
     def.threads = threads;
-    def.message = collect_message;
-    def.named_mods_only = true;
-    jox_text_free(&said);
-    JoScene *replay = jo_scene_load(&def, &error);
-    if (!replay)
-        fail_msg("%s", error.text);
-    return replay;
+    return load_defined_scene(&def);
 }
 
-static void refuses(JoScene *scene, const char *line, const char *because) {
+static void assert_input_refused(JoScene *scene, const char *line, const char *because) {
     JoError error = {0};
     uint64_t before = jo_world_hash(scene->world);
     if (jo_scene_input(scene, line, &error) || !strstr(error.text, because))
@@ -37,7 +23,7 @@ static void refuses(JoScene *scene, const char *line, const char *because) {
     assert_true(before == jo_world_hash(scene->world));
 }
 
-static char *text_of(const char *path) {
+static char *read_input_log(const char *path) {
     char *text = jox_read_file(path, 1 << 24, NULL);
     assert_non_null(text);
     return text;
@@ -47,112 +33,106 @@ static char *text_of(const char *path) {
 
 static void a_session_plays_back(void **state) {
     (void)state;
-    char first[300], second[300];
+    const char *first = test_path("first.input"), *second = test_path("second.input");
     JoError error = {0};
-    path_of("first.input", first);
-    path_of("second.input", second);
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     bool bodies = jox_bodies_available();
     assert_true(jo_scene_log_input(scene, first, &error));
-    step(scene, 3);
-    does(scene, "push 1 250 -40.5");
-    does(scene, "set m Walk speed 0.9");
-    step(scene, 2);
-    does(scene, "open gate");
+    step_scene(scene, 3);
+    apply_input(scene, "push 1 250 -40.5");
+    apply_input(scene, "set m Walk speed 0.9");
+    step_scene(scene, 2);
+    apply_input(scene, "open gate");
     assert_true(jo_scene_open_wall(scene, "gate", false, &error));
     if (bodies) {
-        does(scene, "throw ball 4 0 1.2 -6 0 1");
+        apply_input(scene, "throw ball 4 0 1.2 -6 0 1");
         assert_true(jo_scene_throw(scene, "ball", NULL, (double[]){-5.1, 0.3, 2}, NULL, &error));
-        does(scene, "box 5 0 1 -4 0 0 0.4 12");
-        does(scene, "grab 0 2 2 1");
+        apply_input(scene, "box 5 0 1 -4 0 0 0.4 12");
+        apply_input(scene, "grab 0 2 2 1");
     }
-    step(scene, 7);
-    does(scene, "signal stop");
-    does(scene, "player 2 1 0.3");
-    does(scene, "set m defaults radius 0.25");
+    step_scene(scene, 7);
+    apply_input(scene, "signal stop");
+    apply_input(scene, "player 2 1 0.3");
+    apply_input(scene, "set m defaults radius 0.25");
     if (bodies)
-        does(scene, "drag 0 3 2 1");
-    step(scene, 10);
+        apply_input(scene, "drag 0 3 2 1");
+    step_scene(scene, 10);
     if (bodies)
-        does(scene, "release 0");
+        apply_input(scene, "release 0");
     assert_true(jo_scene_signal(scene, "stop", &error));
-    step(scene, 20);
+    step_scene(scene, 20);
     uint64_t hash = jo_world_hash(scene->world);
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
 
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
-        JoScene *replay = play(first, threads);
-        said.length = 0;
+        JoScene *replay = play_log(first, threads);
+        scene_messages.length = 0;
         if (threads == 1) { /* what is played is logged too */
             assert_false(jo_scene_log_input(replay, first, &error));
             assert_non_null(strstr(error.text, "write the new one to another file"));
             assert_true(jo_scene_log_input(replay, second, &error));
         }
-        step(replay, 42);
-        assert_int_equal(said.length, 0);
+        step_scene(replay, 42);
+        assert_int_equal(scene_messages.length, 0);
         assert_true(jo_world_hash(replay->world) == hash);
         jo_scene_free(replay);
     }
-    char *one = text_of(first), *two = text_of(second);
+    char *one = read_input_log(first), *two = read_input_log(second);
     assert_string_equal(one, two);
     assert_non_null(strstr(one, "# input log of jostle "));
     assert_non_null(strstr(one, "3 push 1 250 -40.5\n3 set m Walk speed 0.9\n5 open gate\n"));
     jox_free(one);
     jox_free(two);
 
-    JoScene *without = begin();
-    step(without, 42);
+    JoScene *without = load_gate_and_ball();
+    step_scene(without, 42);
     assert_false(jo_world_hash(without->world) == hash);
     jo_scene_free(without);
-    unlink(first);
-    unlink(second);
 }
 
 static void what_cannot_be_done_is_not_logged(void **state) {
     (void)state;
-    char path[300];
+    const char *path = test_path("bad.input");
     JoError error = {0};
-    path_of("bad.input", path);
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     assert_true(jo_scene_log_input(scene, path, &error));
-    step(scene, 1);
-    refuses(scene, "push 4 1 1", "there is no agent 4; ids go up to 3");
-    refuses(scene, "player 77 1 1", "there is no agent 77");
-    refuses(scene, "open gaet", "Did you mean 'gate'?");
-    refuses(scene, "shove 1 2 3", "there is no verb 'shove'");
-    refuses(scene, "set m Walk speed 21", "speed must be from 0 to 20 m/s, not 21");
-    refuses(scene, "set m Walk sped 1", "Did you mean 'speed'?");
-    refuses(scene, "set m Wlak speed 1", "Did you mean 'Walk'?");
-    refuses(scene, "set n Walk speed 1", "there is no machine 'n'");
-    refuses(scene, "files 1", "files stands in logs alone");
+    step_scene(scene, 1);
+    assert_input_refused(scene, "push 4 1 1", "there is no agent 4; ids go up to 3");
+    assert_input_refused(scene, "player 77 1 1", "there is no agent 77");
+    assert_input_refused(scene, "open gaet", "Did you mean 'gate'?");
+    assert_input_refused(scene, "shove 1 2 3", "there is no verb 'shove'");
+    assert_input_refused(scene, "set m Walk speed 21", "speed must be from 0 to 20 m/s, not 21");
+    assert_input_refused(scene, "set m Walk sped 1", "Did you mean 'speed'?");
+    assert_input_refused(scene, "set m Wlak speed 1", "Did you mean 'Walk'?");
+    assert_input_refused(scene, "set n Walk speed 1", "there is no machine 'n'");
+    assert_input_refused(scene, "files 1", "files stands in logs alone");
     if (jox_bodies_available()) {
-        refuses(scene, "throw pillar here 1 1 1", "is static");
-        refuses(scene, "grab 1 0 0 1", "is static");
-        refuses(scene, "grab 9 0 0 1", "there is no body 9");
-        refuses(scene, "drag 0 0 0 1", "grab it first");
-        refuses(scene, "release 0", "is not held");
+        assert_input_refused(scene, "throw pillar here 1 1 1", "is static");
+        assert_input_refused(scene, "grab 1 0 0 1", "is static");
+        assert_input_refused(scene, "grab 9 0 0 1", "there is no body 9");
+        assert_input_refused(scene, "drag 0 0 0 1", "grab it first");
+        assert_input_refused(scene, "release 0", "is not held");
     } else {
-        refuses(scene, "box 0 0 1 0 0 0 0.4 10", "no Bullet");
+        assert_input_refused(scene, "box 0 0 1 0 0 0 0.4 10", "no Bullet");
     }
     assert_false(jo_scene_signal(scene, "a\nb", &error));
     jo_scene_free(scene);
-    char *text = text_of(path);
+    char *text = read_input_log(path);
     assert_null(strstr(text, "\n1 ")); /* what it is made of alone */
     assert_non_null(strstr(text, "\n0 began 1 0.05\n0 made "));
     jox_free(text);
-    unlink(path);
 }
 
 static void half_the_step_knows_nothing_of_it(void **state) {
     (void)state;
     JoError error = {0};
-    JoScene *scene = begin();
-    step(scene, 2);
+    JoScene *scene = load_gate_and_ball();
+    step_scene(scene, 2);
     JoScene *half = jo_scene_half_step(&scene->def, scene, &error);
     assert_non_null(half);
     jo_scene_free(half);
-    does(scene, "push 1 10 0");
+    apply_input(scene, "push 1 10 0");
     assert_null(jo_scene_half_step(&scene->def, scene, &error));
     assert_non_null(strstr(error.text, "people acted on it"));
     jo_scene_free(scene);
@@ -161,7 +141,7 @@ static void half_the_step_knows_nothing_of_it(void **state) {
 static void a_log_that_cannot_be_written(void **state) {
     (void)state;
     JoError error = {0};
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     assert_false(jo_scene_log_input(scene, "/nowhere/at/all.input", &error));
     assert_int_equal(error.code, JO_FAILED);
     assert_non_null(strstr(error.text, "/nowhere/at/all.input"));
@@ -177,12 +157,12 @@ static void a_log_that_cannot_be_written(void **state) {
 
 static void a_push_acts_for_one_step(void **state) {
     (void)state;
-    JoScene *pushed = begin(), *pair = begin();
-    step(pushed, 20);
-    step(pair, 20);
-    does(pushed, "push 3 800 0");
-    step(pushed, 1);
-    step(pair, 1);
+    JoScene *pushed = load_gate_and_ball(), *pair = load_gate_and_ball();
+    step_scene(pushed, 20);
+    step_scene(pair, 20);
+    apply_input(pushed, "push 3 800 0");
+    step_scene(pushed, 1);
+    step_scene(pair, 1);
     const JoxAgents *a = &pushed->world->state.agents, *b = &pair->world->state.agents;
     double gain = (double)(a->vx[jox_agents_find(a, 3)] - b->vx[jox_agents_find(b, 3)]);
     assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
@@ -200,19 +180,19 @@ static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
 
 static void a_parameter_is_set_for_all(void **state) {
     (void)state;
-    JoScene *scene = begin();
-    step(scene, 2);
+    JoScene *scene = load_gate_and_ball();
+    step_scene(scene, 2);
     assert_false(parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
-    does(scene, "set m Walk speed 0.9"); /* an expression before */
+    apply_input(scene, "set m Walk speed 0.9"); /* an expression before */
     for (uint32_t id = 0; id < 4; id++)
         assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 0.9f);
-    step(scene, 5);
+    step_scene(scene, 5);
     assert_true((float)parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
-    does(scene, "set m Wait max_speed 0.7"); /* who is not there yet */
-    does(scene, "set m Wait push_angle 30");
+    apply_input(scene, "set m Wait max_speed 0.7"); /* who is not there yet */
+    apply_input(scene, "set m Wait push_angle 30");
     assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.8f);
-    does(scene, "signal stop");
-    step(scene, 2);
+    apply_input(scene, "signal stop");
+    step_scene(scene, 2);
     assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 0.7f);
     assert_true(fabs(parameter(scene, 0, JOX_PARAM_push_angle) - 0.8660254) < 1e-6);
     uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f); /* and who comes later */
@@ -223,33 +203,33 @@ static void a_parameter_is_set_for_all(void **state) {
 
 static void defaults_reach_what_follows_them(void **state) {
     (void)state;
-    JoScene *scene = begin();
-    does(scene, "signal stop");
-    step(scene, 2);
-    does(scene, "set m defaults speed 1.7");
+    JoScene *scene = load_gate_and_ball();
+    apply_input(scene, "signal stop");
+    step_scene(scene, 2);
+    apply_input(scene, "set m defaults speed 1.7");
     for (uint32_t id = 0; id < 4; id++) {
         assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 1.7f);
         assert_true((float)parameter(scene, id, JOX_PARAM_push) == 1.7f); /* own.speed */
     }
-    does(scene, "set m defaults mass 60"); /* given by the scene: set all the same */
+    apply_input(scene, "set m defaults mass 60"); /* given by the scene: set all the same */
     assert_true((float)parameter(scene, 0, JOX_PARAM_mass) == 60.0f);
-    does(scene, "set m defaults max_speed 0.5"); /* the state says otherwise */
+    apply_input(scene, "set m defaults max_speed 0.5"); /* the state says otherwise */
     assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.0f);
     jo_scene_free(scene);
 }
 
 static void a_reload_takes_it_back(void **state) {
     (void)state;
-    JoScene *scene = begin(), *other = begin();
-    step(scene, 2);
-    step(other, 2);
-    does(scene, "set m Wait max_speed 0.7");
-    does(scene, "set m defaults speed 1.7");
-    does(scene, "set m defaults mass 60");
-    if (!reload_text(scene, 0, WALKER "-- saved once more\n"))
-        fail_msg("%s", why);
-    step(scene, 5);
-    step(other, 5);
+    JoScene *scene = load_gate_and_ball(), *other = load_gate_and_ball();
+    step_scene(scene, 2);
+    step_scene(other, 2);
+    apply_input(scene, "set m Wait max_speed 0.7");
+    apply_input(scene, "set m defaults speed 1.7");
+    apply_input(scene, "set m defaults mass 60");
+    if (!reload_behaviour(scene, 0, WALKER "-- saved once more\n"))
+        fail_msg("%s", refusal);
+    step_scene(scene, 5);
+    step_scene(other, 5);
     for (uint32_t id = 0; id < 4; id++)
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
             if (p != JOX_PARAM_speed) /* follows the present speed */
@@ -261,19 +241,19 @@ static void a_reload_takes_it_back(void **state) {
 
 static void the_graph_says_who_set_what(void **state) {
     (void)state;
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     JoxText text = {0};
     char wanted[400];
-    does(scene, "set m Wait max_speed 0.7");
+    apply_input(scene, "set m Wait max_speed 0.7");
     JoxJson json = jox_json_begin(&text, 0);
     jox_live_add_machines(scene, &json, NULL);
     snprintf(wanted, sizeof wanted,
              "{\"name\": \"speed\", \"value\": null, \"text\": \"0.5 * now.speed + 0.4\", "
              "\"set\": \"state Walk %s/own.lua:3\", \"least\": 0, \"most\": 20, \"unit\": \"m/s\"}",
-             folder);
+             test_folder);
     assert_non_null(strstr(text.data, wanted));
     snprintf(wanted, sizeof wanted,
-             "\"text\": \"normal(1.2, 0.2)\", \"set\": \"defaults %s/own.lua:2", folder);
+             "\"text\": \"normal(1.2, 0.2)\", \"set\": \"defaults %s/own.lua:2", test_folder);
     assert_non_null(strstr(text.data, wanted));
     assert_non_null(strstr(text.data,
                            "{\"name\": \"max_speed\", \"value\": 0.7, \"text\": \"0.7\", "
@@ -288,7 +268,7 @@ static void the_graph_says_who_set_what(void **state) {
     jox_text_free(&text);
     assert_true(jox_live_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
     snprintf(wanted, sizeof wanted,
-             "Wait = { max_speed = 0.7, ... },   -- %s/own.lua:5, where it is 1", folder);
+             "Wait = { max_speed = 0.7, ... },   -- %s/own.lua:5, where it is 1", test_folder);
     assert_string_equal(text.data, wanted);
     jox_text_free(&text);
     assert_true(jox_live_lua_line(scene, "m", "defaults", "horizon", 1, &text));
@@ -313,11 +293,11 @@ static void a_body_is_pulled(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
-    JoScene *scene = begin();
-    does(scene, "grab 0 9 3 1.5");
+    JoScene *scene = load_gate_and_ball();
+    apply_input(scene, "grab 0 9 3 1.5");
     float fastest = 0.0f;
     for (int n = 0; n < 60; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         JoxPose pose = pose_of(scene, 0);
         fastest = jox_maxf(fastest, fabsf(pose.velocity.y));
     }
@@ -325,14 +305,14 @@ static void a_body_is_pulled(void **state) {
     assert_true(fabsf(pose.centre.x - 9) < 0.05f && fabsf(pose.centre.y - 3) < 0.05f);
     assert_true(fabsf(pose.centre.z - 1.5f) < 0.05f); /* its weight is borne */
     assert_true(fastest < 6.1f);
-    does(scene, "drag 0 9 4 1.5");
-    step(scene, 60);
+    apply_input(scene, "drag 0 9 4 1.5");
+    step_scene(scene, 60);
     assert_true(fabsf(pose_of(scene, 0).centre.y - 4) < 0.05f);
-    does(scene, "release 0");
-    step(scene, 40);
+    apply_input(scene, "release 0");
+    step_scene(scene, 40);
     assert_true(pose_of(scene, 0).centre.z < 0.2f);
-    does(scene, "grab 0 9 4 -60"); /* into the ground: it stays above */
-    step(scene, 20);
+    apply_input(scene, "grab 0 9 4 -60"); /* into the ground: it stays above */
+    step_scene(scene, 20);
     assert_true(pose_of(scene, 0).centre.z > 0.0f);
     jo_scene_free(scene);
 }
@@ -341,20 +321,20 @@ static void the_oldest_box_goes(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
-    JoScene *scene = begin();
+    JoScene *scene = load_gate_and_ball();
     JoWorld *world = scene->world;
     uint32_t before = jo_world_body_count(world);
     for (int n = 0; n < JOX_MOST_BOXES + 7; n++) {
         char line[100];
         snprintf(line, sizeof line, "box %d %d 0 0 0 0 0.3 4", 40 + n % 15, 20 + n / 15);
-        does(scene, line);
+        apply_input(scene, line);
         if (n % 50 == 0)
-            step(scene, 1);
+            step_scene(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
     assert_int_equal(world->state.drags.boxes[0], before + 7); /* ids are not used again */
     assert_int_equal(jox_bodies_find(world->state.bodies, before + 6), JOX_NO_BODY);
-    step(scene, 3);
+    step_scene(scene, 3);
     JoxPose pose = pose_of(scene, jox_bodies_find(world->state.bodies, before + 7));
     assert_true(fabsf(pose.centre.z - 0.15f) < 0.02f); /* lifted out of the ground */
     for (uint32_t o = 0; o < 2; o++)
@@ -366,71 +346,62 @@ static void the_oldest_box_goes(void **state) {
 
 static void files_of_a_log_go_live(void **state) {
     (void)state;
-    char log[300], text[4000];
-    path_of("files.input", log);
-    JoScene *scene = load_own(PEOPLE(20), FAST("1.5", "")); /* what lies on the disk at the end */
+    char text[4000];
+    JoScene *scene =
+        load_scene_text(PEOPLE(20), FAST("1.5", "")); /* what lies on the disk at the end */
     jo_scene_free(scene);
     static const char BEGAN[] = FAST("0.7", ""), LIVE[] = FAST("0.9", ""), BAD[] = "return 7\n";
     snprintf(text, sizeof text,
              "# a session\n3 before 1\n%s/own.lua %zu\n%s\n3 files 1\n%s/own.lua %zu\n%s\n"
              "6 files 1\n%s/own.lua %zu\n%s\n",
-             folder, sizeof BEGAN - 1, BEGAN, folder, sizeof LIVE - 1, LIVE, folder, sizeof BAD - 1,
-             BAD);
-    write_file("files.input", text);
-    scene = play(log, 1);
+             test_folder, sizeof BEGAN - 1, BEGAN, test_folder, sizeof LIVE - 1, LIVE, test_folder,
+             sizeof BAD - 1, BAD);
+    scene = play_log(write_test_file("files.input", text), 1);
     assert_true((float)read_wanted_speed(scene, 0) == 0.7f);
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_true((float)read_wanted_speed(scene, 0) == 0.7f);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_true((float)read_wanted_speed(scene, 0) == 0.9f);
-    assert_non_null(strstr(said.data, "reload 1 is live from t = 0.15 s\n"));
-    assert_null(strstr(said.data, "ms ago"));
-    step(scene, 3);
+    assert_non_null(strstr(scene_messages.data, "reload 1 is live from t = 0.15 s\n"));
+    assert_null(strstr(scene_messages.data, "ms ago"));
+    step_scene(scene, 3);
     assert_non_null(
-        strstr(said.data, "files.input:10: t = 0.30 s: the files that follow were not"));
-    assert_non_null(strstr(said.data, "Reload 1 keeps running"));
+        strstr(scene_messages.data, "files.input:10: t = 0.30 s: the files that follow were not"));
+    assert_non_null(strstr(scene_messages.data, "Reload 1 keeps running"));
     assert_true((float)read_wanted_speed(scene, 0) == 0.9f);
     JoError error = {0};
     assert_false(jo_scene_watch(scene, &error));
     assert_non_null(strstr(error.text, "cannot be watched besides"));
     jo_scene_free(scene);
-    unlink(log);
 }
 
 static void a_log_of_something_else(void **state) {
     (void)state;
-    char log[300], text[1000];
-    path_of("else.input", log);
-    jo_scene_free(begin());
-    snprintf(text, sizeof text, "0 began 7 0.02\n0 made %s/own.lua 0c8e\n5 began 1 0.05\n", folder);
-    write_file("else.input", text);
-    jo_scene_free(play(log, 1));
-    assert_non_null(strstr(said.data, "else.input:1: the log was written with seed 7 and steps of "
-                                      "0.02 s, not 1 and 0.05 s"));
-    assert_non_null(strstr(said.data, "else.input:2: "));
-    assert_non_null(strstr(said.data, "own.lua has changed since the log was written"));
-    assert_non_null(strstr(said.data, "else.input:3: the log was begun 5 steps into the run"));
-    unlink(log);
+    char text[1000];
+    jo_scene_free(load_gate_and_ball());
+    snprintf(text, sizeof text, "0 began 7 0.02\n0 made %s/own.lua 0c8e\n5 began 1 0.05\n",
+             test_folder);
+    jo_scene_free(play_log(write_test_file("else.input", text), 1));
+    assert_non_null(strstr(scene_messages.data,
+                           "else.input:1: the log was written with seed 7 and steps of "
+                           "0.02 s, not 1 and 0.05 s"));
+    assert_non_null(strstr(scene_messages.data, "else.input:2: "));
+    assert_non_null(strstr(scene_messages.data, "own.lua has changed since the log was written"));
+    assert_non_null(
+        strstr(scene_messages.data, "else.input:3: the log was begun 5 steps into the run"));
 }
 
 static void a_wrong_log_is_an_error_of_its_file(void **state) {
     (void)state;
-    char log[300], scene[300];
-    path_of("wrong.input", log);
-    path_of("scene.yaml", scene);
-    jo_scene_free(begin());
-    write_file("wrong.input", "# x\n2 push 0 1 1\n3 shove 0\n");
-    JoSceneDef def = jo_default_scene_def();
+    jo_scene_free(load_gate_and_ball());
+    const char *log = write_test_file("wrong.input", "# x\n2 push 0 1 1\n3 shove 0\n");
+    JoSceneDef def = define_scene(test_path("scene.yaml"));
     JoError error = {0};
-    def.path = scene;
     def.input_log = log;
-    def.message = collect_message;
-    def.named_mods_only = true;
     assert_null(jo_scene_load(&def, &error));
     assert_int_equal(error.line, 3);
     assert_int_equal(error.column, 3);
     assert_string_equal(error.file, log);
-    unlink(log);
 }
 
 int main(void) {
@@ -450,5 +421,5 @@ int main(void) {
         cmocka_unit_test(a_log_of_something_else),
         cmocka_unit_test(a_wrong_log_is_an_error_of_its_file),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

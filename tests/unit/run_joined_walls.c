@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "machine/internal.h"
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define EAST HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(1, 0) } } }\n"
 #define WEST HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(-1, 0) } } }\n"
@@ -34,7 +34,7 @@ static int count_laps(JoScene *scene, int steps) {
     for (int n = 0; n < steps; n++) {
         for (uint32_t i = 0; i < a->count; i++)
             before[a->id[i]] = a->x[i];
-        step(scene, 1);
+        step_scene(scene, 1);
         for (uint32_t i = 0; i < a->count; i++)
             laps += fabsf(a->x[i] - before[a->id[i]]) > 5.0f;
     }
@@ -52,11 +52,11 @@ static void gate_at_joined_edges_is_passed_only_while_it_is_open(void **state) {
     };
     (void)state;
     for (size_t k = 0; k < 2 * sizeof GATES / sizeof *GATES; k++) {
-        JoScene *scene = load_own(GATES[k / 2], k % 2 ? EAST : WEST);
+        JoScene *scene = load_scene_text(GATES[k / 2], k % 2 ? EAST : WEST);
         assert_int_equal(count_laps(scene, 300), 0);
-        does(scene, "open gate");
+        apply_input(scene, "open gate");
         assert_true(count_laps(scene, 300) >= 12);
-        does(scene, "close gate");
+        apply_input(scene, "close gate");
         assert_int_equal(count_laps(scene, 300), 0);
         jo_scene_free(scene);
     }
@@ -64,36 +64,37 @@ static void gate_at_joined_edges_is_passed_only_while_it_is_open(void **state) {
 
 static void one_step_over_joined_edges_ends_at_a_wall(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\nbounds: [[0, 0], [10, 4]]\nperiodic: both\n"
-                 "walls: [{line: [[2, 1], [2, 3]], name: gate}, {line: [[4, 0], [6, 0]]}]\n"
-                 "groups: {people: {behaviour: own.lua, at: [[5, 2], [5, 3.5]]}}\n",
-                 HEAD "\"A\", defaults = { mass = 1 }, states = { A = { steer = hold } } }\n");
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nbounds: [[0, 0], [10, 4]]\nperiodic: both\n"
+        "walls: [{line: [[2, 1], [2, 3]], name: gate}, {line: [[4, 0], [6, 0]]}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[5, 2], [5, 3.5]]}}\n",
+        HEAD "\"A\", defaults = { mass = 1 }, states = { A = { steer = hold } } }\n");
     const JoxAgents *a = agents_of(scene);
-    does(scene, "push 0 10000 0"); /* some 25 m in a step */
-    does(scene, "push 1 0 10000");
-    step(scene, 1);
+    apply_input(scene, "push 0 10000 0"); /* some 25 m in a step */
+    apply_input(scene, "push 1 0 10000");
+    step_scene(scene, 1);
     assert_true(a->x[0] > 1.5f && a->x[0] < 2.0f);
     assert_true(a->y[1] > 3.5f && a->y[1] < 4.0f);
-    does(scene, "open gate");
-    does(scene, "push 0 10000 0");
-    step(scene, 1);
+    apply_input(scene, "open gate");
+    apply_input(scene, "push 0 10000 0");
+    step_scene(scene, 1);
     assert_true(a->x[0] - a->prev_x[0] > 10.0f);
     jo_scene_free(scene);
 }
 
 static void people_in_the_way_of_a_gate_are_moved_within_the_bounds(void **state) {
     (void)state;
-    JoScene *scene = load_own(RING "  - {line: [[0, 0], [0, 4]], name: gate, open: true}\n"
-                                   "  - {solid: [[9, 0], [11, 0], [11, 1], [9, 1]], name: block, "
-                                   "open: true}\n"
-                                   "groups: {people: {behaviour: own.lua, at: [[9.95, 2], "
-                                   "[0.05, 3], [0.5, 0.5], [9.5, 0.5]]}}\n",
-                              STAY);
+    JoScene *scene =
+        load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate, open: true}\n"
+                             "  - {solid: [[9, 0], [11, 0], [11, 1], [9, 1]], name: block, "
+                             "open: true}\n"
+                             "groups: {people: {behaviour: own.lua, at: [[9.95, 2], "
+                             "[0.05, 3], [0.5, 0.5], [9.5, 0.5]]}}\n",
+                        STAY);
     const JoxAgents *a = agents_of(scene);
-    does(scene, "close gate");
-    does(scene, "close block");
-    step(scene, 1);
+    apply_input(scene, "close gate");
+    apply_input(scene, "close block");
+    step_scene(scene, 1);
     assert_int_equal(scene->world->state.statistics.moved_out, 4);
     for (uint32_t i = 0; i < a->count; i++) {
         const float x = a->x[i], y = a->y[i];
@@ -107,12 +108,12 @@ static void people_in_the_way_of_a_gate_are_moved_within_the_bounds(void **state
 
 static void people_are_born_beside_walls_beyond_joined_edges(void **state) {
     (void)state;
-    JoScene *scene = load_own(RING "  - {solid: [[9, 0], [11, 0], [11, 4], [9, 4]]}\n"
-                                   "groups: {people: {behaviour: own.lua, at: [[5, 2]]}}\n",
-                              STAY);
+    JoScene *scene = load_scene_text(RING "  - {solid: [[9, 0], [11, 0], [11, 4], [9, 4]]}\n"
+                                          "groups: {people: {behaviour: own.lua, at: [[5, 2]]}}\n",
+                                     STAY);
     JoError error = {0};
     assert_false(jo_scene_input(scene, "spawn people 0.5 2", &error));
-    does(scene, "spawn people 1.05 2");
+    apply_input(scene, "spawn people 1.05 2");
     const JoxAgents *a = agents_of(scene);
     assert_int_equal(a->count, 2);
     for (uint32_t i = 0; i < a->count; i++)
@@ -122,12 +123,12 @@ static void people_are_born_beside_walls_beyond_joined_edges(void **state) {
 
 static void people_fill_places_beside_walls_beyond_joined_edges(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\nbounds: [[0, 0], [10, 4]]\nperiodic: both\n"
-                 "walls: [{solid: [[9, 0], [11, 0], [11, 4], [9, 4]]}]\n"
-                 "places: {all: {polygon: [[0, 0], [10, 0], [10, 4], [0, 4]]}}\n"
-                 "groups: {people: {behaviour: own.lua, density: 1, in: all, fill: random}}\n",
-                 STAY);
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nbounds: [[0, 0], [10, 4]]\nperiodic: both\n"
+        "walls: [{solid: [[9, 0], [11, 0], [11, 4], [9, 4]]}]\n"
+        "places: {all: {polygon: [[0, 0], [10, 0], [10, 4], [0, 4]]}}\n"
+        "groups: {people: {behaviour: own.lua, density: 1, in: all, fill: random}}\n",
+        STAY);
     const JoxAgents *a = agents_of(scene);
     assert_in_range(a->count, 29, 32); /* on 8 m x 4 m, less what is near the solid */
     for (uint32_t i = 0; i < a->count; i++)
@@ -156,9 +157,9 @@ static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
                  "places: {hall: {polygon: [[0, 0.2], [10, 0.2], [10, 1.3], [0, 1.3]]}}\n"
                  "groups: {people: {behaviour: own.lua, count: 40, in: hall, fill: random}}\n",
                  WALLS[k]);
-        JoScene *scene = load_own(scene_text, HEAD
-                                  "\"A\", defaults = { speed = uniform(0.8, 1.6), push = 300, "
-                                  "radius = 0.2 }, states = { A = { steer = drift(1, 0.3) } } }\n");
+        JoScene *scene = load_scene_text(
+            scene_text, HEAD "\"A\", defaults = { speed = uniform(0.8, 1.6), push = 300, "
+                             "radius = 0.2 }, states = { A = { steer = drift(1, 0.3) } } }\n");
         const JoxAgents *a = agents_of(scene);
         assert_true(count_laps(scene, 25) > 0);
         for (uint32_t i = 0; i < a->count; i++) {
@@ -178,14 +179,15 @@ static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
 
 static void walls_beyond_joined_edges_hide_and_bear_loads_and_are_told_once(void **state) {
     (void)state;
-    JoScene *scene = load_own(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n" TWELVE, HEAD
-                              "\"A\", defaults = { speed = 1.3, push = 600 }, states = { A = { "
-                              "steer = drift(1, 0) } } }\n");
+    JoScene *scene =
+        load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n" TWELVE,
+                        HEAD "\"A\", defaults = { speed = 1.3, push = 600 }, states = { A = { "
+                             "steer = drift(1, 0) } } }\n");
     const double from[] = {9, 2}, to[] = {11, 2}, back[] = {8, 2};
     const JoWorld *world = scene->world;
     double edges[4 * 16];
     uint32_t count;
-    step(scene, 300);
+    step_scene(scene, 300);
     assert_true(jox_is_hidden(&scene->world->machines, jox_v2(9.5f, 2), jox_v2(10.5f, 2), false));
     assert_false(jox_is_hidden(&scene->world->machines, jox_v2(9.5f, 2), jox_v2(9.9f, 2), false));
     const JoCast cast = jo_world_cast(world, from, to, 0.1, JO_CAST_WALLS);
@@ -200,20 +202,21 @@ static void walls_beyond_joined_edges_hide_and_bear_loads_and_are_told_once(void
     }
     assert_int_equal(count, 4 * 10 + 2 * 4);
     assert_true(borne > 100.0f);
-    does(scene, "open gate");
+    apply_input(scene, "open gate");
     assert_false(jo_world_cast(world, from, to, 0.1, JO_CAST_WALLS).hit);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_false(jox_is_hidden(&scene->world->machines, jox_v2(9.5f, 2), jox_v2(10.5f, 2), false));
     jo_scene_free(scene);
 }
 
 static void people_beyond_a_wall_at_joined_edges_do_not_count_in_densities(void **state) {
     (void)state;
-    JoScene *scene = load_own(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n"
-                                   "groups: {people: {behaviour: own.lua, at: [[0.3, 2]]}}\n",
-                              STAY);
+    JoScene *scene =
+        load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n"
+                             "groups: {people: {behaviour: own.lua, at: [[0.3, 2]]}}\n",
+                        STAY);
     assert_true(jo_world_density(scene->world, 9.7, 2) == 0.0);
-    does(scene, "open gate");
+    apply_input(scene, "open gate");
     assert_true(jo_world_density(scene->world, 9.7, 2) > 0.1);
     jo_scene_free(scene);
 }
@@ -242,7 +245,7 @@ static void routes_lead_over_joined_edges_where_that_is_the_way(void **state) {
     };
     (void)state;
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
-        JoScene *scene = load_own(CASES[k].scene, WALK);
+        JoScene *scene = load_scene_text(CASES[k].scene, WALK);
         const JoxPlace *goal = &scene->world->model.places[0];
         const JoxAgents *a = agents_of(scene);
         double points[200], length;
@@ -268,11 +271,11 @@ static void goals_that_walls_at_joined_edges_keep_people_from_are_told(void **st
     };
     (void)state;
     for (size_t k = 0; k < sizeof SCENES / sizeof *SCENES; k++) {
-        JoScene *scene = load_own(SCENES[k], WALK);
+        JoScene *scene = load_scene_text(SCENES[k], WALK);
         double length = 0.0;
-        step(scene, 100);
-        assert_non_null(said.data);
-        assert_non_null(strstr(said.data, "cannot reach"));
+        step_scene(scene, 100);
+        assert_non_null(scene_messages.data);
+        assert_non_null(strstr(scene_messages.data, "cannot reach"));
         assert_int_equal(jo_world_path(scene->world, 4, 1, "goal", NULL, 0, &length), 0);
         assert_false(isfinite(length));
         jo_scene_free(scene);
@@ -292,5 +295,5 @@ int main(void) {
         cmocka_unit_test(goals_that_walls_at_joined_edges_keep_people_from_are_told),
         cmocka_unit_test(people_beyond_a_wall_at_joined_edges_do_not_count_in_densities),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

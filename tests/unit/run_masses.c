@@ -5,7 +5,7 @@
 
 #include "base/number/random.h"
 #include "body/body.h"
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 enum { SCENES = 40, STEPS = 200, MOST_BODIES = 9 };
 
@@ -218,10 +218,10 @@ static void run_mix(Mix *m, Sums *all) {
     m->drawn = 0;
     write_scene(m);
     write_behaviour(m);
-    JoScene *scene = load_own(m->yaml.data, m->lua.data);
+    JoScene *scene = load_scene_text(m->yaml.data, m->lua.data);
     add_bodies(m, scene->world);
     for (int n = 0; n < STEPS; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         const char *fault = jox_world_fault(scene->world);
         if (fault)
             fail_msg("scene %llu, step %d: %s", (unsigned long long)m->number, n, fault);
@@ -262,5 +262,5 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_of_any_mass_meet_people),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

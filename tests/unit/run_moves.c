@@ -1,7 +1,7 @@
 /* Events that set the velocity of kinematic bodies. */
 #include <math.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
 #define EVENTS(list)                                                                               \
@@ -11,22 +11,23 @@ static void a_kinematic_body_is_moved(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
-    JoScene *scene = load_own(EVENTS("  - {at: 1, move: lift, velocity: [0, 0, 0.5]}\n"
-                                     "  - {at: 3, move: lift, velocity: [0, 0, 0], spin: [0, 0, "
-                                     "1]}\n") "bodies:\n  - {name: lift, shape: {box: {size: [2, "
-                                              "2, 0.2]}}, kinematic: true, at: [0, 9, 1],\n"
-                                              "     path: {through: [[0, 20, 1]], speed: 1, after: "
-                                              "2}}\n",
-                              STAY);
+    JoScene *scene =
+        load_scene_text(EVENTS("  - {at: 1, move: lift, velocity: [0, 0, 0.5]}\n"
+                               "  - {at: 3, move: lift, velocity: [0, 0, 0], spin: [0, 0, "
+                               "1]}\n") "bodies:\n  - {name: lift, shape: {box: {size: [2, "
+                                        "2, 0.2]}}, kinematic: true, at: [0, 9, 1],\n"
+                                        "     path: {through: [[0, 20, 1]], speed: 1, after: "
+                                        "2}}\n",
+                        STAY);
     JoxPose pose;
-    step(scene, 20);
+    step_scene(scene, 20);
     jox_bodies_pose(scene->world->state.bodies, 0, &pose);
     assert_float_equal(pose.position.z, 1.0, 1e-4);
-    step(scene, 20);
+    step_scene(scene, 20);
     jox_bodies_pose(scene->world->state.bodies, 0, &pose);
     assert_float_equal(pose.position.z, 1.5, 1e-3);
     assert_float_equal(pose.velocity.z, 0.5, 1e-6);
-    step(scene, 60); /* it left its path, and stands at 3 s */
+    step_scene(scene, 60); /* it left its path, and stands at 3 s */
     jox_bodies_pose(scene->world->state.bodies, 0, &pose);
     assert_float_equal(pose.position.z, 2.0, 1e-3);
     assert_float_equal(pose.position.y, 9.0, 1e-4);
@@ -36,5 +37,5 @@ static void a_kinematic_body_is_moved(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_kinematic_body_is_moved)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -5,7 +5,7 @@
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };
 
@@ -172,7 +172,7 @@ static void write_behaviour(Passage *p) {
 static void edit(Passage *p, uint32_t walls) {
     JoxDiagnostics diagnostics = {0};
     write_scene(p, walls, 2);
-    write_file("scene.yaml", p->yaml.data);
+    write_test_file("scene.yaml", p->yaml.data);
     JoxSceneSpec *spec = jox_run_load_spec(&p->scene->def, p->scene->mods, 0, &diagnostics);
     if (spec) { /* a wall may cross itself */
         jox_run_rescene(p->scene, &spec, 0.0);
@@ -330,8 +330,6 @@ static void watch_step(Passage *p) {
 
 static void run_passage(Passage *p) {
     const uint32_t walls = 1 + (uint32_t)(p->number % 4);
-    char path[300];
-    JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     p->drawn = p->made = 0;
     p->dt = STEPS[p->number % 5];
@@ -339,13 +337,9 @@ static void run_passage(Passage *p) {
                        p->number % 9 == 1 || p->number % 9 == 7 ? SIZE.y : 0.0f);
     write_behaviour(p);
     write_scene(p, walls, 0);
-    write_file("own.lua", p->lua.data);
-    write_file("scene.yaml", p->yaml.data);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    def.path = path;
-    def.message = collect_message;
-    def.named_mods_only = def.no_density = true;
-    jox_text_free(&said);
+    write_test_file("own.lua", p->lua.data);
+    JoSceneDef def = define_scene(write_test_file("scene.yaml", p->yaml.data));
+    def.no_density = true;
     p->scene = jo_scene_load(&def, &error);
     if (!p->scene) {
         fail_msg("scene %llu: %s\n%s", (unsigned long long)p->number, error.text, p->yaml.data);
@@ -357,7 +351,7 @@ static void run_passage(Passage *p) {
         if (chance(p, 0.3))
             do_something(p);
         note_before(p);
-        step(p->scene, 1);
+        step_scene(p->scene, 1);
         watch_step(p);
     }
     jo_scene_free(p->scene);
@@ -383,5 +377,5 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nobody_passes_a_wall),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

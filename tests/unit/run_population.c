@@ -1,6 +1,6 @@
 /* Sources, parties, exits and events are the world's own: a program that steps the world of a scene
    gets them, and a state that was saved in their midst goes on to the bit. */
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #include "jostle_tools.h"
 #include "nav/state.h"
@@ -40,7 +40,7 @@ enum { SAVED = JOX_BODIES_REINSERT_STEPS, AFTER = 200 };
 
 static JoScene *crowd(void) {
     JoScene *scene =
-        load_own(jox_bodies_available() ? CROWD(CRATE, THROW) : CROWD("", ""), WALKER_TO);
+        load_scene_text(jox_bodies_available() ? CROWD(CRATE, THROW) : CROWD("", ""), WALKER_TO);
     scene->world->model.reinserts_bodies = true;
     return scene;
 }
@@ -71,14 +71,14 @@ static void a_program_steps_the_world_of_a_scene(void **state) {
     jo_scene_free(scene);
 
     scene = crowd(); /* the scene's own steps are the same */
-    step(scene, 280);
+    step_scene(scene, 280);
     assert_true(jo_world_hash(jo_scene_world(scene)) == hash);
     jo_scene_free(scene);
 }
 
 static void note(JoScene *scene, uint64_t hashes[AFTER]) {
     for (int n = 0; n < AFTER; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
@@ -89,7 +89,7 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
     JoScene *scene = crowd(), *other = crowd();
     JoxText saved = {0};
     JoError error = {0};
-    step(scene, SAVED);
+    step_scene(scene, SAVED);
     assert_true(jox_world_snapshot(scene->world, &saved, &error));
     const JoxExits then = scene->world->state.exits;
     note(scene, first);
@@ -114,7 +114,7 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
 static void counts_of_sources_are_hashed(void **state) {
     (void)state;
     JoScene *scene = crowd();
-    step(scene, 40);
+    step_scene(scene, 40);
     JoxPopulation *p = &scene->world->state.population;
     const uint64_t before = jo_world_hash(scene->world);
     scene->world->state.sources.made[0] += 1.0;
@@ -146,10 +146,10 @@ static void counts_of_sources_are_hashed(void **state) {
 
 /* Who has no room waits, and comes when those before have gone. */
 static void expect_waiting(const char *yaml, uint32_t most) {
-    JoScene *scene = load_own(yaml, STANDER);
+    JoScene *scene = load_scene_text(yaml, STANDER);
     JoWorld *world = jo_scene_world(scene);
     JoxAgents *a = &world->state.agents;
-    step(scene, 40);
+    step_scene(scene, 40);
     const uint32_t full = a->count;
     assert_in_range(full, 3, most);
     for (uint32_t i = 0; i < a->count; i++) {
@@ -157,7 +157,7 @@ static void expect_waiting(const char *yaml, uint32_t most) {
         a->removed[i] = true;
     }
     jox_agents_compact(a);
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_in_range(world->state.statistics.spawned, full + 3, 2 * most);
     assert_in_range(a->count, 3, most);
     jo_scene_free(scene);
@@ -190,25 +190,25 @@ static bool is_at(const JoWorld *w, uint32_t i, float x, float y) {
    step that begins at their time or after it. */
 static void each_comes_in_at_its_time_and_place(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(STARTS("[[1.02, 3, 4], [0, 0, 0], [0.5, 9, 9, 0, -1.5], [0, 6, 0, 1, 0]]"), STAND);
+    JoScene *scene = load_scene_text(
+        STARTS("[[1.02, 3, 4], [0, 0, 0], [0.5, 9, 9, 0, -1.5], [0, 6, 0, 1, 0]]"), STAND);
     JoWorld *w = scene->world;
     const JoxAgents *a = &w->state.agents;
     assert_int_equal(a->count, 2);
     assert_true(is_at(w, 0, 0, 0) && is_at(w, 1, 6, 0));
     assert_true(a->vx[1] == 1.0f && a->face_x[1] == 1.0f && a->vx[0] == 0.0f);
-    step(scene, 10); /* 0.5 s */
+    step_scene(scene, 10); /* 0.5 s */
     assert_int_equal(a->count, 2);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(a->count, 3);
     const uint32_t third = a->slot_index[2];
     assert_true(fabsf(a->x[third] - 9) < 0.01f && a->y[third] < 9 && a->y[third] > 8.9f);
     assert_true(a->face_y[third] < -0.99f);
-    step(scene, 10); /* to 1.05 s: its step begins at 1.0 */
+    step_scene(scene, 10); /* to 1.05 s: its step begins at 1.0 */
     assert_int_equal(a->count, 3);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(a->count, 4);
-    step(scene, 100);
+    step_scene(scene, 100);
     assert_int_equal(a->count, 4);
     assert_int_equal(w->state.population.all_until, 2);
     jo_scene_free(scene);
@@ -230,10 +230,10 @@ static void expect_starts_waiting(const JoScene *scene, double people) {
 static void who_would_stand_in_another_waits(void **state) {
     (void)state;
     JoScene *scene =
-        load_own(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0], [0.7, 0.35, 0]]"), STAND);
+        load_scene_text(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0], [0.7, 0.35, 0]]"), STAND);
     JoWorld *w = scene->world;
     const JoxAgents *a = &w->state.agents;
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_int_equal(a->count, 3);
     assert_int_equal(w->state.statistics.shifted_at_birth, 0);
     assert_int_equal(w->state.population.all_until, 0);
@@ -242,12 +242,12 @@ static void who_would_stand_in_another_waits(void **state) {
     expect_starts_waiting(scene, 1);
     jo_scene_free(scene);
 
-    scene = load_own(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0]]"), STAND);
+    scene = load_scene_text(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0]]"), STAND);
     w = scene->world;
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_int_equal(w->state.agents.count, 2);
     jo_world_remove_agent(w, (JoAgent){0, w->state.agents.slot_generation[0]});
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(w->state.agents.count, 2);
     assert_int_equal(w->state.population.all_until, 2);
     expect_starts_waiting(scene, 0);
@@ -257,10 +257,10 @@ static void who_would_stand_in_another_waits(void **state) {
 /* A search that ends by its bound does not say that there is no room. */
 static void search_ended_by_its_bound_is_told(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\nplaces: {hall: {point: [0, 0], radius: 5}}\n"
-                              "groups: {people: {behaviour: own.lua, count: 569, fill: hex, "
-                              "in: hall, spacing: 0.4}}\n",
-                              STANDER);
+    JoScene *scene = load_scene_text("jostle: 1\nplaces: {hall: {point: [0, 0], radius: 5}}\n"
+                                     "groups: {people: {behaviour: own.lua, count: 569, fill: hex, "
+                                     "in: hall, spacing: 0.4}}\n",
+                                     STANDER);
     JoWorld *w = scene->world;
     uint32_t agent;
     JoxText told = {0};
@@ -280,13 +280,13 @@ static void search_ended_by_its_bound_is_told(void **state) {
    wall, not through it, also where others leave the nearest room on its far side. */
 static void nobody_is_born_through_a_wall(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(STARTS("[[0, 0.6, -0.6], [0, 0.6, -0.3], [0, 0.6, 0], [0, 0.6, 0.3], "
-                        "[0, 0.6, 0.6], [0.1, 0.98, 0.05], [0.2, 1.02, 3]]") "walls: [{line: [[1, "
-                                                                             "-20], [1, 20]]}]\n",
-                 STAND);
+    JoScene *scene = load_scene_text(
+        STARTS("[[0, 0.6, -0.6], [0, 0.6, -0.3], [0, 0.6, 0], [0, 0.6, 0.3], "
+               "[0, 0.6, 0.6], [0.1, 0.98, 0.05], [0.2, 1.02, 3]]") "walls: [{line: [[1, "
+                                                                    "-20], [1, 20]]}]\n",
+        STAND);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 10);
+    step_scene(scene, 10);
     assert_int_equal(a->count, 7);
     assert_int_equal(scene->world->state.statistics.shifted_at_birth, 2);
     for (uint32_t i = 0; i < a->count; i++)
@@ -302,10 +302,10 @@ static void who_has_come_in_is_state(void **state) {
     static const char ROWS[] = STARTS("[[0, 0, 0], [0.5, 0.1, 0], [1, 5, 0], [2.5, 8, 0], "
                                       "[2.6, 9, 3, 1, 1], [30, 1, 1]]");
     uint64_t first[AFTER], second[AFTER];
-    JoScene *scene = load_own(ROWS, WALKER_TO), *other = load_own(ROWS, WALKER_TO);
+    JoScene *scene = load_scene_text(ROWS, WALKER_TO), *other = load_scene_text(ROWS, WALKER_TO);
     JoxText saved = {0};
     JoError error = {0};
-    step(scene, 30);
+    step_scene(scene, 30);
     assert_int_equal(scene->world->state.agents.count, 3);
     assert_true(jox_world_snapshot(scene->world, &saved, &error));
     const uint64_t before = jo_world_hash(scene->world);
@@ -326,17 +326,17 @@ static void who_has_come_in_is_state(void **state) {
 /* 9 people were made in 6 m2 at 2 per m2: the floor within 0.2 m of walls did not count. */
 static void density_counts_the_floor_up_to_walls(void **state) {
     (void)state;
-    JoScene *scene = load_own("jostle: 1\n"
-                              "places:\n"
-                              "  room: {polygon: [[0, 0], [3, 0], [3, 2], [0, 2]]}\n"
-                              "  hall: {polygon: [[5, 0], [15, 0], [15, 10], [5, 10]]}\n"
-                              "walls:\n"
-                              "  - {line: [[0, 0], [3, 0], [3, 2], [0, 2], [0, 0]]}\n"
-                              "  - {solid: [[8, 4], [10, 4], [10, 6], [8, 6]]}\n"
-                              "groups:\n"
-                              "  a: {behaviour: own.lua, density: 2, in: room}\n"
-                              "  b: {behaviour: own.lua, density: 2, in: hall}\n",
-                              WALKER);
+    JoScene *scene = load_scene_text("jostle: 1\n"
+                                     "places:\n"
+                                     "  room: {polygon: [[0, 0], [3, 0], [3, 2], [0, 2]]}\n"
+                                     "  hall: {polygon: [[5, 0], [15, 0], [15, 10], [5, 10]]}\n"
+                                     "walls:\n"
+                                     "  - {line: [[0, 0], [3, 0], [3, 2], [0, 2], [0, 0]]}\n"
+                                     "  - {solid: [[8, 4], [10, 4], [10, 6], [8, 6]]}\n"
+                                     "groups:\n"
+                                     "  a: {behaviour: own.lua, density: 2, in: room}\n"
+                                     "  b: {behaviour: own.lua, density: 2, in: hall}\n",
+                                     WALKER);
     const JoxAgents *a = &scene->world->state.agents;
     uint32_t in_room = 0;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -359,5 +359,5 @@ int main(void) {
                                        cmocka_unit_test(search_ended_by_its_bound_is_told),
                                        cmocka_unit_test(nobody_is_born_through_a_wall),
                                        cmocka_unit_test(who_has_come_in_is_state)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

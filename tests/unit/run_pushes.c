@@ -1,7 +1,7 @@
 /* Pushes among the events of scenes: whom they reach, and how long they last. */
 #include <math.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
 #define PUSHED(list)                                                                               \
@@ -21,10 +21,10 @@ static float force_on(const JoScene *scene, uint32_t id) {
 static void a_push_reaches_whoever_stands_there_while_it_lasts(void **state) {
     (void)state;
     JoScene *scene =
-        load_own(PUSHED("  - {at: 0.1, push: stand, force: [100, 0], lasts: 0.15}\n"), STAY);
+        load_scene_text(PUSHED("  - {at: 0.1, push: stand, force: [100, 0], lasts: 0.15}\n"), STAY);
     const float wanted[8] = {0, 0, 100, 100, 100, 0, 0, 0}; /* steps of 0.05 s */
     for (int n = 0; n < 8; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_float_equal(force_on(scene, 0), wanted[n], 0);
         assert_float_equal(force_on(scene, 1), 0, 0);
     }
@@ -35,13 +35,13 @@ static void a_push_reaches_whoever_stands_there_while_it_lasts(void **state) {
 
 static void pushes_come_again_and_add_up(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         PUSHED("  - {at: 0, every: 0.2, until: 0.3, push: stand, force: [10, 0], lasts: 0.1}\n"
                "  - {at: 0.05, push: stand, force: [1, 0], lasts: 0.2}\n"),
         STAY);
     const float wanted[8] = {10, 11, 1, 1, 11, 10, 0, 0};
     for (int n = 0; n < 8; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         assert_float_equal(force_on(scene, 0), wanted[n], 0);
     }
     jo_scene_free(scene);
@@ -53,10 +53,10 @@ static void a_body_takes_on_the_momentum(void **state) {
     if (!jox_bodies_available())
         skip();
     JoScene *scene =
-        load_own(PUSHED("  - {at: 0.5, push: crate, force: [0, 40], lasts: 1}\n"), STAY);
+        load_scene_text(PUSHED("  - {at: 0.5, push: crate, force: [0, 40], lasts: 1}\n"), STAY);
     JoxBodies *bodies = scene->world->state.bodies;
     JoxPose pose;
-    step(scene, 40);
+    step_scene(scene, 40);
     assert_true(jox_bodies_pose(bodies, jox_bodies_find_name(bodies, "crate"), &pose));
     assert_float_equal(pose.velocity.y, 2.0, 0.1);
     assert_float_equal(pose.velocity.x, 0.0, 1e-3);
@@ -70,5 +70,5 @@ int main(void) {
         cmocka_unit_test(pushes_come_again_and_add_up),
         cmocka_unit_test(a_body_takes_on_the_momentum),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,7 +1,7 @@
 /* What a program reads of a running scene through jostle_read.h. */
 #include <math.h>
 
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define OWN                                                                                        \
     "local mine = memory { hits = 0 }\n" HEAD "\"Walk\", defaults = { speed = 1.2 }, states = {\n" \
@@ -14,14 +14,15 @@ static JoWorld *world;
 static JoError error;
 
 static void begin_scene(void) {
-    scene = load_own(jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_scene_text(
+        jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
     world = jo_scene_world(scene);
 }
 
 static void columns_are_in_place(void **state) {
     (void)state;
     begin_scene();
-    step(scene, 3);
+    step_scene(scene, 3);
     const JoColumn id = jo_world_column(world, "id"), x = jo_world_column(world, "x"),
                    mass = jo_world_column(world, "mass"),
                    machine = jo_world_column(world, "machine");
@@ -56,12 +57,12 @@ static void events_tell_what_happened(void **state) {
     JoEvents e = jo_world_events(world);
     assert_int_equal(e.entered_count, 4);
     assert_int_equal(e.entered[3].agent, 3);
-    step(scene, 1);
+    step_scene(scene, 1);
     const JoAgent second = jo_world_agent_of(world, 1);
     assert_true(jo_agent_set_memory(world, second, "hits", 3, &error));
     jo_world_remove_agent(world, jo_world_agent_of(world, 2));
     const JoAgent added = jo_world_spawn(world, "people", 9, -4, &error);
-    step(scene, 1);
+    step_scene(scene, 1);
     e = jo_world_events(world);
     assert_int_equal(e.transition_count, 1);
     assert_int_equal(e.transitions[0].agent, 1);
@@ -73,7 +74,7 @@ static void events_tell_what_happened(void **state) {
     assert_true(e.left_count == 1 && e.left[0].agent == 2 && fabs(e.left[0].x - 2.0) < 0.2);
     const JoEvents again = jo_world_events(world); /* of the same step */
     assert_true(again.entered_count == 1 && again.transition_count == 1);
-    step(scene, 1);
+    step_scene(scene, 1);
     e = jo_world_events(world);
     assert_int_equal(e.entered_count + e.left_count + e.transition_count, 0);
     assert_true(jo_agent_is_live(world, added));
@@ -83,16 +84,17 @@ static void events_tell_what_happened(void **state) {
 /* Who walks into a wall presses on it; that begins once. */
 static void touches_begin(void **state) {
     (void)state;
-    scene = load_own("jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
-                     "groups: {people: {behaviour: own.lua, at: [[2, 0], [1.4, 0]]}}\n",
-                     HEAD "\"Walk\", defaults = { speed = 1.5, push = 300, push_reach = 1 }, "
-                          "states = { Walk = { steer = drift(1, 0) } } }\n");
+    scene =
+        load_scene_text("jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
+                        "groups: {people: {behaviour: own.lua, at: [[2, 0], [1.4, 0]]}}\n",
+                        HEAD "\"Walk\", defaults = { speed = 1.5, push = 300, push_reach = 1 }, "
+                             "states = { Walk = { steer = drift(1, 0) } } }\n");
     world = jo_scene_world(scene);
     uint32_t walls_begun = 0, walls = 0, people_begun = 0;
     for (int n = 0; n < 60; n++) {
         jo_agent_apply_force(world, jo_world_agent_of(world, 0), 400, 0);
         jo_agent_apply_force(world, jo_world_agent_of(world, 1), 400, 0);
-        step(scene, 1);
+        step_scene(scene, 1);
         const JoEvents e = jo_world_events(world);
         for (uint32_t k = 0; k < e.touch_count; k++) {
             assert_true(e.touches[k].force > 0.0f);
@@ -110,20 +112,21 @@ static void kicks_are_told(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    scene = load_own("jostle: 1\nplaces: {goal: {point: [9, 0]}}\n"
-                     "bodies: [{name: post, shape: {box: {size: [1, 1, 1]}}, at: [20, 20, 0.5]},\n"
-                     "  {name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [1, 0, 0.1],"
-                     " tags: [ball]}]\n"
-                     "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n",
-                     HEAD "\"Go\", states = { Go = { steer = seek(nearest \"ball\"), "
-                          "approach = nearest \"ball\", "
-                          "kick = { nearest \"ball\", at = \"goal\", impulse = 6 }, "
-                          "{ to = \"Stop\", when = kicked(nearest \"ball\") } }, "
-                          "Stop = { steer = hold } } }\n");
+    scene = load_scene_text(
+        "jostle: 1\nplaces: {goal: {point: [9, 0]}}\n"
+        "bodies: [{name: post, shape: {box: {size: [1, 1, 1]}}, at: [20, 20, 0.5]},\n"
+        "  {name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [1, 0, 0.1],"
+        " tags: [ball]}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n",
+        HEAD "\"Go\", states = { Go = { steer = seek(nearest \"ball\"), "
+             "approach = nearest \"ball\", "
+             "kick = { nearest \"ball\", at = \"goal\", impulse = 6 }, "
+             "{ to = \"Stop\", when = kicked(nearest \"ball\") } }, "
+             "Stop = { steer = hold } } }\n");
     world = jo_scene_world(scene);
     uint32_t kicks = 0;
     for (int n = 0; n < 40; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         const JoEvents e = jo_world_events(world);
         for (uint32_t k = 0; k < e.action_count; k++, kicks++) {
             assert_true(e.actions[k].agent == 0 && e.actions[k].kind == JO_DONE_KICK);
@@ -145,7 +148,7 @@ static void a_ball_hits(void **state) {
     assert_true(jo_body_set_velocity(world, ball, (double[]){-12, 0, 0}, NULL, &error));
     uint32_t hits = 0;
     for (int n = 0; n < 10; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         const JoEvents e = jo_world_events(world);
         for (uint32_t k = 0; k < e.hit_count; k++, hits++) {
             assert_int_equal(jo_world_body_at(world, e.hits[k].body).generation, ball.generation);
@@ -189,7 +192,7 @@ static void questions_have_exact_answers(void **state) {
     assert_int_equal(jo_world_walls(world, edges, 2), 2); /* there and back */
     assert_true(edges[0] == 30.0 && edges[6] == 30.0);
     if (jox_bodies_available()) {
-        step(scene, 1);
+        step_scene(scene, 1);
         c = jo_world_cast(world, (double[]){10, 5}, (double[]){20, 5}, 0.25, JO_CAST_BODIES);
         assert_true(c.hit && c.kind == JO_TOUCHED_BODY && fabs(c.x - 14.25) < 1e-4);
         assert_string_equal(jo_world_body_name(world, c.what), "pillar");
@@ -221,9 +224,9 @@ static void ways_lead_round_walls(void **state) {
 
 static void density_is_a_gaussian_that_walls_stop(void **state) {
     (void)state;
-    scene = load_own("jostle: 1\nwalls: [{line: [[0.5, -5], [0.5, 5]]}]\n"
-                     "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0]]}}\n",
-                     OWN);
+    scene = load_scene_text("jostle: 1\nwalls: [{line: [[0.5, -5], [0.5, 5]]}]\n"
+                            "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0]]}}\n",
+                            OWN);
     world = jo_scene_world(scene);
     assert_true(fabs(jo_world_density(world, 0, 0) - 0.31830989) < 1e-6);
     assert_true(fabs(jo_world_density(world, 0, 1) - 0.31830989 * exp(-1.0)) < 1e-6);
@@ -272,19 +275,19 @@ static void what_people_give_a_body(void **state) {
 
 static void a_snapshot_goes_on_to_the_bit(void **state) {
     (void)state;
-    scene = load_own(PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_scene_text(PLAIN PLACES PEOPLE_OF, OWN);
     world = jo_scene_world(scene);
     size_t size;
-    step(scene, 4);
+    step_scene(scene, 4);
     void *data = jo_world_snapshot(world, &size, &error);
     assert_non_null(data);
-    step(scene, 20);
+    step_scene(scene, 20);
     const uint64_t later = jo_world_hash(world);
     assert_false(jo_world_restore(world, data, size / 2, &error));
     assert_true(jo_world_hash(world) == later && error.text[0]);
     assert_true(jo_world_restore(world, data, size, &error));
     assert_int_equal(jo_world_tick(world), 4);
-    step(scene, 20);
+    step_scene(scene, 20);
     assert_true(jo_world_hash(world) == later);
     jo_free(data);
     jo_scene_free(scene);
@@ -303,5 +306,5 @@ int main(void) {
         cmocka_unit_test(what_people_give_a_body),
         cmocka_unit_test(a_snapshot_goes_on_to_the_bit),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "unit/effort.h"
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 enum { STEPS = 24, MOST_PEOPLE = 100, LONG_FILE = 1500, LARGEST = 1 << 18, COARSE = 11 };
 
@@ -54,7 +54,7 @@ static JoScene *load_small(const char *path) {
             count++;
         }
     jox_scene_free(spec);
-    return load(path, sets, count);
+    return load_scene_file(path, sets, count);
 }
 
 static void each_scene(void (*visit)(const char *path)) {
@@ -76,7 +76,7 @@ static uint64_t hash_alone(const char *path) {
             return hashes[p];
     assert_true(count < MOST && strlen(path) < sizeof *paths);
     JoScene *scene = load_small(path);
-    step(scene, STEPS);
+    step_scene(scene, STEPS);
     strcpy(paths[count], path);
     hashes[count] = jo_world_hash(scene->world);
     jo_scene_free(scene);
@@ -140,7 +140,7 @@ static void save_beginning(JoScene *scene, uint32_t m, Saved *s) {
     if (live && s->n + 1 < s->length)
         fail_msg("the first %zu bytes of %s are a machine", s->n, path);
     if (!live && s->n == s->length)
-        fail_msg("%s: %s", path, why);
+        fail_msg("%s: %s", path, refusal);
     jox_free(prefix);
     lived += live;
     tried++;
@@ -168,7 +168,7 @@ static void try_prefixes(const char *path) {
         for (uint32_t m = 0; m < machines; m++)
             while (saved[m].done < saved[m].all * (size_t)n / STEPS)
                 save_beginning(scene, m, &saved[m]);
-        step(scene, 1);
+        step_scene(scene, 1);
     }
     for (uint32_t m = 0; m < machines; m++)
         jox_free(saved[m].text);
@@ -225,10 +225,10 @@ static void reload_all_the_time(const char *path) {
                 continue;
             char *text = read_behaviour(scene, m, &length);
             if (!replace_behaviour_text(scene, m, text, length))
-                fail_msg("%s: %s", scene->world->model.machines.items[m]->path, why);
+                fail_msg("%s: %s", scene->world->model.machines.items[m]->path, refusal);
             jox_free(text);
         }
-        step(scene, 1);
+        step_scene(scene, 1);
     }
     for (uint32_t m = 0; m < machines; m++)
         assert_int_equal(scene->world->model.machines.items[m]->reloads,
@@ -260,19 +260,19 @@ static void three_thousand_reloads_keep_nothing(void **state) {
         "  B = { steer = spread, { to = \"A\", when = function(me) return me.laps > 2 end } },\n"
         "  C = { steer = hold }, A = { steer = hold, speed = own.perception / 3,\n"
         "    { to = \"B\", when = after(0.1) } } } }\n";
-    JoScene *scene = load_own(PEOPLE(30), EVEN);
+    JoScene *scene = load_scene_text(PEOPLE(30), EVEN);
     size_t before = 0;
     for (int i = 0; i < 3200; i++) {
         if (i == 200)
             before = mallinfo2().uordblks;
-        if (!reload_text(scene, 0,
-                         i % 3 == 2 ? "return machine { name = "
-                         : i % 2    ? ODD
-                                    : EVEN) &&
+        if (!reload_behaviour(scene, 0,
+                              i % 3 == 2 ? "return machine { name = "
+                              : i % 2    ? ODD
+                                         : EVEN) &&
             i % 3 != 2)
-            fail_msg("%s", why);
+            fail_msg("%s", refusal);
         if (i % 10 == 0)
-            step(scene, 1);
+            step_scene(scene, 1);
     }
     size_t after = mallinfo2().uordblks; /* zero under the sanitizers, which look for leaks */
     if (after > before + 300000)
@@ -289,11 +289,11 @@ static double wall(void) {
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-/* Steps until the scene has said it, for at most ten seconds. */
+/* Steps until the scene has scene_messages it, for at most ten seconds. */
 static bool says(JoScene *scene, const char *text) {
     for (double begun = wall(); wall() - begun < 10.0;) {
-        step(scene, 1);
-        if (said.data && strstr(said.data, text))
+        step_scene(scene, 1);
+        if (scene_messages.data && strstr(scene_messages.data, text))
             return true;
         usleep(500);
     }
@@ -302,27 +302,27 @@ static bool says(JoScene *scene, const char *text) {
 
 static void a_saved_file_goes_live(void **state) {
     (void)state;
-    JoScene *scene = load_own(PEOPLE(20), FAST("1.5", ""));
+    JoScene *scene = load_scene_text(PEOPLE(20), FAST("1.5", ""));
     JoError error = {0};
     assert_true(jo_scene_watch(scene, &error));
-    step(scene, 5);
-    write_file("own.lua", FAST("0.5", ""));
+    step_scene(scene, 5);
+    write_test_file("own.lua", FAST("0.5", ""));
     assert_true(says(scene, "reload 1 is live"));
     assert_true(read_wanted_speed(scene, 3) == 0.5);
-    write_file("own.lua", "return machine {");
+    write_test_file("own.lua", "return machine {");
     assert_true(says(scene, "Reload 1 keeps running"));
     for (int i = 0; i < 30; i++) { /* saved again and again while the crowd runs */
         char text[200];
         snprintf(text, sizeof text, FAST("1.%02d", ""), i);
-        write_file("own.lua", text);
-        step(scene, 3);
+        write_test_file("own.lua", text);
+        step_scene(scene, 3);
     }
-    write_file("own.lua", FAST("1.9", ""));
+    write_test_file("own.lua", FAST("1.9", ""));
     for (double begun = wall();
          read_wanted_speed(scene, 3) != (double)1.9f && wall() - begun < 10.0;)
-        step(scene, 1), usleep(500);
+        step_scene(scene, 1), usleep(500);
     assert_true(read_wanted_speed(scene, 3) == (double)1.9f);
-    write_file("own.lua", FAST("1.1", "")); /* freed while something is being loaded */
+    write_test_file("own.lua", FAST("1.1", "")); /* freed while something is being loaded */
     usleep(40000);
     jo_scene_free(scene);
 }
@@ -335,5 +335,5 @@ int main(void) {
         cmocka_unit_test(three_thousand_reloads_keep_nothing),
         cmocka_unit_test(a_saved_file_goes_live),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -2,7 +2,7 @@
    that runs out while it is read or written is an error of that call. */
 #include <sys/stat.h>
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define YARD                                                                                       \
     "jostle: 1\nwalls: [{line: [[0, -2], [9, -2]]}]\n"                                             \
@@ -12,30 +12,22 @@
 
 static char latest[400], target[320];
 
-static void to_nobody(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
-static JoScene *yard(JoError *error) {
-    char path[300];
-    JoSceneDef def = jo_default_scene_def();
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    def.path = path;
-    def.message = to_nobody;
-    def.named_mods_only = def.resumable = true;
+static JoScene *load_yard(JoError *error) {
+    JoSceneDef def = define_scene(test_path("scene.yaml"));
+    def.message = ignore_message; /* takes no memory while there is none */
+    def.resumable = true;
     return jo_scene_load(&def, error);
 }
 
-static JoScene *resume(const char *path, char **note, JoError *error) {
+static JoScene *resume_yard(const char *path, char **note, JoError *error) {
     JoSceneDef def = jo_default_scene_def();
-    def.message = to_nobody;
+    def.message = ignore_message;
     return jo_scene_resume(&def, path, note, error);
 }
 
 /* Ten steps with a checkpoint at each; the hash after them, or 0. */
 static uint64_t write_checkpoints(JoError *error) {
-    JoScene *scene = yard(error);
+    JoScene *scene = load_yard(error);
     bool good = scene && jo_scene_checkpoint(scene, target, 0.05, "a note\n", error);
     for (int n = 0; good && n < 10; n++)
         good = jo_scene_step(scene, error);
@@ -44,11 +36,11 @@ static uint64_t write_checkpoints(JoError *error) {
     return hash;
 }
 
-static void prepare(void) {
+static void write_yard_and_checkpoint(void) {
     JoError error = {0};
-    write_file("own.lua", WALK);
-    write_file("scene.yaml", YARD);
-    snprintf(target, sizeof target, "%s/checkpoints", folder);
+    write_test_file("own.lua", WALK);
+    write_test_file("scene.yaml", YARD);
+    snprintf(target, sizeof target, "%s/checkpoints", test_folder);
     snprintf(latest, sizeof latest, "%s/latest.checkpoint", target);
     if (!write_checkpoints(&error))
         fail_msg("%s", error.text);
@@ -58,9 +50,9 @@ static void a_checkpoint_has_the_state_and_the_note(void **state) {
     (void)state;
     JoError error = {0};
     char *note = NULL;
-    prepare();
+    write_yard_and_checkpoint();
     const uint64_t hash = write_checkpoints(&error);
-    JoScene *scene = resume(latest, &note, &error);
+    JoScene *scene = resume_yard(latest, &note, &error);
     if (!scene)
         fail_msg("%s", error.text);
     assert_string_equal(note, "a note\n");
@@ -68,22 +60,22 @@ static void a_checkpoint_has_the_state_and_the_note(void **state) {
     assert_true(jo_world_hash(jo_scene_world(scene)) == hash);
     jo_free(note);
     jo_scene_free(scene);
-    scene = yard(&error);
-    step(scene, 1);
+    scene = load_yard(&error);
+    step_scene(scene, 1);
     assert_false(jo_scene_record_on(scene, latest, &error)); /* it was not resumed */
     jo_scene_free(scene);
 }
 
-static void refuse(const char *bytes, size_t length, const char *what, size_t at) {
-    char path[320];
-    snprintf(path, sizeof path, "%s/bad.checkpoint", folder);
+static void assert_checkpoint_refused(const char *bytes, size_t length, const char *what,
+                                      size_t at) {
+    const char *path = test_path("bad.checkpoint");
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, length, file), length);
     assert_int_equal(fclose(file), 0);
     JoError error = {0};
     char *note = NULL;
-    if (resume(path, &note, &error))
+    if (resume_yard(path, &note, &error))
         fail_msg("%s at byte %zu was taken", what, at);
     assert_int_equal(error.code, JO_INPUT);
     assert_true(strlen(error.text) > 20 && !note);
@@ -91,21 +83,21 @@ static void refuse(const char *bytes, size_t length, const char *what, size_t at
 
 static void every_damage_is_refused(void **state) {
     (void)state;
-    prepare();
+    write_yard_and_checkpoint();
     size_t length;
     char *bytes = jox_read_file(latest, 1 << 24, &length);
     assert_non_null(bytes);
     for (size_t at = 0; at < length; at += at < 400 ? 1 : 61) {
         bytes[at] ^= 0x20;
-        refuse(bytes, length, "another bit", at);
+        assert_checkpoint_refused(bytes, length, "another bit", at);
         bytes[at] ^= 0x20;
     }
     for (size_t at = 0; at < length; at += at < 200 ? 7 : 997)
-        refuse(bytes, at, "an end", at);
-    refuse(bytes, length - 1, "an end", length - 1);
+        assert_checkpoint_refused(bytes, at, "an end", at);
+    assert_checkpoint_refused(bytes, length - 1, "an end", length - 1);
     char *longer = jox_alloc(length + 1, 1);
     memcpy(longer, bytes, length);
-    refuse(longer, length + 1, "a byte more", length);
+    assert_checkpoint_refused(longer, length + 1, "a byte more", length);
     jox_free(longer);
     jox_free(bytes);
 }
@@ -116,13 +108,13 @@ static bool out_of_memory(const JoError *error) {
 
 static void memory_may_run_out(void **state) {
     (void)state;
-    prepare();
+    write_yard_and_checkpoint();
     int failures = 0;
     for (uint64_t n = 0, stride = 1;; n += stride, stride += stride / 16 + (n > 64)) {
         JoError error = {0};
         char *note = NULL;
         jox_alloc_fail_after(n);
-        JoScene *scene = resume(latest, &note, &error);
+        JoScene *scene = resume_yard(latest, &note, &error);
         jox_alloc_fail_after(UINT64_MAX);
         jo_free(note);
         jo_scene_free(scene);
@@ -138,7 +130,7 @@ static void memory_may_run_out(void **state) {
         jox_alloc_fail_after(UINT64_MAX);
         JoError other = {0};
         char *note = NULL;
-        JoScene *scene = resume(target, &note, &other); /* the one before, or this */
+        JoScene *scene = resume_yard(target, &note, &other); /* the one before, or this */
         if (!scene)
             fail_msg("allocation %llu: %s", (unsigned long long)n, other.text);
         jo_free(note);
@@ -151,21 +143,16 @@ static void memory_may_run_out(void **state) {
     assert_true(failures > 20);
 }
 
-static int remove_all(void **state) {
-    static const char *const NAMES[] = {"checkpoints/latest.checkpoint",
-                                        "checkpoints/before.checkpoint", "bad.checkpoint"};
-    char path[400];
-    for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
-        snprintf(path, sizeof path, "%s/%s", folder, NAMES[n]);
-        unlink(path);
-    }
-    rmdir(target); /* where a file is left half written, this fails */
-    return remove_folder(state);
+/* Fails where a checkpoint was left half written beside the whole ones. */
+static int remove_checkpoints(void **state) {
+    unlink(test_path("checkpoints/latest.checkpoint"));
+    unlink(test_path("checkpoints/before.checkpoint"));
+    return rmdir(target) == 0 ? remove_scene_folder(state) : -1;
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_checkpoint_has_the_state_and_the_note),
                                        cmocka_unit_test(every_damage_is_refused),
                                        cmocka_unit_test(memory_may_run_out)};
-    return cmocka_run_group_tests(tests, make_folder, remove_all);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_checkpoints);
 }

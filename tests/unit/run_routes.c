@@ -1,5 +1,5 @@
 /* Ways while a scene runs: when a field takes effect, and that it follows gates and bodies. */
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 /* A court, x from 0 to 10, with a near gap (y 2 to 4) and a far one (y 8 to 10) in the wall at x
  * = 6. */
@@ -33,8 +33,8 @@ static float northward(const JoScene *scene) {
 
 static void known_from_the_first_step_on(void **state) {
     (void)state;
-    JoScene *scene = load_own(COURT("", ""), GOES);
-    step(scene, 1);
+    JoScene *scene = load_scene_text(COURT("", ""), GOES);
+    step_scene(scene, 1);
     assert_non_null(field(scene));
     assert_float_equal(northward(scene), 0, 0.1);
     assert_true(scene->world->state.agents.pref_x[0] > 0.5f);
@@ -43,13 +43,13 @@ static void known_from_the_first_step_on(void **state) {
 
 static void used_from_a_fixed_step_on(void **state) {
     (void)state;
-    JoScene *scene = load_own(COURT("", ""), WAITS);
+    JoScene *scene = load_scene_text(COURT("", ""), WAITS);
     int waited = 0;
     const JoxMachineRun *machines = &scene->world->machines;
     while (strcmp(machines->set->items[0]->states[machines->agents->state[0]].name, "Go") != 0)
-        step(scene, 1);
+        step_scene(scene, 1);
     for (; !field(scene) && waited < 100; waited++) /* asked for in the step that ended */
-        step(scene, 1);
+        step_scene(scene, 1);
     assert_int_equal(waited, DELAY + 1);
     jo_scene_free(scene);
 }
@@ -58,15 +58,15 @@ static void leads_round_what_stands_there(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(COURT("", BLOCK), GOES);
-    step(scene, 1);
+    JoScene *scene = load_scene_text(COURT("", BLOCK), GOES);
+    step_scene(scene, 1);
     assert_true(northward(scene) > 0.5f);
     /* The block is put elsewhere: within 2.5 s the way is the near one. */
     const double away[3] = {2, 9, 0.5};
     assert_true(jo_scene_throw(scene, "block", away, NULL, NULL, NULL));
-    step(scene, 20);
+    step_scene(scene, 20);
     assert_true(northward(scene) > 0.5f); /* 2 s between renewals have not passed */
-    step(scene, 35);
+    step_scene(scene, 35);
     assert_float_equal(northward(scene), 0, 0.1);
     jo_scene_free(scene);
 }
@@ -75,14 +75,14 @@ static void renewed_at_most_every_two_seconds(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(COURT("", BLOCK), GOES);
+    JoScene *scene = load_scene_text(COURT("", BLOCK), GOES);
     int renewals = 0;
-    step(scene, 1);
+    step_scene(scene, 1);
     const JoxField *last = field(scene);
     for (int n = 0; n < 160; n++) { /* 8 s */
         const double at[3] = {2.0 + 0.01 * n, 9, 0.5};
         assert_true(jo_scene_throw(scene, "block", at, NULL, NULL, NULL));
-        step(scene, 1);
+        step_scene(scene, 1);
         renewals += field(scene) != last;
         last = field(scene);
     }
@@ -92,16 +92,16 @@ static void renewed_at_most_every_two_seconds(void **state) {
 
 static void follows_a_gate(void **state) {
     (void)state;
-    JoScene *scene = load_own(COURT(GATE, ""), GOES);
-    step(scene, 1);
+    JoScene *scene = load_scene_text(COURT(GATE, ""), GOES);
+    step_scene(scene, 1);
     assert_true(northward(scene) > 0.5f);
     assert_true(jo_scene_open_wall(scene, "gate", true, NULL));
-    step(scene, DELAY);
+    step_scene(scene, DELAY);
     assert_true(northward(scene) > 0.5f);
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_float_equal(northward(scene), 0, 0.1);
     assert_true(jo_scene_open_wall(scene, "gate", false, NULL));
-    step(scene, DELAY + 1);
+    step_scene(scene, DELAY + 1);
     assert_true(northward(scene) > 0.5f);
     jo_scene_free(scene);
 }
@@ -109,13 +109,13 @@ static void follows_a_gate(void **state) {
 /* Only what somebody still asks for is made anew. */
 static void not_renewed_for_nobody(void **state) {
     (void)state;
-    JoScene *scene = load_own(COURT(GATE, ""), HEAD
-                              "\"Go\", states = { Go = { steer = field \"goal\", { to = \"Rest\", "
+    JoScene *scene = load_scene_text(
+        COURT(GATE, ""), HEAD "\"Go\", states = { Go = { steer = field \"goal\", { to = \"Rest\", "
                               "when = after(0.2) } }, Rest = { steer = hold } } }\n");
-    step(scene, 20);
+    step_scene(scene, 20);
     const JoxField *first = field(scene);
     assert_true(jo_scene_open_wall(scene, "gate", true, NULL));
-    step(scene, 3 * DELAY);
+    step_scene(scene, 3 * DELAY);
     assert_ptr_equal(field(scene), first);
     jo_scene_free(scene);
 }
@@ -123,15 +123,15 @@ static void not_renewed_for_nobody(void **state) {
 /* Both gaps shut: who finds no way goes to the gate that could open, not straight to the wall. */
 static void who_has_no_way_waits_at_the_gate(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         COURT("  - {line: [[6, 2], [6, 4]]}\n  - {line: [[6, 8], [6, 10]], name: gate}\n", ""),
         GOES);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 300);
+    step_scene(scene, 300);
     assert_float_equal(a->x[0], 5.8, 0.15);
     assert_in_range(a->y[0] * 100, 750, 1020);
     assert_true(jo_scene_open_wall(scene, "gate", true, NULL));
-    step(scene, 200);
+    step_scene(scene, 200);
     assert_true(jox_place_contains(scene->world->model.places, 0, (JoxV2){a->x[0], a->y[0]}));
     jo_scene_free(scene);
 }
@@ -146,5 +146,5 @@ int main(void) {
         cmocka_unit_test(not_renewed_for_nobody),
         cmocka_unit_test(who_has_no_way_waits_at_the_gate),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

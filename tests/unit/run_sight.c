@@ -1,5 +1,5 @@
 /* What hides people from each other, and what keeps signals from being heard. */
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define PAIR(more) "jostle: 1\ngroups: {people: {behaviour: own.lua, at: [[0, 0], [3, 0]]}}\n" more
 #define LOOKS                                                                                      \
@@ -15,8 +15,8 @@
 
 /* Whether the two notice each other within half a second; both do, or neither. */
 static bool notice(const char *text, const char *behaviour) {
-    JoScene *scene = load_own(text, behaviour);
-    step(scene, 10);
+    JoScene *scene = load_scene_text(text, behaviour);
+    step_scene(scene, 10);
     const bool first = scene->world->state.agents.state[0] > 0;
     assert_int_equal(first, scene->world->state.agents.state[1] > 0);
     jo_scene_free(scene);
@@ -53,5 +53,5 @@ int main(void) {
         cmocka_unit_test(tall_wide_bodies_hide_people),
         cmocka_unit_test(signals_stop_at_tall_walls_alone),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

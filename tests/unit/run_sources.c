@@ -1,5 +1,5 @@
 /* Sources: on which side of walls people come in, how many of those who are due do, and when. */
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
 #define SOURCE(walls, place, more)                                                                 \
@@ -58,10 +58,10 @@ static void nobody_comes_in_beyond_a_wall(void **state) {
     (void)state;
     for (size_t n = 0; n < sizeof SIDES / sizeof *SIDES; n++) {
         const Side *side = &SIDES[n];
-        JoScene *scene = load_own(side->yaml, STANDER);
+        JoScene *scene = load_scene_text(side->yaml, STANDER);
         const JoxAgents *a = &scene->world->state.agents;
         for (int k = 0; k < 40; k++) {
-            step(scene, 1);
+            step_scene(scene, 1);
             for (uint32_t i = 0; i < a->count; i++)
                 if (!jox_is_within(jox_v2(a->x[i], a->y[i]), side->low, side->high))
                     fail_msg("%s: person %u stands at %g, %g", side->name, a->id[i],
@@ -76,23 +76,23 @@ static void nobody_comes_in_beyond_a_wall(void **state) {
 /* A wall that goes up across a source, and all over it, and down again. */
 static void sources_heed_gates_as_they_stand(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(SOURCE("{line: [[1, -30], [1, 30]], name: fence, open: true}, "
-                        "{solid: [[-4, -4], [4, -4], [4, 4], [-4, 4]], name: block, open: true}",
-                        "polygon: [[-2, -2], [2, -2], [2, 2], [-2, 2]]", ", rate: 2, even: true"),
-                 STANDER);
+    JoScene *scene = load_scene_text(
+        SOURCE("{line: [[1, -30], [1, 30]], name: fence, open: true}, "
+               "{solid: [[-4, -4], [4, -4], [4, 4], [-4, 4]], name: block, open: true}",
+               "polygon: [[-2, -2], [2, -2], [2, 2], [-2, 2]]", ", rate: 2, even: true"),
+        STANDER);
     const JoxAgents *a = &scene->world->state.agents;
-    does(scene, "close fence");
-    step(scene, 100); /* 5 s */
+    apply_input(scene, "close fence");
+    step_scene(scene, 100); /* 5 s */
     assert_in_range(a->count, 9, 10);
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(a->x[i] < 1.0f);
-    does(scene, "close block");
-    step(scene, 100);
+    apply_input(scene, "close block");
+    step_scene(scene, 100);
     assert_in_range(a->count, 9, 11);
     assert_in_range((int)jox_source_waiting(scene->world, 0), 8, 11);
-    does(scene, "open block");
-    step(scene, 20);
+    apply_input(scene, "open block");
+    step_scene(scene, 20);
     assert_in_range(a->count, 20, 22);
     assert_int_equal((int)jox_source_waiting(scene->world, 0), 0);
     jo_scene_free(scene);
@@ -105,13 +105,14 @@ static void sources_heed_gates_as_they_stand(void **state) {
 
 static void demand_that_is_not_met_is_counted(void **state) {
     (void)state;
-    JoScene *scene = load_own(SOURCE("", YARD, ", rate: 20, even: true, until: 10"), STANDER);
+    JoScene *scene =
+        load_scene_text(SOURCE("", YARD, ", rate: 20, even: true, until: 10"), STANDER);
     JoxDemand demand;
-    step(scene, 21); /* the last begins at 1 s */
+    step_scene(scene, 21); /* the last begins at 1 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 20);
     assert_int_equal(demand.came + demand.waiting, 20);
-    step(scene, 400); /* to 21 s */
+    step_scene(scene, 400); /* to 21 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 200);
     assert_int_equal(demand.came, scene->world->state.agents.count);
@@ -120,17 +121,17 @@ static void demand_that_is_not_met_is_counted(void **state) {
     assert_in_range(demand.came, 15, 60);
     jo_scene_free(scene);
 
-    scene = load_own(SOURCE("", YARD, ", keep: 50"), STANDER);
-    step(scene, 101);
+    scene = load_scene_text(SOURCE("", YARD, ", keep: 50"), STANDER);
+    step_scene(scene, 101);
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 50);
     assert_int_equal(demand.waiting, 50 - scene->world->state.agents.count);
     jo_scene_free(scene);
 
-    scene = load_own(
+    scene = load_scene_text(
         SOURCE("", "polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]", ", rate: 3, even: true, until: 9"),
         STANDER);
-    step(scene, 240); /* 12 s */
+    step_scene(scene, 240); /* 12 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 27);
     assert_int_equal(demand.came, 27);
@@ -142,16 +143,15 @@ static void demand_that_is_not_met_is_counted(void **state) {
 static void people_due_do_not_depend_on_the_step(void **state) {
     (void)state;
     static const char *const STEPS[] = {"step=0.01", "step=0.07", "step=0.1"};
-    write_file("own.lua", STANDER);
-    write_file("scene.yaml", SOURCE("", "polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]",
-                                    ", rate: 7, even: true, every: 2, people: 3, from: 1, until: "
-                                    "11, curve: [[0, 2], [20, 2]]"));
+    write_test_file("own.lua", STANDER);
+    write_test_file("scene.yaml",
+                    SOURCE("", "polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]",
+                           ", rate: 7, even: true, every: 2, people: 3, from: 1, until: "
+                           "11, curve: [[0, 2], [20, 2]]"));
     for (int n = 0; n < 3; n++) {
-        char path[300];
-        snprintf(path, sizeof path, "%s/scene.yaml", folder);
-        JoScene *scene = load(path, &STEPS[n], 1);
+        JoScene *scene = load_scene_file(test_path("scene.yaml"), &STEPS[n], 1);
         while (jo_world_time(scene->world) < 12.0)
-            step(scene, 1);
+            step_scene(scene, 1);
         assert_int_equal(jox_run_demand(scene, 0).came, 70 + 20 + 15);
         jo_scene_free(scene);
     }
@@ -165,9 +165,8 @@ enum { STREAMS = 64, SEEDS = 40, TOTALS = STREAMS * SEEDS };
    comes in: people are counted where they wait. */
 static void count_arrivals(const char *source, uint64_t seed, const char *length,
                            int half[2][STREAMS]) {
-    char path[300], by_seed[40];
+    char by_seed[40];
     snprintf(by_seed, sizeof by_seed, "seed=%d", (int)seed);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
     const char *set[] = {by_seed, length};
     JoxText text = {0};
     jox_text_add(&text, "jostle: 1\nplaces: {door: {point: [0, 0], radius: 1}}\n"
@@ -175,13 +174,13 @@ static void count_arrivals(const char *source, uint64_t seed, const char *length
                         "groups: {people: {behaviour: own.lua, count: 0}}\nsources:\n");
     for (int s = 0; s < STREAMS; s++)
         jox_text_printf(&text, "  - {at: door, like: people, until: 12, %s}\n", source);
-    write_file("own.lua", STANDER);
-    write_file("scene.yaml", text.data);
+    write_test_file("own.lua", STANDER);
+    write_test_file("scene.yaml", text.data);
     jox_text_free(&text);
-    JoScene *scene = load(path, set, 2);
+    JoScene *scene = load_scene_file(test_path("scene.yaml"), set, 2);
     const int steps = (int)(6.0 / jo_scene_stats(scene).dt + 0.5);
     for (int h = 0; h < 2; h++) {
-        step(scene, h == 0 ? steps + 1 : steps);
+        step_scene(scene, h == 0 ? steps + 1 : steps);
         for (uint32_t s = 0; s < STREAMS; s++)
             half[h][s] = (int)jox_run_demand(scene, s).due - (h ? half[0][s] : 0);
     }
@@ -261,5 +260,5 @@ int main(void) {
                                        cmocka_unit_test(arrivals_are_a_poisson_process),
                                        cmocka_unit_test(arrivals_do_not_depend_on_the_step),
                                        cmocka_unit_test(timetables_are_exact)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -2,7 +2,7 @@
    no part of it may be forgotten at every step. */
 #include <math.h>
 
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 enum { BEFORE = 130, AFTER = 120 };
 
@@ -42,7 +42,7 @@ enum { BEFORE = 130, AFTER = 120 };
     "    { to = \"Come\", when = lasted, set = { waited = true } } } } }\n"
 
 static JoScene *town(void) {
-    return load_own(TOWN, TOWNSFOLK("1"));
+    return load_scene_text(TOWN, TOWNSFOLK("1"));
 }
 
 static void snapshot(JoScene *scene, JoxText *out) {
@@ -63,14 +63,14 @@ static void restore(JoScene *scene, const JoxText *from) {
 static void begin_all(JoScene *scene, int steps, bool announces) {
     JoWorld *world = scene->world;
     const JoxMachineState *machines = &world->state.machines;
-    step(scene, steps);
-    does(scene, "set m Queue speed 0.5");
-    does(scene, "open gate");
-    step(scene, 2);
+    step_scene(scene, steps);
+    apply_input(scene, "set m Queue speed 0.5");
+    apply_input(scene, "open gate");
+    step_scene(scene, 2);
     for (int n = 0; n < 40 && machines->called_count == 0; n++)
-        step(scene, 1);
+        step_scene(scene, 1);
     if (announces) /* everybody heeds it, and not what the others call */
-        does(scene, "signal crowd");
+        apply_input(scene, "signal crowd");
     jox_machines_spawn(&world->machines, jox_world_add_agent(world, 2.0f, 2.0f), 0, NULL, NULL);
     assert_true(machines->called_count > 0 && machines->announced_count == announces);
     assert_true(machines->pending_count > 0 && machines->edit_count > 0);
@@ -80,22 +80,22 @@ static void begin_all(JoScene *scene, int steps, bool announces) {
 static void meddle(JoScene *scene, int step_number) {
     switch (step_number) {
     case 10:
-        does(scene, "open gate");
+        apply_input(scene, "open gate");
         break;
     case 20:
-        does(scene, "set m defaults speed 0.7");
+        apply_input(scene, "set m defaults speed 0.7");
         break;
     case 30:
-        does(scene, "signal room");
+        apply_input(scene, "signal room");
         break;
     case 40:
-        assert_true(reload_text(scene, 0, TOWNSFOLK("0.5")));
+        assert_true(reload_behaviour(scene, 0, TOWNSFOLK("0.5")));
         break;
     case 70:
-        does(scene, "close gate");
+        apply_input(scene, "close gate");
         break;
     case 90:
-        assert_true(reload_text(scene, 0, TOWNSFOLK("1")));
+        assert_true(reload_behaviour(scene, 0, TOWNSFOLK("1")));
         break;
     }
 }
@@ -104,7 +104,7 @@ static void run_on(JoScene *scene, uint64_t hashes[AFTER], bool meddles) {
     for (int n = 0; n < AFTER; n++) {
         if (meddles)
             meddle(scene, n);
-        step(scene, 1);
+        step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
@@ -149,7 +149,7 @@ static void another_world_takes_the_state_over(void **state) {
     JoxText saved = {0};
     uint64_t first[AFTER], second[AFTER];
     begin_all(scene, BEFORE, true);
-    step(other, 37);
+    step_scene(other, 37);
     snapshot(scene, &saved);
     run_on(scene, first, false);
     restore(other, &saved);
@@ -197,17 +197,17 @@ static void another_world_takes_the_state_over(void **state) {
 /* The second half of what happens is new: boxes are thrown in, the crate is dragged. */
 static void meddle_in_yard(JoScene *scene, int step_number) {
     if (step_number == 15)
-        does(scene, "box 10 4 0.6 -9 0 0 0.4 60");
+        apply_input(scene, "box 10 4 0.6 -9 0 0 0.4 60");
     if (step_number == 25)
-        does(scene, "grab 2 9 5 1");
+        apply_input(scene, "grab 2 9 5 1");
     if (step_number == 60)
-        does(scene, "release 2");
+        apply_input(scene, "release 2");
 }
 
 static void in_yard(JoScene *scene, uint64_t hashes[AFTER]) {
     for (int n = 0; n < AFTER; n++) {
         meddle_in_yard(scene, n);
-        step(scene, 1);
+        step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
@@ -216,16 +216,16 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    JoScene *scene = load_own(YARD, YARDFOLK), *other = load_own(YARD, YARDFOLK);
+    JoScene *scene = load_scene_text(YARD, YARDFOLK), *other = load_scene_text(YARD, YARDFOLK);
     JoxText saved = {0};
     JoError error = {0};
     uint64_t first[AFTER], second[AFTER];
     const JoxStatistics *did = &scene->world->state.statistics;
     scene->world->model.reinserts_bodies = other->world->model.reinserts_bodies = true;
-    step(scene, JOX_BODIES_REINSERT_STEPS - 1);
+    step_scene(scene, JOX_BODIES_REINSERT_STEPS - 1);
     assert_false(jox_world_snapshot(scene->world, &saved, &error));
     assert_non_null(strstr(error.text, "after every 128 steps"));
-    step(scene, 1);
+    step_scene(scene, 1);
     snapshot(scene, &saved);
     const JoxStatistics before = *did;
     in_yard(scene, first);
@@ -235,7 +235,7 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     restore(scene, &saved);
     in_yard(scene, second);
     expect_same(first, second);
-    step(other, 40);
+    step_scene(other, 40);
     restore(other, &saved);
     in_yard(other, second);
     expect_same(first, second);
@@ -287,10 +287,10 @@ static void each_cell_is_hashed(void **state) {
     flip_all(scene, 700);
     if (!jox_bodies_available())
         return;
-    scene = load_own(YARD, YARDFOLK);
-    step(scene, JOX_BODIES_REINSERT_STEPS);
-    does(scene, "box 12 4 2 -6 0 0 0.4 10");
-    does(scene, "grab 2 9 5 1");
+    scene = load_scene_text(YARD, YARDFOLK);
+    step_scene(scene, JOX_BODIES_REINSERT_STEPS);
+    apply_input(scene, "box 12 4 2 -6 0 0 0.4 10");
+    apply_input(scene, "grab 2 9 5 1");
     flip_all(scene, 1400);
 }
 
@@ -299,12 +299,12 @@ static void forget_often(const char *scene_text, const char *behaviour,
                          void meddles(JoScene *scene, int step_number)) {
     uint64_t plain[AFTER], forgetful[AFTER];
     for (int forgets = 0; forgets < 2; forgets++) {
-        JoScene *scene = load_own(scene_text, behaviour);
+        JoScene *scene = load_scene_text(scene_text, behaviour);
         for (int n = 0; n < AFTER; n++) {
             if (forgets)
                 jox_world_forget(scene->world);
             meddles(scene, n);
-            step(scene, 1);
+            step_scene(scene, 1);
             (forgets ? forgetful : plain)[n] = jo_world_hash(scene->world);
         }
         jo_scene_free(scene);
@@ -326,14 +326,14 @@ static void expect_refused(JoScene *scene, const JoxText *saved, const char *rea
     if (!strstr(error.text, reason))
         fail_msg("'%s' does not say '%s'", error.text, reason);
     assert_true(jo_world_hash(scene->world) == before);
-    step(scene, 3);
+    step_scene(scene, 3);
 }
 
 static void what_does_not_fit_is_refused(void **state) {
     (void)state;
     JoScene *scene = town();
     JoxText saved = {0}, damaged = {0};
-    step(scene, 20);
+    step_scene(scene, 20);
     snapshot(scene, &saved);
     jox_text_append(&damaged, saved.data, saved.length);
     damaged.data[saved.length / 2] ^= 1;
@@ -341,10 +341,10 @@ static void what_does_not_fit_is_refused(void **state) {
     damaged.length = 100;
     expect_refused(scene, &damaged, "damaged");
     jo_scene_free(scene);
-    scene = load_own(TOWN, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    scene = load_scene_text(TOWN, HEAD "\"A\", states = { A = { steer = hold } } }\n");
     expect_refused(scene, &saved, "machines.m: it has changed");
     jo_scene_free(scene);
-    scene = load_own(TOWN "seed: 9\n", TOWNSFOLK("1"));
+    scene = load_scene_text(TOWN "seed: 9\n", TOWNSFOLK("1"));
     expect_refused(scene, &saved, "world.seed: it has changed");
     jo_scene_free(scene);
     jox_text_free(&saved);
@@ -354,7 +354,7 @@ static void what_does_not_fit_is_refused(void **state) {
 static void until_called(JoScene *scene) {
     const JoxMachineState *machines = &scene->world->state.machines;
     for (int n = 0; n < 400 && machines->called_count == 0; n++)
-        step(scene, 1);
+        step_scene(scene, 1);
     assert_true(machines->called_count > 0);
 }
 
@@ -365,7 +365,7 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     JoWorld *world = scene->world;
     JoxAgents *a = &world->state.agents;
     JoxText odd = {0};
-    step(scene, 20);
+    step_scene(scene, 20);
 #define REFUSED_AS(reason, variable, value)                                                        \
     do {                                                                                           \
         const __typeof__(variable) was = (variable);                                               \
@@ -413,5 +413,5 @@ int main(void) {
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(what_is_no_state_of_a_run_is_refused),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,6 +1,6 @@
 /* New versions of behaviours that bring names with them: tags and teams that no group of the scene
  * has. */
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define TWO                                                                                        \
     "jostle: 1\ngroups: {p: {behaviour: own.lua, at: [[0, 0], [2, 0]], team: red, tags: "          \
@@ -11,7 +11,7 @@
          " } } }, B = { steer = hold } } }\n"
 
 /* As an input log, or the watch, swaps the file: the way that a run takes it. */
-static bool save(JoScene *scene, const char *text, JoError *error) {
+static bool swap_behaviour(JoScene *scene, const char *text, JoError *error) {
     char path[300]; /* its own: that of the machine goes with the machine */
     snprintf(path, sizeof path, "%s", scene->world->model.machines.items[0]->path);
     JoxInputFile file = {.path = path, .text = (char *)text, .length = strlen(text)};
@@ -24,32 +24,22 @@ static bool save(JoScene *scene, const char *text, JoError *error) {
 }
 
 static JoScene *load_resumable(const char *behaviour) {
-    char path[300];
-    JoError error = {0};
-    JoSceneDef def = jo_default_scene_def();
-    write_file("own.lua", behaviour);
-    write_file("scene.yaml", TWO);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    def.path = path;
-    def.message = collect_message;
-    def.named_mods_only = def.resumable = true;
-    jox_text_free(&said);
-    JoScene *scene = jo_scene_load(&def, &error);
-    if (!scene)
-        fail_msg("%s", error.text);
-    return scene;
+    write_test_file("own.lua", behaviour);
+    JoSceneDef def = define_scene(write_test_file("scene.yaml", TWO));
+    def.resumable = true;
+    return load_defined_scene(&def);
 }
 
 /* A checkpoint of a scene, gone on from in another one. */
-static JoScene *resume(JoScene *scene) {
-    char target[320];
+static JoScene *resume_checkpoint(JoScene *scene) {
     char *note = NULL;
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
-    def.message = collect_message;
-    snprintf(target, sizeof target, "%s/checkpoints/latest.checkpoint", folder);
-    step(scene, 1); /* at which one is due */
-    JoScene *next = jo_scene_resume(&def, target, &note, &error);
+    def.message = append_message;
+    def.message_context = &scene_messages;
+    step_scene(scene, 1); /* at which one is due */
+    JoScene *next =
+        jo_scene_resume(&def, test_path("checkpoints/latest.checkpoint"), &note, &error);
     if (!next)
         fail_msg("%s", error.text);
     jo_free(note);
@@ -57,10 +47,8 @@ static JoScene *resume(JoScene *scene) {
 }
 
 static void keep_checkpoints(JoScene *scene) {
-    char target[320];
     JoError error = {0};
-    snprintf(target, sizeof target, "%s/checkpoints", folder);
-    if (!jo_scene_checkpoint(scene, target, 0.05, "", &error))
+    if (!jo_scene_checkpoint(scene, test_path("checkpoints"), 0.05, "", &error))
         fail_msg("%s", error.text);
 }
 
@@ -74,10 +62,10 @@ static const char *tag_of(const JoScene *scene, uint32_t agent) {
 
 static void tag_and_team_that_a_state_sets_are_known(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, TURNS("sees(nearest \"folk\") & ~sees(nearest \"ill\")",
-                                         "tags = { \"ill\", \"folk\" }, team = \"undead\""));
+    JoScene *scene = load_scene_text(TWO, TURNS("sees(nearest \"folk\") & ~sees(nearest \"ill\")",
+                                                "tags = { \"ill\", \"folk\" }, team = \"undead\""));
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 2);
+    step_scene(scene, 2);
     assert_int_equal(a->state[0], 1);
     assert_int_equal(a->tags[0], 3);
     assert_int_equal(a->team[0], JOX_FIRST_SET_TEAM);
@@ -87,19 +75,13 @@ static void tag_and_team_that_a_state_sets_are_known(void **state) {
 
 static void tag_that_nobody_bears_or_sets_is_refused(void **state) {
     (void)state;
-    char path[300];
     JoError error = {0};
-    write_file("own.lua", TURNS("sees(nearest \"il\")", "tags = \"ill\""));
-    write_file("scene.yaml", TWO);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    JoSceneDef def = jo_default_scene_def();
-    def.path = path;
-    def.message = collect_message;
-    def.named_mods_only = true;
+    write_test_file("own.lua", TURNS("sees(nearest \"il\")", "tags = \"ill\""));
+    const JoSceneDef def = define_scene(write_test_file("scene.yaml", TWO));
     assert_null(jo_scene_load(&def, &error));
     assert_non_null(strstr(error.text, "'il'"));
-    JoScene *scene = load_own(TWO, TURNS("after(9)", "tags = \"folk\""));
-    assert_false(save(scene, TURNS("sees(nearest \"il\")", "tags = \"folk\""), &error));
+    JoScene *scene = load_scene_text(TWO, TURNS("after(9)", "tags = \"folk\""));
+    assert_false(swap_behaviour(scene, TURNS("sees(nearest \"il\")", "tags = \"folk\""), &error));
     assert_int_equal(scene->world->model.tag_count, 1);
     jo_scene_free(scene);
 }
@@ -107,10 +89,10 @@ static void tag_that_nobody_bears_or_sets_is_refused(void **state) {
 static void misspelt_tag_and_team_are_warned_of(void **state) {
     (void)state;
     JoScene *scene =
-        load_own(TWO, TURNS("sees(nearest \"folk\")", "tags = \"fol\", team = \"rde\""));
-    assert_non_null(strstr(said.data, "nothing asks for the tag 'fol'"));
-    assert_non_null(strstr(said.data, "no group of the scene has the team 'rde'"));
-    assert_non_null(strstr(said.data, "Did you mean 'red'?"));
+        load_scene_text(TWO, TURNS("sees(nearest \"folk\")", "tags = \"fol\", team = \"rde\""));
+    assert_non_null(strstr(scene_messages.data, "nothing asks for the tag 'fol'"));
+    assert_non_null(strstr(scene_messages.data, "no group of the scene has the team 'rde'"));
+    assert_non_null(strstr(scene_messages.data, "Did you mean 'red'?"));
     jo_scene_free(scene);
 }
 
@@ -120,20 +102,21 @@ static void run_with_new_tags_resumes_exactly(void **state) {
     JoError error = {0};
     JoScene *scene = load_resumable(TURNS("after(9)", "tags = \"ill\", team = \"one\""));
     keep_checkpoints(scene);
-    step(scene, 3);
-    assert_true(save(scene, TURNS("after(0.1)", "tags = \"well\", team = \"two\""), &error));
-    step(scene, 5);
+    step_scene(scene, 3);
+    assert_true(
+        swap_behaviour(scene, TURNS("after(0.1)", "tags = \"well\", team = \"two\""), &error));
+    step_scene(scene, 5);
     assert_string_equal(tag_of(scene, 0), "well");
-    JoScene *next = resume(scene);
+    JoScene *next = resume_checkpoint(scene);
     assert_string_equal(tag_of(next, 0), "well");
     assert_int_equal(next->world->state.agents.team[0], JOX_FIRST_SET_TEAM + 1);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
-    assert_true(
-        save(scene, TURNS("sees(nearest \"well\")", "tags = { \"ill\", \"well\" }"), &error));
-    assert_true(
-        save(next, TURNS("sees(nearest \"well\")", "tags = { \"ill\", \"well\" }"), &error));
-    step(scene, 9);
-    step(next, 9);
+    assert_true(swap_behaviour(
+        scene, TURNS("sees(nearest \"well\")", "tags = { \"ill\", \"well\" }"), &error));
+    assert_true(swap_behaviour(
+        next, TURNS("sees(nearest \"well\")", "tags = { \"ill\", \"well\" }"), &error));
+    step_scene(scene, 9);
+    step_scene(next, 9);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
     jo_scene_free(next);
     jo_scene_free(scene);
@@ -155,41 +138,42 @@ static double remembered(const JoScene *scene, uint32_t agent, const char *name)
     return slot < 0 ? -1.0 : a->memory[(size_t)agent * a->memory_stride + (uint32_t)slot];
 }
 
-static void save_live(JoScene *scene, const char *text) {
+static void swap_behaviour_live(JoScene *scene, const char *text) {
     JoError error = {0};
-    jox_text_free(&said);
-    if (!save(scene, text, &error))
-        fail_msg("%s: %s", error.text, said.data);
+    jox_text_free(&scene_messages);
+    if (!swap_behaviour(scene, text, &error))
+        fail_msg("%s: %s", error.text, scene_messages.data);
 }
 
 static void memory_that_a_version_lacks_is_kept_and_told(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, COUNTING);
-    step(scene, 40);
+    JoScene *scene = load_scene_text(TWO, COUNTING);
+    step_scene(scene, 40);
     const double laps = remembered(scene, 1, "laps");
     assert_true(laps >= 8.0 && remembered(scene, 1, "met") == 1.0);
-    save_live(scene, RESTING);
-    assert_non_null(strstr(said.data, "memory 'laps' of 2 people is kept until"));
+    swap_behaviour_live(scene, RESTING);
+    assert_non_null(strstr(scene_messages.data, "memory 'laps' of 2 people is kept until"));
     assert_true(remembered(scene, 1, "laps") == -1.0);
-    step(scene, 5);
-    save_live(scene, FAST("1", ""));
-    assert_null(strstr(said.data, "laps")); /* told once */
-    step(scene, 5);
-    save_live(scene, COUNTING);
-    assert_non_null(strstr(said.data, "memory 'laps' of 2 people has the value again"));
+    step_scene(scene, 5);
+    swap_behaviour_live(scene, FAST("1", ""));
+    assert_null(strstr(scene_messages.data, "laps")); /* told once */
+    step_scene(scene, 5);
+    swap_behaviour_live(scene, COUNTING);
+    assert_non_null(strstr(scene_messages.data, "memory 'laps' of 2 people has the value again"));
     assert_true(remembered(scene, 1, "laps") == laps && remembered(scene, 1, "met") == 1.0);
     jo_scene_free(scene);
 }
 
 static void memory_of_another_type_is_told_and_comes_back(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, COUNTING);
-    step(scene, 40);
+    JoScene *scene = load_scene_text(TWO, COUNTING);
+    step_scene(scene, 40);
     const double laps = remembered(scene, 0, "laps");
-    save_live(scene, "memory { laps = false, met = false }\n" RESTING);
-    assert_non_null(strstr(said.data, "memory 'laps' was a number and is true or false now"));
+    swap_behaviour_live(scene, "memory { laps = false, met = false }\n" RESTING);
+    assert_non_null(
+        strstr(scene_messages.data, "memory 'laps' was a number and is true or false now"));
     assert_true(remembered(scene, 0, "laps") == 0.0 && remembered(scene, 0, "met") == 1.0);
-    save_live(scene, LAPS RESTING);
+    swap_behaviour_live(scene, LAPS RESTING);
     assert_true(remembered(scene, 0, "laps") == laps);
     jo_scene_free(scene);
 }
@@ -204,16 +188,16 @@ static void memory_of_another_type_is_told_and_comes_back(void **state) {
 /* What a counter has turned so far goes on with it, and is nobody's post meanwhile. */
 static void counter_goes_on_where_it_was(void **state) {
     (void)state;
-    JoScene *scene = load_own(RING, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
-    step(scene, 150);
+    JoScene *scene = load_scene_text(RING, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
+    step_scene(scene, 150);
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *m = scene->world->machines.set->items[0];
     const double angle = a->memory[m->counters[0].angle];
     assert_true(angle > 1.0);
-    save_live(scene, ORBIT("", ", face = home"));
+    swap_behaviour_live(scene, ORBIT("", ", face = home"));
     m = scene->world->machines.set->items[0];
     assert_true(a->memory[m->home - 1] == (double)a->x[0]); /* set now, and no angle of a counter */
-    save_live(scene, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
+    swap_behaviour_live(scene, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
     m = scene->world->machines.set->items[0];
     assert_true(a->memory[m->counters[0].angle] == angle);
     jo_scene_free(scene);
@@ -223,17 +207,17 @@ static void run_with_dormant_memory_resumes_exactly(void **state) {
     (void)state;
     JoScene *scene = load_resumable(COUNTING);
     keep_checkpoints(scene);
-    step(scene, 40);
+    step_scene(scene, 40);
     const double laps = remembered(scene, 1, "laps");
-    save_live(scene, RESTING);
-    step(scene, 5);
-    JoScene *next = resume(scene);
+    swap_behaviour_live(scene, RESTING);
+    step_scene(scene, 5);
+    JoScene *next = resume_checkpoint(scene);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
-    save_live(scene, COUNTING);
-    save_live(next, COUNTING);
+    swap_behaviour_live(scene, COUNTING);
+    swap_behaviour_live(next, COUNTING);
     assert_true(remembered(next, 1, "laps") == laps);
-    step(scene, 20);
-    step(next, 20);
+    step_scene(scene, 20);
+    step_scene(next, 20);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
     jo_scene_free(next);
     jo_scene_free(scene);
@@ -241,16 +225,17 @@ static void run_with_dormant_memory_resumes_exactly(void **state) {
 
 static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, LAPS RESTING);
+    JoScene *scene = load_scene_text(TWO, LAPS RESTING);
     JoxText text = {0};
     for (int n = 0; n <= JOX_MOST_DORMANT; n++) {
         text.length = 0;
         jox_text_printf(&text, "memory { name%d = %d }\n" RESTING, n, n);
-        save_live(scene, text.data);
-        assert_true((n < JOX_MOST_DORMANT - 1) == !strstr(said.data, "is dropped"));
+        swap_behaviour_live(scene, text.data);
+        assert_true((n < JOX_MOST_DORMANT - 1) == !strstr(scene_messages.data, "is dropped"));
     }
-    assert_non_null(strstr(said.data, "memory 'met', which no version named for long, is dropped"));
-    save_live(scene, "memory { name0 = 9 }\n" RESTING);
+    assert_non_null(
+        strstr(scene_messages.data, "memory 'met', which no version named for long, is dropped"));
+    swap_behaviour_live(scene, "memory { name0 = 9 }\n" RESTING);
     assert_true(remembered(scene, 0, "name0") == 0.0);
     jox_text_free(&text);
     jo_scene_free(scene);
@@ -262,46 +247,37 @@ static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
 
 static void memory_that_is_back_is_not_told_to_begin(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, NAMES("laps = 5", ""));
-    save_live(scene, NAMES("laps = false", ""));
-    assert_non_null(strstr(said.data, "'laps' was a number and is true or false now: 2 people "
-                                      "start with its initial value, and their old values"));
-    save_live(scene, NAMES("laps = 0", ""));
+    JoScene *scene = load_scene_text(TWO, NAMES("laps = 5", ""));
+    swap_behaviour_live(scene, NAMES("laps = false", ""));
+    assert_non_null(strstr(scene_messages.data,
+                           "'laps' was a number and is true or false now: 2 people "
+                           "start with its initial value, and their old values"));
+    swap_behaviour_live(scene, NAMES("laps = 0", ""));
     assert_true(remembered(scene, 0, "laps") == 5.0);
-    assert_non_null(strstr(
-        said.data, "'laps' of 2 people has the value again that it had when it was last named"));
-    assert_non_null(strstr(said.data, "'laps' was true or false and is a number now: their old "
-                                      "values are kept until it is true or false again"));
-    assert_null(strstr(said.data, "begins with"));
+    assert_non_null(
+        strstr(scene_messages.data,
+               "'laps' of 2 people has the value again that it had when it was last named"));
+    assert_non_null(strstr(scene_messages.data,
+                           "'laps' was true or false and is a number now: their old "
+                           "values are kept until it is true or false again"));
+    assert_null(strstr(scene_messages.data, "begins with"));
     jo_scene_free(scene);
 }
 
 static void renamed_memory_comes_in_place_of_what_was_kept(void **state) {
     (void)state;
-    JoScene *scene = load_own(TWO, NAMES("loops = 3", ""));
-    save_live(scene, NAMES("laps = 5", ""));
-    save_live(scene, NAMES("loops = 0", "renamed = { laps = \"loops\" }, "));
+    JoScene *scene = load_scene_text(TWO, NAMES("loops = 3", ""));
+    swap_behaviour_live(scene, NAMES("laps = 5", ""));
+    swap_behaviour_live(scene, NAMES("loops = 0", "renamed = { laps = \"loops\" }, "));
     assert_true(remembered(scene, 0, "loops") == 5.0);
-    assert_non_null(strstr(said.data, "memory 'loops' that was kept is dropped: "
-                                      "'laps' is renamed to it"));
-    assert_null(strstr(said.data, "at most"));
-    save_live(scene, RESTING);
-    assert_null(strstr(said.data, "dropped")); /* nothing is kept twice */
-    save_live(scene, NAMES("loops = 0", ""));
+    assert_non_null(strstr(scene_messages.data, "memory 'loops' that was kept is dropped: "
+                                                "'laps' is renamed to it"));
+    assert_null(strstr(scene_messages.data, "at most"));
+    swap_behaviour_live(scene, RESTING);
+    assert_null(strstr(scene_messages.data, "dropped")); /* nothing is kept twice */
+    swap_behaviour_live(scene, NAMES("loops = 0", ""));
     assert_true(remembered(scene, 0, "loops") == 5.0);
     jo_scene_free(scene);
-}
-
-static int remove_all(void **state) {
-    static const char *const NAMES[] = {"latest.checkpoint", "before.checkpoint"};
-    char path[340];
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%s/checkpoints/%s", folder, NAMES[i]);
-        unlink(path);
-    }
-    snprintf(path, sizeof path, "%s/checkpoints", folder);
-    rmdir(path);
-    return remove_folder(state);
 }
 
 int main(void) {
@@ -318,5 +294,5 @@ int main(void) {
         cmocka_unit_test(memory_that_is_back_is_not_told_to_begin),
         cmocka_unit_test(renamed_memory_comes_in_place_of_what_was_kept),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_all);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

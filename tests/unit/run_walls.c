@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "geom/wall_way.h"
-#include "unit/run_acted.h"
+#include "unit/gate_ball_scene.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
 #define SEEK                                                                                       \
@@ -39,8 +39,9 @@ static void all_are_in_the_hall(const JoScene *scene) {
 
 static void gate_far_from_a_dense_crowd_moves_nobody(void **state) {
     (void)state;
-    JoScene *scene = load_own(HALL("{line: [[1, 2], [1, 4]], name: gate, open: true}"), SEEK);
-    step(scene, 205);
+    JoScene *scene =
+        load_scene_text(HALL("{line: [[1, 2], [1, 4]], name: gate, open: true}"), SEEK);
+    step_scene(scene, 205);
     assert_int_equal(counts(scene)->closed, 1);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
     all_are_in_the_hall(scene);
@@ -49,11 +50,12 @@ static void gate_far_from_a_dense_crowd_moves_nobody(void **state) {
 
 static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
     (void)state;
-    JoScene *scene = load_own(HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}"), SEEK);
+    JoScene *scene =
+        load_scene_text(HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}"), SEEK);
     const JoxAgents *a = &scene->world->state.agents;
     bool before[120];
     uint32_t across = 0;
-    step(scene, 200);
+    step_scene(scene, 200);
     assert_int_equal(a->count, 120);
     for (uint32_t i = 0; i < a->count; i++) {
         before[a->id[i]] = a->x[i] < 8.5f;
@@ -61,7 +63,7 @@ static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
     }
     assert_true(across >= 3);
     for (int n = 0; n < 40; n++) {
-        step(scene, 1);
+        step_scene(scene, 1);
         for (uint32_t i = 0; i < a->count; i++)
             assert_true(before[a->id[i]] == (a->x[i] < 8.5f));
     }
@@ -75,16 +77,16 @@ static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
 static void solid_over_people_is_left_by_no_other_wall(void **state) {
     (void)state;
     /* The nearest ways out lead through the line at x = 6.4. */
-    JoScene *scene =
-        load_own("jostle: 1\n"
-                 "walls:\n"
-                 "  - {line: [[6.4, -3], [6.4, 3]]}\n"
-                 "  - {solid: [[4, -1], [7, -1], [7, 1], [4, 1]], name: block, open: true}\n"
-                 "groups: {people: {behaviour: own.lua, at: [[6.3, 0], [6.5, 0.1], [5, 0.9]]}}\n"
-                 "events: [{at: 0.1, close: block}]\n",
-                 STAY);
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "walls:\n"
+        "  - {line: [[6.4, -3], [6.4, 3]]}\n"
+        "  - {solid: [[4, -1], [7, -1], [7, 1], [4, 1]], name: block, open: true}\n"
+        "groups: {people: {behaviour: own.lua, at: [[6.3, 0], [6.5, 0.1], [5, 0.9]]}}\n"
+        "events: [{at: 0.1, close: block}]\n",
+        STAY);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 3);
+    step_scene(scene, 3);
     assert_int_equal(counts(scene)->moved_out, 3);
     for (uint32_t i = 0; i < a->count; i++) {
         assert_false(jox_walls_contain(&scene->world->scratch.walls, jox_v2(a->x[i], a->y[i])));
@@ -95,22 +97,23 @@ static void solid_over_people_is_left_by_no_other_wall(void **state) {
 
 static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\n"
-                 "walls:\n"
-                 "  - {line: [[-1, -1], [1, -1], [1, 1], [-1, 1]], closed: true}\n"
-                 "  - {solid: [[-3, -3], [3, -3], [3, 3], [-3, 3]], name: block, open: true}\n"
-                 "groups: {people: {behaviour: own.lua, at: [[0.5, 0.25], [2, 0]]}}\n"
-                 "events: [{at: 0.1, close: block}]\n",
-                 STAY);
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "walls:\n"
+        "  - {line: [[-1, -1], [1, -1], [1, 1], [-1, 1]], closed: true}\n"
+        "  - {solid: [[-3, -3], [3, -3], [3, 3], [-3, 3]], name: block, open: true}\n"
+        "groups: {people: {behaviour: own.lua, at: [[0.5, 0.25], [2, 0]]}}\n"
+        "events: [{at: 0.1, close: block}]\n",
+        STAY);
     const JoxAgents *a = &scene->world->state.agents;
-    step(scene, 10);
+    step_scene(scene, 10);
     assert_int_equal(counts(scene)->moved_out, 1);
     assert_int_equal(counts(scene)->not_moved_out, 1);
-    assert_non_null(said.data);
-    assert_non_null(strstr(said.data, "t = 0.10 s: 1 person in the way of a wall that came could "
-                                      "not be moved"));
-    assert_non_null(strstr(said.data, "agent 0 at (0.50, 0.25)"));
+    assert_non_null(scene_messages.data);
+    assert_non_null(strstr(scene_messages.data,
+                           "t = 0.10 s: 1 person in the way of a wall that came could "
+                           "not be moved"));
+    assert_non_null(strstr(scene_messages.data, "agent 0 at (0.50, 0.25)"));
     const uint32_t first = jox_agents_find(a, 0);
     assert_true(fabsf(a->x[first]) < 1.0f && fabsf(a->y[first]) < 1.0f);
     JoFigures *told = jo_scene_figures(scene);
@@ -130,7 +133,7 @@ static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
 
 static void edit(JoScene *scene, const char *text) {
     JoxDiagnostics diagnostics = {0};
-    write_file("scene.yaml", text);
+    write_test_file("scene.yaml", text);
     JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
     assert_non_null(spec);
     jox_run_rescene(scene, &spec, 0.0);
@@ -141,12 +144,12 @@ static void edit(JoScene *scene, const char *text) {
 /* Other walls before it, another start of its ring, the other direction: it is the same wall. */
 static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own(EDITED("  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"), SEEK);
-    step(scene, 200);
+    JoScene *scene = load_scene_text(
+        EDITED("  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"), SEEK);
+    step_scene(scene, 200);
     edit(scene, EDITED("  - {line: [[20, 0], [20, 6]]}\n"
                        "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
-    step(scene, 5);
+    step_scene(scene, 5);
     assert_int_equal(scene->world->scratch.walls.ring_count, 3);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
     all_are_in_the_hall(scene);
@@ -159,7 +162,7 @@ static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     edit(scene, EDITED("  - {line: [[9, 0], [9, 6]]}\n"
                        "  - {line: [[20, 0], [20, 6]]}\n"
                        "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, on_it);
     all_are_in_the_hall(scene);
     jo_scene_free(scene);
@@ -171,12 +174,12 @@ static void ring_that_becomes_solid_came(void **state) {
     static const char OPEN[] = "jostle: 1\n"
                                "walls: [{line: [[0, 0], [4, 0], [4, 4], [0, 4]], closed: true}]\n"
                                "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n";
-    JoScene *scene = load_own(OPEN, STAY);
-    step(scene, 2);
+    JoScene *scene = load_scene_text(OPEN, STAY);
+    step_scene(scene, 2);
     edit(scene, "jostle: 1\n"
                 "walls: [{solid: [[0, 0], [4, 0], [4, 4], [0, 4]]}]\n"
                 "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n");
-    step(scene, 1);
+    step_scene(scene, 1);
     assert_int_equal(counts(scene)->moved_out, 1);
     jo_scene_free(scene);
 }
@@ -259,12 +262,12 @@ static void births_after_a_snapshot_are_those_of_the_restored_world(void **state
 /* Beyond the wall there is room, and in the place a little. */
 static void people_of_a_place_are_shifted_within_it_and_on_their_side(void **state) {
     (void)state;
-    JoScene *scene =
-        load_own("jostle: 1\n"
-                 "places: {strip: {polygon: [[0, 0.2], [20, 0.2], [20, 1.2], [0, 1.2]]}}\n"
-                 "walls: [{line: [[-5, 0], [25, 0]]}]\n"
-                 "groups: {people: {behaviour: own.lua, count: 150, in: strip, fill: random}}\n",
-                 STAY);
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "places: {strip: {polygon: [[0, 0.2], [20, 0.2], [20, 1.2], [0, 1.2]]}}\n"
+        "walls: [{line: [[-5, 0], [25, 0]]}]\n"
+        "groups: {people: {behaviour: own.lua, count: 150, in: strip, fill: random}}\n",
+        STAY);
     const JoxAgents *a = &scene->world->state.agents;
     assert_int_equal(a->count, 150);
     assert_true(counts(scene)->shifted_at_birth > 20);
@@ -276,16 +279,17 @@ static void people_of_a_place_are_shifted_within_it_and_on_their_side(void **sta
 
 static void people_who_would_come_in_within_a_wall_are_told_of(void **state) {
     (void)state;
-    JoScene *scene = load_own(
+    JoScene *scene = load_scene_text(
         "jostle: 1\n"
         "walls: [{solid: [[4, -1], [7, -1], [7, 1], [4, 1]]}]\n"
         "groups: {people: {behaviour: own.lua, starts: [[0, 0, 0], [0.2, 5, 0], [0.2, 9, 0]]}}\n",
         STAY);
-    step(scene, 10);
+    step_scene(scene, 10);
     assert_int_equal(scene->world->state.agents.count, 2);
     assert_int_equal(counts(scene)->not_placed, 1);
-    assert_non_null(strstr(said.data, "scene.yaml:3:10: t = 0.20 s: a person of group 'people' is "
-                                      "not placed: (5, 0) lies in a wall"));
+    assert_non_null(strstr(scene_messages.data,
+                           "scene.yaml:3:10: t = 0.20 s: a person of group 'people' is "
+                           "not placed: (5, 0) lies in a wall"));
     JoError error = {0};
     assert_int_equal(jo_world_spawn(scene->world, "people", 6, 0, &error).generation, 0);
     assert_string_equal(error.text, "(6, 0) lies in a wall");
@@ -299,17 +303,17 @@ static void people_who_would_come_in_within_a_wall_are_told_of(void **state) {
 static void edges_that_came_are_saved(void **state) {
     (void)state;
     const char *yaml = HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}");
-    JoScene *scene = load_own(yaml, SEEK), *other = load_own(yaml, SEEK);
+    JoScene *scene = load_scene_text(yaml, SEEK), *other = load_scene_text(yaml, SEEK);
     JoxText saved = {0};
     JoError error = {0};
-    step(scene, 100);
-    does(scene, "wall post 5 2 6 3");
+    step_scene(scene, 100);
+    apply_input(scene, "wall post 5 2 6 3");
     assert_true(jo_scene_open_wall(scene, "gate", false, &error));
     assert_true(jox_world_snapshot(scene->world, &saved, &error));
     if (!jox_world_restore(other->world, saved.data, saved.length, &error))
         fail_msg("%s", error.text);
-    step(scene, 3);
-    step(other, 3);
+    step_scene(scene, 3);
+    step_scene(other, 3);
     assert_true(counts(scene)->moved_out > 0);
     assert_int_equal(counts(scene)->moved_out, counts(other)->moved_out);
     assert_true(jo_world_hash(scene->world) == jo_world_hash(other->world));
@@ -332,12 +336,12 @@ static void far_wall_moves_nobody_of(const char *name) {
     char path[300];
     const char *set = override_for(name);
     snprintf(path, sizeof path, "scenes/%s", name);
-    JoScene *scene = load(path, &set, 1);
-    step(scene, 50);
+    JoScene *scene = load_scene_file(path, &set, 1);
+    step_scene(scene, 50);
     const uint64_t before = counts(scene)->moved_out + counts(scene)->not_moved_out;
-    does(scene, "wall far 500 500 504 500");
-    does(scene, "wall far 500 500 504 500 504 504 500 504");
-    step(scene, 1);
+    apply_input(scene, "wall far 500 500 504 500");
+    apply_input(scene, "wall far 500 500 504 500 504 504 500 504");
+    step_scene(scene, 1);
     if (counts(scene)->moved_out + counts(scene)->not_moved_out != before)
         fail_msg("%s: people were moved by a wall 500 m away", path);
     jo_scene_free(scene);
@@ -375,5 +379,5 @@ int main(void) {
         cmocka_unit_test(edges_that_came_are_saved),
         cmocka_unit_test(wall_500_m_away_moves_nobody_of_any_shipped_scene),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

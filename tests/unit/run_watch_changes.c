@@ -1,22 +1,11 @@
 /* What hangs together by changed files; folders and files that come and go under a watch. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
-
 #include "base/mem.h"
 #include "run/watch/changes.h"
 #include "run/watch/watch.h"
+#include "unit/test_folder.h"
 
 /* "02" for parts 0 and 2, and "p" for the plan: the next to try; "" for none. */
-static const char *next(JoxChanges *c) {
+static const char *try_next(JoxChanges *c) {
     static char text[JOX_PARTS + 1];
     bool parts[JOX_PARTS] = {false};
     double written;
@@ -29,7 +18,7 @@ static const char *next(JoxChanges *c) {
     return text;
 }
 
-static void live(JoxChanges *c, const char *which) {
+static void make_live(JoxChanges *c, const char *which) {
     bool parts[JOX_PARTS] = {false};
     for (; *which; which++)
         parts[*which == 'p' ? JOX_PART_SCENE : *which - '0'] = true;
@@ -37,7 +26,7 @@ static void live(JoxChanges *c, const char *which) {
 }
 
 /* Parts 0 and 1 share lib, 1 and 2 share more; 3 stands alone. */
-static JoxChanges four(void) {
+static JoxChanges make_four_parts(void) {
     static const char *const USES[][2] = {{"0", "a"},    {"0", "lib"}, {"1", "b"},    {"1", "lib"},
                                           {"1", "more"}, {"2", "c"},   {"2", "more"}, {"3", "d"}};
     JoxChanges c = {0};
@@ -49,52 +38,52 @@ static JoxChanges four(void) {
 
 static void only_what_changed_together_goes_together(void **state) {
     (void)state;
-    JoxChanges c = four();
-    assert_string_equal(next(&c), "");
+    JoxChanges c = make_four_parts();
+    assert_string_equal(try_next(&c), "");
     jox_changes_file(&c, "a", 1.0);
-    assert_string_equal(next(&c), "0"); /* lib has not changed */
-    live(&c, "0");
+    assert_string_equal(try_next(&c), "0"); /* lib has not changed */
+    make_live(&c, "0");
     jox_changes_uses(&c, 0, "a");
     jox_changes_uses(&c, 0, "lib");
     jox_changes_file(&c, "lib", 2.0);
-    assert_string_equal(next(&c), "01");
-    assert_string_equal(next(&c), ""); /* tried */
+    assert_string_equal(try_next(&c), "01");
+    assert_string_equal(try_next(&c), ""); /* tried */
     jox_changes_file(&c, "more", 3.0);
-    assert_string_equal(next(&c), "012"); /* 0 and 1 are not live yet */
+    assert_string_equal(try_next(&c), "012"); /* 0 and 1 are not live yet */
     jox_changes_file(&c, "d", 4.0);
     jox_changes_file(&c, "scene", 4.0);
     assert_true(jox_changes_fresh(&c));
-    assert_string_equal(next(&c), "3");
-    assert_string_equal(next(&c), "p");
-    assert_string_equal(next(&c), "");
+    assert_string_equal(try_next(&c), "3");
+    assert_string_equal(try_next(&c), "p");
+    assert_string_equal(try_next(&c), "");
     assert_false(jox_changes_fresh(&c));
     jox_changes_free(&c);
 }
 
 static void what_is_live_is_settled(void **state) {
     (void)state;
-    JoxChanges c = four();
+    JoxChanges c = make_four_parts();
     jox_changes_file(&c, "lib", 1.0);
     jox_changes_file(&c, "a", 1.0);
-    assert_string_equal(next(&c), "01");
+    assert_string_equal(try_next(&c), "01");
     jox_changes_file(&c, "a", 2.0); /* saved once more while it is being loaded */
-    live(&c, "01");
+    make_live(&c, "01");
     jox_changes_uses(&c, 0, "a");
     jox_changes_uses(&c, 1, "b");
     jox_changes_uses(&c, 1, "lib");
-    assert_string_equal(next(&c), "0"); /* no longer made of lib */
-    live(&c, "0");
+    assert_string_equal(try_next(&c), "0"); /* no longer made of lib */
+    make_live(&c, "0");
     jox_changes_file(&c, "b", 3.0);
-    assert_string_equal(next(&c), "1");
+    assert_string_equal(try_next(&c), "1");
     jox_changes_file(&c, "nobody", 3.0);
-    assert_string_equal(next(&c), "");
+    assert_string_equal(try_next(&c), "");
     assert_false(jox_changes_fresh(&c));
     jox_changes_free(&c);
 }
 
 static void when_it_was_written_is_the_last_of_all(void **state) {
     (void)state;
-    JoxChanges c = four();
+    JoxChanges c = make_four_parts();
     bool parts[JOX_PARTS];
     double written;
     jox_changes_file(&c, "b", 7.0);
@@ -107,87 +96,66 @@ static void when_it_was_written_is_the_last_of_all(void **state) {
 
 /* ---- the watch ---- */
 
-static char folder[] = "/tmp/jostle-watch-XXXXXX";
 static char seen[400];
 
-static void changed(void *context, const char *path, double written) {
+static void note_change(void *context, const char *path, double written) {
     (void)context;
     assert_true(written > 1e9);
-    snprintf(seen + strlen(seen), sizeof seen - strlen(seen), "%s ", path + strlen(folder) + 1);
+    snprintf(seen + strlen(seen), sizeof seen - strlen(seen), "%s ",
+             path + strlen(test_folder) + 1);
 }
 
 /* What the watch has to say within some time. */
-static const char *look(JoxWatch *watch) {
+static const char *wait_for_change(JoxWatch *watch) {
     seen[0] = 0;
     for (int i = 0; i < 40 && !seen[0]; i++)
-        jox_watch_wait(watch, -1, 0.01, changed, NULL);
+        jox_watch_wait(watch, -1, 0.01, note_change, NULL);
     return seen;
-}
-
-static const char *at(const char *name) {
-    static char path[2][200];
-    static int turn;
-    turn ^= 1;
-    snprintf(path[turn], sizeof *path, "%s/%s", folder, name);
-    return path[turn];
-}
-
-static void save(const char *name, const char *text) {
-    FILE *file = fopen(at(name), "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
 }
 
 static void files_and_folders_come_and_go(void **state) {
     (void)state;
-    assert_non_null(mkdtemp(folder));
     JoxWatch *watch = jox_watch_create();
-    save("here", "1");
-    assert_true(jox_watch_add(watch, at("here")));
-    assert_true(jox_watch_add(watch, at("missing")));
-    assert_true(jox_watch_add(watch, at("deep/er/file")));
-    assert_string_equal(look(watch), "");
-    save("here", "1");
-    assert_string_equal(look(watch), ""); /* the same */
-    save("here", "2");
-    assert_string_equal(look(watch), "here ");
-    save("missing", "1");
-    assert_string_equal(look(watch), "missing ");
-    unlink(at("here"));
-    assert_string_equal(look(watch), "");
-    save("other", "3");
-    rename(at("other"), at("here"));
-    assert_string_equal(look(watch), "here ");
+    write_test_file("here", "1");
+    assert_true(jox_watch_add(watch, test_path("here")));
+    assert_true(jox_watch_add(watch, test_path("missing")));
+    assert_true(jox_watch_add(watch, test_path("deep/er/file")));
+    assert_string_equal(wait_for_change(watch), "");
+    write_test_file("here", "1");
+    assert_string_equal(wait_for_change(watch), ""); /* the same */
+    write_test_file("here", "2");
+    assert_string_equal(wait_for_change(watch), "here ");
+    write_test_file("missing", "1");
+    assert_string_equal(wait_for_change(watch), "missing ");
+    unlink(test_path("here"));
+    assert_string_equal(wait_for_change(watch), "");
+    write_test_file("other", "3");
+    rename(test_path("other"), test_path("here"));
+    assert_string_equal(wait_for_change(watch), "here ");
     for (int i = 0; i < 3; i++) { /* made, removed and made again, or replaced by another */
         char text[2] = {(char)('0' + i), 0};
-        mkdir(at("deep"), 0755);
+        mkdir(test_path("deep"), 0755);
         if (i == 0)
             usleep(20000);
-        mkdir(at("deep/er"), 0755);
-        save("deep/er/file", text);
-        assert_string_equal(look(watch), "deep/er/file ");
-        save("deep/er/file", "x");
-        assert_string_equal(look(watch), "deep/er/file ");
+        mkdir(test_path("deep/er"), 0755);
+        write_test_file("deep/er/file", text);
+        assert_string_equal(wait_for_change(watch), "deep/er/file ");
+        write_test_file("deep/er/file", "x");
+        assert_string_equal(wait_for_change(watch), "deep/er/file ");
         if (i == 0) {
-            rename(at("deep/er"), at("away"));
-            mkdir(at("deep/er"), 0755);
-            save("deep/er/file", "y");
-            assert_string_equal(look(watch), "deep/er/file ");
-            save("away/file", "z");
-            assert_string_equal(look(watch), "");
+            rename(test_path("deep/er"), test_path("away"));
+            mkdir(test_path("deep/er"), 0755);
+            write_test_file("deep/er/file", "y");
+            assert_string_equal(wait_for_change(watch), "deep/er/file ");
+            write_test_file("away/file", "z");
+            assert_string_equal(wait_for_change(watch), "");
         }
-        unlink(at("deep/er/file"));
-        rmdir(at("deep/er"));
-        rmdir(at("deep"));
-        assert_string_equal(look(watch), "");
+        unlink(test_path("deep/er/file"));
+        rmdir(test_path("deep/er"));
+        rmdir(test_path("deep"));
+        assert_string_equal(wait_for_change(watch), "");
     }
     jox_watch_free(watch);
-    unlink(at("away/file"));
-    rmdir(at("away"));
-    unlink(at("here"));
-    unlink(at("missing"));
-    assert_int_equal(rmdir(folder), 0);
 }
 
 int main(void) {
@@ -197,5 +165,5 @@ int main(void) {
         cmocka_unit_test(when_it_was_written_is_the_last_of_all),
         cmocka_unit_test(files_and_folders_come_and_go),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

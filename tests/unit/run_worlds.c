@@ -12,6 +12,7 @@
 
 #include "body/body.h"
 #include "jostle.h"
+#include "messages.h"
 
 enum { SCENES = 4, AT_ONCE = 8, STEPS = 60 };
 static const char *const PATHS[SCENES] = {"scenes/dodgeball.yaml", "scenes/tackle.yaml",
@@ -23,11 +24,6 @@ typedef struct World {
     bool refused; /* a scene that is wrong is refused meanwhile, with its own error */
 } World;
 
-static void quiet(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 /* Calls nothing of cmocka, which is not for threads: what went wrong shows in the hash. */
 static void *run_world(void *argument) {
     World *world = argument;
@@ -35,7 +31,7 @@ static void *run_world(void *argument) {
     JoSceneDef def = jo_default_scene_def();
     def.path = PATHS[world->scene];
     def.threads = 2;
-    def.message = quiet;
+    def.message = ignore_message;
     JoScene *scene = jo_scene_load(&def, &error);
     for (int n = 0; scene && n < STEPS; n++)
         if (!jo_scene_step(scene, &error))

@@ -80,11 +80,6 @@ void fuzz_end_diagnostics(JoxDiagnostics *diagnostics) {
     jox_diag_free(diagnostics);
 }
 
-static void ignore(void *context, const char *text) {
-    (void)context;
-    (void)text;
-}
-
 JoScene *fuzz_load(const char *path, const char *text, uint32_t threads) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
@@ -92,7 +87,7 @@ JoScene *fuzz_load(const char *path, const char *text, uint32_t threads) {
     def.text = text;
     def.text_length = text ? strlen(text) : 0;
     def.threads = threads;
-    def.message = ignore;
+    def.message = ignore_message;
     def.named_mods_only = true;
     def.no_density = true; /* the time that it takes is worth more steps */
     JoScene *scene = jo_scene_load(&def, &error);

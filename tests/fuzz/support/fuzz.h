@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "../../messages.h"
 #include "base/format/diag.h"
 #include "jostle_tools.h"
 

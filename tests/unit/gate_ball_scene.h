@@ -1,9 +1,9 @@
-/* A scene with a gate, a ball and a few walkers, to which people do things; shared by the tests of
-   inputs and of inspection. */
-#ifndef JOX_TESTS_HOST_ACTED_H
-#define JOX_TESTS_HOST_ACTED_H
+/* A scene with a gate, a ball and four walkers, and the lines of input that act on them. Shared by
+   the tests of inputs and of inspection. */
+#ifndef JOX_TESTS_GATE_BALL_SCENE_H
+#define JOX_TESTS_GATE_BALL_SCENE_H
 
-#include "unit/live_page.h"
+#include "unit/scene_loader.h"
 
 #define WALKER                                                                                     \
     "local mine = memory { met = false, laps = 3 }\n" HEAD                                         \
@@ -22,11 +22,11 @@
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0.1], [2, -0.3], [3, 0.2]],"           \
     " set: {mass: 80}}}\n"
 
-static inline JoScene *begin(void) {
-    return load_own(jox_bodies_available() ? WORLD PEOPLE_OF : PLAIN PEOPLE_OF, WALKER);
+static inline JoScene *load_gate_and_ball(void) {
+    return load_scene_text(jox_bodies_available() ? WORLD PEOPLE_OF : PLAIN PEOPLE_OF, WALKER);
 }
 
-static inline void does(JoScene *scene, const char *line) {
+static inline void apply_input(JoScene *scene, const char *line) {
     JoError error = {0};
     if (!jo_scene_input(scene, line, &error))
         fail_msg("%s: %s", line, error.text);

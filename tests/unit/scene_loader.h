@@ -1,67 +1,53 @@
-/* Loads scenes from files and from texts in the test, steps them, and reloads their behaviours
+/* Loads scenes from files and from texts in the test, steps them, and replaces their behaviours
    while they run. Shared by tests of runs and of the live page. */
-#ifndef JOX_TESTS_HOST_LIVE_H
-#define JOX_TESTS_HOST_LIVE_H
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include <cmocka.h>
+#ifndef JOX_TESTS_SCENE_LOADER_H
+#define JOX_TESTS_SCENE_LOADER_H
 
 #include "base/mem.h"
+#include "messages.h"
 #include "run/run.h"
+#include "unit/test_folder.h"
 
-/* Messages of the scene that was loaded last. */
-static JoxText said;
-static char why[256];
-static char folder[] = "/tmp/jostle-reload-XXXXXX";
+/* Messages of the scenes since the last load. */
+static JoxText scene_messages;
+/* Reason of the last refusal of a behaviour's text. */
+static char refusal[256];
 
-static void collect_message(void *context, const char *text) {
-    (void)context;
-    jox_text_add(&said, text);
-}
-
-static JoScene *load(const char *path, const char *const *sets, size_t count) {
+/* Definition of a scene whose messages are collected, without mods of the user's. */
+static inline JoSceneDef define_scene(const char *path) {
     JoSceneDef def = jo_default_scene_def();
     def.path = path;
-    def.overrides = sets;
-    def.override_count = count;
-    def.message = collect_message;
+    def.message = append_message;
+    def.message_context = &scene_messages;
     def.named_mods_only = true;
-    def.no_density = true;
+    jox_text_free(&scene_messages);
+    return def;
+}
+
+static inline JoScene *load_defined_scene(const JoSceneDef *def) {
     JoError error = {0};
-    jox_text_free(&said);
-    JoScene *scene = jo_scene_load(&def, &error);
+    JoScene *scene = jo_scene_load(def, &error);
     if (!scene)
-        fail_msg("%s: %s", path, error.text);
+        fail_msg("%s: %s", def->path, error.text);
     return scene;
 }
 
-static inline void write_file(const char *name, const char *text) {
-    char path[300];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
+/* Loads a file with values in place of some of its own (`jostle run --set`), without densities. */
+static inline JoScene *load_scene_file(const char *path, const char *const *sets, size_t count) {
+    JoSceneDef def = define_scene(path);
+    def.overrides = sets;
+    def.override_count = count;
+    def.no_density = true;
+    return load_defined_scene(&def);
 }
 
 /* Loads a scene from the text of a scene and of its behaviour own.lua. */
-static inline JoScene *load_own(const char *scene, const char *behaviour) {
-    char path[300];
-    write_file("own.lua", behaviour);
-    write_file("scene.yaml", scene);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    return load(path, NULL, 0);
+static inline JoScene *load_scene_text(const char *scene, const char *behaviour) {
+    write_test_file("own.lua", behaviour);
+    return load_scene_file(write_test_file("scene.yaml", scene), NULL, 0);
 }
 
-static void step(JoScene *scene, int steps) {
+static inline void step_scene(JoScene *scene, int steps) {
     JoError error = {0};
     for (int i = 0; i < steps; i++)
         if (!jo_scene_step(scene, &error))
@@ -69,23 +55,24 @@ static void step(JoScene *scene, int steps) {
 }
 
 /* Replaces a machine by a new text of its behaviour, as the watching thread and the step do
-   together. False with the reason in `why` if the text is refused. */
-static bool replace_behaviour_text(JoScene *scene, uint32_t index, const char *text,
-                                   size_t length) {
+   together. False with the reason in `refusal` if the text is refused. */
+static inline bool replace_behaviour_text(JoScene *scene, uint32_t index, const char *text,
+                                          size_t length) {
     JoxMachineRun *machines = &scene->world->machines;
     const JoxMachine *now = machines->set->items[index];
     JoxDiagnostics diagnostics = {0};
     JoxLoaded *loaded =
         jox_lua_prepare(scene->lua, now->path, text, length, &scene->scope, &diagnostics);
     JoxMachine *next = jox_loaded_machine(loaded);
-    snprintf(why, sizeof why, "%s", diagnostics.count && !next ? diagnostics.items[0].message : "");
+    snprintf(refusal, sizeof refusal, "%s",
+             diagnostics.count && !next ? diagnostics.items[0].message : "");
     assert_int_equal(next == NULL, diagnostics.errors > 0); /* each failure has an error */
     jox_diag_free(&diagnostics);
     bool live = false;
     if (next) {
         JoxReplacement *replacement = jox_replacement_prepare(
             now, next, scene->world->model.def.seed, scene->world->state.agents.next_id);
-        live = !jox_machines_refuses(machines, index, replacement, why, sizeof why);
+        live = !jox_machines_refuses(machines, index, replacement, refusal, sizeof refusal);
         if (live) {
             JoxMachine *old = jox_machines_replace(machines, index, replacement);
             JoxLoaded *retired = jox_lua_retire(scene->lua, old);
@@ -101,7 +88,7 @@ static bool replace_behaviour_text(JoScene *scene, uint32_t index, const char *t
     return live;
 }
 
-static inline bool reload_text(JoScene *scene, uint32_t index, const char *text) {
+static inline bool reload_behaviour(JoScene *scene, uint32_t index, const char *text) {
     return replace_behaviour_text(scene, index, text, strlen(text));
 }
 
@@ -121,21 +108,10 @@ static inline double read_wanted_speed(const JoScene *scene, uint32_t agent) {
 #define FAST(speed, more)                                                                          \
     HEAD "\"A\", defaults = { speed = " speed " }, states = { A = { steer = hold" more " } } }\n"
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    const char *const names[] = {"own.lua", "scene.yaml"};
-    for (int i = 0; i < 2; i++) {
-        char path[300];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    jox_text_free(&said);
-    return rmdir(folder);
+/* Teardown of tests that load scenes. */
+static inline int remove_scene_folder(void **state) {
+    jox_text_free(&scene_messages);
+    return remove_test_folder(state);
 }
 
 #endif
