@@ -62,7 +62,7 @@ static inline float jox_touch_most(const JoxNeighbours *n) {
 
 /* Returns, per agent, how many of its nearest neighbours it may touch: `close`, unless an agent has
    become wider since it was computed. */
-static inline const uint8_t *jox_close_counts(const JoxNeighbours *n, float widest) {
+static inline const uint8_t *jox_touch_candidate_counts(const JoxNeighbours *n, float widest) {
     return widest > n->widest ? n->count : n->close;
 }
 

@@ -154,7 +154,7 @@ JoxDatabase *jox_database_open(const char *path, JoxDatabaseUse use, JoxText *wh
                                        HOW[use] | SQLITE_OPEN_NOMUTEX, NULL);
     if (!db->sqlite)
         jox_out_of_memory(0);
-    jox_hold(db, release_database);
+    jox_heap_register(db, release_database);
     if (status == SQLITE_OK) {
         restrict_connection(db);
         return db;
@@ -176,7 +176,7 @@ void jox_database_bound(JoxDatabase *db, bool bounded) {
 void jox_database_close(JoxDatabase *db) {
     if (!db)
         return;
-    jox_let_go(db);
+    jox_heap_unregister(db);
     release_database(db);
     jox_free(db);
 }

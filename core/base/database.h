@@ -1,6 +1,6 @@
 /* SQLite files that strangers may have written. Tables alone are read: no view, trigger, virtual
    table or computed column of a file runs. Recordings are read and written through it. A connection
-   is held by the heap in use (jox_hold) while it is open. */
+   is held by the heap in use (jox_heap_register) while it is open. */
 #ifndef JOX_BASE_DATABASE_H
 #define JOX_BASE_DATABASE_H
 

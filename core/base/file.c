@@ -109,7 +109,7 @@ static FILE *hold_stream(int number, const char *mode) {
     FILE *file = number >= 0 ? fdopen(number, mode) : NULL;
     if (number >= 0 && !file)
         close(number);
-    return file ? jox_hold(file, release_file) : NULL;
+    return file ? jox_heap_register(file, release_file) : NULL;
 }
 
 FILE *jox_file_open(const char *path, const char *mode) {
@@ -166,7 +166,7 @@ FILE *jox_file_replace(const char *path) {
     part->next = parts;
     parts = part;
     pthread_mutex_unlock(&lock);
-    return jox_hold(file, release_file);
+    return jox_heap_register(file, release_file);
 }
 
 FILE *jox_folder_claim(const char *path) {
@@ -180,12 +180,12 @@ FILE *jox_folder_claim(const char *path) {
 }
 
 int jox_file_close(FILE *file) {
-    jox_let_go(file);
+    jox_heap_unregister(file);
     return end_file(file, true);
 }
 
 int jox_file_drop(FILE *file) {
-    jox_let_go(file);
+    jox_heap_unregister(file);
     end_file(file, false);
     return EOF;
 }
@@ -224,7 +224,7 @@ char **jox_folder_names(const char *path, bool hidden) {
     DIR *folder = opendir(path);
     if (!folder)
         return NULL;
-    jox_hold(folder, release_folder);
+    jox_heap_register(folder, release_folder);
     char *text = NULL;
     size_t length = 0, capacity = 0, count = 0;
     const struct dirent *entry;
@@ -237,7 +237,7 @@ char **jox_folder_names(const char *path, bool hidden) {
         length += size;
         count++;
     }
-    jox_let_go(folder);
+    jox_heap_unregister(folder);
     closedir(folder);
     /* One block: the pointers, then the names. */
     const size_t table = (count + 1) * sizeof(char *);

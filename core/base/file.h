@@ -1,5 +1,5 @@
-/* Files and folders. An open one is held by the heap in use (jox_hold), which closes it if memory
-   runs out. */
+/* Files and folders. An open one is held by the heap in use (jox_heap_register), which closes it if
+   memory runs out. */
 #ifndef JOX_BASE_FILE_H
 #define JOX_BASE_FILE_H
 

@@ -282,7 +282,7 @@ typedef struct Held {
 static Held *newest;
 static pthread_mutex_t held_lock = PTHREAD_MUTEX_INITIALIZER;
 
-void *jox_hold(void *thing, JoxRelease *release) {
+void *jox_heap_register(void *thing, JoxRelease *release) {
     JOX_ASSERT(thing && release);
     if (!in_use)
         return thing;
@@ -311,7 +311,7 @@ static Held *take_held(const void *thing, const JoxHeap *heap) {
     return held;
 }
 
-void jox_let_go(void *thing) {
+void jox_heap_unregister(void *thing) {
     if (thing)
         release_bytes(take_held(thing, NULL));
 }

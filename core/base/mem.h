@@ -120,13 +120,13 @@ void jox_mem_fill(void *memory, uint8_t byte, size_t bytes);
 void *jox_disown(void *memory);
 
 /* Registers a resource other than memory (an open file, a connection, a thread) with the heap in
-   use, which calls `release` if it fails before jox_let_go. If the registration itself is out of
-   memory, `release` is called at once. Returns `thing`, which must not be NULL. */
+   use, which calls `release` if it fails before jox_heap_unregister. If the registration itself is
+   out of memory, `release` is called at once. Returns `thing`, which must not be NULL. */
 typedef void JoxRelease(void *thing);
-void *jox_hold(void *thing, JoxRelease *release);
+void *jox_heap_register(void *thing, JoxRelease *release);
 /* Unregisters a resource, which the caller then releases. From any thread; one that is not
    registered is fine. */
-void jox_let_go(void *thing);
+void jox_heap_unregister(void *thing);
 
 /* Ensures that an array has room for `need` items; doubles its capacity. */
 #define JOX_RESERVE(array, capacity, need)                                                         \

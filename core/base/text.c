@@ -187,7 +187,7 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     return text.data;
 }
 
-size_t jox_text_mark(const char *text, size_t length) {
+size_t jox_byte_order_mark_length(const char *text, size_t length) {
     static const char MARK[] = {'\xef', '\xbb', '\xbf'};
     return length >= sizeof MARK && memcmp(text, MARK, sizeof MARK) == 0 ? sizeof MARK : 0;
 }

@@ -28,7 +28,7 @@ void jox_text_free(JoxText *text);
 void jox_text_clean(char *text);
 
 /* Returns the length of the byte order mark that some editors write first, 3 bytes, or 0. */
-size_t jox_text_mark(const char *text, size_t length);
+size_t jox_byte_order_mark_length(const char *text, size_t length);
 
 /* Returns the one of `names` that is nearest to `word` by edit distance, or NULL if none is
    near. */

@@ -150,7 +150,8 @@ typedef struct JoxBodyLook {
 } JoxBodyLook;
 /* Writes part number `part` of a body; false if it has no such part. Pieces that broke off are
    bodies of their own. */
-bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out);
+bool jox_bodies_describe_part(const JoxBodies *bodies, uint32_t row, uint32_t part,
+                              JoxBodyLook *out);
 /* Sets the velocity of the centre of mass, m/s, and the spin, rad/s. False, and nothing done,
    for a static body or a number that is not finite. A kinematic body keeps this velocity, and
    leaves its path. */
@@ -162,24 +163,25 @@ bool jox_bodies_place(JoxBodies *bodies, uint32_t row, const double position[3],
                       const double turn[4]);
 /* Makes an agent carry the body, which then touches nothing until it is let go. False for a
    static body. */
-bool jox_bodies_hold(JoxBodies *bodies, uint32_t row, uint32_t agent_id);
+bool jox_bodies_set_carrier(JoxBodies *bodies, uint32_t row, uint32_t agent_id);
 /* Moves a carried body: centre of mass, m, and velocity, m/s. */
 void jox_bodies_carry(JoxBodies *bodies, uint32_t row, JoxV3 centre, JoxV3 velocity);
-void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity);
+void jox_bodies_end_carrying(JoxBodies *bodies, uint32_t row, JoxV3 velocity);
 /* Adds a force, N, that acts at the centre of mass throughout the next step. False for a body
    that is not dynamic or a force that is not finite. */
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
 /* Applies impulses in the order given. Those on a kinematic body are only counted
-   (jox_bodies_given). Impulses on removed or static bodies or with numbers that are not finite
-   are skipped. Returns how many were skipped or clamped. */
+   (jox_bodies_impulse_sum). Impulses on removed or static bodies or with numbers that are not
+   finite are skipped. Returns how many were skipped or clamped. */
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
 
 /* Reads the sum of these impulses and of hits on people for a body since the last
-   jox_bodies_count_impulses: impulse, N s, and angular impulse about its centre of mass, N m s;
+   jox_bodies_reset_impulse_sums: impulse, N s, and angular impulse about its centre of mass, N m s;
    zeros for a body that nothing pushed. False if there is no such body. */
-bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], double turn[3]);
+bool jox_bodies_impulse_sum(const JoxBodies *bodies, uint32_t row, double impulse[3],
+                            double turn[3]);
 /* Resets those sums to zero for all bodies. */
-void jox_bodies_count_impulses(JoxBodies *bodies);
+void jox_bodies_reset_impulse_sums(JoxBodies *bodies);
 
 /* Limits a kinematic body that reached its force limit to the part `share`, 0 to 1, of its way
    in the next step; on a path that reopens it goes back from there. True if it did not reach the

@@ -15,7 +15,7 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
     jox_bullet_use_memory();
     JoxBodies *b = static_cast<JoxBodies *>(jox_alloc(1, sizeof(JoxBodies)));
     b->heap = jox_heap_used();
-    jox_hold(b, release_bodies_heap);
+    jox_heap_register(b, release_bodies_heap);
     b->def = *def;
     b->last_dt = 0.05f;
     return b;
@@ -114,7 +114,7 @@ void jox_bodies_drop_row(JoxBodies *b, uint32_t row) {
 void jox_bodies_free(JoxBodies *b) {
     if (!b)
         return;
-    jox_let_go(b);
+    jox_heap_unregister(b);
     if (b->world) {
         b->world->release_predictions();
         jox_bodies_remove_pairs(b);
@@ -343,7 +343,7 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     return true;
 }
 
-bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
+bool jox_bodies_describe_part(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
     *out = JoxBodyLook();
     const JoxRow *r = jox_live_row(b, row);
     if (!r || part >= r->shape.part_count)
@@ -460,7 +460,7 @@ void jox_row_count_impulse(JoxRow *r, const btVector3 &impulse, const btVector3 
     }
 }
 
-bool jox_bodies_given(const JoxBodies *b, uint32_t row, double impulse[3], double turn[3]) {
+bool jox_bodies_impulse_sum(const JoxBodies *b, uint32_t row, double impulse[3], double turn[3]) {
     const JoxRow *r = jox_live_row(b, row);
     for (int i = 0; i < 3; i++) {
         impulse[i] = r ? r->impulse_sums[i] : 0;
@@ -469,7 +469,7 @@ bool jox_bodies_given(const JoxBodies *b, uint32_t row, double impulse[3], doubl
     return r != nullptr;
 }
 
-void jox_bodies_count_impulses(JoxBodies *b) {
+void jox_bodies_reset_impulse_sums(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++)
         memset(b->rows[b->order[k]].impulse_sums, 0, sizeof b->rows[0].impulse_sums);
 }

@@ -81,8 +81,8 @@ struct JoxRow {
     JoxV3 force;                 /* force during the next step, N */
     JoxV3 lasting, lasting_turn; /* scratch: impulse, N s, and angular impulse, N m s, spread over
                                     the next step */
-    double impulse_sums[6]; /* scratch: sum of impulses since jox_bodies_count_impulses, N s, and of
-                        angular impulses about the centre of mass, N m s */
+    double impulse_sums[6]; /* scratch: sum of impulses since jox_bodies_reset_impulse_sums, N s,
+                        and of angular impulses about the centre of mass, N m s */
     bool grounded, swept;
     int activation; /* scratch: Bullet's state of sleep */
     /* bonds of a body of blocks, in the shape's own frame; NULL for other bodies */
@@ -266,7 +266,7 @@ static inline btTransform jox_row_frame(const JoxRow *row) {
     return row->body->getWorldTransform() * row->shape.frame.inverse();
 }
 /* Adds an impulse, N s, with its arm from the centre of mass, m, to the sums of
-   jox_bodies_given. */
+   jox_bodies_impulse_sum. */
 void jox_row_count_impulse(JoxRow *row, const btVector3 &impulse, const btVector3 &arm);
 /* Adds an impulse, N s, at a point, m, in world coordinates to the loads of a bonded body. */
 void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &impulse);

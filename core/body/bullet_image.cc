@@ -256,7 +256,7 @@ static void rebuild_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBody
     rebuild_motion(record, r->body);
     b->order[b->live++] = record->row;
     if (record->held)
-        jox_bodies_hold(b, record->row, record->holder);
+        jox_bodies_set_carrier(b, record->row, record->holder);
 }
 
 /* Makes all shapes before anything changes; NULL if one is not valid. */

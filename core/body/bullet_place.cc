@@ -1,7 +1,7 @@
 /* Bodies that agents carry or that are moved to another place. */
 #include "body/bullet.h"
 
-bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
+bool jox_bodies_set_carrier(JoxBodies *b, uint32_t row, uint32_t agent_id) {
     JoxRow *r = jox_live_row(b, row);
     if (!r || r->shape.mass <= 0)
         return false;
@@ -41,7 +41,7 @@ void jox_bodies_keep_carried(JoxBodies *b) {
     }
 }
 
-void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
+void jox_bodies_end_carrying(JoxBodies *b, uint32_t row, JoxV3 velocity) {
     JoxRow *r = jox_live_row(b, row);
     if (!r || !r->held)
         return;
@@ -62,7 +62,7 @@ bool jox_bodies_place(JoxBodies *b, uint32_t row, const double position[3], cons
         frame.setRotation(q.normalized());
     }
     if (r->held)
-        jox_bodies_let_go(b, row, JoxV3{0, 0, 0});
+        jox_bodies_end_carrying(b, row, JoxV3{0, 0, 0});
     const btTransform at = frame * r->shape.frame;
     r->body->setWorldTransform(at);
     r->body->setInterpolationWorldTransform(at);

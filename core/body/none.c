@@ -49,7 +49,8 @@ bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose) {
     *pose = (JoxPose){0};
     return false;
 }
-bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out) {
+bool jox_bodies_describe_part(const JoxBodies *bodies, uint32_t row, uint32_t part,
+                              JoxBodyLook *out) {
     (void)bodies, (void)row, (void)part;
     *out = (JoxBodyLook){0};
     return false;
@@ -61,25 +62,26 @@ bool jox_bodies_place(JoxBodies *bodies, uint32_t row, const double position[3],
                       const double turn[4]) {
     return (void)bodies, (void)row, (void)position, (void)turn, false;
 }
-bool jox_bodies_hold(JoxBodies *bodies, uint32_t row, uint32_t agent_id) {
+bool jox_bodies_set_carrier(JoxBodies *bodies, uint32_t row, uint32_t agent_id) {
     return (void)bodies, (void)row, (void)agent_id, false;
 }
 void jox_bodies_carry(JoxBodies *bodies, uint32_t row, JoxV3 centre, JoxV3 velocity) {
     (void)bodies, (void)row, (void)centre, (void)velocity;
 }
-void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity) {
+void jox_bodies_end_carrying(JoxBodies *bodies, uint32_t row, JoxV3 velocity) {
     (void)bodies, (void)row, (void)velocity;
 }
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force) {
     return (void)bodies, (void)row, (void)force, false;
 }
-bool jox_bodies_given(const JoxBodies *bodies, uint32_t row, double impulse[3], double turn[3]) {
+bool jox_bodies_impulse_sum(const JoxBodies *bodies, uint32_t row, double impulse[3],
+                            double turn[3]) {
     (void)bodies, (void)row;
     for (int i = 0; i < 3; i++)
         impulse[i] = turn[i] = 0.0;
     return false;
 }
-void jox_bodies_count_impulses(JoxBodies *bodies) {
+void jox_bodies_reset_impulse_sums(JoxBodies *bodies) {
     (void)bodies;
 }
 bool jox_bodies_hold_up(JoxBodies *bodies, uint32_t row, float share) {

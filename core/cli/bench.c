@@ -110,7 +110,7 @@ static int measure_case(const Bench *bench, const Named *named, BenchCase *c) {
     JoError error = {0};
     if (named && !named->path) {
         const int status = bench_worlds(&named->worlds, &bench->given, c, &error);
-        return status == JO_OK ? JO_OK : cli_failed(&cli_bench, &error, false);
+        return status == JO_OK ? JO_OK : cli_report_error(&cli_bench, &error, false);
     }
     JoSceneDef def = jo_default_scene_def();
     def.path = c->path;
@@ -133,7 +133,7 @@ static int measure_case(const Bench *bench, const Named *named, BenchCase *c) {
     JoStats to = jo_scene_stats(scene);
     jo_scene_free(scene);
     if (!ok)
-        return cli_failed(&cli_bench, &error, false);
+        return cli_report_error(&cli_bench, &error, false);
     bench_note(c, &from, &to);
     return JO_OK;
 }
@@ -166,7 +166,7 @@ static bool find_paths(const char *const *names, size_t count, const char **path
             paths[n] = cli_scene(&cli_bench, stem, NULL);
         } else if (!named && access(paths[n], F_OK) != 0 && !cli_is_scene(names[n]) &&
                    jox_did_you_mean(names[n], all, NAMED_COUNT, hint)) {
-            return cli_unknown(&cli_bench, "scene", names[n], all, NAMED_COUNT) == JO_OK;
+            return cli_report_unknown(&cli_bench, "scene", names[n], all, NAMED_COUNT) == JO_OK;
         } else if (!named) {
             paths[n] = cli_scene(&cli_bench, names[n], NULL);
         }
@@ -188,7 +188,7 @@ static int write_bench_results(const Bench *bench, const BenchCase *cases, size_
     }
     JoError error = {0};
     if (bench->plot && !bench_plot(bench->plot, cases, count, &error))
-        return cli_failed(&cli_bench, &error, false);
+        return cli_report_error(&cli_bench, &error, false);
     return JO_OK;
 }
 

@@ -15,7 +15,7 @@ static const CliOption OPTIONS[] = {
 
 static int check(const CliList *paths, bool json, bool trusted) {
     if (paths->count == 0)
-        return cli_misused(&cli_check, "no path given");
+        return cli_report_misuse(&cli_check, "no path given");
     CliReach reach = {CLI_READING};
     for (size_t p = 0; p < paths->count; p++)
         cli_reach_scene(&reach, paths->items[p]);
@@ -25,7 +25,7 @@ static int check(const CliList *paths, bool json, bool trusted) {
         cli_output_is_data();
     size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
-        return cli_failed(&cli_check, &error, false);
+        return cli_report_error(&cli_check, &error, false);
     return errors ? JO_INPUT : JO_OK;
 }
 

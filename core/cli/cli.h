@@ -172,11 +172,11 @@ bool cli_make_folder(const CliCommand *command, const char *path);
 bool cli_print_troubles(const CliCommand *command, const JoScene *scene);
 
 /* Prints "jostle COMMAND: why" and how to get help; returns JO_USAGE. */
-int cli_misused(const CliCommand *command, const char *why);
+int cli_report_misuse(const CliCommand *command, const char *why);
 /* Prints that there is no such thing, as "page 'behavior'", with the most similar of `names`;
    returns JO_USAGE. */
-int cli_unknown(const CliCommand *command, const char *what, const char *given,
-                const char *const *names, size_t count);
+int cli_report_unknown(const CliCommand *command, const char *what, const char *given,
+                       const char *const *names, size_t count);
 /* Returns whether the ending of an output's path fits what the option writes: not x.html for a
    folder, nor x.csv for JSON. Accepts files that exist and may be sources; cli_check_apart refuses
    those that are read. */
@@ -193,7 +193,7 @@ int cli_write(const CliCommand *command, const char *path, const char *text);
 /* Prints text to the FILE `context`; a JoMessage for jo_check and jo_test. */
 void cli_print(void *context, const char *text);
 /* Prints an error, unless it was already sent as a message; returns the exit status. */
-int cli_failed(const CliCommand *command, const JoError *error, bool sent);
+int cli_report_error(const CliCommand *command, const JoError *error, bool sent);
 
 /* Reads a scene in a confined child process, and seals the files that it read in `files`; the
    caller then loads the scene from these (jox_overlay_use). Returns JO_OK, or the exit status with

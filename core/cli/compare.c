@@ -133,7 +133,7 @@ static int add_recordings_of_folder(Compare *compare, const char *given) {
         "the folder '%.300s' has no recordings: files .sqlite, .txt or .csv, each of which is "
         "a run of one side",
         given);
-    return cli_failed(&cli_compare, &error, false);
+    return cli_report_error(&cli_compare, &error, false);
 }
 
 static bool vet_compared_scene(void *context, const JoSceneDef *scene, JoError *error) {
@@ -171,7 +171,7 @@ static int sweep_scene(Compare *compare, const char *given, char **out) {
         jox_overlay_use(before);
     jox_overlay_free(&compare->files);
     *out = keeps.data;
-    return good ? JO_OK : cli_failed(&cli_compare, &error, false);
+    return good ? JO_OK : cli_report_error(&cli_compare, &error, false);
 }
 
 /* Adds all sides; runs the scenes among them first. */
@@ -186,7 +186,8 @@ static int add_sides_of_arguments(Compare *compare, const CliList *plain) {
         else if (kind != SCENE)
             add_side(compare, kind, jox_strdup(given), NULL);
         else if (!compare->def.out)
-            status = cli_misused(&cli_compare, "--out DIR says where the runs of scenes are kept");
+            status =
+                cli_report_misuse(&cli_compare, "--out DIR says where the runs of scenes are kept");
         else if (!cli_make_folder(&cli_compare, compare->def.out))
             status = JO_FAILED;
         else if ((status = sweep_scene(compare, given, &path)) == JO_OK)
@@ -223,7 +224,7 @@ static int measure_recordings(Compare *compare) {
         report.unit = compare->def.unit;
         compare->summaries[s] = jo_report(&report, &error);
         if (!compare->summaries[s])
-            return cli_failed(&cli_compare, &error, error.code != JO_FAILED);
+            return cli_report_error(&cli_compare, &error, error.code != JO_FAILED);
     }
     return JO_OK;
 }
@@ -238,7 +239,7 @@ static int print_comparison(Compare *compare) {
     compare->def.summaries = (const char *const *)compare->summaries;
     char *text = jo_compare(&compare->def, compare->json ? &json : NULL, &error);
     if (!text)
-        return cli_failed(&cli_compare, &error, false);
+        return cli_report_error(&cli_compare, &error, false);
     int status = compare->json ? cli_write(&cli_compare, compare->json, json) : JO_OK;
     if (!compare->json || strcmp(compare->json, "-") != 0) {
         fputs(text, stdout);

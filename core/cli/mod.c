@@ -109,7 +109,7 @@ static int why(const JoSceneDef *def, const char *path) {
     JoError error = {0};
     JoSettings *settings = jo_mods_why(def, path, &error);
     if (!settings) {
-        cli_failed(&cli_mod, &error, false);
+        cli_report_error(&cli_mod, &error, false);
         return JO_INPUT;
     }
     puts(path);
@@ -148,7 +148,7 @@ static int why_now(const Mods *options, const char *name) {
     JoScene *scene = jo_scene_load(&options->def, &error);
     double value = 0.0, asked = -INFINITY, left = 0.0;
     if (!scene)
-        return cli_failed(&cli_mod, &error, true);
+        return cli_report_error(&cli_mod, &error, true);
     JoWorld *world = jo_scene_world(scene);
     const uint64_t steps = (uint64_t)(options->at / jo_scene_stats(scene).dt + 0.5);
     bool good = true;
@@ -169,7 +169,7 @@ static int why_now(const Mods *options, const char *name) {
     }
     const JoAgent agent = jo_world_agent_of(world, (uint32_t)options->agent);
     if (!good) {
-        cli_failed(&cli_mod, &error, false);
+        cli_report_error(&cli_mod, &error, false);
     } else if (agent.generation) {
         const JoAgentState is = jo_agent_state(world, agent);
         printf("%s of agent %u at %.2f s, in state %s: %s\n", name, is.id, jo_world_time(world),
@@ -198,7 +198,7 @@ static int check(const char *const *folders, size_t count) {
     JoError error;
     size_t errors = jo_check(folders, count, false, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
-        return cli_failed(&cli_mod, &error, false);
+        return cli_report_error(&cli_mod, &error, false);
     return errors ? JO_INPUT : JO_OK;
 }
 
@@ -230,10 +230,10 @@ static const Verb *find_verb(const CliList *plain) {
             return &VERBS[v];
         snprintf(why, sizeof why, "%s takes %s, not %zu argument%s", names[v], VERBS[v].takes,
                  given, given == 1 ? "" : "s");
-        cli_misused(&cli_mod, why);
+        cli_report_misuse(&cli_mod, why);
         return NULL;
     }
-    cli_unknown(&cli_mod, "verb", plain->items[0], names, VERB_COUNT);
+    cli_report_unknown(&cli_mod, "verb", plain->items[0], names, VERB_COUNT);
     return NULL;
 }
 
@@ -257,7 +257,7 @@ static int run_verb(Mods *options, const CliList *plain) {
     const char *name = verb->name, *first = plain->count > 1 ? plain->items[1] : NULL;
     if ((options->has_agent || options->has_at) &&
         (strcmp(name, "why") != 0 || !options->has_agent))
-        return cli_misused(&cli_mod, "--at goes with --agent, and that with why");
+        return cli_report_misuse(&cli_mod, "--at goes with --agent, and that with why");
     options->def.mods = options->mods.items;
     options->def.mod_count = options->mods.count;
     if (verb->scene && verb->most == plain->count - 1) {

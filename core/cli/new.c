@@ -218,14 +218,15 @@ static int make(const char *kind, const char *name) {
     const char *scenes = is_folder("scenes") ? "scenes/" : "";
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
     if (n == 0 || n > 60 || name[n])
-        return cli_misused(&cli_new, "a name has up to 60 lower-case letters, digits, - and _");
+        return cli_report_misuse(&cli_new,
+                                 "a name has up to 60 lower-case letters, digits, - and _");
     if (!strcmp(kind, "behaviour"))
         return new_behaviour(behaviours, name);
     if (!strcmp(kind, "scene")) /* scenes of scenes/ find their behaviours in ../behaviours */
         return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
     if (!strcmp(kind, "mod"))
         return new_mod(*scenes ? "scenes/mods" : "mods", name);
-    return cli_unknown(&cli_new, "kind", kind, KINDS, sizeof KINDS / sizeof *KINDS);
+    return cli_report_unknown(&cli_new, "kind", kind, KINDS, sizeof KINDS / sizeof *KINDS);
 }
 
 static int run(int argc, char **argv) {

@@ -17,13 +17,13 @@ typedef struct Reading {
     char *options; /* the struct that CLI_TO refers to */
 } Reading;
 
-int cli_misused(const CliCommand *command, const char *why) {
+int cli_report_misuse(const CliCommand *command, const char *why) {
     fprintf(stderr, "jostle %s: %s\nTry 'jostle %s --help'.\n", command->name, why, command->name);
     return JO_USAGE;
 }
 
-int cli_unknown(const CliCommand *command, const char *what, const char *given,
-                const char *const *names, size_t count) {
+int cli_report_unknown(const CliCommand *command, const char *what, const char *given,
+                       const char *const *names, size_t count) {
     char why[400], hint[JOX_HINT];
     const char *near = jox_did_you_mean(given, names, count, hint);
     JoxText all = {0};
@@ -34,13 +34,13 @@ int cli_unknown(const CliCommand *command, const char *what, const char *given,
              : all.data ? all.data
                         : "");
     jox_text_free(&all);
-    return cli_misused(command, why);
+    return cli_report_misuse(command, why);
 }
 
 static int refuse_option(const CliCommand *command, const CliOption *option, const char *why) {
     char text[320];
     snprintf(text, sizeof text, "--%s %s", option->name, why);
-    return cli_misused(command, text);
+    return cli_report_misuse(command, text);
 }
 
 /* Appends a text to a list, allocated on first use for `room` texts; JO_FAILED with a message if
@@ -74,7 +74,7 @@ static int refuse_unknown_option(const CliCommand *command, const char *name) {
     const char *near = jox_suggest(name, names, count);
     snprintf(text, sizeof text, "unknown option --%.60s%s%s%s", name,
              near ? ". Did you mean --" : "", near ? near : "", near ? "?" : "");
-    return cli_misused(command, text);
+    return cli_report_misuse(command, text);
 }
 
 static int read_double(const Reading *r, const CliOption *o, const char *text) {
@@ -182,7 +182,7 @@ static int read_plain_argument(const Reading *r, CliList *plain, const char *tex
         snprintf(why, sizeof why, "one %s at a time; what is '%.60s'?", command->takes, text);
     else
         snprintf(why, sizeof why, "what is '%.60s'?", text);
-    return cli_misused(command, why);
+    return cli_report_misuse(command, why);
 }
 
 int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain) {
@@ -198,7 +198,7 @@ int cli_parse(const CliCommand *command, int argc, char **argv, void *options, C
     if (status == CLI_GO_ON && plain->count < command->least) {
         char why[200];
         snprintf(why, sizeof why, "no %s given", command->takes);
-        status = cli_misused(command, command->none_said ? command->none_said : why);
+        status = cli_report_misuse(command, command->none_said ? command->none_said : why);
     }
     return status;
 }
@@ -240,7 +240,7 @@ int cli_finish_run(const CliCommand *command, JoScene *scene, bool ok, JoError *
         files->data = NULL;
     if (ok && !ended)
         *error = ending;
-    return ok && ended ? JO_OK : cli_failed(command, error, false);
+    return ok && ended ? JO_OK : cli_report_error(command, error, false);
 }
 
 bool cli_print_troubles(const CliCommand *command, const JoScene *scene) {
@@ -260,7 +260,7 @@ void cli_print(void *context, const char *text) {
         fflush(context);
 }
 
-int cli_failed(const CliCommand *command, const JoError *error, bool sent) {
+int cli_report_error(const CliCommand *command, const JoError *error, bool sent) {
     if (!sent)
         fprintf(stderr, "jostle %s: %s\n", command->name, error->text);
     return error->code ? (int)error->code : JO_FAILED;

@@ -42,10 +42,10 @@ static int print_page(Reference *options, const char *what, const char *scene) {
     JoError error;
     if (!text && is_page_name(what)) {
         jox_memory_error(&error);
-        return cli_failed(&cli_reference, &error, false);
+        return cli_report_error(&cli_reference, &error, false);
     }
     if (!text)
-        return cli_unknown(&cli_reference, "page", what, PAGES, PAGE_COUNT);
+        return cli_report_unknown(&cli_reference, "page", what, PAGES, PAGE_COUNT);
     fputs(text, stdout);
     jo_free(text);
     return JO_OK;
@@ -61,7 +61,7 @@ static int run_reference(int argc, char **argv) {
         const char *scene = given ? cli_scene(&cli_reference, given, &options.mods) : NULL;
         status = given && !scene ? JO_INPUT
                  : strcmp(what, "mods") != 0 && (scene || options.mods.count)
-                     ? cli_misused(&cli_reference, "a scene and --mod go with 'mods' alone")
+                     ? cli_report_misuse(&cli_reference, "a scene and --mod go with 'mods' alone")
                      : print_page(&options, what, scene);
     }
     cli_free(&cli_reference, &options, &plain);

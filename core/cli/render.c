@@ -147,7 +147,7 @@ static int render_crowd(Wanted *w) {
     const bool scene = has_text_ending(w->path, ".yaml") || has_text_ending(w->path, ".yml");
     const char *why = find_render_misuse(w, scene);
     if (why)
-        return cli_misused(&cli_render, why);
+        return cli_report_misuse(&cli_render, why);
     make_default_output(w, out);
     if (!w->def.out)
         w->def.out = out;
@@ -164,7 +164,7 @@ static int render_crowd(Wanted *w) {
     confine_render(w, scene);
     if (jo_render(&w->def, &error))
         return JO_OK;
-    return cli_failed(&cli_render, &error, *error.file != 0);
+    return cli_report_error(&cli_render, &error, *error.file != 0);
 }
 
 static bool find_plan_scene(Wanted *w) {

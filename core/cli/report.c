@@ -41,20 +41,21 @@ static void confine_report(const Wanted *wanted) {
 static int report_recording(const Wanted *wanted) {
     JoError error = {0};
     if (!wanted->def.directory && !wanted->summary)
-        return cli_misused(&cli_report, "nothing is asked for: give --out DIR, or --summary FILE");
+        return cli_report_misuse(&cli_report,
+                                 "nothing is asked for: give --out DIR, or --summary FILE");
     const char *inputs[] = {wanted->def.recording, wanted->def.scene};
     if (cli_check_apart(&cli_report, &wanted->summary, 1, inputs, 2, NULL) != JO_OK)
         return JO_USAGE;
     confine_report(wanted);
     if (cli_is_sweep(wanted->def.recording)) {
         if (wanted->summary || wanted->def.scene || !wanted->def.directory)
-            return cli_misused(&cli_report, "the runs of a sweep go with --out DIR alone");
+            return cli_report_misuse(&cli_report, "the runs of a sweep go with --out DIR alone");
         return cli_write_runs_page(&cli_report, wanted->def.recording, wanted->def.directory,
                                    false);
     }
     char *summary = jo_report(&wanted->def, &error);
     if (!summary) /* faults of files were sent as messages */
-        return cli_failed(&cli_report, &error, error.code != JO_FAILED);
+        return cli_report_error(&cli_report, &error, error.code != JO_FAILED);
     int status = wanted->summary ? cli_write(&cli_report, wanted->summary, summary) : JO_OK;
     jo_free(summary);
     return status;

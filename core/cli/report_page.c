@@ -50,7 +50,7 @@ int cli_write_report_page(const CliCommand *command, const CliReportPage *page) 
     }
     const bool ok = jo_scene_page(page->scene, half, why, page->folder, &written);
     jo_scene_free(half);
-    return ok ? JO_OK : cli_failed(command, &written, false);
+    return ok ? JO_OK : cli_report_error(command, &written, false);
 }
 
 /* ---- runs with many seeds ---- */
@@ -95,7 +95,7 @@ int cli_write_runs_page(const CliCommand *command, const char *runs, const char 
     def.out = folder;
     char *text = jo_compare(&def, NULL, &error);
     if (!text)
-        return cli_failed(command, &error, false);
+        return cli_report_error(command, &error, false);
     if (!quiet)
         fprintf(stderr, "%s\nreport: %s/index.html\nruns: %s\n", text, folder, runs);
     jo_free(text);

@@ -64,7 +64,7 @@ static int check_claims(JoReproduceDef *def, bool trusted) {
     cli_catch_signals(true);
     confine_reproduce(def, trusted);
     if (!jo_reproduce(def, &missed, &error)) { /* faults of files were sent as messages */
-        const int status = cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
+        const int status = cli_report_error(&cli_reproduce, &error, error.code == JO_INPUT);
         return cli_signal ? cli_add_signal_status(JO_OK) : status;
     }
     return missed ? JO_FAILED : JO_OK;

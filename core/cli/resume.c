@@ -135,7 +135,7 @@ static int resume_checkpoint(Resume *resume, const char *path) {
     confine_resume(resume, path);
     JoScene *scene = jo_scene_resume(&resume->def, path, &note, &error);
     if (!scene)
-        return cli_failed(&cli_resume, &error, false);
+        return cli_report_error(&cli_resume, &error, false);
     int status = continue_run(resume, scene, note);
     jo_free(note);
     jo_scene_free(scene);

@@ -108,7 +108,7 @@ static const CliOption OPTIONS[] = {
 
 /* Prints an error, unless the library already sent it as a message; returns the exit status. */
 static int print_run_error(const JoError *error, bool already) {
-    return cli_failed(&cli_run, error, already);
+    return cli_report_error(&cli_run, error, already);
 }
 
 /* Loads the scene from the files that were vetted. */
@@ -372,7 +372,9 @@ static int run_run(int argc, char **argv) {
         run.def.mod_count = run.mods.count;
         run.def.resumable = run.folder != NULL;
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
-        status = why ? cli_misused(&cli_run, why) : !run.def.path ? JO_INPUT : vet_and_run(&run);
+        status = why             ? cli_report_misuse(&cli_run, why)
+                 : !run.def.path ? JO_INPUT
+                                 : vet_and_run(&run);
     }
     cli_keeper_end(run.keeper);
     jox_overlay_free(&run.files);

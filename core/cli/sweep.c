@@ -119,7 +119,7 @@ static int print_commands(const Sweep *sweep) {
     JoError error = {0};
     const uint32_t runs = jo_sweep_runs(&sweep->def, &error);
     if (!runs)
-        return cli_failed(&cli_sweep, &error, false);
+        return cli_report_error(&cli_sweep, &error, false);
     cli_output_is_data();
     program[length > 0 ? length : 0] = 0;
     JoxText folder = {0};
@@ -162,7 +162,7 @@ static int finish_sweep(const Sweep *sweep, const JoSweepCounts *counts) {
     JoError error = {0};
     print_counts(sweep, counts);
     if (sweep->csv && !jo_sweep_csv(sweep->def.out, sweep->csv, &error))
-        return cli_failed(&cli_sweep, &error, false);
+        return cli_report_error(&cli_sweep, &error, false);
     return counts->failed || counts->troubled ? JO_FAILED : JO_OK;
 }
 
@@ -170,7 +170,7 @@ static int merge_files(const Sweep *sweep, const CliList *parts) {
     JoSweepCounts counts;
     JoError error = {0};
     if (!jo_sweep_merge(sweep->def.out, parts->items, parts->count, &counts, &error))
-        return cli_failed(&cli_sweep, &error, false);
+        return cli_report_error(&cli_sweep, &error, false);
     return finish_sweep(sweep, &counts);
 }
 
@@ -187,10 +187,10 @@ static int run_variants(Sweep *sweep) {
     if (!sweep->trusted)
         jox_overlay_use(before);
     if (cli_signal && !good) {
-        cli_failed(&cli_sweep, &error, false);
+        cli_report_error(&cli_sweep, &error, false);
         return cli_add_signal_status(JO_OK);
     }
-    return good ? finish_sweep(sweep, &counts) : cli_failed(&cli_sweep, &error, false);
+    return good ? finish_sweep(sweep, &counts) : cli_report_error(&cli_sweep, &error, false);
 }
 
 /* Returns which arguments exclude each other; NULL: none. */
@@ -224,7 +224,7 @@ static int run_sweep_command(int argc, char **argv) {
         if (!sweep.merge && !why)
             sweep.def.scene.path = path = cli_scene(&cli_sweep, plain.items[0], &sweep.mods);
         const char *outputs[] = {sweep.def.out, sweep.csv}, *inputs[] = {path};
-        status = why                     ? cli_misused(&cli_sweep, why)
+        status = why                     ? cli_report_misuse(&cli_sweep, why)
                  : !path && !sweep.merge ? JO_INPUT
                  : cli_check_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
                  : sweep.merge ? merge_files(&sweep, &plain)

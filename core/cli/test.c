@@ -86,7 +86,7 @@ static int run_test(int argc, char **argv) {
         bool good =
             jo_test(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.only,
                     options.json, cli_print, stdout, &passed, &failed, &error);
-        status = error.code ? cli_failed(&cli_test, &error, false)
+        status = error.code ? cli_report_error(&cli_test, &error, false)
                  : !good    ? JO_INPUT
                  : failed   ? JO_FAILED
                             : JO_OK;

@@ -56,7 +56,7 @@ static int run_view(int argc, char **argv) {
         confine_view(&view);
         status = jo_view_recording(&view.def, &error)
                      ? cli_add_signal_status(JO_OK) /* faults of files were sent as messages */
-                     : cli_failed(&cli_view, &error, error.code != JO_FAILED);
+                     : cli_report_error(&cli_view, &error, error.code != JO_FAILED);
     }
     cli_free(&cli_view, &view, &plain);
     return status;

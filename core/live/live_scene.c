@@ -114,7 +114,7 @@ void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json) {
     add_optional_name(json, live ? jox_bodies_name(bodies, row) : NULL);
     jox_json_digits(json, "mass", live ? (double)pose.mass : 0.0, DIGITS);
     jox_json_array(json, "parts");
-    for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++)
+    for (uint32_t part = 0; live && jox_bodies_describe_part(bodies, row, part, &look); part++)
         jox_live_add_part(&look, json);
     jox_json_end(json);
     jox_json_end(json);

@@ -35,7 +35,7 @@ void jox_live_page_begin(JoxLivePage *page) {
     page->version = page->source->version(page->self);
     page->last_frame = page->last_status = 0.0;
     page->people.length = 0;
-    jox_view_forget(page->server);
+    jox_view_withdraw_all(page->server);
     if (jox_view_clients(page->server))
         send_scene(page, JOX_VIEW_ALL);
 }
@@ -133,7 +133,7 @@ static void remove_watcher(JoxLivePage *page, JoxLiveWatcher *watcher) {
         page->source->left(page->self, watcher->client);
     *watcher = (JoxLiveWatcher){0};
     if (jox_view_clients(page->server) == 0)
-        jox_view_forget(page->server); /* the next browser must not get stale messages */
+        jox_view_withdraw_all(page->server); /* the next browser must not get stale messages */
 }
 
 /* Takes what the server has received: browsers that join or leave, and commands. */
@@ -141,7 +141,8 @@ static void take_commands(JoxLivePage *page) {
     char text[JOX_VIEW_MOST_COMMAND + 1];
     uint32_t client;
     JoxViewTaken what;
-    while ((what = jox_view_take(page->server, &client, text, sizeof text)) != JOX_VIEW_NOTHING) {
+    while ((what = jox_view_next_event(page->server, &client, text, sizeof text)) !=
+           JOX_VIEW_NOTHING) {
         JoxLiveWatcher *watcher = find_watcher(page, client);
         JOX_ASSERT((what == JOX_VIEW_JOINED) == !watcher);
         if (what == JOX_VIEW_JOINED)

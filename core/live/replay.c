@@ -293,7 +293,7 @@ static void sample_pressure(JoxReplay *r) {
                       .walls = find_standing_walls(r)};
     if (!r->local) {
         r->local = jox_local_create(r->area.low, r->area.high);
-        jox_local_want_pressure(r->local);
+        jox_local_enable_pressure(r->local);
     }
     if (r->shown == JOX_REPLAY_NOBODY || !jox_local_is_due(r->local, frame.time))
         return;

@@ -44,9 +44,9 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
 
 /* Returns the number of a team, which the scene need not have; 0 with an error. */
 static uint16_t read_team(JoxBuild *b, const char *path, const char *name) {
-    const int32_t number =
-        strlen(name) > 60 ? -1
-                          : jox_script_belonging(b->script, name, true, true, jox_read_at(b, path));
+    const int32_t number = strlen(name) > 60 ? -1
+                                             : jox_script_tag_or_team(b->script, name, true, true,
+                                                                      jox_read_at(b, path));
     if (number < 0 && b->script->scope->complete)
         jox_build_error(b, jox_read_at(b, path), "too-many-teams", NULL,
                         "states set at most %d teams that no group has, with names of at most 60 "

@@ -247,7 +247,7 @@ static void report_lost_change(JoxLua *lua, const JoxWrite *write) {
     report_lines(lua, text);
 }
 
-void jox_lua_bracket(void *context, bool begins) {
+void jox_lua_bracket_hooks(void *context, bool begins) {
     JoxLua *lua = context;
     JoxAgents *a = lua->machines->agents;
     if (begins) {

@@ -155,7 +155,7 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     script->scope = scope ? scope : &OPEN;
     script->diagnostics = diagnostics;
     script->vm.loading = true;
-    jox_vm_tried(&script->vm, path);
+    jox_vm_note_path(&script->vm, path);
     JoxSource *source = jox_script_read(script, path, text, length, (JoxPosition){0});
     JoxMachine *machine = loaded->machine = source ? run_script(script) : NULL;
     for (size_t i = 0; i < script->vm.source_count; i++)
@@ -176,12 +176,12 @@ JoxMachine *jox_loaded_machine(const JoxLoaded *loaded) {
     return loaded->machine;
 }
 
-char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count) {
+char *const *jox_loaded_paths_tried(const JoxLoaded *loaded, uint32_t *count) {
     *count = loaded->script ? loaded->script->vm.tried_count : 0;
     return loaded->script ? loaded->script->vm.tried : NULL;
 }
 
-char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
+char *const *jox_lua_paths_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
     const JoxScript *script = jox_lua_script(lua, machine);
     *count = script ? script->vm.tried_count : 0;
     return script ? script->vm.tried : NULL;
@@ -208,7 +208,7 @@ const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t 
     return get_source_text(jox_lua_script(lua, machine), file, length);
 }
 
-const char *jox_loaded_said(const JoxLoaded *loaded) {
+const char *jox_loaded_output(const JoxLoaded *loaded) {
     return loaded->script && loaded->script->vm.printed_text.data
                ? loaded->script->vm.printed_text.data
                : "";
@@ -250,7 +250,7 @@ JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, s
                               const JoxScope *scope, JoxDiagnostics *diagnostics) {
     JoxLoaded *loaded = jox_lua_prepare(lua, path, text, length, scope, diagnostics);
     JoxMachine *machine = loaded->machine;
-    const char *said = jox_loaded_said(loaded);
+    const char *said = jox_loaded_output(loaded);
     if (*said && lua->group.say)
         lua->group.say(lua->group.say_context, said);
     if (machine)

@@ -73,9 +73,9 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
 /* Returns the machine, or NULL if it failed. */
 JoxMachine *jox_loaded_machine(const JoxLoaded *loaded);
 /* Returns the paths that were looked for. */
-char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count);
+char *const *jox_loaded_paths_tried(const JoxLoaded *loaded, uint32_t *count);
 /* Returns what was printed while loading, or "". */
-const char *jox_loaded_said(const JoxLoaded *loaded);
+const char *jox_loaded_output(const JoxLoaded *loaded);
 /* Returns the files as jox_lua_files does, before the machine is adopted. */
 const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count);
 /* Moves the Lua state into `lua`, so that the machine's functions can be called. The caller owns
@@ -99,7 +99,7 @@ const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *leng
 bool jox_lua_may_signal(const JoxLua *lua, const JoxMachine *machine, const char *name);
 
 /* Returns the paths that were looked for when a machine was loaded, found or not. */
-char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
+char *const *jox_lua_paths_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
 /* Sets whose columns functions read and write, and where their failures are reported: each place
    and message in full once, then counted. */
@@ -110,7 +110,7 @@ bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKin
                   uint32_t agent, double result[2]);
 /* Called before and after the functions of a step, as JoxMachineRun.bracket: keeps the columns
    before the step, and applies writes into neighbours' memory after it. */
-void jox_lua_bracket(void *lua, bool begins);
+void jox_lua_bracket_hooks(void *lua, bool begins);
 /* Lists the state of a machine's functions, as JoxMachineRun.hook_sections: suspended or not,
    failures in the present second; and, not hashed, all calls and failures. */
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);

@@ -52,7 +52,7 @@ static JoxNode *run_mod_file(JoxScript *script, int32_t mod, const JoxModPatch *
                              uint32_t *number) {
     lua_State *L = script->vm.L;
     *number = (uint32_t)script->vm.source_count;
-    jox_vm_tried(&script->vm, patch->path);
+    jox_vm_note_path(&script->vm, patch->path);
     if (!jox_script_read(script, patch->path, NULL, 0, (JoxPosition){0}))
         return NULL;
     script->mod = &script->scope->mods[mod];

@@ -239,7 +239,7 @@ static void add_tag_bit(JoxBuild *b, const char *path, bool is_set, uint64_t *ma
         return;
     }
     const int32_t bit =
-        jox_script_belonging(b->script, lua_tostring(L, -1), false, is_set, jox_read_at(b, path));
+        jox_script_tag_or_team(b->script, lua_tostring(L, -1), false, is_set, jox_read_at(b, path));
     if (bit >= 0)
         *mask |= (uint64_t)1 << bit;
     else if (b->script->scope->complete)

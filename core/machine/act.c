@@ -164,7 +164,7 @@ static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *bod
 static void pick_up_body(JoxMachineRun *run, const JoxState *state, uint32_t i) {
     const JoxAgents *a = run->agents;
     JoxSpot spot = jox_target_find(run, i, state->take);
-    if (spot.object < 0 || jox_holding(run, i, state->take) >= 0)
+    if (spot.object < 0 || jox_held_body_row(run, i, state->take) >= 0)
         return;
     const JoxObject *object = &run->objects->rows[spot.object];
     JoxV2 relative = {spot.vx - a->vx[i], spot.vy - a->vy[i]};
@@ -179,7 +179,7 @@ static void pick_up_body(JoxMachineRun *run, const JoxState *state, uint32_t i) 
 static void throw_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                        uint32_t i) {
     JoxAgents *a = run->agents;
-    int32_t row = jox_holding(run, i, state->toss);
+    int32_t row = jox_held_body_row(run, i, state->toss);
     JoxSpot at = jox_target_find(run, i, state->toss_at);
     double speed = jox_value(run, machine, &state->toss_speed, i);
     if (row < 0 || !at.found || state->toss_at < 0 || !(speed > 0.1))

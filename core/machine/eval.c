@@ -158,13 +158,13 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_SEES:
         return jox_target_find(run, i, in->target).found;
     case JOX_OP_HAS:
-        return jox_has(run, i, in->target);
+        return jox_holds_target(run, i, in->target);
     case JOX_OP_HEARD:
         return jox_heard(run, i, machine->names[in->name].number, a);
     case JOX_OP_NEIGHBOURS:
         return jox_neighbours_of(run, i, in->target);
     case JOX_OP_THEIRS:
-        return jox_theirs(run, i, in->target, machine->names[in->name].number);
+        return jox_target_memory(run, i, in->target, machine->names[in->name].number);
     case JOX_OP_QUEUED:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : run->scratch->place_queue[place];

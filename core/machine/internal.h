@@ -92,7 +92,7 @@ static inline double jox_time_in_state(const JoxMachineRun *run, uint32_t agent)
 
 /* Returns the agent's post (where it entered the world): x and y in its memory. Only for machines
    with `home`. */
-static inline double *jox_post(const JoxMachineRun *run, uint32_t agent) {
+static inline double *jox_home_position(const JoxMachineRun *run, uint32_t agent) {
     const JoxAgents *a = run->agents;
     return a->memory + (size_t)agent * a->memory_stride + jox_machine_of(run, agent)->home - 1;
 }
@@ -203,16 +203,16 @@ bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i
 /* Returns the number of neighbours that match a target. */
 uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Returns an agent's public memory of the name with this number; NAN if it has none. */
-double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name);
+double jox_public_memory(const JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Returns the public memory `name` of the agent that is the target; 0 if there is none. */
-double jox_theirs(const JoxMachineRun *run, uint32_t agent, int32_t target, uint32_t name);
+double jox_target_memory(const JoxMachineRun *run, uint32_t agent, int32_t target, uint32_t name);
 /* Returns whether the agent sees a closed gate at the place: within perception and with no other
    wall before it. */
 bool jox_sees_shut(const JoxMachineRun *run, uint32_t agent, int32_t place);
 /* Returns whether the agent carries a body, or holds on to an agent, that matches the target. */
-bool jox_has(const JoxMachineRun *run, uint32_t agent, int32_t target);
+bool jox_holds_target(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Returns the row of the body that the agent holds and that matches the target, or -1. */
-int32_t jox_holding(const JoxMachineRun *run, uint32_t agent, int32_t target);
+int32_t jox_held_body_row(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Carries out actions of an entry or a transition: sets memory, team and tags, gives the signal. */
 void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                     uint32_t agent);

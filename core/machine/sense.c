@@ -99,9 +99,9 @@ bool jox_sees_shut(const JoxMachineRun *run, uint32_t i, int32_t place) {
     return false;
 }
 
-bool jox_has(const JoxMachineRun *run, uint32_t i, int32_t target) {
+bool jox_holds_target(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const uint32_t grasped = run->agents->grasped[i];
-    if (jox_holding(run, i, target) >= 0)
+    if (jox_held_body_row(run, i, target) >= 0)
         return true;
     if (!grasped)
         return false;
@@ -111,7 +111,7 @@ bool jox_has(const JoxMachineRun *run, uint32_t i, int32_t target) {
            jox_is_wanted(run, t, i, j);
 }
 
-int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
+int32_t jox_held_body_row(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JOX_ASSERT(target >= 0 && target < (int32_t)jox_machine_of(run, i)->target_count);
     const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
     for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
@@ -123,8 +123,9 @@ int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
     return -1;
 }
 
-double jox_theirs(const JoxMachineRun *run, uint32_t i, int32_t target, uint32_t name) {
+double jox_target_memory(const JoxMachineRun *run, uint32_t i, int32_t target, uint32_t name) {
     const JoxSpot spot = jox_target_find(run, i, target);
-    const double value = spot.agent == JOX_NO_INDEX ? NAN : jox_remembered(run, spot.agent, name);
+    const double value =
+        spot.agent == JOX_NO_INDEX ? NAN : jox_public_memory(run, spot.agent, name);
     return isnan(value) ? 0.0 : value;
 }

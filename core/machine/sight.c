@@ -87,7 +87,7 @@ bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t 
 
 /* ---- other agents ---- */
 
-double jox_remembered(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
+double jox_public_memory(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
     const JoxAgents *a = run->agents;
     if (a->machine[agent] == JOX_NO_MACHINE)
         return NAN;
@@ -115,7 +115,7 @@ static bool passes_filter(const JoxMachineRun *run, const JoxWhose *whose, uint3
         return false;
     if (whose->memory < 0)
         return true;
-    const double value = jox_remembered(run, j, names[whose->memory].number);
+    const double value = jox_public_memory(run, j, names[whose->memory].number);
     return value >= whose->least && value <= whose->greatest;
 }
 

@@ -84,7 +84,7 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
 }
 
 void jox_post_set(JoxMachineRun *run, uint32_t agent) {
-    double *post = jox_post(run, agent);
+    double *post = jox_home_position(run, agent);
     post[0] = run->agents->x[agent];
     post[1] = run->agents->y[agent];
 }

@@ -146,7 +146,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
         return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
     }
     if (target->kind == JOX_TARGET_HOME) {
-        const double *post = jox_post(run, i);
+        const double *post = jox_home_position(run, i);
         return (JoxSpot){true, (float)post[0], (float)post[1], 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
     }
     float object_d2 = INFINITY;

@@ -169,7 +169,7 @@ static void release_image(void *canvas) {
 }
 
 static void free_image(JoxCanvas *c) {
-    jox_let_go(c);
+    jox_heap_unregister(c);
     release_image(c);
     jox_free(c);
 }
@@ -192,7 +192,7 @@ JoxCanvas *jox_canvas_image(uint32_t width, uint32_t height) {
     image->canvas.height = height;
     image->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
     image->cairo = cairo_create(image->surface);
-    jox_hold(image, release_image);
+    jox_heap_register(image, release_image);
     return &image->canvas;
 }
 

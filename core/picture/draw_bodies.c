@@ -131,7 +131,7 @@ static void add_body_parts(JoxDrawnBodies *out, ReadPart *read_part, void *sourc
 }
 
 static bool read_world_part(void *source, uint32_t row, uint32_t part, JoxBodyLook *out) {
-    return jox_bodies_look(source, row, part, out);
+    return jox_bodies_describe_part(source, row, part, out);
 }
 
 void jox_draw_add_bodies(JoxDrawnBodies *out, const JoxBodies *bodies) {

@@ -84,7 +84,7 @@ JoxVideo *jox_video_open(const char *path, uint32_t width, uint32_t height, doub
             close(ends[0]);
     }
     if (!failure)
-        return jox_hold(video, stop_ffmpeg);
+        return jox_heap_register(video, stop_ffmpeg);
     jox_text_printf(error, "cannot run ffmpeg: %s", strerror(failure));
     jox_free(video->path);
     jox_free(video);
@@ -109,7 +109,7 @@ bool jox_video_frame(JoxVideo *video, const uint8_t *pixels, JoxText *error) {
 bool jox_video_close(JoxVideo *video, JoxText *error) {
     int status = 0;
     pid_t ended;
-    jox_let_go(video);
+    jox_heap_unregister(video);
     close(video->pipe);
     do
         ended = waitpid(video->child, &status, 0);

@@ -23,7 +23,7 @@ JoxLocal *jox_local_create(JoxV2 low, JoxV2 high) {
     return l;
 }
 
-void jox_local_want_pressure(JoxLocal *l) {
+void jox_local_enable_pressure(JoxLocal *l) {
     size_t cells = (size_t)l->grid->columns * l->grid->rows;
     if (l->pressure)
         return;
@@ -104,7 +104,7 @@ void jox_local_sections(JoxLocal *l, JoxSections *s) {
     JOX_SECTION(s, "stretch", l->half_second);
     if (jox_section_count(s, "pressure", l->pressure != NULL, 1) == 0)
         return;
-    jox_local_want_pressure(l);
+    jox_local_enable_pressure(l);
     JOX_SECTION(s, "tracked_last", l->tracked);
     jox_track_sections(&l->track, s);
     jox_pressure_sections(l->pressure, s);

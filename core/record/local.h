@@ -16,7 +16,7 @@ typedef struct JoxLocal {
     /* 1/m2: `now` is the last sample, `most` the greatest of any place and time */
     JoxDensity *grid;
     float *flow_x, *flow_y; /* 1/(m s): density times velocity; NULL without crowd pressure */
-    JoxPressure *pressure;  /* NULL until jox_local_want_pressure */
+    JoxPressure *pressure;  /* NULL until jox_local_enable_pressure */
     float *vx, *vy;  /* m/s: velocities of the people in the last sample; used with pressure only */
     uint32_t people; /* room in vx and vy */
     double time;     /* s: time of the last sample; NAN before the first */
@@ -31,7 +31,7 @@ typedef struct JoxLocal {
 JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high);
 JoxLocal *jox_local_create(JoxV2 low, JoxV2 high);
 /* Measures flow and crowd pressure from the next sample on, too. */
-void jox_local_want_pressure(JoxLocal *local);
+void jox_local_enable_pressure(JoxLocal *local);
 /* Returns whether a frame at time t, s, would be sampled. */
 bool jox_local_is_due(const JoxLocal *local, double t);
 /* Takes a frame, in ascending order of time, and samples it if it is the first in its half second.

@@ -317,7 +317,7 @@ static JoxRecorder *create_recorder(const char *path, FILE *file, double fps, co
         snprintf(r->why, sizeof r->why, "no thread can be started");
     }
     if (good)
-        return jox_hold(r, abandon_recorder);
+        return jox_heap_register(r, abandon_recorder);
     jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
     if (wkt) /* the file has no schema yet, so the next run would refuse to replace it */
         jox_recording_remove(path);
@@ -330,7 +330,7 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
     return file ? create_recorder(path, file, fps, wkt, 0, error) : NULL;
 }
 
-JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error) {
+JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *error) {
     struct stat info;
     const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && jox_is_recording(path);
     FILE *file = ours ? jox_file_open(path, "a") : NULL;
@@ -446,8 +446,8 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
     jox_text_free(&corners);
 }
 
-JoxRecordRow *jox_recorder_take(JoxRecorder *r, uint32_t rows, uint32_t bodies,
-                                JoxRecordBody **body_rows) {
+JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *r, uint32_t rows, uint32_t bodies,
+                                       JoxRecordBody **body_rows) {
     pthread_mutex_lock(&r->lock);
     while (r->count == FRAMES)
         pthread_cond_wait(&r->emptied, &r->lock);
@@ -461,7 +461,7 @@ JoxRecordRow *jox_recorder_take(JoxRecorder *r, uint32_t rows, uint32_t bodies,
     return f->rows;
 }
 
-bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
+bool jox_recorder_submit_frame(JoxRecorder *r, uint32_t frame, JoxText *error) {
     pthread_mutex_lock(&r->lock);
     r->frames[(r->first + r->count) % FRAMES].number = frame;
     r->count++;
@@ -473,7 +473,7 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
     return good;
 }
 
-bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
+bool jox_recorder_commit(JoxRecorder *r, JoxText *error) {
     borrow_database(r);
     const bool good = !r->failed && (sqlite3_get_autocommit(r->db->sqlite) || commit_frames(r));
     return_database(r);
@@ -483,7 +483,7 @@ bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
 }
 
 bool jox_recorder_close(JoxRecorder *r, JoxText *message) {
-    jox_let_go(r);
+    jox_heap_unregister(r);
     stop_writer(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db->sqlite))

@@ -3,7 +3,8 @@
    calls it. A thread of its own writes the frames and commits at least once a second, so that after
    a crash the file is valid up to the last commit.
    The caller opens a recorder, names states and groups, gives walls and body parts whenever they
-   change, and each frame by jox_recorder_take and jox_recorder_put; jox_recorder_close frees it. */
+   change, and each frame by jox_recorder_begin_frame and jox_recorder_submit_frame;
+   jox_recorder_close frees it. */
 #ifndef JOX_RECORD_RECORDER_H
 #define JOX_RECORD_RECORDER_H
 
@@ -41,9 +42,9 @@ typedef struct JoxRecordBody {
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error);
 /* Continues one of our recordings after frame `last`; later frames are deleted. Returns NULL with a
    sentence in `error` on failure. */
-JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error);
+JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *error);
 /* Commits all frames given so far. Returns false with a sentence in `error` on failure. */
-bool jox_recorder_settle(JoxRecorder *recorder, JoxText *error);
+bool jox_recorder_commit(JoxRecorder *recorder, JoxText *error);
 /* Names a state number: once for each number, before the first frame that uses it. `colour` is 0
    where the scene gives none. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
@@ -60,12 +61,13 @@ void jox_recorder_wall(JoxRecorder *recorder, uint32_t frame, uint32_t number,
 void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
                        const JoxBodyLook *look);
 /* Returns rows for a frame, and rows for its bodies in `body_rows`, for the caller to fill and
-   submit by jox_recorder_put. Waits while the writer is four frames behind: no frame is dropped. */
-JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,
-                                JoxRecordBody **body_rows);
-/* Submits the rows of the last jox_recorder_take. Returns false with a sentence in `error` once
-   writing has failed. */
-bool jox_recorder_put(JoxRecorder *recorder, uint32_t frame, JoxText *error);
+   submit by jox_recorder_submit_frame. Waits while the writer is four frames behind: no frame is
+   dropped. */
+JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,
+                                       JoxRecordBody **body_rows);
+/* Submits the rows of the last jox_recorder_begin_frame. Returns false with a sentence in `error`
+   once writing has failed. */
+bool jox_recorder_submit_frame(JoxRecorder *recorder, uint32_t frame, JoxText *error);
 /* Writes the frames left, closes the file and frees the recorder. Returns false with a sentence in
    `message` if anything was lost. Returns true with a sentence if another program has the file
    open, so that part of the recording stays in a file beside it. */

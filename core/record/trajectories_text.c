@@ -258,7 +258,7 @@ bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char 
     bool begun = false;
     for (int c = 0; c < COLUMNS; c++)
         r.column_of[c] = c <= Y ? c : -1;
-    for (size_t at = jox_text_mark(text, length);
+    for (size_t at = jox_byte_order_mark_length(text, length);
          at < length && jox_diag_has_room(diagnostics, JOX_SEVERITY_ERROR);) {
         const char *line = text + at;
         const char *newline = memchr(line, '\n', length - at);

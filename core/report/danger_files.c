@@ -18,7 +18,7 @@ static bool has_measure_strip(const JoxDanger *d, int measure) {
     return measure == JOX_DANGER_COMPRESSION ? d->has_compression && !d->has_load
            : measure == JOX_DANGER_LOAD      ? d->has_load
            : measure == JOX_DANGER_DOSE      ? false
-                                             : jox_danger_reads(d, (JoxDangerMeasure)measure);
+                                             : jox_danger_has_measure(d, (JoxDangerMeasure)measure);
 }
 
 static int count_measure_strips(const JoxDanger *d) {

@@ -120,7 +120,7 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         const JoxDangerCount count = jox_danger_count(d, l);
-        const bool read = jox_danger_reads(d, limit->measure), seen = isfinite(count.first);
+        const bool read = jox_danger_has_measure(d, limit->measure), seen = isfinite(count.first);
         fprintf(out, "%s,%s,%.9g,%s", limit->key, jox_danger_names[limit->measure], limit->value,
                 jox_danger_units[limit->measure]);
         put_csv_value(out, read ? count.people : NAN);
@@ -129,7 +129,7 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
         put_csv_value(out, count.first);
         put_csv_value(out, seen ? (double)count.first_at.x : NAN);
         put_csv_value(out, seen ? (double)count.first_at.y : NAN);
-        put_csv_value(out, jox_danger_since(d, count.first));
+        put_csv_value(out, jox_danger_minutes_since(d, count.first));
         fputc(',', out);
         jox_quote_put(out, jox_quote_csv, limit->source);
         fputc('\n', out);
@@ -150,7 +150,7 @@ static bool write_people(const JoxDanger *d, const char *folder, JoxText *error)
     fputc('\n', out);
     for (uint32_t k = 0; k < d->people_capacity; k++) {
         const JoxDangerPerson *p = &d->people[k];
-        if ((double)p->most < jox_danger_least(JOX_DANGER_LOAD) && p->dose < WORTH)
+        if ((double)p->most < jox_danger_lowest_limit(JOX_DANGER_LOAD) && p->dose < WORTH)
             continue;
         fprintf(out, "%u,%.9g,%.9g,%.4f,%.4f,%.9g", k, (double)p->most, p->most_time,
                 (double)p->most_at.x, (double)p->most_at.y, p->dose);

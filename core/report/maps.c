@@ -129,7 +129,7 @@ bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
     return good;
 }
 
-void jox_maps_plan(FILE *out, const JoxSubject *s) {
+void jox_write_plan_html(FILE *out, const JoxSubject *s) {
     jox_html_figure(out, s->folder, "plan",
                     "The plan, in metres. Green: exits by which people left; blue: places; violet "
                     "and broken: lines and areas in which something is measured.",
@@ -240,7 +240,7 @@ void jox_maps_panels(FILE *out, const JoxSubject *s) {
     jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
 }
 
-void jox_maps_fields(FILE *out, const JoxSubject *s) {
+void jox_write_maps_html(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (size_t m = 0; m < MAP_COUNT; m++)
         if (is_map_drawn(s, &MAPS[m]))
@@ -248,7 +248,7 @@ void jox_maps_fields(FILE *out, const JoxSubject *s) {
     jox_html_panels_end(out);
 }
 
-bool jox_maps_write(const JoxSubject *s, JoxText *error) {
+bool jox_draw_maps(const JoxSubject *s, JoxText *error) {
     bool good = jox_maps_draw_plan(s, error);
     for (size_t m = 0; good && m < MAP_COUNT; m++)
         good = !is_map_drawn(s, &MAPS[m]) || draw_field_map(s, &MAPS[m], error);

@@ -103,7 +103,7 @@ static bool is_moment_shown(const JoxSubject *s, int kind) {
            (kind != JOX_MOMENT_DENSEST || !is_same_moment(s, kind, JOX_MOMENT_START));
 }
 
-void jox_maps_moments(FILE *out, const JoxSubject *s) {
+void jox_write_snapshots_html(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (int kind = 0; kind < JOX_MOMENTS; kind++) {
         char file[32], title[128], when[64], caption[200];
@@ -117,7 +117,7 @@ void jox_maps_moments(FILE *out, const JoxSubject *s) {
     jox_html_panels_end(out);
 }
 
-bool jox_moments_write(const JoxSubject *s, JoxText *error) {
+bool jox_draw_snapshots(const JoxSubject *s, JoxText *error) {
     bool good = true;
     for (int kind = 0; good && kind < JOX_MOMENTS; kind++)
         good = !is_moment_shown(s, kind) || draw_moment(s, kind, error);

@@ -19,7 +19,7 @@ static void put_probe_figure(FILE *out, const char *folder, const JoxProbe *prob
 
 void jox_page_put_crowd(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Plan");
-    jox_maps_plan(out, s);
+    jox_write_plan_html(out, s);
     jox_page_put_leaving(out, s);
     jox_page_put_danger(out, s);
     jox_page_put_levels(out, s);

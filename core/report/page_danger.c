@@ -47,7 +47,7 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount count = jox_danger_count(danger, l);
         const char *title = jox_danger_limits[l].title;
-        bool read = jox_danger_reads(danger, jox_danger_limits[l].measure);
+        bool read = jox_danger_has_measure(danger, jox_danger_limits[l].measure);
         jox_page_add_figure(f, "", read ? count.people : NAN, "people ever over a %s", title);
         jox_page_add_figure(f, "s", read ? count.person_s : NAN, "person-seconds over a %s", title);
         jox_page_add_figure(f, "s", read ? count.longest : NAN,
@@ -70,7 +70,7 @@ static void put_time_and_place(FILE *out, const JoxSubject *s, double time, JoxV
     JoxText text = {0};
     if (isfinite(time)) {
         jox_text_printf(&text, "%.1f s at ", time);
-        jox_where(s, at, &text);
+        jox_describe_point(s, at, &text);
     }
     jox_html_cell(out, text.data ? text.data : "\xe2\x80\x93");
     jox_text_free(&text);
@@ -98,11 +98,11 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         "a section of 20 m by 14 m; recorded queues of people in no danger read 0.01 at most.%s",
         (double)JOX_PRESSURE_SPAN, (double)JOX_PRESSURE_SECTION, (double)JOX_PRESSURE_SECTION,
         (double)JOX_PRESSURE_FLOOR, (double)JOX_PRESSURE_LEAST,
-        jox_danger_reads(danger, JOX_DANGER_PRESSURE)
+        jox_danger_has_measure(danger, JOX_DANGER_PRESSURE)
             ? ""
             : " Here it was measured nowhere, so its limit shows dashes.");
     jox_html_paragraph(out, text);
-    if (jox_danger_reads(danger, JOX_DANGER_LOAD)) {
+    if (jox_danger_has_measure(danger, JOX_DANGER_LOAD)) {
         jox_html_paragraph(
             out, "Load is the greatest push that a person bears from any one direction: over "
                  "directions, the greatest sum of the positive parts of the contact forces along "
@@ -114,7 +114,7 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
                            "Load was not measured: this recording has no forces on people. Its "
                            "limits, and those of dose, show dashes.");
     }
-    if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION))
+    if (jox_danger_has_measure(danger, JOX_DANGER_COMPRESSION))
         jox_html_paragraph(
             out, "Compression is another quantity: the sum of the magnitudes of all contact forces "
                  "over the girth 2 pi r, held likewise. It cannot be turned into a load and is "
@@ -134,12 +134,12 @@ static void put_limit_table(FILE *out, const JoxSubject *s) {
         JoxText meaning = {0};
         jox_html_row(out);
         jox_html_cell(out, limit->title);
-        bool read = jox_danger_reads(danger, limit->measure);
+        bool read = jox_danger_has_measure(danger, limit->measure);
         jox_html_cell_number(out, read ? count.people : NAN, "");
         jox_html_cell_number(out, read ? count.person_s : NAN, "s");
         jox_html_cell_number(out, read ? count.longest : NAN, "s");
         put_time_and_place(out, s, count.first, count.first_at);
-        jox_html_cell_number(out, jox_danger_since(danger, count.first), "min");
+        jox_html_cell_number(out, jox_danger_minutes_since(danger, count.first), "min");
         jox_text_printf(&meaning, "%s (%s)", limit->what, limit->source);
         jox_html_cell(out, meaning.data);
         jox_text_free(&meaning);
@@ -216,8 +216,8 @@ void jox_page_put_danger(FILE *out, const JoxSubject *s) {
     jox_html_figure(out, s->folder, "danger",
                     "Danger over time. Dashed lines: published limits near the curves.", true);
     jox_html_subheading(out, "Where");
-    jox_maps_fields(out, s);
+    jox_write_maps_html(out, s);
     jox_html_subheading(out, "Telling moments");
-    jox_maps_moments(out, s);
+    jox_write_snapshots_html(out, s);
     put_dose_table(out, s);
 }

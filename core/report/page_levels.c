@@ -73,7 +73,7 @@ static void put_spell_cells(FILE *out, const JoxDanger *danger, const JoxDangerS
     jox_html_cell_number(out, spell->seconds, "s");
     if (isfinite(spell->first))
         fprintf(out, "<td>%.1f&nbsp;s, %.1f&nbsp;min ago", spell->first,
-                jox_danger_since(danger, spell->first));
+                jox_danger_minutes_since(danger, spell->first));
     else
         jox_html_cell(out, "never");
 }
@@ -105,7 +105,7 @@ static void put_congestion_section(FILE *out, const JoxSubject *s) {
         for (uint32_t r = 0; r < found.count && r < JOX_PAGE_SHOWN; r++) {
             const JoxCongestionRegion *region = &found.regions[r];
             JoxText where = {0};
-            jox_where(s, region->at, &where);
+            jox_describe_point(s, region->at, &where);
             jox_html_row(out);
             jox_html_cell(out, where.data);
             jox_html_cell_number(out, region->seconds, "s");

@@ -138,7 +138,7 @@ static void write_report_in_child(void *report, uint64_t job, JoxText *why) {
         good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, why);
     good = good && jox_danger_write(r->danger, folder, title, why);
     const JoxSubject subject = jox_report_subject(r);
-    good = good && jox_maps_write(&subject, why) && jox_moments_write(&subject, why) &&
+    good = good && jox_draw_maps(&subject, why) && jox_draw_snapshots(&subject, why) &&
            jox_report_page(r, why);
     if (!good && !why->length)
         jox_text_add(why, "writing failed");

@@ -48,7 +48,7 @@ static void put_recording_figures(FILE *out, const JoxReport *r) {
 
 /* Writes what the page is worth: forces are a model's, positions are those of the recording. */
 static void put_recording_validation(FILE *out, const JoxReport *r) {
-    bool forces = jox_danger_reads(r->danger, JOX_DANGER_LOAD);
+    bool forces = jox_danger_has_measure(r->danger, JOX_DANGER_LOAD);
     jox_page_put_validation(out);
     jox_html_paragraph(
         out,
@@ -123,7 +123,7 @@ static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubjec
     jox_summary_crowd(out, subject);
     jox_html_statement(
         out, "What this is worth.",
-        jox_danger_reads(r->danger, JOX_DANGER_LOAD)
+        jox_danger_has_measure(r->danger, JOX_DANGER_LOAD)
             ? "It is a simulated crowd: the engine is compared with published "
               "measurements (jostle reproduce), this scenario is not."
             : "All figures follow from positions alone and are as accurate as these; "

@@ -169,7 +169,7 @@ static bool draw_run_report(const RunDrawing *d, JoxText *why) {
     const double until = jo_world_time(scene->world);
     const JoxRegions *regions = jox_run_regions(scene);
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
-    bool good = jox_maps_write(d->subject, why) && jox_moments_write(d->subject, why);
+    bool good = jox_draw_maps(d->subject, why) && jox_draw_snapshots(d->subject, why);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->spec->heatmap_from, until);

@@ -30,7 +30,7 @@ typedef struct JoxSubject {
 } JoxSubject;
 
 /* where.c: appends a point in words, as "(18.1, 0.6) m, 0.6 m from the line south, in hall". */
-void jox_where(const JoxSubject *subject, JoxV2 at, JoxText *out);
+void jox_describe_point(const JoxSubject *subject, JoxV2 at, JoxText *out);
 
 /* summary.c: writes sentences, as HTML paragraphs, on when people left, where it was dangerous
    and for how long, and at which levels of service people were. */
@@ -38,11 +38,11 @@ void jox_summary_crowd(FILE *out, const JoxSubject *subject);
 
 /* Draw the plan and maps (maps.c), and snapshots (moments.c), into the folder. Return false with
    a sentence in `error`. */
-bool jox_maps_write(const JoxSubject *subject, JoxText *error);
-bool jox_moments_write(const JoxSubject *subject, JoxText *error);
+bool jox_draw_maps(const JoxSubject *subject, JoxText *error);
+bool jox_draw_snapshots(const JoxSubject *subject, JoxText *error);
 /* Write the HTML that shows the plan, maps and snapshots, as far as they were drawn. */
-void jox_maps_plan(FILE *out, const JoxSubject *subject);
-void jox_maps_fields(FILE *out, const JoxSubject *subject);
-void jox_maps_moments(FILE *out, const JoxSubject *subject);
+void jox_write_plan_html(FILE *out, const JoxSubject *subject);
+void jox_write_maps_html(FILE *out, const JoxSubject *subject);
+void jox_write_snapshots_html(FILE *out, const JoxSubject *subject);
 
 #endif

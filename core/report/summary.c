@@ -99,7 +99,7 @@ static void say_limit(const JoxSubject *s, int l, JoxText *out) {
     jox_text_noun(out, count.people, "person|people");
     jox_text_printf(out, " %s %s or more (%s), first at %.1f s at ", choose_verb(limit->measure),
                     limit->title, limit->what, count.first);
-    jox_where(s, count.first_at, out);
+    jox_describe_point(s, count.first_at, out);
     if (seconds > 0.0)
         jox_text_printf(out, "; for %.1f s in all somebody was over it", seconds);
     jox_text_printf(out, ", one person for up to %.1f s.", count.longest);
@@ -115,7 +115,7 @@ static void say_measure(const JoxSubject *s, JoxDangerMeasure measure, JoxText *
     jox_text_printf(out, "The greatest %s was %s", jox_danger_titles[measure], value);
     if (isfinite(most.time)) {
         jox_text_printf(out, ", at %.1f s at ", most.time);
-        jox_where(s, most.at, out);
+        jox_describe_point(s, most.at, out);
     }
     jox_text_add(out, ".");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
@@ -156,7 +156,7 @@ static void put_density_summary(FILE *out, const JoxSubject *s) {
 
 static void put_load_summary(FILE *out, const JoxSubject *s) {
     JoxText text = {0};
-    if (!jox_danger_reads(s->danger, JOX_DANGER_LOAD))
+    if (!jox_danger_has_measure(s->danger, JOX_DANGER_LOAD))
         return;
     say_measure(s, JOX_DANGER_LOAD, &text);
     put_summary_statement(out, "What people bore.", &text);
@@ -168,7 +168,7 @@ static void put_pressure_summary(FILE *out, const JoxSubject *s) {
     int l = 0;
     while (jox_danger_limits[l].measure != JOX_DANGER_PRESSURE)
         l++;
-    if (!jox_danger_reads(s->danger, JOX_DANGER_PRESSURE)) {
+    if (!jox_danger_has_measure(s->danger, JOX_DANGER_PRESSURE)) {
         jox_text_add(&text, "Not measured: the crowd was nowhere dense enough for long enough (5 "
                             "per m\xc2\xb2 or more on 12 m\xc2\xb2 for 20 s).");
     } else {
@@ -210,13 +210,13 @@ static void put_congestion_summary(FILE *out, const JoxSubject *s) {
                         (double)JOX_CONGESTION_DENSITY, 100.0 * JOX_CONGESTION_SHARE, found.time,
                         time);
     if (found.known && found.count == 0 && found.longest > 0.0) {
-        jox_where(s, found.longest_at, &text);
+        jox_describe_point(s, found.longest_at, &text);
         jox_text_add(&text, ".");
     }
     for (uint32_t r = 0; r < found.count && r < MOST; r++) {
         const JoxCongestionRegion *region = &found.regions[r];
         jox_text_printf(&text, " %.1f m\xc2\xb2 about ", region->area);
-        jox_where(s, region->at, &text);
+        jox_describe_point(s, region->at, &text);
         jox_text_printf(&text, ": %.1f s in all, between %.1f and %.1f s.", region->seconds,
                         region->first, region->last);
     }

@@ -22,7 +22,7 @@ static const JoxProbeDef *find_nearest_line(const JoxSubject *s, JoxV2 at, float
     return found;
 }
 
-void jox_where(const JoxSubject *s, JoxV2 at, JoxText *out) {
+void jox_describe_point(const JoxSubject *s, JoxV2 at, JoxText *out) {
     float away;
     const JoxProbeDef *line = find_nearest_line(s, at, &away);
     jox_text_printf(out, "(%.1f, %.1f) m", (double)at.x, (double)at.y);

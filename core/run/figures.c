@@ -119,7 +119,7 @@ const JoxLocal *jox_run_local(const JoScene *scene) {
 
 const JoxLocal *jox_run_want_pressure(JoScene *scene) {
     if (jox_run_collect_local(scene, NULL))
-        jox_local_want_pressure(held(scene, &LOCAL));
+        jox_local_enable_pressure(held(scene, &LOCAL));
     return jox_run_local(scene);
 }
 

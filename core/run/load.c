@@ -157,7 +157,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         return;
     JoxMachineRun *machines = &scene->world->machines;
     machines->call = jox_lua_call;
-    machines->bracket = jox_lua_bracket;
+    machines->bracket = jox_lua_bracket_hooks;
     machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0 && def->dry) {
@@ -435,7 +435,7 @@ JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void 
         return NULL;
     }
     scene->owns_heap = true;
-    return jox_hold(scene, release_scene); /* by a call that it is loaded for */
+    return jox_heap_register(scene, release_scene); /* by a call that it is loaded for */
 }
 
 JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
@@ -482,7 +482,7 @@ void jo_scene_free(JoScene *scene) {
         return;
     }
     JoxHeap *heap = scene->heap;
-    jox_let_go(scene);
+    jox_heap_unregister(scene);
     free_guarded(scene); /* does nothing where memory ran out: the heap releases all of it */
     jox_heap_free(heap);
 }

@@ -123,7 +123,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
         if (!jox_run_take_up(scene, &RECORDING, self, error))
             return false;
         r->recorder =
-            jox_recorder_go_on(path, (uint32_t)(scene->world->state.tick / r->every), &why);
+            jox_recorder_continue(path, (uint32_t)(scene->world->state.tick / r->every), &why);
         return r->recorder || jox_run_failed(error, &why);
     }
     r->every = dt >= target->every ? 1 : (uint32_t)(target->every / dt + 0.5);
@@ -160,7 +160,7 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
         if (r->shapes[id] == bonds.blocks + 1)
             continue;
         r->shapes[id] = bonds.blocks + 1;
-        for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
+        for (uint32_t part = 0; jox_bodies_describe_part(bodies, row, part, &look); part++)
             jox_recorder_part(r->recorder, frame, id, part, &look);
     }
 }
@@ -198,7 +198,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     const uint32_t frame = (uint32_t)(scene->world->state.tick / r->every);
     record_shapes(r, scene, frame);
     record_walls(r, &scene->world->model.all_walls, frame);
-    JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
+    JoxRecordRow *rows = jox_recorder_begin_frame(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
         const struct Borne borne = take_borne(r, a->slot[i]);
@@ -224,7 +224,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
                                           pose.turn[2],        pose.turn[3]};
     }
     JoxText why = {0};
-    return jox_recorder_put(r->recorder, frame, &why) || jox_run_failed(error, &why);
+    return jox_recorder_submit_frame(r->recorder, frame, &why) || jox_run_failed(error, &why);
 }
 
 static bool end(void *self, JoScene *scene, JoError *error) {
@@ -250,7 +250,7 @@ static void release(void *self) {
 
 static bool settle(void *self, JoError *error) {
     JoxText why = {0};
-    return jox_recorder_settle(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
+    return jox_recorder_commit(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
 }
 
 static void list_sections(void *self, JoxSections *s) {

@@ -97,7 +97,7 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = -1};
     pthread_mutex_init(&r->machines, NULL);
-    jox_hold(r, release_reload);
+    jox_heap_register(r, release_reload);
     const JoxMachineRun *machines = &scene->world->machines;
     JoxAgents *a = &scene->world->state.agents;
     jox_agents_widen(a, a->own_count, a->memory_stride + MEMORY_ROOM);
@@ -105,7 +105,7 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     atomic_store(&r->machine_count, machines->set->count);
     for (uint32_t m = 0; m < machines->set->count; m++) {
         uint32_t count;
-        char *const *tried = jox_lua_tried(scene->lua, machines->set->items[m], &count);
+        char *const *tried = jox_lua_paths_tried(scene->lua, machines->set->items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             use_first(r, m, tried[f]);
     }
@@ -176,7 +176,7 @@ void jox_run_unwatch(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;
-    jox_let_go(r);
+    jox_heap_unregister(r);
     stop_thread(r);
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (batch)

@@ -121,11 +121,11 @@ static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
     JoxLoaded *loaded = jox_lua_prepare(scene->lua, path, made, made ? strlen(made) : 0,
                                         &scene->scope, &batch->diagnostics);
     uint32_t count;
-    char *const *tried = jox_loaded_tried(loaded, &count);
+    char *const *tried = jox_loaded_paths_tried(loaded, &count);
     for (uint32_t f = 0; f < count; f++)
         jox_files_add(&batch->changes[c].files, tried[f]);
     batch->changes[c].loaded = loaded;
-    jox_text_add(&batch->said, jox_loaded_said(loaded));
+    jox_text_add(&batch->said, jox_loaded_output(loaded));
     const JoxMachine *next = jox_loaded_machine(loaded);
     const JoxLuaFile *files = jox_loaded_files(loaded, &count);
     if (next)

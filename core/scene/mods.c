@@ -89,7 +89,7 @@ static void look_for_others(JoxModsFind *f) {
         for (uint32_t d = 0; d < f->needs[m].depend_count; d++) {
             char name[64];
             const char *version;
-            jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+            jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
             if (jox_mods_index(mods, name) < 0)
                 look_beside(f, mods->found[m].folder, name);
         }

@@ -15,7 +15,7 @@ static bool link_mod(JoxModsFind *f, uint32_t m) {
     for (uint32_t d = 0; d < n->depend_count && good; d++) {
         char name[64];
         const char *version;
-        jox_mod_need(n->depends[d]->text, name, &version);
+        jox_mod_split_dependency(n->depends[d]->text, name, &version);
         int32_t other = jox_mods_index(mods, name);
         if (other < 0) {
             jox_mods_missing(f, n->depends[d]->position, name, mods->found[m].name);
@@ -66,7 +66,7 @@ static void link_wishes(JoxModsFind *f, uint32_t m) {
             k < n->optional_count ? n->optional[k] : n->load_after[k - n->optional_count];
         char plain[64];
         const char *version;
-        jox_mod_need(name->text, plain, &version);
+        jox_mod_split_dependency(name->text, plain, &version);
         int32_t other = jox_mods_index(f->mods, plain);
         if (other < 0 || !f->needs[other].wanted || f->needs[other].broken || !n->wanted ||
             n->broken)
@@ -88,7 +88,7 @@ static void want_all(JoxModsFind *f) {
                  f->needs[m].wanted && !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
                 char name[64];
                 const char *version;
-                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+                jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
                 int32_t other = jox_mods_index(f->mods, name);
                 if (other >= 0 && !f->needs[other].wanted)
                     f->needs[other].wanted = more = true;
@@ -119,7 +119,7 @@ static void exclude(JoxModsFind *f) {
             for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
                 char name[64];
                 const char *version;
-                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+                jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
                 int32_t other = jox_mods_index(mods, name);
                 if (other < 0 || f->needs[other].broken)
                     f->needs[m].broken = more = true;

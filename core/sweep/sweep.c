@@ -322,7 +322,7 @@ static bool run_sweep(Sweep *s, char **summary, JoError *error) {
         !open_file(s, error))
         return false;
     const uint32_t threads = s->def->scene.threads ? s->def->scene.threads : 1;
-    const uint32_t each = jox_processors() / threads; /* children that this leaves room for */
+    const uint32_t each = jox_count_processors() / threads; /* children that this leaves room for */
     const uint32_t jobs = s->def->jobs ? s->def->jobs : each ? each : 1;
     s->heard = jox_alloc(s->plan.variant_count, sizeof *s->heard);
     s->begun = jox_clock_wall();

@@ -57,13 +57,13 @@ JoxChildren *jox_children_create(uint32_t most) {
     c->all = jox_alloc(most, sizeof *c->all);
     c->most = most;
     c->memory = most > 1 ? jox_confine_memory_left() / most : 0;
-    return jox_hold(c, kill_children);
+    return jox_heap_register(c, kill_children);
 }
 
 void jox_children_free(JoxChildren *c) {
     if (!c)
         return;
-    jox_let_go(c);
+    jox_heap_unregister(c);
     kill_children(c);
     jox_free(c->all);
     jox_free(c);

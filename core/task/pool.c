@@ -224,13 +224,13 @@ JoxPool *jox_pool_create(uint32_t threads) {
     pool->threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
     pool->running = 1;
     pool->pace = (Pace){.left = SOON, .interval = SOON};
-    return jox_hold(pool, release_pool);
+    return jox_heap_register(pool, release_pool);
 }
 
 /* Starts the threads. If the system starts fewer, results are the same. */
 static void start_threads(JoxPool *pool) {
     pool->begun = true;
-    pool->spin = pool->threads > jox_processors() ? SPIN_CROWDED : SPIN;
+    pool->spin = pool->threads > jox_count_processors() ? SPIN_CROWDED : SPIN;
     for (uint32_t i = 1; i < pool->threads && !pool->jobs; i++) {
         pool->worker[i] = (struct Worker){pool, i};
         if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
@@ -269,7 +269,7 @@ static void close_gate(JoxPool *pool) {
 void jox_pool_free(JoxPool *pool) {
     if (!pool)
         return;
-    jox_let_go(pool);
+    jox_heap_unregister(pool);
     atomic_store(&pool->quit, true);
     start_round(pool, UINT32_MAX);
     for (uint32_t i = 1; i < pool->running; i++)
@@ -289,7 +289,7 @@ uint32_t jox_pool_threads(const JoxPool *pool) {
     return pool ? pool->threads : 1;
 }
 
-void jox_pool_lap(JoxPool *pool, double seconds) {
+void jox_pool_note_duration(JoxPool *pool, double seconds) {
     Pace *p = &pool->pace;
     if (!pool->begun)
         return;

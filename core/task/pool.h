@@ -37,6 +37,6 @@ static inline void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grai
 /* Reports the seconds of wall time that the caller's last repeated unit of work took, such as a
    step. Now and then the pool runs a few laps on one thread, and stays there while that is
    faster. */
-void jox_pool_lap(JoxPool *pool, double seconds);
+void jox_pool_note_duration(JoxPool *pool, double seconds);
 
 #endif

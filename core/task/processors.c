@@ -86,7 +86,7 @@ uint32_t jox_processors_quota(const char *list, const char *root) {
     return least;
 }
 
-uint32_t jox_processors(void) {
+uint32_t jox_count_processors(void) {
     cpu_set_t set;
     const int listed = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
     const uint32_t quota = jox_processors_quota("/proc/self/cgroup", "/sys/fs/cgroup");

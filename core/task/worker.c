@@ -68,10 +68,10 @@ JoxWorker *jox_worker_create(void) {
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->given, NULL);
     pthread_cond_init(&worker->done, NULL);
-    return jox_hold(worker, release_worker);
+    return jox_heap_register(worker, release_worker);
 }
 
-void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
+void jox_worker_enqueue(JoxWorker *worker, JoxWorkItem *item) {
     if (!worker->begun) /* if no thread starts, jox_worker_wait runs the items */
         worker->begun = jox_thread_start(&worker->thread, run_worker, worker);
     pthread_mutex_lock(&worker->lock);
@@ -106,7 +106,7 @@ void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
 void jox_worker_free(JoxWorker *worker) {
     if (!worker)
         return;
-    jox_let_go(worker);
+    jox_heap_unregister(worker);
     pthread_mutex_lock(&worker->lock);
     worker->quit = true;
     pthread_cond_signal(&worker->given);

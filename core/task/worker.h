@@ -21,7 +21,7 @@ JoxWorker *jox_worker_create(void);
 /* Waits for the item that runs, and drops items that have not begun. */
 void jox_worker_free(JoxWorker *worker);
 /* Appends an item to the queue. */
-void jox_worker_give(JoxWorker *worker, JoxWorkItem *item);
+void jox_worker_enqueue(JoxWorker *worker, JoxWorkItem *item);
 /* Waits until the item is done; the caller runs it itself if it has not begun. When memory ran out
    in it, the call fails as an allocation of the caller would (base/mem.h). */
 void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item);

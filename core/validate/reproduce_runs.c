@@ -149,7 +149,7 @@ static void start_job(const JoxReproduction *all, JoxJob *job) {
     }
     if (job->process > 0) {
         setpgid(job->process, job->process); /* done in parent and child, as either may run first */
-        jox_hold(job, kill_job);
+        jox_heap_register(job, kill_job);
     }
     jox_free(summary);
     jox_free(log);
@@ -157,7 +157,7 @@ static void start_job(const JoxReproduction *all, JoxJob *job) {
 
 /* Records how the job's process ended: run.txt with the key on success, else the failure. */
 static void finish_job(JoxJob *job, int status) {
-    jox_let_go(job);
+    jox_heap_unregister(job);
     job->state = JOX_JOB_DONE;
     job->process = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
@@ -239,7 +239,7 @@ static JoxJob *find_ended_job(JoxReproduction *all, int *status) {
 static void kill_all_jobs(JoxReproduction *all) {
     for (uint32_t j = 0; j < all->job_count; j++)
         if (all->jobs[j].state == JOX_JOB_RUNS) {
-            jox_let_go(&all->jobs[j]);
+            jox_heap_unregister(&all->jobs[j]);
             kill_job(&all->jobs[j]);
         }
 }

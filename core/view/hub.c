@@ -149,7 +149,7 @@ void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels) {
     post_request(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);
 }
 
-void jox_view_forget(JoxView *view) {
+void jox_view_withdraw_all(JoxView *view) {
     view->epoch++;
     for (uint32_t c = 0; c < JOX_VIEW_CHANNELS; c++) {
         JoxMessage *unseen = atomic_exchange(&view->channels[c].fresh, NULL);
@@ -174,7 +174,7 @@ void jox_view_post_event(JoxView *view, uint32_t client, JoxViewTaken what, cons
         return; /* the counter is full, so the reader is awake */
 }
 
-JoxViewTaken jox_view_take(JoxView *view, uint32_t *client, char *text, size_t capacity) {
+JoxViewTaken jox_view_next_event(JoxView *view, uint32_t *client, char *text, size_t capacity) {
     if (!view->taken)
         view->taken = jox_post_take(&view->in);
     JoxMessage *message = view->taken;

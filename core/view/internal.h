@@ -24,7 +24,7 @@ typedef struct JoxMessage {
     size_t length, capacity;
     uint32_t client, refs;      /* refs: uses of a published message by the serving thread */
     uint32_t what;              /* JoxRequest to the serving thread, JoxViewTaken from it */
-    uint32_t mask, epoch;       /* epoch: jox_view_forget calls before the message */
+    uint32_t mask, epoch;       /* epoch: jox_view_withdraw_all calls before the message */
     struct JoxChannel *channel; /* its channel, if published; else NULL */
     unsigned char data[];
 } JoxMessage;
@@ -69,7 +69,7 @@ struct JoxView {
     JoxChannel channels[JOX_VIEW_CHANNELS];
     JoxPost out, in;              /* requests to the serving thread; events from it */
     JoxMessage *taken;            /* the stepping thread's: rest of what it took from `in` */
-    uint32_t epoch;               /* the stepping thread's: jox_view_forget calls */
+    uint32_t epoch;               /* the stepping thread's: jox_view_withdraw_all calls */
     int wake;                     /* eventfd, readable when `in` has events */
     atomic_uint clients, waiting; /* connected; commands in `in` */
     atomic_ullong dropped;

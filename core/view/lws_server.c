@@ -313,7 +313,7 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     const char *address = options->address ? options->address : "127.0.0.1";
     if (!check_view_options(options, address, why))
         return NULL;
-    JoxView *view = jox_hold(jox_view_create(), stop_server);
+    JoxView *view = jox_heap_register(jox_view_create(), stop_server);
     view->transport = jox_alloc(1, sizeof *view->transport);
     view->wake_transport = wake_server;
     view->any_host = options->address != NULL;
@@ -345,7 +345,7 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
 void jox_view_close(JoxView *view) {
     if (!view)
         return;
-    jox_let_go(view);
+    jox_heap_unregister(view);
     stop_server(view);
     jox_free(view->transport);
     view->transport = NULL;

@@ -61,7 +61,7 @@ void jox_view_send(JoxView *view, uint32_t client, const char *text);
 /* Sets the channels that a client gets, as a mask of 1 << channel; at first none. */
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels);
 /* Withdraws all that was published, as another scene begins. */
-void jox_view_forget(JoxView *view);
+void jox_view_withdraw_all(JoxView *view);
 
 typedef enum JoxViewTaken {
     JOX_VIEW_NOTHING,
@@ -71,7 +71,7 @@ typedef enum JoxViewTaken {
 } JoxViewTaken;
 /* Takes the next event and its client; `text`, with room for JOX_VIEW_MOST_COMMAND + 1 bytes,
    receives a command. */
-JoxViewTaken jox_view_take(JoxView *view, uint32_t *client, char *text, size_t capacity);
+JoxViewTaken jox_view_next_event(JoxView *view, uint32_t *client, char *text, size_t capacity);
 /* Waits until there is an event to take, at most `seconds`. */
 void jox_view_wait(JoxView *view, double seconds);
 

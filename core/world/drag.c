@@ -65,7 +65,7 @@ JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool ane
     if (g < 0)
         g = (int32_t)w->state.drags.grab_count++;
     if (w->scratch.objects.rows[row].held) /* who carries it loses it */
-        jox_bodies_let_go(w->state.bodies, row, pose.velocity);
+        jox_bodies_end_carrying(w->state.bodies, row, pose.velocity);
     w->state.drags.grabs[g] = (struct JoxGrab){
         row, w->scratch.objects.rows[row].id, {(float)to[0], (float)to[1], (float)to[2]}};
     return JOX_GRAB_DONE;

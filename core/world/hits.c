@@ -203,14 +203,14 @@ static void carry_along(const JoxBodyStage *s) {
         JOX_ASSERT(object->holder < a->next_id && object->moves);
         uint32_t i = jox_agents_find(a, object->holder);
         if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
-            jox_bodies_let_go(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
+            jox_bodies_end_carrying(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             continue;
         }
         if (find_hold(s, i, o, jox_v2(a->face_x[i], a->face_y[i]), true, &at) ||
             keep_hold(s, i, o, &at)) {
             jox_bodies_carry(s->bodies, o, at, (JoxV3){a->vx[i], a->vy[i], 0.0f});
         } else { /* no room for it: it falls where it was */
-            jox_bodies_let_go(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
+            jox_bodies_end_carrying(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             s->statistics->dropped++;
         }
     }
@@ -230,7 +230,7 @@ void jox_bodies_carried(const JoxBodyStage *s) {
         JoxV3 at;
         if (grip->takes) { /* not what there is no room to carry */
             if (find_hold(s, i, grip->object, face, true, &at) &&
-                jox_bodies_hold(s->bodies, grip->object, grip->agent_id)) {
+                jox_bodies_set_carrier(s->bodies, grip->object, grip->agent_id)) {
                 jox_bodies_carry(s->bodies, grip->object, at, (JoxV3){a->vx[i], a->vy[i], 0.0f});
                 s->statistics->pickups++;
             }
@@ -239,7 +239,7 @@ void jox_bodies_carried(const JoxBodyStage *s) {
         const JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
         if (find_hold(s, i, grip->object, way, false, &at)) /* else from where it is carried */
             jox_bodies_carry(s->bodies, grip->object, at, grip->velocity);
-        jox_bodies_let_go(s->bodies, grip->object, grip->velocity);
+        jox_bodies_end_carrying(s->bodies, grip->object, grip->velocity);
         s->statistics->throws++;
     }
 }
@@ -247,7 +247,8 @@ void jox_bodies_carried(const JoxBodyStage *s) {
 bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const double velocity[3],
                      const double spin[3]) {
     JoxPose pose;
-    if (!jox_bodies_pose(w->state.bodies, row, &pose) || !jox_bodies_hold(w->state.bodies, row, 0))
+    if (!jox_bodies_pose(w->state.bodies, row, &pose) ||
+        !jox_bodies_set_carrier(w->state.bodies, row, 0))
         return false;
     JoxV3 v = {(float)velocity[0], (float)velocity[1], (float)velocity[2]};
     JoxV3 turn = {(float)spin[0], (float)spin[1], (float)spin[2]}, at = pose.centre;
@@ -256,7 +257,7 @@ bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const doubl
                      (float)from[1] + pose.centre.y - pose.position.y,
                      (float)from[2] + pose.centre.z - pose.position.z};
     jox_bodies_carry(w->state.bodies, row, at, v);
-    jox_bodies_let_go(w->state.bodies, row, v);
+    jox_bodies_end_carrying(w->state.bodies, row, v);
     jox_bodies_set_velocity(w->state.bodies, row, v, turn);
     w->state.statistics.throws++;
     return true;

@@ -122,7 +122,7 @@ void jox_stage_bodies(const JoxBodyStage *s) {
     if (jox_bodies_count(s->bodies) == 0)
         return;
     if (s->substep->first)
-        jox_bodies_count_impulses(s->bodies);
+        jox_bodies_reset_impulse_sums(s->bodies);
     jox_bodies_carried(s);
     jox_bodies_dragged(s);
     if (!s->statistics->bonds.touched)

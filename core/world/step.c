@@ -262,7 +262,7 @@ bool jox_world_step(JoWorld *w) {
     }
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
-    jox_pool_lap(w->scratch.pool, last - begin);
+    jox_pool_note_duration(w->scratch.pool, last - begin);
     w->state.statistics.cpu_s += timed ? jox_clock_cpu() - cpu : 0.0;
     if (!good)
         return false;

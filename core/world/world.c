@@ -15,7 +15,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->model.def.isa = jox_isa_resolve(def->isa);
     world->model.walking = jox_walk_law();
     world->heap = jox_heap_used();
-    world->scratch.pool = jox_pool_create(def->threads ? def->threads : jox_processors());
+    world->scratch.pool = jox_pool_create(def->threads ? def->threads : jox_count_processors());
     jox_pool_set_jobs(world->scratch.pool, def->jobs);
     world->scratch.nav = jox_nav_create(&world->model.walking);
     jox_nav_set_literal(world->scratch.nav, def->literal);

@@ -115,7 +115,7 @@ static void kinematic_body_pushes_and_is_not_pushed(void **state) {
     const JoxImpulse hard = {.object = mover, .point = {3, 0, 1}, .impulse = {-1e4f, 0, 0}};
     assert_int_equal(jox_bodies_impulses(b, &hard, 1), 0); /* counted, but not applied */
     assert_false(jox_bodies_force(b, mover, (JoxV3){-1e4f, 0, 0}));
-    assert_false(jox_bodies_hold(b, mover, 1));
+    assert_false(jox_bodies_set_carrier(b, mover, 1));
     step_seconds(b, 1);
     assert_float_equal(get_kinematic_pose(b, mover).position.x, 3.5, 1e-4);
     JoxObjects o = {0};

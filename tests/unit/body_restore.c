@@ -116,11 +116,11 @@ static void act_before_step(JoxBodies *b, uint32_t tick) {
         jox_bodies_hold_up(b, bar, 0.25f);
     uint32_t ball = jox_bodies_find_name(b, "ball"), tin = jox_bodies_find_name(b, "tin");
     if (tick == SAVED - 20)
-        jox_bodies_hold(b, ball, 7);
+        jox_bodies_set_carrier(b, ball, 7);
     if (tick >= SAVED - 20 && tick < SAVED + 30)
         jox_bodies_carry(b, ball, (JoxV3){0.05f * (float)(tick % 60), -1, 1.2f}, (JoxV3){1, 0, 0});
     if (tick == SAVED + 30)
-        jox_bodies_let_go(b, ball, (JoxV3){0, 6, 2});
+        jox_bodies_end_carrying(b, ball, (JoxV3){0, 6, 2});
     if (tick % 7 == 0)
         jox_bodies_force(b, tin, (JoxV3){30, 0, 0});
     if (tick == SAVED - 5 || tick == SAVED + 25) {
@@ -375,8 +375,8 @@ static void reading_objects_changes_no_state(void **state) {
     const uint32_t ball = add_named_body(b, small, "ball", 0, 0, 0.5);
     jox_bodies_objects(b, &objects);
     jox_bodies_step(b, 0.05f, NULL, 0);
-    assert_true(jox_bodies_hold(b, ball, 1));
-    jox_bodies_let_go(b, ball, (JoxV3){0, 30, 0}); /* fast from now on */
+    assert_true(jox_bodies_set_carrier(b, ball, 1));
+    jox_bodies_end_carrying(b, ball, (JoxV3){0, 30, 0}); /* fast from now on */
     const uint64_t before = hash_restored_bodies(b);
     jox_bodies_objects(b, &objects);
     assert_true(hash_restored_bodies(b) == before);

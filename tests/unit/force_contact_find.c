@@ -172,7 +172,8 @@ static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPai
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
-    uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i], found = 0;
+    uint32_t count = seen ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i],
+             found = 0;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
                               : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];

@@ -124,8 +124,9 @@ static JoxDangerCount press_and_knock(double dt, JoxDangerMost *most) {
     JoxDangerCount count = jox_danger_count(danger, find_limit("load_623"));
     assert_int_equal(jox_danger_count(danger, find_limit("load_1112")).people, 0);
     assert_float_equal(jox_danger_most(danger, JOX_DANGER_COMPRESSION).value, 9000.0, 1.0);
-    assert_float_equal(jox_danger_since(danger, count.first), (20.0 - count.first) / 60.0, 1e-6);
-    assert_true(isnan(jox_danger_since(danger, NAN)));
+    assert_float_equal(jox_danger_minutes_since(danger, count.first), (20.0 - count.first) / 60.0,
+                       1e-6);
+    assert_true(isnan(jox_danger_minutes_since(danger, NAN)));
     jox_danger_free(danger);
     return count;
 }
@@ -305,7 +306,7 @@ static void voronoi_density_is_for_one_person(void **state) {
     frame.count = 1;
     jox_danger_frame(danger, &frame, NULL);
     assert_true(isnan(jox_danger_most(danger, JOX_DANGER_VORONOI).value));
-    assert_true(jox_danger_reads(danger, JOX_DANGER_VORONOI));
+    assert_true(jox_danger_has_measure(danger, JOX_DANGER_VORONOI));
     jox_danger_free(danger);
     jox_walls_free(&walls);
 }

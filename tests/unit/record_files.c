@@ -41,12 +41,12 @@ static int remove_recording_folder(void **state) {
 /* Submits frame f: people 0 to 2 at (f + id/4, -f), looking along +y, in state id. */
 static bool submit_test_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     JoxRecordBody *bodies;
-    JoxRecordRow *rows = jox_recorder_take(r, 3, 1, &bodies);
+    JoxRecordRow *rows = jox_recorder_begin_frame(r, 3, 1, &bodies);
     for (uint32_t i = 0; i < 3; i++)
         rows[i] = (JoxRecordRow){
             i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.5f, 3.5f, 0, 0.25f};
     bodies[0] = (JoxRecordBody){7, (float)f, 2, 3, 0, 0, 0, 1};
-    return jox_recorder_put(r, f, error);
+    return jox_recorder_submit_frame(r, f, error);
 }
 
 /* Returns the first column of the first row. */
@@ -160,10 +160,10 @@ static void last_frame_is_committed_without_a_next(void **state) {
     assert_non_null(strstr(error.data, "another run writes it"));
     jox_text_free(&error);
     assert_true(jox_recorder_close(r, &error));
-    r = jox_recorder_go_on(path, 0, &error);
+    r = jox_recorder_continue(path, 0, &error);
     assert_non_null(r);
     assert_true(submit_test_frame(r, 1, &error) && jox_recorder_close(r, &error));
-    r = jox_recorder_go_on(path, 0, &error); /* removes the second frame again */
+    r = jox_recorder_continue(path, 0, &error); /* removes the second frame again */
     assert_non_null(r);
     assert_true(jox_recorder_close(r, &error));
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
@@ -171,7 +171,7 @@ static void last_frame_is_committed_without_a_next(void **state) {
     assert_true(query_test_number(db, "SELECT count(*) FROM trajectory_data") == 3);
     sqlite3_close(db);
     unlink(path);
-    assert_null(jox_recorder_go_on(path, 0, &error));
+    assert_null(jox_recorder_continue(path, 0, &error));
     assert_non_null(strstr(error.data, "there is no recording"));
     jox_text_free(&error);
 }
@@ -215,9 +215,9 @@ static void nan_position_is_an_error(void **state) {
     assert_non_null(r);
     assert_true(submit_test_frame(r, 0, &error));
     JoxRecordBody *bodies;
-    JoxRecordRow *rows = jox_recorder_take(r, 1, 0, &bodies);
+    JoxRecordRow *rows = jox_recorder_begin_frame(r, 1, 0, &bodies);
     rows[0] = (JoxRecordRow){.x = NAN};
-    jox_recorder_put(r, 1, &error);
+    jox_recorder_submit_frame(r, 1, &error);
     for (uint32_t f = 2; f < 20; f++) /* goes round the ring buffer */
         submit_test_frame(r, f, &error);
     jox_text_free(&error);
@@ -235,7 +235,7 @@ static void recording_ends_while_another_reads(void **state) {
     assert_non_null(r);
     for (uint32_t f = 0; f < 5; f++)
         assert_true(submit_test_frame(r, f, &message));
-    assert_true(jox_recorder_settle(r, &message));
+    assert_true(jox_recorder_commit(r, &message));
     sqlite3 *other;
     sqlite3_stmt *reading;
     assert_int_equal(sqlite3_open(path, &other), SQLITE_OK);

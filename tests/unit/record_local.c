@@ -44,7 +44,7 @@ static JoxLocal *place_lattice(int side, float spacing) {
                      0.5f * spacing * (draw_uniform(&chance) - 0.5f);
     }
     JoxLocal *local = jox_local_create((JoxV2){0, 0}, (JoxV2){12, 12});
-    jox_local_want_pressure(local);
+    jox_local_enable_pressure(local);
     return local;
 }
 

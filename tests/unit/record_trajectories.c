@@ -341,7 +341,7 @@ static void own_recordings_keep_forces_and_walls(void **state) {
     jox_walls_free(&walls);
     for (uint32_t f = 0; f < 3; f++) {
         JoxRecordBody *bodies;
-        JoxRecordRow *rows = jox_recorder_take(r, 2, 0, &bodies);
+        JoxRecordRow *rows = jox_recorder_begin_frame(r, 2, 0, &bodies);
         for (uint32_t i = 0; i < 2; i++)
             rows[i] = (JoxRecordRow){.id = 4 - i, /* not in order */
                                      .x = 0.1f * (float)f,
@@ -350,7 +350,7 @@ static void own_recordings_keep_forces_and_walls(void **state) {
                                      .load = (float)(1000 * i + f),
                                      .group = (uint16_t)i,
                                      .radius = i ? 0.35f : 0.2f + 0.05f * (float)f};
-        assert_true(jox_recorder_put(r, f, &error));
+        assert_true(jox_recorder_submit_frame(r, f, &error));
     }
     assert_true(jox_recorder_close(r, &error));
     JoxTrajectories *t = read_recording(0, 0, NULL);

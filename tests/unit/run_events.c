@@ -320,7 +320,7 @@ static void a_throw_takes_it_from_the_hand(void **state) {
     JoxBodies *bodies = scene->world->state.bodies;
     const double up[3] = {0, 0, 3};
     step_scene(scene, 1);
-    assert_true(jox_bodies_hold(bodies, jox_bodies_find_name(bodies, "ball"), 0));
+    assert_true(jox_bodies_set_carrier(bodies, jox_bodies_find_name(bodies, "ball"), 0));
     step_scene(scene, 1);
     assert_true(jo_scene_throw(scene, "ball", NULL, up, NULL, NULL));
     step_scene(scene, 1);

@@ -60,7 +60,7 @@ static void every_iteration_runs_once(void **state) {
             for (uint32_t i = 0; i < ITEMS; i++)
                 assert_int_equal(atomic_load(&loop.done[i]), i < count);
             if (round % 5 == 0) /* pretends that now one thread is faster, now several */
-                jox_pool_lap(pool, 0.001 * (1 + round % 17));
+                jox_pool_note_duration(pool, 0.001 * (1 + round % 17));
         }
         jox_pool_free(pool);
         assert_int_equal(atomic_load(&loop.clashes), 0);
@@ -120,7 +120,7 @@ static void control_group_quotas_limit_processors(void **state) {
 
 static void processors_are_1_to_64(void **state) {
     (void)state;
-    assert_true(jox_processors() >= 1 && jox_processors() <= 64);
+    assert_true(jox_count_processors() >= 1 && jox_count_processors() <= 64);
 }
 
 int main(void) {

@@ -43,7 +43,7 @@ static void items_run_once_and_in_order(void **state) {
     atomic_store(&turns, 0);
     for (int i = 0; i < COUNT; i++) {
         work[i] = (Work){.item.run = record_turn, .number = i};
-        jox_worker_give(worker, &work[i].item);
+        jox_worker_enqueue(worker, &work[i].item);
     }
     while (atomic_load(&turns) < COUNT) /* not jox_worker_wait: it would run items itself */
         sleep_1_ms();
@@ -60,10 +60,10 @@ static void waiting_caller_runs_item_that_has_not_begun(void **state) {
     Work first = {.item.run = occupy_thread}, second = {.item.run = record_turn};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
-    jox_worker_give(worker, &first.item);
+    jox_worker_enqueue(worker, &first.item);
     while (atomic_load(&held) == 0)
         sleep_1_ms();
-    jox_worker_give(worker, &second.item);
+    jox_worker_enqueue(worker, &second.item);
     jox_worker_wait(worker, &second.item); /* returns although the thread is occupied */
     assert_true(second.turn > 0);
     atomic_store(&held, 2);
@@ -76,10 +76,10 @@ static void freeing_worker_drops_items_that_have_not_begun(void **state) {
     Work first = {.item.run = occupy_thread}, second = {.item.run = record_turn};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
-    jox_worker_give(worker, &first.item);
+    jox_worker_enqueue(worker, &first.item);
     while (atomic_load(&held) == 0)
         sleep_1_ms();
-    jox_worker_give(worker, &second.item);
+    jox_worker_enqueue(worker, &second.item);
     atomic_store(&held, 2);
     jox_worker_free(worker); /* waits for the first item, which runs */
     assert_true(first.turn > 0);

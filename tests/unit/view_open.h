@@ -130,7 +130,7 @@ static inline const char *get_body(void) {
 /* Takes the next event of the server within 10 s. */
 static inline JoxViewTaken take_event(uint32_t *client, char text[JOX_VIEW_MOST_COMMAND + 1]) {
     for (double until = clock_now() + 10.0; clock_now() < until;) {
-        JoxViewTaken taken = jox_view_take(view, client, text, JOX_VIEW_MOST_COMMAND + 1);
+        JoxViewTaken taken = jox_view_next_event(view, client, text, JOX_VIEW_MOST_COMMAND + 1);
         if (taken != JOX_VIEW_NOTHING)
             return taken;
         jox_view_wait(view, 0.1);

@@ -173,7 +173,7 @@ static void sockets_of_other_pages_are_refused(void **state) {
     /* Only the first socket was accepted */
     assert_int_equal(take_event(&client, text), JOX_VIEW_JOINED);
     assert_int_equal(take_event(&client, text), JOX_VIEW_LEFT);
-    assert_int_equal(jox_view_take(view, &client, text, sizeof text), JOX_VIEW_NOTHING);
+    assert_int_equal(jox_view_next_event(view, &client, text, sizeof text), JOX_VIEW_NOTHING);
 }
 
 static uint64_t count_dropped(const JoxView *v) {

@@ -17,7 +17,7 @@ static void commands_above_the_rate_are_dropped(void **state) {
     while (heard + (int)jox_view_dropped(view) < SAID &&
            take_event(&from, text) == JOX_VIEW_COMMAND)
         heard++;
-    while (jox_view_take(view, &from, text, sizeof text) == JOX_VIEW_COMMAND)
+    while (jox_view_next_event(view, &from, text, sizeof text) == JOX_VIEW_COMMAND)
         heard++;
     double took = clock_now() - begun;
     assert_int_equal(heard + (int)jox_view_dropped(view), SAID);
@@ -247,7 +247,7 @@ static void text_arrives_before_frames_published_later(void **state) {
         char text[32];
         jox_view_publish(view, JOX_VIEW_FRAMES, "old", 3);
         snprintf(text, sizeof text, "{\"hello\": %d}", i);
-        jox_view_forget(view);
+        jox_view_withdraw_all(view);
         jox_view_send(view, client, text);
         jox_view_publish(view, JOX_VIEW_FRAMES, "new", 3);
         bool greeted = false, shown = false;

@@ -38,7 +38,7 @@ bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,
     return false;
 }
 
-void jox_mod_need(const char *text, char name[64], const char **version) {
+void jox_mod_split_dependency(const char *text, char name[64], const char **version) {
     size_t n = strcspn(text, " >=");
     const char *at = strstr(text, ">=");
     snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);

@@ -57,7 +57,7 @@ bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,
                   char path[JOX_LONGEST_PATH]);
 
 /* Splits a dependency, "NAME" or "NAME >= 1.2", into the name and the least version, or NULL. */
-void jox_mod_need(const char *text, char name[64], const char **version);
+void jox_mod_split_dependency(const char *text, char name[64], const char **version);
 /* Compares versions number by number: -1, 0 or 1 if a is older than, equal to or newer than b. */
 int jox_mod_compare(const char *a, const char *b);
 

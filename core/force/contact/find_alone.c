@@ -25,7 +25,8 @@ uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundP
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
-    const uint32_t count = seen ? jox_close_counts(near, f->widest)[i] : near->touch_count[i];
+    const uint32_t count =
+        seen ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i];
     JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
     JoxContactSelf self = jox_load_contact_self(a, i);
     self.least_id = INT32_MIN; /* the loop below compares the ids itself */

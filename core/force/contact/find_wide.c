@@ -12,7 +12,7 @@ static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
     const JoxNeighbours *near = f->step.neighbours;
     const uint32_t i = p->first;
     const JoxContactSelf self = jox_load_contact_self(a, i);
-    const JoxInts most = ji_load_bytes(jox_close_counts(near, f->widest) + i);
+    const JoxInts most = ji_load_bytes(jox_touch_candidate_counts(near, f->widest) + i);
     const uint32_t *others = near->index + jox_neighbour_at(near, i, 0);
     for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
         lanes &= jm_bits(ji_less(ji_set((int32_t)k), most));

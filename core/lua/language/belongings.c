@@ -35,8 +35,8 @@ static int32_t next_number(const JoxScript *script, bool is_team) {
     return next < (is_team ? JOX_FIRST_SET_TEAM + JOX_MOST_SET_TEAMS : 64) ? next : -1;
 }
 
-int32_t jox_script_belonging(JoxScript *script, const char *name, bool is_team, bool is_set,
-                             JoxPosition at) {
+int32_t jox_script_tag_or_team(JoxScript *script, const char *name, bool is_team, bool is_set,
+                               JoxPosition at) {
     JoxBelonging *known = NULL;
     if (!script->scope->complete)
         return is_team ? find_team(script->scope, name) : find_tag(script->scope, name);

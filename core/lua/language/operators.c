@@ -270,7 +270,7 @@ static int method_in_state(lua_State *L) {
     JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "in_state");
     if (whose) {
         whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
-        whose->state_at = jox_word_written(L, whose->state);
+        whose->state_at = jox_word_place(L, whose->state);
     }
     return 1;
 }
@@ -310,7 +310,7 @@ static int method_where(lua_State *L) {
     if (!whose)
         return 1;
     whose->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
-    whose->memory_at = jox_word_written(L, whose->memory);
+    whose->memory_at = jox_word_place(L, whose->memory);
     whose->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
     whose->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;

@@ -27,7 +27,7 @@ static bool is_safe_name(const char *name) {
 static bool is_module(JoxScript *script, const char *folder, const char *name, char path[1024]) {
     struct stat info;
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
-    jox_vm_tried(&script->vm, path);
+    jox_vm_note_path(&script->vm, path);
     return jox_overlay_file(path) ||
            (lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder)));
 }

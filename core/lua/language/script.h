@@ -255,8 +255,8 @@ void jox_script_set_words(lua_State *L);
 /* Returns the bit of a tag or the number of a team that a script sets (`is_set`) or asks for: the
    scene's, or a new one if the scene has none of that name. -1 if there are too many, or the scene
    is not known. */
-int32_t jox_script_belonging(JoxScript *script, const char *name, bool is_team, bool is_set,
-                             JoxPosition at);
+int32_t jox_script_tag_or_team(JoxScript *script, const char *name, bool is_team, bool is_set,
+                               JoxPosition at);
 
 /* Returns the kind of the value at a stack index, JOX_KIND_... */
 uint8_t jox_kind_of(lua_State *L, int index);
@@ -275,7 +275,7 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
    occurrence as used. */
 JoxPosition jox_word_position(lua_State *L, const char *word);
 /* Returns the position as jox_word_position does, with the number of its source. */
-JoxNamePlace jox_word_written(lua_State *L, const char *word);
+JoxNamePlace jox_word_place(lua_State *L, const char *word);
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* creates a node and pushes it */
 JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if the value is no node */

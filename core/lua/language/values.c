@@ -176,7 +176,7 @@ static int own_index(lua_State *L) {
     JoxNode *node = jox_node_push(L, JOX_NODE_OWN);
     node->op = JOX_OP_OWN;
     node->name = jox_vm_intern(jox_vm_of(L), name);
-    node->written = jox_word_written(L, name);
+    node->written = jox_word_place(L, name);
     node->position = node->written.at;
     return 1;
 }

@@ -23,7 +23,7 @@ JoxPosition jox_word_position(lua_State *L, const char *word) {
     return (JoxPosition){script->vm.source_count ? script->vm.sources[0]->path : NULL, 0, 0, 0};
 }
 
-JoxNamePlace jox_word_written(lua_State *L, const char *word) {
+JoxNamePlace jox_word_place(lua_State *L, const char *word) {
     const JoxVm *vm = jox_vm_of(L);
     JoxNamePlace written = {.at = jox_word_position(L, word)};
     for (uint32_t s = 0; s < vm->source_count; s++)

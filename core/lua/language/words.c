@@ -74,7 +74,7 @@ static JoxNode *read_tag_argument(lua_State *L, const char *word, int index) {
             arg = 0;
         }
     if (kind == JOX_TARGET_NEAREST) {
-        arg = jox_script_belonging(script, name, false, false, jox_word_position(L, name));
+        arg = jox_script_tag_or_team(script, name, false, false, jox_word_position(L, name));
         if (arg < 0 && scope->complete) {
             jox_word_error(L, name, "too-many-tags", NULL,
                            "a scene has at most 64 different tags, with those that states set");
@@ -151,7 +151,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* only carries the name */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
-        result->written = jox_word_written(L, result->name);
+        result->written = jox_word_place(L, result->name);
     }
     if (result)
         return result;

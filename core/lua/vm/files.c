@@ -102,7 +102,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
         jox_free(text);
         return NULL;
     }
-    memset(text, ' ', jox_text_mark(text, length));
+    memset(text, ' ', jox_byte_order_mark_length(text, length));
     JOX_RESERVE(vm->files, vm->file_capacity, vm->file_count + 1);
     JoxLuaFile *file = &vm->files[vm->file_count++];
     file->path = jox_strdup(path);
@@ -115,7 +115,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     return refuse_env(source, diagnostics) || refuse_zeros(source, diagnostics) ? NULL : source;
 }
 
-void jox_vm_tried(JoxVm *vm, const char *path) {
+void jox_vm_note_path(JoxVm *vm, const char *path) {
     for (uint32_t i = 0; i < vm->tried_count; i++)
         if (strcmp(vm->tried[i], path) == 0)
             return;

@@ -245,7 +245,7 @@ bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open) {
     vm->L = lua_newstate(allocate_block, vm);
     if (!vm->L)
         jox_out_of_memory(0);
-    jox_hold(vm->L, release_state);
+    jox_heap_register(vm->L, release_state);
     lua_atpanic(vm->L, abort_state);
     *(JoxVm **)lua_getextraspace(vm->L) = vm;
     lua_pushcfunction(vm->L, open);
@@ -258,7 +258,7 @@ bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open) {
 
 void jox_vm_close(JoxVm *vm) {
     JOX_ASSERT(!vm->running);
-    jox_let_go(vm->L);
+    jox_heap_unregister(vm->L);
     lua_close(vm->L);
     JOX_ASSERT(vm->used == 0);
     for (size_t i = 0; i < vm->name_count; i++)

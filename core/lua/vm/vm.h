@@ -103,7 +103,7 @@ const char *jox_vm_split(const JoxVm *vm, const char *message, int *line, size_t
 JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *text, size_t length,
                        JoxPosition from, JoxDiagnostics *diagnostics);
 /* Remembers that a file was looked for, so that a reload can watch it. */
-void jox_vm_tried(JoxVm *vm, const char *path);
+void jox_vm_note_path(JoxVm *vm, const char *path);
 /* Compiles source `number` and pushes the chunk; on failure false, with the message pushed. Stops
    at the deadline of the load. */
 bool jox_vm_compile(JoxVm *vm, size_t number);

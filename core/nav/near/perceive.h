@@ -1,5 +1,5 @@
-/* The stage perceive: its kernel for each instruction set, which perceive.c calls for chunks of agents
-   on several threads, and the searches for one agent. */
+/* The stage perceive: its kernel for each instruction set, which perceive.c calls for chunks of
+   agents on several threads, and the searches for one agent. */
 #ifndef JOX_NAV_NEAR_PERCEIVE_H
 #define JOX_NAV_NEAR_PERCEIVE_H
 

@@ -19,7 +19,7 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
     JoxDanger *d = jox_alloc(1, sizeof *d);
     size_t cells = (size_t)local->grid->columns * local->grid->rows;
     d->local = local;
-    jox_local_want_pressure(local);
+    jox_local_enable_pressure(local);
     jox_density_want_mean(local->grid);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
         d->sum[m] = jox_alloc(cells, sizeof(double));

@@ -55,7 +55,7 @@ typedef struct JoxDangerLimit {
 enum { JOX_DANGER_LIMITS = 9 };
 extern const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS];
 /* Returns the lowest limit of a measure; NAN if it has none. */
-double jox_danger_least(JoxDangerMeasure measure);
+double jox_danger_lowest_limit(JoxDangerMeasure measure);
 /* Explanation of the dose, for reports. */
 extern const char jox_danger_dose_text[];
 
@@ -100,11 +100,11 @@ const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
                               const JoxDensity **grid);
 JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
 /* Returns the minutes from a time, s, until the last frame; NAN for NAN. */
-double jox_danger_since(const JoxDanger *danger, double first);
+double jox_danger_minutes_since(const JoxDanger *danger, double first);
 JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Returns whether the measure was read, so that counts over its limits are known: compression and
    load exist in our own recordings only, and crowd pressure needs 20 s of frames. */
-bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
+bool jox_danger_has_measure(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Writes "density_max": ..., "limits": {...}, "level_person_s": {...}, "congestion": {...},
    "areas": {...}, "lines": {...}, "walls": {...}, "leaving_s": {...}; null where a measure was not
    read. */

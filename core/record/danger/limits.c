@@ -43,7 +43,7 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
      "our interpolation between the two estimates of Hopkins et al. 1993"},
 };
 
-double jox_danger_least(JoxDangerMeasure measure) {
+double jox_danger_lowest_limit(JoxDangerMeasure measure) {
     double least = NAN;
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         if (jox_danger_limits[l].measure == measure)
@@ -69,7 +69,7 @@ double jox_danger_dose_rate(double load) {
 
 /* ---- figures ---- */
 
-double jox_danger_since(const JoxDanger *d, double first) {
+double jox_danger_minutes_since(const JoxDanger *d, double first) {
     return isfinite(first) ? (d->last_frame - first) / 60.0 : NAN;
 }
 
@@ -93,7 +93,7 @@ JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     return most;
 }
 
-bool jox_danger_reads(const JoxDanger *d, JoxDangerMeasure measure) {
+bool jox_danger_has_measure(const JoxDanger *d, JoxDangerMeasure measure) {
     if (measure == JOX_DANGER_VORONOI) /* nobody is over a limit where it is not measured */
         return d->samples > 0;
     return isfinite(jox_danger_most(d, measure).value);
@@ -124,7 +124,7 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerCount *count = &d->counts[l];
         bool seen = isfinite(count->first);
-        bool read = jox_danger_reads(d, jox_danger_limits[l].measure);
+        bool read = jox_danger_has_measure(d, jox_danger_limits[l].measure);
         jox_json_object(json, jox_danger_limits[l].key);
         jox_json_number(json, "people", read ? count->people : NAN);
         jox_json_number(json, "limit", jox_danger_limits[l].value);
@@ -133,7 +133,7 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         jox_json_number(json, "first_s", count->first);
         jox_json_number(json, "first_x", seen ? count->first_at.x : NAN);
         jox_json_number(json, "first_y", seen ? count->first_at.y : NAN);
-        jox_json_number(json, "since_min", jox_danger_since(d, count->first));
+        jox_json_number(json, "since_min", jox_danger_minutes_since(d, count->first));
         jox_json_end(json);
     }
     jox_json_end(json);

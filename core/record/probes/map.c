@@ -48,7 +48,7 @@ static void begin_map(const JoxProbeDef *def, void *state) {
     Map *m = state;
     m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
     m->local = jox_local_create(def->low, def->high);
-    jox_local_want_pressure(m->local);
+    jox_local_enable_pressure(m->local);
     size_t cells = count_map_cells(m->grid), local_cells = count_map_cells(m->local->grid);
     for (int f = 0; f < FIELDS; f++)
         m->now[f] = jox_alloc(cells, sizeof(float));

@@ -151,7 +151,7 @@ static JoScene *load(const JoSceneDef *def, const Read *r, JoError *error) {
         scene = NULL;
     }
     if (scene)
-        jox_let_go(scene); /* the caller's from here on */
+        jox_heap_unregister(scene); /* the caller's from here on */
     return scene;
 }
 

@@ -75,7 +75,7 @@ JoxWatch *jox_watch_create(void) {
         return NULL;
     }
     watch->inotify = inotify;
-    return jox_hold(watch, release);
+    return jox_heap_register(watch, release);
 }
 
 static bool is_folder(const char *path) {
@@ -233,7 +233,7 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
 void jox_watch_free(JoxWatch *watch) {
     if (!watch)
         return;
-    jox_let_go(watch);
+    jox_heap_unregister(watch);
     release(watch);
     for (size_t i = 0; i < watch->count; i++)
         jox_free(watch->files[i].path);

@@ -230,7 +230,7 @@ static void release_parse(void *parse) {
 static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
     if (!yaml_parser_initialize(&p->parser))
         jox_out_of_memory(0);
-    jox_hold(p, release_parse);
+    jox_heap_register(p, release_parse);
     p->text = text;
     p->length = length;
     yaml_parser_set_input_string(&p->parser, (const unsigned char *)text, length);
@@ -250,7 +250,7 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
         if (end)
             break;
     }
-    jox_let_go(p);
+    jox_heap_unregister(p);
     release_parse(p);
     if (!p->failed && (!root || root->kind != JOX_YAML_MAP))
         fail_whole(p, !root);

@@ -237,7 +237,7 @@ bool jox_wall_file_read_wkt(const char *path, const char *text, size_t length,
                .diagnostics = diagnostics};
     uint32_t before = walls->ring_count;
     bool good = true;
-    p.at += jox_text_mark(text, length);
+    p.at += jox_byte_order_mark_length(text, length);
     do { /* several geometries, one a line, are fine */
         good = good && take_geometry(&p, 0);
         skip(&p);
@@ -252,7 +252,7 @@ bool jox_wall_file_read_wkt(const char *path, const char *text, size_t length,
 bool jox_wall_file_read(const char *path, const char *text, size_t length,
                         const JoxWallFileOptions *options, JoxWalls *walls,
                         JoxDiagnostics *diagnostics) {
-    size_t at = jox_text_mark(text, length);
+    size_t at = jox_byte_order_mark_length(text, length);
     while (at < length && isspace((unsigned char)text[at]))
         at++;
     return (at < length && text[at] == '<' ? jox_wall_file_read_xml : jox_wall_file_read_wkt)(

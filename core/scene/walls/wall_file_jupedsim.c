@@ -339,7 +339,7 @@ bool jox_wall_file_read_xml(const char *path, const char *text, size_t length,
     g.parser = XML_ParserCreate(NULL);
     if (!g.parser)
         jox_out_of_memory(0);
-    jox_hold(g.parser, release_parser);
+    jox_heap_register(g.parser, release_parser);
     XML_SetUserData(g.parser, &g);
     XML_SetElementHandler(g.parser, begin_element, end_element);
     XML_SetStartDoctypeDeclHandler(g.parser, refuse_doctype);
@@ -355,7 +355,7 @@ bool jox_wall_file_read_xml(const char *path, const char *text, size_t length,
     else if (!g.any)
         wrong(&g, "<geometry><rooms><room><subroom><polygon>...",
               "there are no walls in this plan%s", "");
-    jox_let_go(g.parser);
+    jox_heap_unregister(g.parser);
     XML_ParserFree(g.parser);
     jox_free(g.points);
     jox_free(g.sides);

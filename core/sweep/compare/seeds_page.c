@@ -264,7 +264,7 @@ static bool write_seeds_page(const JoxComparison *c, const JoxSide *side, const 
     jox_text_free(&title);
     jox_seeds_put_summary(out, side, drawn);
     jox_html_heading(out, "Plan");
-    jox_maps_plan(out, &drawn->subject);
+    jox_write_plan_html(out, &drawn->subject);
     if (side->runs) {
         jox_html_heading(out, "How far the runs differ");
         jox_seeds_put_curves(out, drawn);

@@ -120,7 +120,7 @@ static void add_densest_place(const JoxSide *side, const JoxSideDrawn *drawn, Jo
     const JoxV2 at = {(float)(f->low_x + f->cell * ((double)(most % f->columns) + 0.5)),
                       (float)(f->low_y + f->cell * ((double)(most / f->columns) + 0.5))};
     jox_text_add(out, " It was densest, as a mean of the runs, at ");
-    jox_where(&drawn->subject, at, out);
+    jox_describe_point(&drawn->subject, at, out);
     jox_text_add(out, ".");
 }
 

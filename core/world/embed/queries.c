@@ -316,7 +316,7 @@ bool jo_body_pushed(const JoWorld *world, JoBody body, double impulse[3], double
     JOX_REQUIRE(world, false);
     double given[3], turned[3];
     const uint32_t row = jox_world_find_body(world, body);
-    const bool found = jox_bodies_given(world->state.bodies, row, given, turned);
+    const bool found = jox_bodies_impulse_sum(world->state.bodies, row, given, turned);
     for (int k = 0; k < 3; k++) {
         if (impulse)
             impulse[k] = given[k];

@@ -404,7 +404,7 @@ void jox_routes_update(const JoxRouteStage *w) {
             if ((kind == JOX_ROUTE_CROWD && !looks) || !is_due(w, p, kind))
                 continue;
             routes->count += !routes->fields[p * JOX_ROUTE_KINDS + kind];
-            jox_worker_give(routes->worker, &begin(w, p, kind, DELAY)->item);
+            jox_worker_enqueue(routes->worker, &begin(w, p, kind, DELAY)->item);
         }
         routes->wanted[p] = 0;
     }
